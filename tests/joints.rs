@@ -195,6 +195,10 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
         ("slider", "axis = [0.6, 0.0, 0.8]", MEET, 5),
         ("cylinder", "axis = [0.6, 0.0, 0.8]", MEET, 4),
         ("universal", "axis = [0.6, 0.0, 0.8]\ncross_axis = [0.0, 1.0, 0.0]", MEET, 4),
+        ("screw", "axis = [0.6, 0.0, 0.8]\nlead = 0.2", MEET, 5),
+        ("planar", "axis = [0.6, 0.0, 0.8]", MEET, 3),
+        ("in-line", "axis = [0.6, 0.0, 0.8]", MEET, 2),
+        ("in-plane", "axis = [0.6, 0.0, 0.8]", MEET, 1),
         ("fixed", "", MEET, 6),
         ("distance", "", "from = { body = \"a\" }\nto = { body = \"b\" }\n", 1),
     ];
@@ -230,13 +234,22 @@ fn each_kind_holds_what_it_says_and_leaves_the_rest() {
         let turned = Vec3::new(end[3], end[4], end[5]).norm();
         let (slides, turns) = match kind {
             "slider" => (true, false),
-            "cylinder" => (true, true),
+            "cylinder" | "screw" | "planar" | "in-line" | "in-plane" => (true, true),
             "fixed" => (false, false),
             "distance" => (true, true),
             _ => (false, true),
         };
         assert_eq!(slid > 1e-3, slides, "{kind}: {slid}");
         assert_eq!(turned > 1e-3, turns, "{kind}: {turned}");
+        let axis = Vec3::new(0.6, 0.0, 0.8);
+        let (slid, turned) = (Vec3::new(end[0], end[1], end[2]), Vec3::new(end[3], end[4], end[5]));
+        let held = match kind {
+            "planar" => slid.dot(&axis).abs().max(turned.cross(&axis).norm()),
+            "in-line" => slid.cross(&axis).norm(),
+            "in-plane" => slid.dot(&axis).abs(),
+            _ => 0.0,
+        };
+        assert!(held < 1e-12, "{kind}: {held}"); // rounding of lengths and angles near 1
     }
 }
 

@@ -40,6 +40,7 @@ mod output;
 mod paths;
 mod plasticity;
 mod plausibility;
+mod pretension;
 mod properties;
 mod records;
 mod report;

@@ -436,6 +436,39 @@ fn links_that_fail() {
     assert_eq!(portal_and(&link("normal = 3e3", "stiffness = 1e5")).trim(), "");
 }
 
+/// Links are pulled in static stages.
+#[test]
+fn pretensions() {
+    let link = |name: &str, text: &str| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [3.0, 0.0, 2.0] }}\n\
+             pretension = 1e3\n{text}\n"
+        )
+    };
+    let laws = [
+        "law = \"compression-only\"\nstiffness = 1e5",
+        "law = \"tension-only\"\nstiffness = 1e5\ngap = 0.1",
+        "damping = 10.0",
+        "bushing = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]",
+        "stiffness = 1e5\npreload = 1.0",
+    ];
+    let links: Vec<String> = laws.iter().enumerate().map(|(i, law)| link(&format!("l{i}"), law)).collect();
+    assert_snapshot!("pretension_without_stage", portal_and(&link("tie", "stiffness = 1e5")));
+    let stages = |kinds: &str, links: &str| {
+        let stage = |(i, kind): (usize, &str)| {
+            format!("[[stages]]\nname = \"s{i}\"\nkind = \"{kind}\"\nduration = 1.0\ntime_step = 0.1\n")
+        };
+        let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n";
+        let stages: String = kinds.split(' ').enumerate().map(stage).collect();
+        portal(&[(analysis, &format!("{stages}{links}"))])
+    };
+    assert_snapshot!("pretension_laws", stages("static dynamic", &links.concat()));
+    let tie = |names: &str| link("tie", &format!("stiffness = 1e5\nstages = {names}"));
+    assert_snapshot!("pretension_in_motion", stages("static dynamic", &tie("[\"s1\"]")));
+    assert_snapshot!("pretension_and_break", stages("static dynamic dynamic", &tie("[\"s0\", \"s2\"]")));
+    assert_eq!(stages("dynamic static dynamic", &tie("[\"s1\", \"s2\"]")).trim(), "");
+}
+
 /// Joints with what acts along their coordinates; everything that is wrong is said at once.
 #[test]
 fn joint_coordinates() {
@@ -474,6 +507,11 @@ fn joint_coordinates() {
             ["revolute", "rest = 1.0\nlimit_stiffness = 3.0\nstick = 1e-3"],
             ["cylindrical", "friction_moment = 3.0\nstiffness = -1.0"],
             ["screw", "lead = 0.0\nfriction_moment = -3.0"],
+            ["screw", "lead = 0.1\nfriction = 0.1\nradius = 0.02"],
+            ["revolute", "friction = 0.1"],
+            ["revolute", "friction = -0.1\nradius = 0.0"],
+            ["prismatic", "friction = 0.1\nradius = 0.02"],
+            ["prismatic", "radius = 0.02"],
             ["screw", "torque = 3.0"],
         ])
     );
@@ -489,6 +527,21 @@ fn joint_coordinates() {
             ["prismatic", "backbone = [[0.1, 3.0], [0.2, 7.0]]"],
             ["prismatic", "backbone = []"],
             ["spherical", "yield_moment = 3.0"],
+        ])
+    );
+    let gear = |joint: &str| format!("gear = {{ joint = \"{joint}\", ratio = 2.0 }}");
+    assert_snapshot!(
+        "joint_gears",
+        all(&[
+            ["revolute", "gear = { joint = \"j1\", ratio = 0.0 }"],
+            ["revolute", "gear = { joint = \"j2\" }"],
+            ["revolute", &gear("j2")],
+            ["revolute", &gear("j4")],
+            ["revolute", &gear("j3")],
+            ["revolute", &gear("j12")],
+            ["spherical", &gear("j0")],
+            ["revolute", &gear("j6")],
+            ["prismatic", &format!("motion = {{ velocity = 1.0 }}\n{}", gear("j0"))],
         ])
     );
     let drive = |velocity: &str| {

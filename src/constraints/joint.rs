@@ -26,14 +26,27 @@ pub struct Joint {
     pub drive: Option<Drive>,
 }
 
-/// A drive prescribes the coordinate of a joint: it is a node that nothing else moves, whose displacement along x is what the
-/// coordinate shall be. So it is a prescribed motion like that of a support, and its reaction is the effort of the drive.
+/// What leads the coordinate of a joint: a node that nothing else moves, whose displacement along x, times a ratio, is what the
+/// coordinate shall be. Where the motion is prescribed the node is restrained like a support, and its reaction is the effort of the drive; of
+/// gears the node is an unknown that all their joints share, so that turns are counted and efforts are in equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
-    /// The node, restrained along x.
+    /// The node.
     pub node: usize,
     /// Its position at t = 0.
     pub start: Vec3,
+    /// Coordinate per displacement of the node.
+    pub ratio: f64,
+    /// True where the node is an unknown.
+    pub is_free: bool,
+}
+
+impl Drive {
+    /// What the coordinate shall be.
+    #[inline]
+    pub fn coordinate(&self, nodes: &[Node]) -> f64 {
+        self.ratio * nodes[self.node].moved(&self.start).x
+    }
 }
 
 impl Joint {
@@ -46,11 +59,32 @@ impl Joint {
         match &self.drive {
             Some(drive) if self.is_driven(number) => {
                 let node = &nodes[drive.node];
-                let behind = gap[0] - node.moved(&drive.start).x;
-                [row.nearest(behind), gap[1] - node.v.x, gap[2] - node.a.x]
+                let behind = gap[0] - drive.coordinate(nodes);
+                [row.nearest(behind), gap[1] - drive.ratio * node.v.x, gap[2] - drive.ratio * node.a.x]
             }
             _ => gap,
         }
+    }
+
+    /// The change of the violation of an equation for small motions (u, θ) of all nodes.
+    pub fn opening(&self, number: usize, nodes: &[Node], motions: &[Vec6]) -> f64 {
+        let [a, b] = self.nodes;
+        let [Ga, Gb] = self.equations[number].gradient(&nodes[a], &nodes[b]);
+        let change = Ga.dot(&motions[a]) + Gb.dot(&motions[b]);
+        match &self.drive {
+            Some(drive) if self.is_driven(number) => change - drive.ratio * motions[drive.node][0],
+            _ => change,
+        }
+    }
+
+    /// The node of gears that the joint moves besides its own.
+    pub fn shared(&self) -> Option<&Drive> {
+        self.drive.as_ref().filter(|drive| drive.is_free)
+    }
+
+    /// The nodes whose unknowns stand in its matrix, in the order in which they stand there.
+    pub fn matrix_nodes(&self) -> impl Iterator<Item = usize> + '_ {
+        self.nodes.into_iter().chain(self.shared().map(|drive| drive.node))
     }
 
     /// True for the equation that holds the coordinate where its drive is.
@@ -105,6 +139,15 @@ pub enum ConstraintEquation {
 }
 
 impl ConstraintEquation {
+    /// The axis that a coordinate turns about or moves along, for an equation that locks one; global components.
+    pub fn axis(&self, a: &Node, b: &Node) -> Option<Vec3> {
+        match self {
+            ConstraintEquation::BodyAxis { e, .. } => Some(b.R() * e),
+            ConstraintEquation::Angle(Angle { p, s }) => Some(a.R() * p.cross(s)),
+            _ => None,
+        }
+    }
+
     /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0: its violation is
     /// that distance. `d` is x_a − x_b at t = 0.
     pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {

@@ -28,10 +28,12 @@ pub struct Joint {
     pub stages: Maybe<Names>,
     /// Which coordinate the keys below are about, where a joint has two: "angle" about `axis` in radians, turns counted, or "distance"
     /// along it. It is that of `to` from `from`, zero at t = 0. Default: "angle" of a screw, "distance" of a cylindrical
-    /// joint. (revolute, prismatic, cylindrical, screw; the same for all that follows)
+    /// joint. (revolute, prismatic, cylindrical, screw, planar, in-line; the same for all that follows)
     pub coordinate: Maybe<Coordinate>,
     /// Drives the coordinate as told; the effort that takes is in joints.csv.
     pub motion: Maybe<Table<JointMotion>>,
+    /// Ties the coordinate to that of another joint, as gears, belts, racks and pinions do.
+    pub gear: Maybe<Table<JointGear>>,
     /// A force or moment along the coordinate, on `to` and as much against it on `from`: a motor.
     pub effort: Maybe<Table<Effort>>,
     /// Force per length, or moment per radian, of a spring along the coordinate, 0 or more. Default: 0.
@@ -46,6 +48,11 @@ pub struct Joint {
     pub limit_stiffness: Maybe<f64>,
     /// Part of the speed that an impact on a stop gives back, from 0.01 to 1. Default: 1.
     pub restitution: Maybe<f64>,
+    /// Coefficient of dry friction, 0 or more: it slips at this times the force that the joint carries across its axis, for an angle times
+    /// `radius` too. Default: 0. (revolute, prismatic, cylindrical, in-line)
+    pub friction: Maybe<f64>,
+    /// Radius of the pin on which friction of an angle acts, above 0.
+    pub radius: Maybe<f64>,
     /// Dry friction against an angle: the moment at which it slips, 0 or more, whatever the joint carries. Default: 0.
     pub friction_moment: Maybe<f64>,
     /// Dry friction against a distance: the force at which it slips, 0 or more, whatever the joint carries. Default: 0.
@@ -78,6 +85,19 @@ pub struct JointMotion {
     pub acceleration: Maybe<f64>,
     /// Name of an amplitude. Default: constant (velocity, acceleration).
     pub amplitude: Maybe<String>,
+}
+
+/// A joint whose coordinate is a multiple of that of another one, at every instant and without play.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct JointGear {
+    /// Name of the other joint; it may be geared itself, to a third one.
+    #[schemars(required)]
+    pub joint: Maybe<String>,
+    /// This coordinate per that of the other joint, not zero: radians per radian, or lengths. Negative for outer gears about parallel axes,
+    /// positive for a belt over pulleys.
+    #[schemars(required)]
+    pub ratio: Maybe<f64>,
 }
 
 /// A force or moment between the ends of a joint.

@@ -30,6 +30,10 @@ pub struct Link {
     pub gap: Maybe<f64>,
     /// Force at zero elongation, tension positive. Default: 0. (linear)
     pub preload: Maybe<f64>,
+    /// Force to which it is pulled in the first stage in which it is there, a static one, or in a static analysis: the length that this takes up
+    /// is found, and kept in all stages that follow, as by a nut that is tightened; not 0, tension positive. (linear, table,
+    /// tension-only without `gap`)
+    pub pretension: Maybe<f64>,
     /// Length without force, or projection without force along `direction`. Default: as the ends lie at t = 0.
     pub free_length: Maybe<f64>,
     /// Fixed global direction from `from` to `to`, for coincident points and bumpers. Default: along the line

@@ -6,7 +6,8 @@
 
 use super::contact::restitution::{Loss, normal_force};
 use super::hysteresis::Hysteresis;
-pub use super::slider::{CoordinateState, DryFriction};
+pub use super::slider::CoordinateState;
+use super::slider::DryFriction;
 
 /// The effort over a coordinate, its rate and its past.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,9 +21,28 @@ pub struct CoordinateLaw {
     /// The stops.
     pub stops: Option<Stops>,
     /// Dry friction.
-    pub friction: Option<DryFriction>,
+    pub friction: Option<JointFriction>,
     /// What yields.
     pub hysteresis: Option<Hysteresis>,
+}
+
+/// Dry friction, whose limit may grow with the load of the joint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointFriction {
+    /// The effort at which it slips without load.
+    pub limit: f64,
+    /// What the limit grows by per force that the joint carries across its axis.
+    pub per_load: f64,
+    /// By how much it gives before it slips.
+    pub stick: f64,
+}
+
+impl JointFriction {
+    /// The spring that slips, under a load.
+    pub fn under(&self, load: f64) -> DryFriction {
+        let limit = self.limit + self.per_load * load;
+        DryFriction { limit, stiffness: limit / self.stick }
+    }
 }
 
 /// Stops at either end of the way of a coordinate.
@@ -47,6 +67,8 @@ pub const IMPACT_SPEED: usize = 2;
 pub const IMPACT_POWER: usize = 3;
 /// Place of the anchor of friction.
 pub const ANCHOR: usize = 4;
+/// Numbers that a joint remembers after all others where its load counts: the load and its rate at the end of the last step.
+pub const LOAD_MEMORY: usize = 2;
 
 impl CoordinateLaw {
     /// A joint on whose coordinate nothing acts: it counts turns.
@@ -55,11 +77,30 @@ impl CoordinateLaw {
 
     /// The number of history variables.
     pub fn memory(&self) -> usize {
+        self.end_of_hysteresis() + if self.load_memory().is_some() { LOAD_MEMORY } else { 0 }
+    }
+
+    /// Place of the load and its rate among the history variables, where the load counts.
+    pub fn load_memory(&self) -> Option<usize> {
+        self.friction.filter(|friction| friction.per_load > 0.0).map(|_| self.end_of_hysteresis())
+    }
+
+    fn end_of_hysteresis(&self) -> usize {
         MEMORY + self.hysteresis.as_ref().map_or(0, Hysteresis::memory)
     }
 
-    /// Effort, derivatives and energy at a coordinate and its rate; `memory` is that of the last step, [`CoordinateLaw::memory`] numbers.
-    pub fn at(&self, q: f64, rate: f64, memory: &[f64]) -> CoordinateState {
+    /// The spring of friction a time `dt` after the last step, the load going on as it has changed, but not below zero or to more than twice.
+    pub fn friction_after(&self, dt: f64, memory: &[f64]) -> Option<DryFriction> {
+        let load = self.load_memory().map_or(0.0, |place| {
+            let [load, rate] = [memory[place], memory[place + 1]];
+            (load + dt * rate).clamp(0.0, 2.0 * load)
+        });
+        self.friction.map(|friction| friction.under(load))
+    }
+
+    /// Effort, derivatives and energy at a coordinate and its rate, a time `dt` after the last step; `memory` is that of the last step,
+    /// [`CoordinateLaw::memory`] numbers.
+    pub fn at(&self, q: f64, rate: f64, memory: &[f64], dt: f64) -> CoordinateState {
         let stretch = q - self.rest;
         let mut state = CoordinateState {
             q,
@@ -75,7 +116,7 @@ impl CoordinateLaw {
         if let Some(stops) = &self.stops {
             stops.add(memory, &mut state);
         }
-        if let Some(friction) = &self.friction {
+        if let Some(friction) = self.friction_after(dt, memory) {
             state.slip = friction.add(memory[ANCHOR], &mut state);
         }
         if let Some(hysteresis) = &self.hysteresis {

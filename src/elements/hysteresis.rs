@@ -86,7 +86,7 @@ mod tests {
 
     fn effort(law: &CoordinateLaw, q: f64, anchors: &[f64]) -> CoordinateState {
         let memory: Vec<f64> = [0.0; MEMORY].into_iter().chain(anchors.iter().copied()).collect();
-        law.at(q, 0.0, &memory)
+        law.at(q, 0.0, &memory, 0.0)
     }
 
     #[test]

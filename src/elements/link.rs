@@ -101,6 +101,24 @@ fn set_pair(k: &crate::math::Mat3, K: &mut [f64]) {
     }
 }
 
+/// Writes the matrix of two nodes between which `k` acts, and of a third whose displacement along x adds to the elongation. The force has the
+/// derivative `axial` by that, and `by_end` by the position of the second node; it acts along `e`.
+fn set_taken_up(k: &crate::math::Mat3, axial: f64, (e, by_end): (&Vec3, &Vec3), K: &mut [f64]) {
+    K.fill(0.0);
+    for i in 0..3 {
+        for j in 0..3 {
+            for (row, column, sign) in [(0, 0, 1.0), (0, 3, -1.0), (3, 0, -1.0), (3, 3, 1.0)] {
+                K[9 * (row + i) + column + j] = sign * k[(i, j)];
+            }
+        }
+        for (row, sign) in [(0, -1.0), (3, 1.0)] {
+            K[9 * (row + i) + 6] = sign * axial * e[i];
+            K[9 * 6 + row + i] = sign * by_end[i];
+        }
+    }
+    K[9 * 6 + 6] = axial;
+}
+
 /// The force of a link and its derivatives.
 struct LinkForce {
     force: f64,
@@ -125,6 +143,8 @@ pub struct Link {
     pub direction: Option<Vec3>,
     /// The force at which it fails; none for a link that does not.
     failure: Option<LinkFailure>,
+    /// Where it is pretensioned, its nodes and the one whose displacement along x is the length that has been taken up.
+    take_up: Option<[usize; 3]>,
     /// Positions of its nodes at t = 0.
     start: [Vec3; 2],
     /// The vector from the first to the second then.
@@ -169,7 +189,19 @@ impl Link {
         };
         let rounding = 1e-12 * initial_length.abs().max(free_length.abs());
         let initial_elongation = touching.filter(|at| (elongation - at).abs() <= rounding).unwrap_or(elongation);
-        Link { nodes, law, damping, direction, failure: None, start, span, initial_length, initial_elongation }
+        let (failure, take_up) = (None, None);
+        Link { nodes, law, damping, direction, failure, take_up, start, span, initial_length, initial_elongation }
+    }
+
+    /// The same link, of which a node takes up length: the elongation is that of its ends and the displacement of this node along x.
+    pub fn taken_up(self, node: Option<usize>) -> Link {
+        let [a, b] = self.nodes;
+        Link { take_up: node.map(|node| [a, b, node]), ..self }
+    }
+
+    /// True where a node takes up length.
+    pub fn is_taken_up(&self) -> bool {
+        self.take_up.is_some()
     }
 
     #[inline]
@@ -187,10 +219,15 @@ impl Link {
                 (e, length, elongation(&self.span, self.initial_length, &u, length))
             }
         };
-        LinkAxis { e, length, delta: self.initial_elongation + more, rate: e.dot(&dv), dv }
+        let (mut delta, mut rate) = (self.initial_elongation + more, e.dot(&dv));
+        if let Some([.., node]) = self.take_up {
+            delta += nodes[node].moved(&self.start[0]).x;
+            rate += nodes[node].v.x;
+        }
+        LinkAxis { e, length, delta, rate, dv }
     }
 
-    /// Elongation, its rate, and the force, damper included; tension is positive. `memory`: its history variables.
+    /// Elongation with what has been taken up, its rate, and the force, damper included; tension is positive. `memory`: its history variables.
     pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (f64, f64, f64) {
         let line = self.line(nodes);
         (line.delta, line.rate, self.force(&line, memory).force)
@@ -259,7 +296,8 @@ impl ElementBlock for Links {
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.links[e].nodes
+        let link = &self.links[e];
+        link.take_up.as_ref().map_or(&link.nodes[..], |nodes| nodes)
     }
 
     fn dofs(&self) -> usize {
@@ -296,9 +334,13 @@ impl ElementBlock for Links {
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for (link, memory) in self.with_memory(now.history) {
             let line = link.line(now.nodes);
-            let f = link.force(&line, memory).force * line.e;
+            let force = link.force(&line, memory).force;
+            let f = force * line.e;
             subtract(&mut F[link.nodes[0]], 0, &-f);
             subtract(&mut F[link.nodes[1]], 0, &f);
+            if let Some([.., node]) = link.take_up {
+                F[node][0] -= force;
+            }
         }
     }
 
@@ -307,12 +349,18 @@ impl ElementBlock for Links {
         let line = link.line(now.nodes);
         let r = link.force(&line, self.memory(e, now.history));
         let along = line.e * line.e.transpose();
-        let mut k = (r.stiffness + rate_weight * r.damping) * along;
+        let axial = r.stiffness + rate_weight * r.damping;
+        let mut k = axial * along;
+        let mut by_end = axial * line.e;
         if link.direction.is_none() && line.length > 0.0 {
             let across = (crate::math::Mat3::identity() - along) / line.length;
             k += r.force * across + r.damping * line.e * (across * line.dv).transpose();
+            by_end += r.damping * across * line.dv;
         }
-        set_pair(&k, K);
+        match link.is_taken_up() {
+            true => set_taken_up(&k, axial, (&line.e, &by_end), K),
+            false => set_pair(&k, K),
+        }
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
@@ -321,12 +369,16 @@ impl ElementBlock for Links {
         if has_failed(self.memory(e, now.history)) {
             return self.tangent(e, now, 0.0, Moduli::Elastic, K);
         }
-        let mut k = link.law.force(line.delta).1 * line.e * line.e.transpose();
+        let axial = link.law.force(line.delta).1;
+        let mut k = axial * line.e * line.e.transpose();
         if link.direction.is_none() && line.length > 0.0 {
             let across = (crate::math::Mat3::identity() - line.e * line.e.transpose()) / line.length;
             k += link.law.force(link.line(stressed).delta).0 * across;
         }
-        set_pair(&k, K);
+        match link.is_taken_up() {
+            true => set_taken_up(&k, axial, (&line.e, &(axial * line.e)), K),
+            false => set_pair(&k, K),
+        }
     }
 
     fn energy(&self, now: &Configuration) -> f64 {

@@ -1,6 +1,8 @@
 //! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops, friction and what yields.
 
-use super::data::{AnalysisKind, History, Joint, JointCoordinate, JointEffort, Load, Node, PrescribedMotion};
+use super::data::{
+    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, Node, PrescribedMotion,
+};
 use super::links::ModelLinks;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
@@ -13,7 +15,7 @@ use crate::deck::joints as words;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
 use crate::elements::contact::restitution::{LEAST, Loss, number};
-use crate::elements::coordinate_law::{CoordinateLaw, DryFriction, Stops};
+use crate::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
 use crate::elements::hysteresis::Hysteresis;
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
@@ -54,10 +56,20 @@ pub(super) struct Along<'a, 'd> {
     pub report: &'a mut Report<'d>,
 }
 
+/// What ties the coordinate of a joint to that of another.
+pub(super) struct Gear<'d> {
+    /// Name of the other joint.
+    pub other: &'d At<String>,
+    /// This coordinate per that of the other.
+    pub ratio: f64,
+}
+
 /// What acts along the coordinate of a joint.
-pub(super) struct ActsAlong {
+pub(super) struct ActsAlong<'d> {
     coordinate: Coordinate,
     motion: Option<PrescribedMotion>,
+    /// The joint to which it is geared, and the ratio.
+    pub gear: Option<Gear<'d>>,
     effort: Option<JointEffort>,
     law: CoordinateLaw,
     /// By how much the joint gives before friction slips, where the deck says so.
@@ -68,7 +80,7 @@ pub(super) struct ActsAlong {
 
 impl<'d> Along<'_, 'd> {
     /// Reads what acts along the coordinate; `None` where the joint has none.
-    pub fn read(mut self, kind: &JointKind) -> Option<ActsAlong> {
+    pub fn read(mut self, kind: &JointKind) -> Option<ActsAlong<'d>> {
         let joint = self.joint;
         let Some(&own) = kind.make.coordinates.first() else {
             let what = format!("a joint of kind \"{}\": it has no coordinate", kind.word);
@@ -85,16 +97,17 @@ impl<'d> Along<'_, 'd> {
         };
         self.reject_if_later();
         let motion = self.motion();
+        let gear = self.gear();
         let effort = self.effort();
-        let law = self.law(coordinate);
+        let law = self.law(kind, coordinate);
         let stick = self.report.positive("stick", &joint.stick);
         let counted = self.is_counted();
-        Some(ActsAlong { coordinate, motion, effort, law, stick, counted })
+        Some(ActsAlong { coordinate, motion, gear, effort, law, stick, counted })
     }
 
     /// True where the joint is not there from t = 0 on, or comes back: its coordinate has no beginning that the deck draws.
     fn is_later(&self) -> bool {
-        self.scene.stage.is_some_and(|stage| !stage.is_carried(&self.joint.stages))
+        is_later(self.scene, self.joint)
     }
 
     /// Reports keys about the coordinate of a joint that is not there from t = 0 on.
@@ -193,8 +206,10 @@ impl<'d> Along<'_, 'd> {
     fn against_motion(&self) -> Vec<(&'static str, &'d Span)> {
         let joint = self.joint;
         let keys = [
+            ("gear", span(&joint.gear)),
             ("effort", span(&joint.effort)),
             ("limits", span(&joint.limits)),
+            ("friction", span(&joint.friction)),
             ("friction_moment", span(&joint.friction_moment)),
             ("friction_force", span(&joint.friction_force)),
             ("yield_moment", span(&joint.yield_moment)),
@@ -202,6 +217,18 @@ impl<'d> Along<'_, 'd> {
             ("backbone", span(&joint.backbone)),
         ];
         keys.into_iter().filter_map(|(key, place)| Some((key, place?))).collect()
+    }
+
+    fn gear(&mut self) -> Option<Gear<'d>> {
+        let gear = self.joint.gear.as_ref()?;
+        let owner = Owner::new(format!("the gear of {}", self.owner.what), &gear.span);
+        let other = self.report.require(&owner, "joint", &gear.joint);
+        let ratio = self.report.require(&owner, "ratio", &gear.ratio);
+        if let Some(ratio) = ratio.filter(|ratio| ratio.value == 0.0) {
+            let hint = "a `motion` by a velocity of 0 holds a coordinate";
+            return self.report.error_with(&ratio.span, "`ratio` must not be zero", hint);
+        }
+        Some(Gear { other: other?, ratio: ratio?.value })
     }
 
     fn effort(&mut self) -> Option<JointEffort> {
@@ -219,7 +246,7 @@ impl<'d> Along<'_, 'd> {
         (effort.amplitude.is_none() || amplitude.is_some()).then_some(JointEffort { value: value?, amplitude })
     }
 
-    fn law(&mut self, coordinate: Coordinate) -> CoordinateLaw {
+    fn law(&mut self, kind: &JointKind, coordinate: Coordinate) -> CoordinateLaw {
         let joint = self.joint;
         if let (Some(rest), None) = (&joint.rest, &joint.stiffness)
             && !self.report.is_spoiled(self.owner.span, "stiffness")
@@ -238,7 +265,7 @@ impl<'d> Along<'_, 'd> {
             rest: joint.rest.as_ref().map_or(0.0, |rest| rest.value),
             damping: self.report.not_negative("damping", &joint.damping, 0.0),
             stops: self.stops(),
-            friction: self.friction(coordinate),
+            friction: self.friction(kind, coordinate),
             hysteresis,
         }
     }
@@ -319,8 +346,8 @@ impl<'d> Along<'_, 'd> {
         }
     }
 
-    /// Friction, its stiffness yet to be found.
-    fn friction(&mut self, coordinate: Coordinate) -> Option<DryFriction> {
+    /// Friction, the way on which it sticks yet to be found.
+    fn friction(&mut self, kind: &JointKind, coordinate: Coordinate) -> Option<JointFriction> {
         let joint = self.joint;
         let moment = ("friction_moment", &joint.friction_moment);
         let force = ("friction_force", &joint.friction_force);
@@ -330,15 +357,45 @@ impl<'d> Along<'_, 'd> {
         };
         let what = format!("a joint whose coordinate is its {}", coordinate.word());
         self.report.reject_unused(&what, &[(other.0, span(other.1))]);
-        if value.is_none() && other.1.is_none() && !self.report.is_spoiled(self.owner.span, key) {
+        let slips = value.is_some() || other.1.is_some() || joint.friction.is_some();
+        let unread =
+            self.report.is_spoiled(self.owner.span, key) || self.report.is_spoiled(self.owner.span, "friction");
+        if !slips && !unread {
             self.report.reject_unused("a joint without friction", &[("stick", span(&joint.stick))]);
         }
         let limit = self.report.not_negative(key, value, 0.0);
-        (limit > 0.0).then_some(DryFriction { limit, stiffness: 0.0 })
+        let per_load = self.friction_per_load(kind, coordinate);
+        (limit > 0.0 || per_load > 0.0).then_some(JointFriction { limit, per_load, stick: 0.0 })
+    }
+
+    /// By how much the limit of friction grows with the force that the joint carries across its axis.
+    fn friction_per_load(&mut self, kind: &JointKind, coordinate: Coordinate) -> f64 {
+        let joint = self.joint;
+        let Some(friction) = &joint.friction else {
+            self.report.reject_unused("a joint without `friction`", &[("radius", span(&joint.radius))]);
+            return 0.0;
+        };
+        let (coefficient, turns) =
+            (self.report.not_negative("friction", &joint.friction, 0.0), coordinate == Coordinate::Angle);
+        if !kind.make.carries_across {
+            let message = format!("`friction` does not apply to a joint of kind \"{}\"", kind.word);
+            let limit = if turns { "`friction_moment`" } else { "`friction_force`" };
+            self.report.error_with::<()>(
+                &friction.span,
+                message,
+                format!("{limit} is one that the joint's load does not change"),
+            );
+            return 0.0;
+        }
+        if !turns {
+            self.report.reject_unused("friction against a distance", &[("radius", span(&joint.radius))]);
+            return coefficient;
+        }
+        self.report.require_positive(self.owner, "radius", &joint.radius).map_or(0.0, |radius| coefficient * radius)
     }
 }
 
-impl ActsAlong {
+impl ActsAlong<'_> {
     /// Gives a joint its coordinate and what acts along it.
     pub fn set_up(
         mut self,
@@ -352,18 +409,15 @@ impl ActsAlong {
         let axis = placed.axes.column(0).into_owned();
         let lock = self.coordinate.lock(&placed.axes, &d);
         if let Some(friction) = &mut self.law.friction {
-            let stick = self.stick.unwrap_or_else(|| match self.coordinate {
+            friction.stick = self.stick.unwrap_or_else(|| match self.coordinate {
                 Coordinate::Angle => 1e-4,
                 Coordinate::Distance => 1e-5 * size(nodes),
             });
-            friction.stiffness = friction.limit / stick;
         }
         let drive = self.motion.map(|motion| {
-            let drive = nodes.add(format!("{}.motion", joint.name), false, nodes.x(from));
+            let drive = nodes.add_number(format!("{}.motion", joint.name), from);
             nodes.restrain(drive, 0, Some(motion));
-            joint.equations.push(lock);
-            joint.of_deck.push(lock);
-            drive
+            JointDrive { node: drive, ratio: 1.0, is_free: false }
         });
         if let Some(effort) = &self.effort {
             let pull = effort.value * axis;
@@ -383,22 +437,31 @@ impl ActsAlong {
         }
         let spring = (self.counted || self.law != CoordinateLaw::FREE)
             .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law)));
-        joint.coordinate = Some(JointCoordinate { lock, axis, drive, effort: self.effort, spring });
+        joint.coordinate = Some(JointCoordinate { lock, axis, drive: None, effort: self.effort, spring });
+        if let Some(drive) = drive {
+            joint.lead(drive);
+        }
     }
 }
 
+/// True where a joint is not there from t = 0 on, or comes back.
+pub(super) fn is_later(scene: &Scene, joint: &words::Joint) -> bool {
+    scene.stage.is_some_and(|stage| !stage.is_carried(&joint.stages))
+}
+
 /// The size of the scene, or 1 for a single point.
-fn size(nodes: &Nodes) -> f64 {
+pub(super) fn size(nodes: &Nodes) -> f64 {
     let first = nodes.list.first().map_or(Vec3::zeros(), |node| node.x);
     let size = nodes.list.iter().map(|node: &Node| (node.x - first).norm()).fold(0.0, f64::max);
     if size > 0.0 { size } else { 1.0 }
 }
 
 /// The keys about the coordinate, with the places where they stand.
-fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 16] {
+fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 19] {
     [
         ("coordinate", span(&joint.coordinate)),
         ("motion", span(&joint.motion)),
+        ("gear", span(&joint.gear)),
         ("effort", span(&joint.effort)),
         ("stiffness", span(&joint.stiffness)),
         ("rest", span(&joint.rest)),
@@ -406,6 +469,8 @@ fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 16] {
         ("limits", span(&joint.limits)),
         ("limit_stiffness", span(&joint.limit_stiffness)),
         ("restitution", span(&joint.restitution)),
+        ("friction", span(&joint.friction)),
+        ("radius", span(&joint.radius)),
         ("friction_moment", span(&joint.friction_moment)),
         ("friction_force", span(&joint.friction_force)),
         ("stick", span(&joint.stick)),

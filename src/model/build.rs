@@ -229,7 +229,7 @@ fn model<'d>(
     let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
     set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.course.bulges));
     let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
-    let loads = loads(&scene, efforts, &topology, &mut actors, report);
+    let loads = loads(&scene, [efforts, std::mem::take(&mut links.pulls)].concat(), &topology, &mut actors, report);
     let damping = damping(&scene, &topology, report);
     initial(&scene, &amplitudes, &mut topology, report);
 
@@ -240,7 +240,7 @@ fn model<'d>(
     let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
     let study = study(&scene, &scheme, &topology.list, report);
     let mesh = check(&scene, &scheme, groups, &topology, (&joints, &amplitudes), report);
-    let linked = links.0.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
+    let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();
@@ -262,7 +262,7 @@ fn model<'d>(
         output,
         study,
     };
-    model.parts.extend(links.0.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
+    model.parts.extend(links.list.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
     finish(&mut model, all_nodes, deck.integrator.is_none());
     model
 }

@@ -47,8 +47,8 @@ fn all_move_as_bodies(model: &Model) -> bool {
         of_node.is_some_and(|dependent| dependent.dofs[..3].iter().all(|follows| *follows))
     };
     let is_body = |node: usize| model.bodies.iter().any(|body| body.node == node);
-    let drives: Vec<usize> = model.constraints.drives().collect();
-    (0..model.nodes.len()).all(|node| is_body(node) || follows(node) || held(node) >= 3 || drives.contains(&node))
+    let is_place = |node: &usize| !model.nodes[*node].is_number;
+    (0..model.nodes.len()).filter(is_place).all(|node| is_body(node) || follows(node) || held(node) >= 3)
 }
 
 /// The node that this one is fixed on, or the node itself.

@@ -442,6 +442,24 @@ impl<'d> CurrentStage<'d> {
         self.course.before(self.index).is_none_or(|before| !self.course.holds(before, stages))
     }
 
+    /// True where the first stage with a table of these `stages` is static, and no stage of modes.
+    pub fn begins_pulling(&self, stages: &Maybe<Names>) -> bool {
+        let first = &self.course.stages[self.course.first(stages)];
+        first.kind == AnalysisKind::Static && !first.has_modes
+    }
+
+    /// True where a table with these `stages` first acts in this one.
+    pub fn is_pulled(&self, stages: &Maybe<Names>) -> bool {
+        self.course.first(stages) == self.index
+    }
+
+    /// True where a table with these `stages` does not go and come back.
+    pub fn is_there_once(&self, stages: &Maybe<Names>) -> bool {
+        let held = self.course.in_time().map(|index| self.course.holds(index, stages));
+        let changes: Vec<bool> = held.skip_while(|there| !there).collect();
+        changes.is_sorted_by(|before, after| before >= after)
+    }
+
     /// True where a support with these `stages` first acts in a static stage.
     pub fn begins_static(&self, stages: &Maybe<Names>) -> bool {
         self.course.stages[self.course.first(stages)].kind == AnalysisKind::Static

@@ -3,6 +3,7 @@
 use super::along_joints::{Along, Joints, PlacedJoint};
 use super::data::{History, Joint, Node, PrescribedMotion};
 use super::ends::EndTable;
+use super::gears;
 use super::links::ModelLinks;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
@@ -25,6 +26,7 @@ pub(super) fn joints<'d>(
     report: &mut Report<'d>,
 ) -> Joints {
     let mut joints = Joints::default();
+    let mut gears = Vec::new();
     for (index, joint) in scene.deck.joints.iter().enumerate() {
         let name = joint.name.as_ref().map_or_else(|| format!("joints.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("joint `{name}`"), &joint.span);
@@ -49,11 +51,13 @@ pub(super) fn joints<'d>(
         let placed = PlacedJoint { ends, later, axes, values: &joint.values };
         let Some(equations) = joint_equations(&owner, kind, &placed, nodes, report) else { continue };
         let mut made = Joint::new(name, ends, equations, false);
-        if let Some(acts) = acts.flatten() {
+        if let Some(mut acts) = acts.flatten() {
+            gears.extend(acts.gear.take().map(|gear| (joints.list.len(), gear)));
             acts.set_up(&placed, &mut made, (nodes, links), &mut joints.efforts);
         }
         joints.list.push(made);
     }
+    gears::connect(scene, &gears, &mut joints.list, nodes, report);
     joints
 }
 
@@ -145,9 +149,11 @@ fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], node
     /// Velocities are written with six digits.
     const DIGITS: f64 = 1e-5;
     let coordinate = joint.coordinate.as_ref()?;
-    let PrescribedMotion { amplitude, scale, history } = nodes.restraint(coordinate.drive?, 0)?.motion.clone()?;
+    let drive = coordinate.drive?;
+    let PrescribedMotion { amplitude, scale, history } = nodes.restraint(drive.node, 0)?.motion.clone()?;
     let amplitude = &amplitudes[amplitude];
-    let driven = scale
+    let driven = drive.ratio
+        * scale
         * match history {
             History::Displacement => amplitude.rate(0.0),
             History::Velocity => amplitude.value(0.0),

@@ -1,8 +1,9 @@
 //! `[[links]]`: their ends and laws.
 
 use super::axes::axes;
-use super::data::{Link, LinkKind};
+use super::data::{Link, LinkKind, Load};
 use super::ends::EndTable;
+use super::link_pretension::pretension;
 use super::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::Scene;
@@ -17,7 +18,13 @@ use crate::elements::link_failure::LinkFailure;
 use crate::math::Mat3;
 
 /// The links of a model: those of the deck, then those along coordinates of joints.
-pub(super) struct ModelLinks(pub Vec<Link>);
+#[derive(Default)]
+pub(super) struct ModelLinks {
+    /// All of them.
+    pub list: Vec<Link>,
+    /// The forces that pretension links.
+    pub pulls: Vec<Load>,
+}
 
 impl ModelLinks {
     /// Adds what acts along the coordinate of a joint; returns its index.
@@ -27,14 +34,15 @@ impl ModelLinks {
         ends: [usize; 2],
         (lock, law): (ConstraintEquation, CoordinateLaw),
     ) -> usize {
-        self.0.push(Link { name: joint.to_owned(), ends, kind: LinkKind::Joint { lock, law }, failure: None });
-        self.0.len() - 1
+        let kind = LinkKind::Joint { lock, law };
+        self.list.push(Link { name: joint.to_owned(), ends, kind, failure: None, take_up: None });
+        self.list.len() - 1
     }
 }
 
 /// Reads `[[links]]`, and adds the nodes at their ends.
 pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> ModelLinks {
-    let mut links = Vec::new();
+    let mut links = ModelLinks::default();
     for (index, link) in scene.deck.links.iter().enumerate() {
         let name = link.name.as_ref().map_or_else(|| format!("links.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("link `{name}`"), &link.span);
@@ -53,11 +61,20 @@ pub(super) fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Repor
             report.error::<()>(owner.span, format!("{} joins `{}` to itself", owner.what, nodes.label(from)));
         }
         let failure = link.failure.as_ref().and_then(|table| failure(table, rotations, report));
+        let pretension = pretension(&owner, link, kind.as_ref(), scene, report);
         if let (Some(ends), Some(kind)) = (ends, kind) {
-            links.push(Link { name, ends, kind, failure });
+            let take_up = pretension.map(|pretension| {
+                let node = nodes.add_number(format!("{name}.take_up"), ends[0]);
+                match pretension.pull(node) {
+                    Some(pull) => links.pulls.push(pull),
+                    None => nodes.restrain(node, 0, None),
+                }
+                node
+            });
+            links.list.push(Link { name, ends, kind, failure, take_up });
         }
     }
-    ModelLinks(links)
+    links
 }
 
 fn line<'d>(

@@ -36,6 +36,7 @@ impl Nodes {
             x,
             v: Vec3::zeros(),
             omega: Vec3::zeros(),
+            is_number: false,
             given: [None, None],
             place: None,
         });
@@ -47,6 +48,13 @@ impl Nodes {
     pub fn add_dependent(&mut self, label: String, x: Vec3, master: usize, place: &Span) -> usize {
         let node = self.add(label, false, x);
         self.attach(node, master, [true; 6], place);
+        node
+    }
+
+    /// Adds a node whose displacement along x is a number rather than a way in space.
+    pub fn add_number(&mut self, label: String, near: usize) -> usize {
+        let node = self.add(label, false, self.x(near));
+        self.list[node].is_number = true;
         node
     }
 

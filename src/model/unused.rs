@@ -19,7 +19,7 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
     model.constraints.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
     let drives = model.constraints.joints.iter_mut().filter_map(|joint| joint.coordinate.as_mut()?.drive.as_mut());
-    drives.for_each(&mut *of);
+    drives.for_each(|drive| of(&mut drive.node));
     model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
     model.loading.nodal.iter_mut().for_each(|load| of(&mut load.node));
     model.loading.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);

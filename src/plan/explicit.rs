@@ -27,9 +27,12 @@ impl Plan {
         };
         match (system.multipliers(), ConstraintSchur::new(system, &masses, self.has_redundant_constraints())) {
             (0, _) => vec!["block-diagonal masses: nothing is factorized".to_string()],
-            (rows, Some(_)) => vec![format!(
-                "block-diagonal masses; a dense system of the {rows} constraint equations of joints at every evaluation"
-            )],
+            (rows, Some(schur)) => {
+                let kind = if schur.is_sparse() { "sparse" } else { "dense" };
+                vec![format!(
+                    "block-diagonal masses; a {kind} system of the {rows} constraint equations of joints at every evaluation"
+                )]
+            }
             (_, None) => vec!["mass matrix and joints, factorized at every evaluation".to_string()],
         }
     }
@@ -39,7 +42,9 @@ impl Plan {
         if !self.explicit {
             return Vec::new();
         }
-        let missing: Vec<(usize, usize)> = match self.masses(system) {
+        // What gears share has no mass, and needs none: the joints lead it.
+        let shared: Vec<usize> = system.joints.iter().filter_map(|joint| Some(joint.shared()?.node)).collect();
+        let mut missing: Vec<(usize, usize)> = match self.masses(system) {
             Some(masses) => {
                 masses.blocks.iter().filter_map(|block| block.massless().map(|dof| (block.node, dof))).collect()
             }
@@ -53,6 +58,7 @@ impl Plan {
                     .collect()
             }
         };
+        missing.retain(|(node, _)| !shared.contains(node));
         let scheme = model.solution.scheme.word();
         let error = |&(node, dof): &(usize, usize)| {
             let (label, direction) = (&model.nodes[node].label, DIRECTIONS[dof]);

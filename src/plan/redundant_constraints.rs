@@ -36,18 +36,26 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
     for joint in &system.joints {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for row in &joint.equations {
+        for (k, row) in joint.equations.iter().enumerate() {
             let mut entries = Vec::new();
+            let mut add = |row: usize, value: f64| {
+                let at = *column[row].get_or_insert_with(|| {
+                    columns += 1;
+                    columns - 1
+                });
+                entries.push((at, value));
+            };
+            if let Some(drive) = joint.shared().filter(|_| joint.is_driven(k))
+                && let Some(row) = dofs.row(drive.node, 0)
+            {
+                add(row, -drive.ratio);
+            }
             for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
                 for (&independent, T) in independent_nodes[node].iter().zip(&projections[node]) {
                     let G = T.tr_mul(&G);
                     for dof in 0..6 {
                         let Some(row) = dofs.row(independent, dof) else { continue };
-                        let at = *column[row].get_or_insert_with(|| {
-                            columns += 1;
-                            columns - 1
-                        });
-                        entries.push((at, if dof < 3 { G[dof] } else { G[dof] / length }));
+                        add(row, if dof < 3 { G[dof] } else { G[dof] / length });
                     }
                 }
             }
@@ -57,6 +65,11 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     if (count * count) as f64 * columns as f64 > MOST {
         return None;
     }
+    Some(dependent_rows(&sparse, columns))
+}
+
+/// The numbers of rows that depend linearly on those before them.
+fn dependent_rows(sparse: &[Vec<(usize, f64)>], columns: usize) -> Vec<usize> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut redundant = Vec::new();
     for (number, entries) in sparse.iter().enumerate() {
@@ -78,7 +91,7 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
             basis.push(v);
         }
     }
-    Some(redundant)
+    redundant
 }
 
 fn norm(v: &[f64]) -> f64 {

@@ -56,7 +56,7 @@ pub fn commit(
         if let Some(work) = account.work {
             (state.work.external, state.work.damping) = (before.external, before.damping);
             work.add_to(&mut state.work);
-            if !cx.drives.is_empty() {
+            if !cx.numbers.is_empty() {
                 // In a stage a drive carries what the error of the accelerations there takes; at the end of a step they have been
                 // projected, and the trapezoidal rule is of second order.
                 state.work.external += driven;
@@ -68,6 +68,7 @@ pub fn commit(
     }
     std::mem::swap(&mut state.nodes, &mut ws.trial);
     state.time = to;
+    cx.system.remember_joint_loads(state, dt);
     contacts::note_depth(cx, ws, state);
 }
 

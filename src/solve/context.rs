@@ -20,8 +20,8 @@ pub struct Context<'a> {
     pub independent_nodes: Vec<usize>,
     /// Prescribed degrees of freedom, by index in the model's list, whose motion joints transmit to other nodes.
     pub driving: Vec<usize>,
-    /// Nodes whose displacement is the prescribed coordinate of a joint: no place in space.
-    pub drives: Vec<usize>,
+    /// Nodes whose displacement along x is a number: no place in space.
+    pub numbers: Vec<usize>,
     /// Coefficients of [`crate::integrators::Scheme::algorithmic_acceleration`]; `None` in statics too.
     pub algorithmic_acceleration: Option<[f64; 3]>,
     /// The largest distance of a node from the first, the length to which corrections are compared where hardly
@@ -52,7 +52,7 @@ impl<'a> Context<'a> {
             excitation: Excitation::new(model),
             independent_nodes: independent_nodes(model, plan, system),
             driving: driving(model, system),
-            drives: model.constraints.drives().collect(),
+            numbers: model.number_nodes().collect(),
             algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },
             length: extent(model),
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),

@@ -99,7 +99,7 @@ pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
 /// Writes the largest coordinate of a node, by which rounding is measured.
 pub fn measure_reach(cx: &Context, ws: &mut Workspace, state: &State) {
     let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
-    let placed = cx.independent_nodes.iter().filter(|node| !cx.drives.contains(node));
+    let placed = cx.independent_nodes.iter().filter(|node| !cx.numbers.contains(node));
     ws.reach = placed.fold(cx.length, farthest);
 }
 

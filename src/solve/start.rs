@@ -252,6 +252,7 @@ pub fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, ma
         ws.r[..cx.nodal_unknowns()].fill(0.0);
         solve_accelerations(cx, ws, state);
     }
+    cx.system.remember_joint_loads(state, 0.0);
     // Algorithmic accelerations equal those of equilibrium after a start or a jump.
     for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
         *acceleration = stack(&node.a, &node.alpha);

@@ -274,7 +274,7 @@ fn coupled(system: &System, nodes: usize, independent_nodes: &[Vec<usize>]) -> V
     (0..nodes).filter(|&n| independent_nodes[n] != [n]).for_each(|n| add(&[n]));
     // The multipliers of a joint stand for one more of its nodes.
     let joints = system.joints.iter().zip(nodes - system.joints.len()..);
-    joints.for_each(|(joint, own)| add(&[joint.nodes[0], joint.nodes[1], own]));
+    joints.for_each(|(joint, own)| add(&joint.matrix_nodes().chain([own]).collect::<Vec<_>>()));
     connectivity
 }
 
@@ -305,7 +305,7 @@ impl Assembly {
         let faces: Vec<Destination> = faces.map(|face| find.local(face.nodes(), 3)).collect();
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
         let joints: Vec<Destination> =
-            joints.map(|(joint, own)| find.local(&[joint.nodes[0], joint.nodes[1], own], 6)).collect();
+            joints.map(|(joint, own)| find.local(&joint.matrix_nodes().chain([own]).collect::<Vec<_>>(), 6)).collect();
         let diagonals = system
             .joints
             .iter()
@@ -373,7 +373,7 @@ impl Assembly {
             let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
             let values = solver.values();
             joints::stiffnesses(system, now.nodes, &forces.multipliers, |j, K| {
-                how.add((K, joints::WIDTH), &self.joints[j], projected, values);
+                how.add((K, joints::width(&system.joints[j])), &self.joints[j], projected, values);
             });
         }
     }
@@ -509,7 +509,7 @@ impl Assembly {
         let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         let destinations = &self.joints;
         let add = |j: usize, K: &mut [f64], values: &mut [f64]| {
-            how.add((K, joints::WIDTH), &destinations[j], projected, values);
+            how.add((K, joints::width(&system.joints[j])), &destinations[j], projected, values);
         };
         let multipliers = &mut forces.multipliers;
         joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights, values, add);

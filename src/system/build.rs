@@ -3,7 +3,7 @@
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::parts::{NodalMasses, Setting, assembled};
-use crate::constraints::joint::{ConstraintEquation, Drive, Joint};
+use crate::constraints::joint::{ConstraintEquation, Joint};
 use crate::math::Vec3;
 use crate::model::{self, Model};
 
@@ -39,12 +39,12 @@ pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
     let joint = |joint: &model::Joint| {
         let d = x[joint.ends[0]] - x[joint.ends[1]];
         let says = |row: &&ConstraintEquation| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
-        let drive = joint.coordinate.as_ref().and_then(|coordinate| coordinate.drive);
+        let drive = joint.coordinate.as_ref().and_then(|coordinate| coordinate.drive.as_ref());
         Joint {
             nodes: joint.ends,
             equations: joint.equations.iter().filter(says).copied().collect(),
             supports: joint.supports,
-            drive: drive.map(|node| Drive { node, start: x[node] }),
+            drive: drive.map(|drive| drive.at(x)),
         }
     };
     model.constraints.joints.iter().map(joint).collect()

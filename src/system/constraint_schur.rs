@@ -1,22 +1,19 @@
 //! Joints between nodes that are rigid bodies of their own (see [`Masses`]), by the Schur complement of the constraint
-//! equations: (G M⁻¹ Gᵀ) λ = c, a small dense system. It gives accelerations that the joints allow, and closes gaps by
+//! equations: (G M⁻¹ Gᵀ) λ = c. It gives accelerations that the joints allow, and closes gaps by
 //! the least change of positions in the norm of the masses.
 
 use super::equations::System;
 use super::masses::Masses;
-use super::multipliers::REGULARIZATION;
+use super::schur_factor::SchurFactor;
 use crate::elements::Force;
 use crate::math::{Vec6, angular, linear, stack};
 use crate::snapshot::keep;
 use crate::state::Node;
 
-/// The largest number of constraint equations; beyond it a sparse factorization is cheaper.
-const MOST: usize = 64;
-
 /// An entry counts as zero below this fraction of the largest in its equation.
 const NEGLIGIBLE: f64 = 1e-12;
 
-/// The dense system of the constraint equations. It is allocated once, before the first step.
+/// The system of the constraint equations. It is allocated once, before the first step.
 pub struct ConstraintSchur {
     /// For each constraint equation, the independent nodes that move the two ends of its joint; `None` where a node has
     /// no unknown.
@@ -29,22 +26,21 @@ pub struct ConstraintSchur {
     /// Equations that act on restrained degrees of freedom only, such as those out of the plane of a plane motion: no
     /// acceleration responds to them, and their multipliers stay zero.
     inert: Vec<bool>,
-    /// G M⁻¹ Gᵀ and its Cholesky factor, row-major.
-    S: Vec<f64>,
-    L: Vec<f64>,
+    /// G M⁻¹ Gᵀ and its factor.
+    factor: SchurFactor,
     /// Right-hand side on entry of [`ConstraintSchur::solve`], then the solution; `scratch` holds a copy.
     pub x: Vec<f64>,
     scratch: Vec<f64>,
 }
 
-keep!(ConstraintSchur { G, W, inert, S, L, x, scratch } without { rows, shares });
+keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares });
 
 impl ConstraintSchur {
-    /// Returns `None` where there are too many equations, or where an end depends on its master in some directions
-    /// only.
+    /// Returns `None` where there is no memory, where an end depends on its master in some directions only, or where gears
+    /// share an unknown that has no mass.
     pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<ConstraintSchur> {
         let count = system.multipliers();
-        if count > MOST {
+        if system.joints.iter().any(|joint| joint.shared().is_some()) {
             return None;
         }
         let master = |node: usize| {
@@ -67,20 +63,10 @@ impl ConstraintSchur {
             rows.extend(joint.equations.iter().map(|_| ends));
         }
         let zeros = vec![[Vec6::zeros(); 2]; count];
-        let square = vec![0.0; count * count];
+        let factor = SchurFactor::new(system, &rows)?;
         let x = vec![0.0; count];
         let inert = vec![false; count];
-        Some(ConstraintSchur {
-            rows,
-            shares,
-            G: zeros.clone(),
-            W: zeros,
-            inert,
-            S: square.clone(),
-            L: square,
-            scratch: x.clone(),
-            x,
-        })
+        Some(ConstraintSchur { rows, shares, G: zeros.clone(), W: zeros, inert, factor, scratch: x.clone(), x })
     }
 
     /// Forms and factorizes G M⁻¹ Gᵀ at the given configuration. Returns false where it is singular: the joints cannot
@@ -112,62 +98,37 @@ impl ConstraintSchur {
     }
 
     fn factor(&mut self) -> bool {
-        let n = self.rows.len();
-        for k in 0..n {
-            for l in 0..=k {
-                let mut sum = 0.0;
-                let inert = self.inert[k] || self.inert[l];
-                for (i, master) in self.rows[k].iter().enumerate().filter(|_| !inert) {
-                    for (j, other) in self.rows[l].iter().enumerate() {
-                        if master.is_some() && master == other {
-                            sum += self.G[k][i].dot(&self.W[l][j]);
-                        }
+        let ConstraintSchur { rows, G, W, inert, factor, shares, .. } = self;
+        factor.factor(inert, *shares, |k, l| {
+            let mut sum = 0.0;
+            for (i, master) in rows[k].iter().enumerate() {
+                for (j, other) in rows[l].iter().enumerate() {
+                    if master.is_some() && master == other {
+                        sum += G[k][i].dot(&W[l][j]);
                     }
                 }
-                self.S[k * n + l] = sum;
-                self.S[l * n + k] = sum;
             }
-        }
-        self.L.copy_from_slice(&self.S);
-        let L = &mut self.L;
-        for k in 0..n {
-            if self.shares {
-                L[k * n + k] *= 1.0 + REGULARIZATION;
-            }
-            for l in 0..k {
-                let sum: f64 = (0..l).map(|i| L[k * n + i] * L[l * n + i]).sum();
-                L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
-            }
-            if self.inert[k] {
-                L[k * n + k] = 1.0;
-                continue;
-            }
-            let sum: f64 = (0..k).map(|i| L[k * n + i] * L[k * n + i]).sum();
-            let pivot = L[k * n + k] - sum;
-            if pivot <= 0.0 || pivot.is_nan() {
-                return false;
-            }
-            L[k * n + k] = pivot.sqrt();
-        }
-        true
+            sum
+        })
+    }
+
+    /// True where the system is sparse.
+    pub fn is_sparse(&self) -> bool {
+        self.factor.is_sparse()
     }
 
     /// Solves x ← (G M⁻¹ Gᵀ)⁻¹ x. Redundant equations share the load by least norm.
     pub fn solve(&mut self) {
-        let n = self.rows.len();
         self.x.iter_mut().zip(&self.inert).filter(|(_, inert)| **inert).for_each(|(x, _)| *x = 0.0);
         if !self.shares {
-            return substitute(&self.L, &mut self.x);
+            return self.factor.substitute(&mut self.x);
         }
         // The regularization leaves the fraction ε of the right-hand side; one iterative refinement leaves ε².
         std::mem::swap(&mut self.scratch, &mut self.x);
         self.x.copy_from_slice(&self.scratch);
-        substitute(&self.L, &mut self.x);
-        for k in 0..n {
-            let done: f64 = self.S[k * n..(k + 1) * n].iter().zip(&self.x).map(|(s, x)| s * x).sum();
-            self.scratch[k] -= done;
-        }
-        substitute(&self.L, &mut self.scratch);
+        self.factor.substitute(&mut self.x);
+        self.factor.subtract_product(&self.x, &mut self.scratch);
+        self.factor.substitute(&mut self.scratch);
         self.x.iter_mut().zip(&self.scratch).for_each(|(x, more)| *x += more);
     }
 
@@ -198,18 +159,5 @@ impl ConstraintSchur {
                 }
             }
         }
-    }
-}
-
-/// Solves L Lᵀ x = b; `x` holds b on entry.
-fn substitute(L: &[f64], x: &mut [f64]) {
-    let n = x.len();
-    for k in 0..n {
-        let sum: f64 = (0..k).map(|i| L[k * n + i] * x[i]).sum();
-        x[k] = (x[k] - sum) / L[k * n + k];
-    }
-    for k in (0..n).rev() {
-        let sum: f64 = (k + 1..n).map(|i| L[i * n + k] * x[i]).sum();
-        x[k] = (x[k] - sum) / L[k * n + k];
     }
 }

@@ -2,6 +2,7 @@
 
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
+use super::joint_loads::{self, JointLoad};
 use super::loads::{Loading, load_on};
 use super::multipliers::{Multipliers, REGULARIZATION, REGULARIZATION_OF_TREES};
 use super::parts::beam_ends::BeamEnds;
@@ -17,7 +18,7 @@ use crate::materials::Dissipation;
 use crate::math::{Vec3, Vec6, angular, linear, rotation};
 use crate::model::{self, Model};
 use crate::snapshot::keep;
-use crate::state::{Configuration, Node};
+use crate::state::{Configuration, Node, State};
 use std::ops::Range;
 
 /// Everything that acts on the nodes: elements, masses, constraints, loads and damping. It is constant over a run.
@@ -46,6 +47,8 @@ pub struct System {
     pub(super) loads: Vec<model::Load>,
     /// The follower pressures on faces.
     pub(super) pressures: Vec<model::Pressure>,
+    /// The joints whose friction grows with their load.
+    joint_loads: Vec<JointLoad>,
     /// The ends of the elements of beams, where results are wanted there.
     beam_ends: Option<BeamEnds>,
     /// The dampers between nodes and the ground.
@@ -100,6 +103,11 @@ impl System {
         self.regularization
     }
 
+    /// Lets joints whose friction grows with their load remember that at the end of a step of length `dt`, which is zero at a start or a jump.
+    pub fn remember_joint_loads(&self, state: &mut State, dt: f64) {
+        self.joint_loads.iter().for_each(|load| load.remember(&self.joints, state, dt));
+    }
+
     /// The ends of the elements of beams, where results are wanted there.
     pub(super) fn beam_ends(&self) -> Option<&BeamEnds> {
         self.beam_ends.as_ref()
@@ -140,7 +148,7 @@ impl System {
         let joints = build::joints(model, &x, plane);
         let turning_bodies = TurningBody::of(model, (&mut inertias, &consistent), &rigid_links, plane);
         let contacts = groups.iter().position(|group| group.kind.is_unilateral());
-        Ok(System {
+        let mut system = System {
             history: groups.last().map_or(0, |group| group.history.end),
             contacts: contacts.unwrap_or(groups.len()),
             groups,
@@ -156,13 +164,16 @@ impl System {
             gyroscopic: model.solution.iteration.gyroscopic != model::Gyroscopic::Right,
             plane,
             links: links::elements(model, &x),
+            joint_loads: Vec::new(),
             beam_ends: BeamEnds::wanted(model).then(|| BeamEnds::new(model, &x)),
             loads: model.loading.nodal.clone(),
             pressures: model.loading.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: model.damping.mass_factor,
             dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,
-        })
+        };
+        system.joint_loads = joint_loads::find(model, &system.joints, (&system.links, &system.groups));
+        Ok(system)
     }
 
     /// The inertias, rigid links and joints without elements, loads and damping: with them joints are closed and
@@ -179,6 +190,7 @@ impl System {
             joints: self.joints.clone(),
             regularization: self.regularization,
             links: Vec::new(),
+            joint_loads: Vec::new(),
             beam_ends: None,
             loads: Vec::new(),
             pressures: Vec::new(),

@@ -29,7 +29,7 @@ impl Group {
     /// The part of element `e`. Springs share one group and bushings another, so a link is known by its ends.
     pub fn part_of<'m>(&self, e: usize, model: &'m Model) -> &'m Part {
         let parts = &model.parts[self.part..];
-        let own = |part: &&Part| part.kind() == self.kind && part.nodes(0) == self.block.nodes(e);
+        let own = |part: &&Part| part.kind() == self.kind && self.block.nodes(e).starts_with(part.nodes(0));
         let first = &parts[0];
         if self.kind.is_deformable() || self.kind.is_unilateral() {
             first

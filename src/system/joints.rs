@@ -17,8 +17,14 @@ use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
 
-/// Size of a joint's matrix: the degrees of freedom of its two nodes, then its multipliers as those of a third node.
-pub(super) const WIDTH: usize = 6 + 6 + MOST_EQUATIONS;
+/// Largest size of a joint's matrix: the degrees of freedom of its two nodes and of one that gears share, then its multipliers as those of
+/// one more node.
+const MOST_WIDTH: usize = 6 + 6 + 6 + MOST_EQUATIONS;
+
+/// Size of a joint's matrix.
+pub(super) fn width(joint: &Joint) -> usize {
+    6 * joint.matrix_nodes().count() + MOST_EQUATIONS
+}
 
 /// Force and moment that the constraint equations of a joint exert on its first node, global components.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,8 +72,12 @@ impl System {
                 }
             }
             if let Some(drive) = &joint.drive {
-                // The equation holds the coordinate less the displacement of the drive, which has the gradient −1.
-                F[drive.node][0] += multipliers.values[first + joint.equations.len() - 1];
+                // The equation holds the coordinate less the displacement of the drive times the ratio.
+                let push = drive.ratio * multipliers.values[first + joint.equations.len() - 1];
+                if drive.is_free {
+                    scale.include(&[[push, 0.0, 0.0, 0.0, 0.0, 0.0]]);
+                }
+                F[drive.node][0] += push;
             }
         }
     }
@@ -106,13 +116,8 @@ impl System {
     /// Writes the changes of the gaps for small motions (u, θ) of all nodes, dependent nodes included.
     pub fn gaps_of_motion(&self, nodes: &[Node], motions: &[Vec6], gaps: &mut [f64]) {
         for (joint, first) in self.numbered() {
-            let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            for (k, row) in joint.equations.iter().enumerate() {
-                let [Ga, Gb] = row.gradient(a, b);
-                gaps[first + k] = Ga.dot(&motions[joint.nodes[0]]) + Gb.dot(&motions[joint.nodes[1]]);
-            }
-            if let Some(drive) = &joint.drive {
-                gaps[first + joint.equations.len() - 1] -= motions[drive.node][0];
+            for k in 0..joint.equations.len() {
+                gaps[first + k] = joint.opening(k, nodes, motions);
             }
         }
     }
@@ -307,12 +312,12 @@ fn drive_penalty(s: f64, row: &ConstraintEquation, moment: f64) -> f64 {
     INDEFINITE * if row.is_rotational() { s.max(moment) } else { s }
 }
 
-/// Adds the derivative of the force of a constraint equation to the matrix of its joint.
-fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, K: &mut [f64]) {
+/// Adds the derivative of the force of a constraint equation to the matrix of its joint, which is that wide.
+fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, (K, width): (&mut [f64], usize)) {
     row.stiffness(a, b, lambda, |i, j, block| {
         for r in 0..3 {
             for c in 0..3 {
-                K[(3 * i + r) * WIDTH + 3 * j + c] += block[(r, c)];
+                K[(3 * i + r) * width + 3 * j + c] += block[(r, c)];
             }
         }
     });
@@ -325,13 +330,15 @@ pub(super) fn stiffnesses(
     multipliers: &Multipliers,
     mut add: impl FnMut(usize, &mut [f64]),
 ) {
-    let mut K = [0.0; WIDTH * WIDTH];
+    let mut K = [0.0; MOST_WIDTH * MOST_WIDTH];
     for (j, (joint, first)) in system.numbered().enumerate() {
+        let width = width(joint);
+        let K = &mut K[..width * width];
         K.fill(0.0);
         for (row, &lambda) in joint.equations.iter().zip(&multipliers.values[first..]) {
-            add_stiffness(row, joint.nodes.map(|n| &nodes[n]), lambda, &mut K);
+            add_stiffness(row, joint.nodes.map(|n| &nodes[n]), lambda, (K, width));
         }
-        add(j, &mut K);
+        add(j, K);
     }
 }
 
@@ -352,28 +359,35 @@ pub(super) fn tangents(
     if weights.acceleration < 0.0 {
         multipliers.penalties.iter_mut().for_each(|s| *s *= INDEFINITE);
     }
-    let mut K = [0.0; WIDTH * WIDTH];
+    let mut K = [0.0; MOST_WIDTH * MOST_WIDTH];
     let mut first = 0;
     for (j, joint) in system.joints.iter().enumerate() {
+        let width = width(joint);
+        let (K, own) = (&mut K[..width * width], width - MOST_EQUATIONS);
         K.fill(0.0);
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.equations.iter().enumerate() {
             let (s, lambda) = (multipliers.penalties[first + k], multipliers.values[first + k]);
             if weights.stiffness {
-                add_stiffness(row, [a, b], lambda, &mut K);
+                add_stiffness(row, [a, b], lambda, (K, width));
             }
             let [Ga, Gb] = row.gradient(a, b);
-            let G: [f64; 12] = std::array::from_fn(|i| if i < 6 { Ga[i] } else { Gb[i - 6] });
-            for i in 0..12 {
-                for j in 0..12 {
-                    K[i * WIDTH + j] += s * G[i] * G[j];
-                }
-                K[i * WIDTH + 12 + k] = s * G[i];
-                K[(12 + k) * WIDTH + i] = s * G[i];
+            let mut G = [0.0; 18];
+            G[..6].copy_from_slice(Ga.as_slice());
+            G[6..12].copy_from_slice(Gb.as_slice());
+            if let Some(drive) = joint.shared().filter(|_| joint.is_driven(k)) {
+                G[12] = -drive.ratio;
             }
-            K[(12 + k) * (WIDTH + 1)] = -system.regularization() * s;
+            for i in 0..own {
+                for j in 0..own {
+                    K[i * width + j] += s * G[i] * G[j];
+                }
+                K[i * width + own + k] = s * G[i];
+                K[(own + k) * width + i] = s * G[i];
+            }
+            K[(own + k) * (width + 1)] = -system.regularization() * s;
         }
-        add(j, &mut K, values);
+        add(j, K, values);
         first += joint.equations.len();
     }
 }

@@ -39,17 +39,16 @@ fn holds_loading(plane: &MotionPlane, loading: &Loading) -> bool {
 /// True where no prescribed motion and no joint leads out of the plane.
 fn holds_constraints(plane: &MotionPlane, model: &Model) -> bool {
     let in_plane = |dof: usize| if dof < 3 { dof != plane.normal } else { dof - 3 == plane.normal };
-    let drive = |joint: &Joint| joint.coordinate.as_ref().and_then(|coordinate| coordinate.drive);
+    let is_led = |joint: &Joint| joint.coordinate.as_ref().is_some_and(|coordinate| coordinate.drive.is_some());
     let joint_holds = |joint: &Joint| {
         let d = model.nodes[joint.ends[0]].x - model.nodes[joint.ends[1]].x;
         joint.equations.iter().all(|row| row.in_plane(plane.normal, &d).is_some())
-            && (drive(joint).is_none()
+            && (!is_led(joint)
                 || joint.equations.last().is_some_and(|row| row.in_plane(plane.normal, &d) == Some(true)))
     };
     let constraints = &model.constraints;
-    // The displacement of a drive is a number rather than a way in space.
-    let drives: Vec<usize> = constraints.drives().collect();
-    let moves = |restraint: &Restraint| restraint.motion.is_some() && !drives.contains(&restraint.node);
+    let is_place = |node: usize| !model.nodes[node].is_number;
+    let moves = |restraint: &Restraint| restraint.motion.is_some() && is_place(restraint.node);
     constraints.restraints.iter().all(|restraint| !moves(restraint) || in_plane(restraint.dof))
         && constraints.joints.iter().all(joint_holds)
 }

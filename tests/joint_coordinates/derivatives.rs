@@ -4,7 +4,7 @@ use crate::support::blocks::{forces, nudge};
 use rdsolve::constraints::angle::Angle;
 use rdsolve::constraints::joint::ConstraintEquation;
 use rdsolve::elements::contact::restitution::{Loss, number};
-use rdsolve::elements::coordinate_law::{CoordinateLaw, DryFriction, MEMORY, Stops};
+use rdsolve::elements::coordinate_law::{CoordinateLaw, JointFriction, MEMORY, Stops};
 use rdsolve::elements::hysteresis::Hysteresis;
 use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
@@ -129,7 +129,10 @@ fn laws() -> Vec<CoordinateLaw> {
     vec![
         spring,
         CoordinateLaw { stops: Some(Stops { limits: [-0.2, 0.3], stiffness: 2.0, loss }), ..spring },
-        CoordinateLaw { friction: Some(DryFriction { limit: 0.8, stiffness: 1.1 }), ..CoordinateLaw::FREE },
+        CoordinateLaw {
+            friction: Some(JointFriction { limit: 0.8, per_load: 0.0, stick: 0.8 / 1.1 }),
+            ..CoordinateLaw::FREE
+        },
         CoordinateLaw {
             hysteresis: Some(Hysteresis::new(&[[0.1, 0.2], [0.4, 0.3]], 0.1).expect("a backbone")),
             ..spring

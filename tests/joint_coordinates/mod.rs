@@ -3,8 +3,10 @@
 
 mod derivatives;
 mod drives;
+mod gears;
 mod motors;
 mod robot_arm;
+mod rubbing;
 mod springs;
 mod stages;
 mod turns;

@@ -79,7 +79,7 @@ fn the_turns_of_a_drive_are_those_that_it_says() {
     let sense = lock.gap(&turned(0.0), &turned(0.1))[0].signum();
     for turn in [7.0, -20.0, 2.0, 40.0] {
         let nodes = [turned(0.0), turned(sense * turn), Node::at_rest(x * (1.0 + turn))];
-        let drive = Some(Drive { node: 2, start: x });
+        let drive = Some(Drive { node: 2, start: x, ratio: 1.0, is_free: false });
         let spring = CoordinateSpring { nodes: [0, 1], lock, law: CoordinateLaw::FREE, drive };
         let at = spring.state(&nodes, &[0.0; MEMORY], 0.1);
         assert!((at.q - turn).abs() < 1e-12, "{turn}: {at:?}");

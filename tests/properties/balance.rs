@@ -163,7 +163,7 @@ fn bushings_tell_the_moment_at_their_first_end() {
     fix(&mut m, ground, 0..6);
     let stiffness = [1e3, 2e3, 3e3, 100.0, 200.0, 300.0];
     let kind = LinkKind::Bushing { stiffness, damping: [0.0; 6], axes: Mat3::identity() };
-    m.add(Link { name: "mount".into(), ends: [ground, block], kind, failure: None });
+    m.add(Link { name: "mount".into(), ends: [ground, block], kind, failure: None, take_up: None });
     push(&mut m, block, Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.1, 0.2, 0.3), false, None);
     let state = run(&m).last().clone();
     let mut links = Vec::new();

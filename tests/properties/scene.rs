@@ -100,6 +100,7 @@ pub fn node(m: &mut Model, x: Vec3) -> usize {
         x,
         v: Vec3::zeros(),
         omega: Vec3::zeros(),
+        is_number: false,
         given: [None, None],
         place: None,
     });
@@ -159,7 +160,7 @@ pub fn line(m: &mut Model, ends: [usize; 2], law: LinkLaw, damping: f64, directi
     let free_length = direction.map_or(arm.norm(), |d| d.dot(&arm));
     let kind = LinkKind::Line { law, damping, direction, free_length };
     let name = format!("link{}", m.count(PartKind::Link));
-    m.add(Link { name, ends, kind, failure: None });
+    m.add(Link { name, ends, kind, failure: None, take_up: None });
 }
 
 pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
@@ -290,6 +291,7 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
             axes: rotation::matrix(&turn(rng)),
         },
         failure: None,
+        take_up: None,
     });
     for (at, follower) in [(p[1], true), (p[3], false), (farther, true), (hub, true), (offset, true), (p[5], true)] {
         push(&mut m, at, vector(rng, 8.0), vector(rng, 3.0), follower, None);

@@ -25,6 +25,7 @@ pub fn model() -> Model {
             x: Vec3::new(f64::from(i), 0.1 * f64::from(i * i), 0.0),
             v: Vec3::zeros(),
             omega: Vec3::zeros(),
+            is_number: false,
             given: [None, None],
             place: None,
         })
@@ -95,6 +96,7 @@ pub fn model() -> Model {
                 ends: [2, 5],
                 kind: LinkKind::Line { law, damping: 0.0, direction: None, free_length: 1.0 },
                 failure: None,
+                take_up: None,
             }),
             Part::Contact(Contact {
                 name: "seat".into(),

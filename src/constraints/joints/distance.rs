@@ -15,5 +15,6 @@ pub static KIND: JointKind = JointKind {
         ends_meet: false,
         equations: |_, d, _| vec![ConstraintEquation::Distance { length: d.norm() }],
         coordinates: &[],
+        carries_across: false,
     },
 };

@@ -15,5 +15,6 @@ pub static KIND: JointKind = JointKind {
         ends_meet: true,
         equations: |axes, d, _| meeting(d, rotations([true; 3], axes)),
         coordinates: &[],
+        carries_across: false,
     },
 };

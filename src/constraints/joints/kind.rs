@@ -22,6 +22,8 @@ pub struct MakeJoint {
     /// The coordinates that the joint may have; the first is its own unless the deck says otherwise. None where it leaves free
     /// what is no motion about or along its axis.
     pub coordinates: &'static [Coordinate],
+    /// True where it carries a force across its axis, as a pin or a rail does, by which friction may be known.
+    pub carries_across: bool,
 }
 
 /// The coordinate of a joint: by how much its second end has moved from its first since t = 0.
@@ -83,4 +85,10 @@ pub fn meeting(d: &Vec3, others: Vec<ConstraintEquation>) -> Vec<ConstraintEquat
 pub fn sliding(axes: &Mat3, d: &Vec3, others: Vec<ConstraintEquation>) -> Vec<ConstraintEquation> {
     let across = (1..3).map(|i| axes.column(i).into_owned()).map(|e| ConstraintEquation::BodyAxis { e, at: d.dot(&e) });
     across.chain(others).collect()
+}
+
+/// The equation that keeps the first end in the plane across the first axis through the second.
+pub fn in_plane(axes: &Mat3, d: &Vec3) -> impl Iterator<Item = ConstraintEquation> {
+    let e = axes.column(0).into_owned();
+    std::iter::once(ConstraintEquation::BodyAxis { e, at: d.dot(&e) })
 }

@@ -4,7 +4,10 @@
 pub mod cylindrical;
 pub mod distance;
 pub mod fixed;
+pub mod in_line;
+pub mod in_plane;
 pub mod kind;
+pub mod planar;
 pub mod prismatic;
 pub mod revolute;
 pub mod screw;
@@ -20,6 +23,9 @@ pub static JOINTS: &[&JointKind] = &[
     &prismatic::KIND,
     &cylindrical::KIND,
     &screw::KIND,
+    &planar::KIND,
+    &in_line::KIND,
+    &in_plane::KIND,
     &universal::KIND,
     &fixed::KIND,
     &distance::KIND,

@@ -15,5 +15,6 @@ pub static KIND: JointKind = JointKind {
         ends_meet: true,
         equations: |axes, d, _| sliding(axes, d, rotations([true; 3], axes)),
         coordinates: &[Coordinate::Distance],
+        carries_across: true,
     },
 };

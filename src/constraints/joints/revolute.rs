@@ -15,5 +15,6 @@ pub static KIND: JointKind = JointKind {
         ends_meet: true,
         equations: |axes, d, _| meeting(d, rotations([false, true, true], axes)),
         coordinates: &[Coordinate::Angle],
+        carries_across: true,
     },
 };

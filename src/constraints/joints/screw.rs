@@ -25,6 +25,7 @@ pub static KIND: JointKind = JointKind {
         ends_meet: true,
         equations: threaded,
         coordinates: &[Coordinate::Angle, Coordinate::Distance],
+        carries_across: false,
     },
 };
 

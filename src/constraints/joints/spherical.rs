@@ -9,5 +9,11 @@ pub static KIND: JointKind = JointKind {
     guesses: &["ball-and-socket"],
     about: "Three rotations are free: a ball-and-socket joint. 3 constraint equations.",
     keys: &[],
-    make: MakeJoint { axes: no_axis, ends_meet: true, equations: |_, d, _| meeting(d, Vec::new()), coordinates: &[] },
+    make: MakeJoint {
+        axes: no_axis,
+        ends_meet: true,
+        equations: |_, d, _| meeting(d, Vec::new()),
+        coordinates: &[],
+        carries_across: false,
+    },
 };

@@ -28,6 +28,7 @@ pub static KIND: JointKind = JointKind {
         ends_meet: true,
         equations: |axes, d, _| meeting(d, rotations([false, false, true], axes)),
         coordinates: &[],
+        carries_across: false,
     },
 };
 

@@ -1,6 +1,6 @@
 //! Rigid links, joints and restraints.
 
-use crate::constraints::joint::ConstraintEquation;
+use crate::constraints::joint::{ConstraintEquation, Drive};
 use crate::deck::supports::History;
 use crate::math::Vec3;
 
@@ -13,13 +13,6 @@ pub struct Constraints {
     pub joints: Vec<Joint>,
     /// The restraints, at most one for each degree of freedom, sorted by node and degree of freedom.
     pub restraints: Vec<Restraint>,
-}
-
-impl Constraints {
-    /// The nodes whose displacement is the prescribed coordinate of a joint.
-    pub fn drives(&self) -> impl Iterator<Item = usize> {
-        self.joints.iter().filter_map(|joint| joint.coordinate.as_ref()?.drive)
-    }
 }
 
 /// A node rigidly attached to another in some of its degrees of freedom (45)-(48).
@@ -59,13 +52,30 @@ pub struct JointCoordinate {
     pub lock: ConstraintEquation,
     /// The axis, a unit vector, global at t = 0.
     pub axis: Vec3,
-    /// The node whose displacement along x is the coordinate that is prescribed; the last equation of the joint is then
-    /// [`JointCoordinate::lock`].
-    pub drive: Option<usize>,
+    /// What leads it; the last equation of the joint is then [`JointCoordinate::lock`].
+    pub drive: Option<JointDrive>,
     /// The force or moment between the ends.
     pub effort: Option<JointEffort>,
     /// Index, among all links, of the one that acts along the coordinate and counts its turns.
     pub spring: Option<usize>,
+}
+
+/// What leads the coordinate of a joint: a prescribed motion, or the gears that it belongs to.
+#[derive(Debug, Clone, Copy)]
+pub struct JointDrive {
+    /// The node whose displacement along x, times the ratio, is the coordinate.
+    pub node: usize,
+    /// Coordinate per displacement of the node.
+    pub ratio: f64,
+    /// True where no motion is prescribed, so that the node is an unknown.
+    pub is_free: bool,
+}
+
+impl JointDrive {
+    /// The same with the node's place, from those of all nodes at t = 0.
+    pub fn at(&self, x: &[Vec3]) -> Drive {
+        Drive { node: self.node, start: x[self.node], ratio: self.ratio, is_free: self.is_free }
+    }
 }
 
 /// A force or moment between the ends of a joint; it acts as two loads.
@@ -81,6 +91,15 @@ impl Joint {
     /// A joint as the deck has it.
     pub fn new(name: String, ends: [usize; 2], equations: Vec<ConstraintEquation>, supports: bool) -> Joint {
         Joint { name, ends, of_deck: equations.clone(), equations, supports, coordinate: None }
+    }
+
+    /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate stays as it is.
+    pub fn lead(&mut self, drive: JointDrive) {
+        if let Some(coordinate) = &mut self.coordinate {
+            coordinate.drive = Some(drive);
+            self.equations.push(coordinate.lock);
+            self.of_deck.push(coordinate.lock);
+        }
     }
 }
 

@@ -19,6 +19,9 @@ pub struct Link {
     pub kind: LinkKind,
     /// The forces at which it fails; none for one that does not.
     pub failure: Option<LinkFailure>,
+    /// Where it is pretensioned, the node whose displacement along x is the length that has been taken up. A load pulls at it in the stage
+    /// that pretensions, after which it is held.
+    pub take_up: Option<usize>,
 }
 
 /// The law of a link.
@@ -81,7 +84,7 @@ impl PartAnswers for Link {
     }
 
     fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
-        self.ends.iter_mut().for_each(visit);
+        self.ends.iter_mut().chain(&mut self.take_up).for_each(visit);
     }
 
     fn may_stiffen(&self) -> bool {

@@ -31,7 +31,9 @@ pub use crate::deck::supports::History;
 pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
-pub use constraints::{Constraints, DependentNode, Joint, JointCoordinate, JointEffort, PrescribedMotion, Restraint};
+pub use constraints::{
+    Constraints, DependentNode, Joint, JointCoordinate, JointDrive, JointEffort, PrescribedMotion, Restraint,
+};
 pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};

@@ -56,6 +56,11 @@ impl Model {
         place
     }
 
+    /// The nodes whose displacement along x is a number rather than a way in space.
+    pub fn number_nodes(&self) -> impl Iterator<Item = usize> {
+        (0..self.nodes.len()).filter(|&node| self.nodes[node].is_number)
+    }
+
     /// The parts of one type, in deck order: `model.each::<Shell>()`.
     pub fn each<T: PartType + 'static>(&self) -> impl Iterator<Item = &T> {
         self.parts.iter().filter_map(T::of)

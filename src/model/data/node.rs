@@ -16,6 +16,8 @@ pub struct Node {
     pub label: String,
     /// True for points named in the deck and for bodies.
     pub named: bool,
+    /// True where it is no place: its displacement along x is a number, such as the coordinate of a joint that is driven.
+    pub is_number: bool,
     /// Initial position, global components.
     pub x: Vec3,
     /// Initial velocity, global components.

@@ -5,7 +5,6 @@ use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{Axes, Column, JOINT, Unit, names};
 use crate::solve::{Frame, JointState, Wanted};
-use std::collections::HashSet;
 use std::io;
 
 pub static TABLE: TableKind = TableKind {
@@ -32,20 +31,16 @@ pub static TABLE: TableKind = TableKind {
         let model = extent.model;
         let restraints = &model.constraints.restraints;
         let joints = model.constraints.joints.iter().filter(|joint| !joint.supports);
-        let drives: HashSet<usize> = model.constraints.drives().collect();
         let supports = restraints
             .iter()
-            .filter(|held| !drives.contains(&held.node))
+            .filter(|held| !model.nodes[held.node].is_number)
             .map(|restraint| model.nodes[restraint.node].label.as_str());
         let of_joints = joints.flat_map(|joint| [joint.name.as_str(); DIRECTIONS.len()]);
         let all = Rows::named(supports.chain(of_joints), 0);
         let idle = restraints.iter().filter(|restraint| !extent.in_plane(restraint.dof)).count();
         Rows { letters: all.letters + 2 * all.rows, numbers: all.rows - idle, ..all }
     },
-    rows: |model| {
-        let drives = model.constraints.drives().collect();
-        Box::new(move |table, frame| write(table, frame, &drives))
-    },
+    rows: |_| Box::new(write),
     answers: Some(Answers { quantities, needs: Wanted::REACTIONS, value }),
 };
 
@@ -69,10 +64,10 @@ fn of_joint(joint: &JointState) -> [f64; 6] {
 }
 
 /// The effort of drives stands with their joints.
-fn write(table: &mut dyn WriteRow, frame: &Frame, drives: &HashSet<usize>) -> io::Result<()> {
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let Frame { model, step, state, derived, .. } = *frame;
     let held = model.constraints.restraints.iter().zip(frame.reactions);
-    held.filter(|(restraint, _)| !drives.contains(&restraint.node)).try_for_each(|(restraint, value)| {
+    held.filter(|(restraint, _)| !model.nodes[restraint.node].is_number).try_for_each(|(restraint, value)| {
         let node = &model.nodes[restraint.node];
         table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value).end()
     })?;

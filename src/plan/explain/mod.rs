@@ -5,6 +5,7 @@ mod bars;
 mod beams;
 mod contacts;
 mod explanation;
+mod links;
 mod omitted;
 mod redundant;
 mod response;

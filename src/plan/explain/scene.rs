@@ -1,15 +1,15 @@
 //! The scene in words, and its unknowns.
 
 use super::explanation::Explanation;
-use super::{bars, beams, contacts, shells};
+use super::{bars, beams, contacts, links, shells};
 use crate::model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind};
 use crate::names::{joined, short};
 use crate::plan::Plan;
 use crate::system::System;
 
 /// The lines about the parts of each kind.
-const PARTS: [fn(&mut Explanation, &Model, &System); 4] =
-    [beams::explain, bars::explain, shells::explain, contacts::explain];
+const PARTS: [fn(&mut Explanation, &Model, &System); 5] =
+    [beams::explain, bars::explain, shells::explain, links::explain, contacts::explain];
 
 /// Adds lines about the scene.
 pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &System) {
@@ -37,7 +37,12 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
 fn explain_coordinates(text: &mut Explanation, model: &Model) {
     let along = |joint: &Joint| {
         let JointCoordinate { drive, effort, spring, .. } = joint.coordinate.as_ref()?;
-        let acts = [(drive.is_some(), "driven"), (effort.is_some(), "motor"), (spring.is_some(), "coordinate counted")];
+        let acts = [
+            (drive.is_some_and(|drive| !drive.is_free), "driven"),
+            (drive.is_some_and(|drive| drive.is_free), "geared"),
+            (effort.is_some(), "motor"),
+            (spring.is_some(), "coordinate counted"),
+        ];
         let words: Vec<&str> = acts.iter().filter(|(acts, _)| *acts).map(|(_, word)| *word).collect();
         (!words.is_empty()).then(|| format!("`{}` ({})", joint.name, words.join(", ")))
     };

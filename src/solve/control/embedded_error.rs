@@ -61,7 +61,7 @@ impl EmbeddedErrorController {
         let end_time = cx.model.analysis.duration();
         let mut motion = self.motion;
         let (mut speed, mut spin) = (0.0f64, 0.0f64);
-        for &node in cx.independent_nodes.iter().filter(|node| !cx.drives.contains(node)) {
+        for &node in cx.independent_nodes.iter().filter(|node| !cx.numbers.contains(node)) {
             let (now, first) = (&ws.trial[node], &cx.model.nodes[node]);
             motion.translation = motion.translation.max((now.x - first.x).norm());
             motion.rotation = motion.rotation.max(2.0 * now.rotation.imag().norm());

@@ -21,11 +21,11 @@ pub struct ErrorMeasure {
     end_time: f64,
     /// The nodes of bodies: errors of their rotations count.
     bodies: Vec<usize>,
-    /// The nodes of drives of joints, whose displacements may be angles.
-    drives: Vec<usize>,
+    /// The nodes whose displacements are numbers, such as angles.
+    numbers: Vec<usize>,
 }
 
-keep!(ErrorMeasure { ahead, begun } without { extent, end_time, bodies, drives });
+keep!(ErrorMeasure { ahead, begun } without { extent, end_time, bodies, numbers });
 
 impl ErrorMeasure {
     /// A measure for this model; `extent` is its length.
@@ -36,7 +36,7 @@ impl ErrorMeasure {
             extent,
             end_time: model.analysis.duration(),
             bodies: model.bodies.iter().map(|body| body.node).collect(),
-            drives: model.constraints.drives().collect(),
+            numbers: model.number_nodes().collect(),
         }
     }
 
@@ -58,7 +58,7 @@ impl ErrorMeasure {
     /// The largest displacements and rotations so far, including those of a state.
     pub fn with(&self, largest: Size, model: &Model, state: &State) -> Size {
         let nodes = state.nodes.iter().zip(&model.nodes).enumerate();
-        let nodes = nodes.filter(|(node, _)| self.drives.is_empty() || !self.drives.contains(node));
+        let nodes = nodes.filter(|(node, _)| self.numbers.is_empty() || !self.numbers.contains(node));
         let moved = nodes.map(|(_, (node, spec))| node.moved(&spec.x).norm());
         let turned = self.bodies.iter().map(|&body| 2.0 * state.nodes[body].rotation.imag().norm());
         Size {

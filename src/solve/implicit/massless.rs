@@ -107,7 +107,7 @@ fn light_dofs(cx: &Context) -> Vec<[bool; 6]> {
         }
     }
     // Joints hold nodes by multipliers, and what acts on a node acts on its master through an arm.
-    let joined = cx.system.joints.iter().flat_map(|joint| joint.nodes);
+    let joined = cx.system.joints.iter().flat_map(|joint| joint.matrix_nodes());
     let leading = cx.system.rigid_links.iter().map(|dependent| dependent.master);
     joined.chain(leading).for_each(|node| light[node] = [false; 6]);
     light

@@ -42,9 +42,8 @@ fn opens_joints(system: &System, now: &Configuration, motions: &[Vec6], length: 
     let size = |motion: &Vec6| linear(motion).amax().max(length * angular(motion).amax());
     system.joints.iter().any(|joint| {
         let [a, b] = joint.nodes;
-        joint.equations.iter().any(|equation| {
-            let [Ga, Gb] = equation.gradient(&now.nodes[a], &now.nodes[b]);
-            let gap = Ga.dot(&motions[a]) + Gb.dot(&motions[b]);
+        joint.equations.iter().enumerate().any(|(k, equation)| {
+            let gap = joint.opening(k, now.nodes, motions);
             let lever = if equation.is_rotational() { length } else { 1.0 };
             gap.abs() * lever > MOVING * size(&motions[a]).max(size(&motions[b])).max(MOVING)
         })

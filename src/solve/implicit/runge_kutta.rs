@@ -58,7 +58,7 @@ impl StageStepper {
             ends: [vec![[Vec6::zeros(); 3]; moving], vec![[Vec6::zeros(); 3]; moving]],
             powers: [Power::default(); 2],
             work: WorkQuadrature::default(),
-            driven: cx.drives.is_empty()
+            driven: cx.numbers.is_empty()
                 && cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
         }
     }
@@ -143,7 +143,7 @@ impl StageStepper {
         }
         if cx.wants_energy {
             excite(cx, ws, state.time, to, 1.0);
-            self.powers[0] = Power::at_start(cx, ws, state, cx.drives.is_empty());
+            self.powers[0] = Power::at_start(cx, ws, state, cx.numbers.is_empty());
         }
     }
 

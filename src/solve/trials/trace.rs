@@ -117,9 +117,9 @@ impl Kept {
             return;
         }
         // What drives joints has displacements that may be angles, and no error.
-        let drives: Vec<usize> = model.constraints.drives().collect();
+        let numbers: Vec<usize> = model.number_nodes().collect();
         let compared = state.nodes.iter().zip(&model.nodes).enumerate().step_by(stride);
-        let compared = compared.filter(|(node, _)| !drives.contains(node));
+        let compared = compared.filter(|(node, _)| !numbers.contains(node));
         self.displacements.extend(compared.map(|(_, (node, start))| node.moved(&start.x)));
         let bodies = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.rotations.extend(bodies().map(|node| node.rotation));

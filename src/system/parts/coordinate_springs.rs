@@ -36,12 +36,12 @@ impl CoordinateSpring {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let [q, rate, _] = self.lock.gap(a, b);
         let expected = match &self.drive {
-            Some(drive) => nodes[drive.node].moved(&drive.start).x,
+            Some(drive) => drive.coordinate(nodes),
             None => memory[0] + 0.5 * dt * (memory[RATE] + rate),
         };
         let off = q - expected;
         // Nothing is lost where there are no turns to count.
-        self.law.at(q + (self.lock.nearest(off) - off), rate, memory)
+        self.law.at(q + (self.lock.nearest(off) - off), rate, memory, dt)
     }
 
     fn gradient(&self, nodes: &[Node]) -> [Vec6; 2] {
@@ -107,11 +107,16 @@ impl ElementBlock for CoordinateSprings {
             new[IMPACT_POWER] = toward(old[IMPACT_POWER], at.impact_power);
             new[ANCHOR] = old[ANCHOR] + part * at.slip;
             lost.impact += 0.5 * part * now.dt * (old[IMPACT_POWER] + new[IMPACT_POWER]);
-            if let Some(friction) = &spring.law.friction {
-                lost.friction += part * friction.limit * at.slip.abs();
+            if let (Some(before), Some(friction)) =
+                (spring.law.friction_after(0.0, old), spring.law.friction_after(now.dt, old))
+            {
+                lost.friction += part * 0.5 * (before.limit + friction.limit) * at.slip.abs();
+                // What sticks grows soft or stiff with the load, and is stretched all the same.
+                let stretch = friction.stretch(old[0], old[ANCHOR]).0;
+                lost.friction += 0.5 * part * (before.stiffness - friction.stiffness) * stretch * stretch;
             }
+            new[MEMORY..].copy_from_slice(&old[MEMORY..]);
             if let Some(hysteresis) = &spring.law.hysteresis {
-                new[MEMORY..].copy_from_slice(&old[MEMORY..]);
                 lost.plastic += hysteresis.follow(at.q, part, &mut new[MEMORY..]);
             }
         }

@@ -2,7 +2,6 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting};
 use super::coordinate_springs::{CoordinateSpring, CoordinateSprings};
-use crate::constraints::joint::Drive;
 use crate::elements::bushing::{Bushing, Bushings};
 use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::{self, Links};
@@ -48,9 +47,10 @@ impl Assembled for Link {
         if !setting.model.each::<Link>().next().is_some_and(|first| std::ptr::eq(first, self)) {
             return Vec::new();
         }
-        let (mut lines, mut bushings, mut joints) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut lines, mut taken_up, mut bushings, mut joints) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for element in elements(setting.model, setting.x) {
             match element {
+                LinkElement::Line(line) if line.is_taken_up() => taken_up.push(line),
                 LinkElement::Line(line) => lines.push(line),
                 LinkElement::Bushing(bushing) => bushings.push(bushing),
                 LinkElement::Joint(spring) => joints.push(spring),
@@ -59,6 +59,7 @@ impl Assembled for Link {
         // Links of joints come after those of the deck, and so does their history.
         vec![
             (Box::new(Links::new(lines)), 0),
+            (Box::new(Links::new(taken_up)), 0),
             (Box::new(Bushings::new(bushings)), 0),
             (Box::new(CoordinateSprings::new(joints)), 0),
         ]
@@ -82,14 +83,14 @@ impl Assembled for Link {
 pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
     let drive = |spring: usize| {
         let coordinates = model.constraints.joints.iter().filter_map(|joint| joint.coordinate.as_ref());
-        let node = coordinates.filter(|coordinate| coordinate.spring == Some(spring)).find_map(|of| of.drive)?;
-        Some(Drive { node, start: x[node] })
+        let drive = coordinates.filter(|coordinate| coordinate.spring == Some(spring)).find_map(|of| of.drive)?;
+        Some(drive.at(x))
     };
     let element = |(index, part): (usize, &Link)| match &part.kind {
         LinkKind::Line { law, damping, direction, free_length } => {
             let start = part.ends.map(|node| x[node]);
             let line = link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start);
-            LinkElement::Line(line.failing(part.failure))
+            LinkElement::Line(line.failing(part.failure).taken_up(part.take_up))
         }
         LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
             nodes: part.ends,
@@ -167,19 +168,20 @@ impl LinkElement {
     /// The place of its block among those of links.
     fn kind(&self) -> usize {
         match self {
-            LinkElement::Line(_) => 0,
-            LinkElement::Bushing(_) => 1,
-            LinkElement::Joint(_) => 2,
+            LinkElement::Line(line) => usize::from(line.is_taken_up()),
+            LinkElement::Bushing(_) => 2,
+            LinkElement::Joint(_) => 3,
         }
     }
 }
 
-/// The next history variables of each kind of link, among those of all links: lines come first, then bushings, then joints.
-struct Slots([usize; 3]);
+/// The next history variables of each kind of link, among those of all links: lines come first, those that are
+/// pretensioned after the others, then bushings, then joints.
+struct Slots([usize; 4]);
 
 impl Slots {
     fn before_kinds(links: &[LinkElement]) -> Slots {
-        let mut slots = [0; 3];
+        let mut slots = [0; 4];
         for link in links {
             slots[link.kind() + 1..].iter_mut().for_each(|slot| *slot += link.memory());
         }
@@ -193,6 +195,15 @@ impl Slots {
         *next += link.memory();
         first..*next
     }
+}
+
+/// The places of the history variables of a link among those of all groups.
+pub fn history_of(links: &[LinkElement], groups: &[Group], link: usize) -> std::ops::Range<usize> {
+    let first = groups.iter().find(|group| is_shared(group)).map_or(0, |group| group.history.start);
+    let mut next = Slots::before_kinds(links);
+    let mut found = 0..0;
+    links[..=link].iter().for_each(|link| found = next.of(link));
+    first + found.start..first + found.end
 }
 
 /// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
