@@ -44,6 +44,8 @@ pub trait ElementBlock: Send + Sync {
     fn history(&self) -> usize {
         0
     }
+    /// Prepares for schemes that ask for forces alone, over and over, at the expense of memory. Forces stay the same to the last bit.
+    fn pack(&mut self) {}
     /// Subtracts the internal forces of all elements from `F`, which is indexed by node.
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
@@ -57,6 +59,12 @@ pub trait ElementBlock: Send + Sync {
     /// [`ElementBlock::history`], and returns the work that material points dissipate or store inelastically on that way.
     fn update_history(&self, _now: &Configuration, _part: f64, _new: &mut [f64]) -> Dissipation {
         Dissipation::default()
+    }
+    /// Subtracts the internal forces from `F` as [`ElementBlock::subtract_forces`] does and writes the history variables in `now` into `new`
+    /// as [`ElementBlock::update_history`] does: the same numbers, with the material computed once.
+    fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
+        self.subtract_forces(now, F);
+        self.update_history(now, 1.0, new)
     }
     /// Elastic energy stored.
     fn energy(&self, now: &Configuration) -> f64;

@@ -7,6 +7,7 @@ use super::dissipation::Dissipation;
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
 use super::return_mapping::{ReturnPoint, Trial, Yielding};
+use super::side_by_side::PlainPlasticity;
 use super::stress_state::StressState;
 
 /// An elastic-plastic or elastic-viscoplastic material.
@@ -218,6 +219,17 @@ impl MaterialLaw {
         let kept = if self.is_kinematic() { 0.5 * (0..N).map(|i| new[N + 1 + i] * new[i]).sum::<f64>() } else { 0.0 };
         spent.stored -= kept;
         spent.eroded += kept + self.stored::<N, S>(strain, new);
+    }
+
+    /// The law for eight points at once; `None` where it has more than linear isotropic hardening.
+    pub fn plain<const N: usize, S: StressState<N>>(&self, _: S) -> Option<PlainPlasticity<N>> {
+        let Hardening::Linear { yield_stress, modulus } = self.yielding.hardening else { return None };
+        if self.can_fail() || self.is_kinematic() || self.yielding.viscosity.is_some() {
+            return None;
+        }
+        let moduli = S::moduli(&self.elastic);
+        let c = [S::P[0] * moduli[0], 3.0 * self.elastic.G];
+        Some(PlainPlasticity { moduli, c, initial: yield_stress, modulus })
     }
 
     /// Accumulated plastic strain ε̄ᵖ.

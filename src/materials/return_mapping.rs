@@ -134,10 +134,10 @@ impl Yielding {
 }
 
 /// Residual of the yield condition that ends the iteration, relative to the stress; rounding leaves some 1e-15.
-const TOLERANCE: f64 = 1e-14;
+pub(super) const TOLERANCE: f64 = 1e-14;
 
 /// Residual that rounding of the unknown may leave instead, where the stress follows it steeply.
-const STEEP: f64 = 1e-6;
+pub(super) const STEEP: f64 = 1e-6;
 
 /// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection takes over
 /// where a step leaves the bracket or has not halved the misfit.

@@ -5,6 +5,7 @@
 //! cᵢ = eᵢ pᵢ off the equivalent stress per multiplier: 3G in every mode but the first.
 
 use super::constants::ElasticConstants;
+use crate::math::lanes::Lanes;
 
 /// N components of stress, and strains work-conjugate to them (shear strains are engineering strains).
 pub trait StressState<const N: usize>: Copy + Send + Sync {
@@ -17,6 +18,12 @@ pub trait StressState<const N: usize>: Copy + Send + Sync {
     /// Components to modes and modes to components, of stress or strain: orthogonal and its own inverse.
     #[inline(always)]
     fn modes(v: [f64; N]) -> [f64; N] {
+        v
+    }
+
+    /// The same of eight points.
+    #[inline(always)]
+    fn modes_side_by_side(v: [Lanes; N]) -> [Lanes; N] {
         v
     }
 }
@@ -62,6 +69,12 @@ impl StressState<3> for PlaneStress {
     #[inline(always)]
     fn modes([x, y, xy]: [f64; 3]) -> [f64; 3] {
         const R: f64 = std::f64::consts::FRAC_1_SQRT_2;
+        [R * (x + y), R * (x - y), xy]
+    }
+
+    #[inline(always)]
+    fn modes_side_by_side([x, y, xy]: [Lanes; 3]) -> [Lanes; 3] {
+        let R = Lanes::splat(std::f64::consts::FRAC_1_SQRT_2);
         [R * (x + y), R * (x - y), xy]
     }
 }

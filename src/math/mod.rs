@@ -1,6 +1,7 @@
 //! Vectors and matrices of fixed size, rotations, quadrature rules.
 
 pub mod curved_faces;
+pub mod lanes;
 pub mod quadrature;
 pub mod quintic;
 pub mod rotation;

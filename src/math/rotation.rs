@@ -255,6 +255,25 @@ impl Chart {
         (d + c1 * txd + c2 * ttd, theta.dot(d) * (d1 * txd + d2 * ttd) + c2 * d.cross(&txd))
     }
 
+    /// The rates Θ̇ and Θ̈ of the rotation vector, as [`vector_rates`] has them.
+    #[inline]
+    pub fn vector_rates(&self, omega: &Vec3, alpha: &Vec3) -> (Vec3, Vec3) {
+        let d = self.inverse(omega);
+        let (_, own) = self.rates(&d);
+        (d, self.inverse(&(alpha - own)))
+    }
+
+    /// The angular velocity and acceleration, as [`rates`] has them.
+    #[inline]
+    pub fn spatial_rates(&self, d: &Vec3, dd: &Vec3) -> (Vec3, Vec3) {
+        let (theta, (c1, c2, d1, d2)) = (&self.theta, self.coefficients);
+        let txd = theta.cross(d);
+        let ttd = theta.cross(&txd);
+        let txa = theta.cross(dd);
+        let alpha = dd + c1 * txa + c2 * theta.cross(&txa) + theta.dot(d) * (d1 * txd + d2 * ttd) + c2 * d.cross(&txd);
+        (d + c1 * txd + c2 * ttd, alpha)
+    }
+
     /// T⁻¹ v.
     #[inline]
     pub fn inverse(&self, v: &Vec3) -> Vec3 {
@@ -334,6 +353,8 @@ mod tests {
             assert!((w_chart - w).amax() < 1e-14 && (own_chart - own).amax() < 1e-13, "{t}");
             assert!((chart.inverse(&w) - d).amax() < 1e-12, "{t}");
             let (d_back, dd_back) = vector_rates(&t, &w, &alpha);
+            // The same sums in the same order.
+            assert_eq!((chart.vector_rates(&w, &alpha), chart.spatial_rates(&d, &dd)), ((d_back, dd_back), (w, alpha)));
             assert!((d_back - d).amax() < 1e-12 && (dd_back - dd).amax() < 1e-11, "{t}");
         }
     }

@@ -2,13 +2,14 @@
 
 use super::contacts;
 use super::context::Context;
+use super::node_chunks::{NodeChunk, Nothing};
 use super::projection::ConstraintProjection;
 use super::work::WorkQuadrature;
 use super::workspace::Workspace;
 use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
 use crate::math::rotation::rates;
-use crate::math::{angular, linear, stack};
+use crate::math::{Vec6, angular, linear, stack};
 use crate::state::State;
 use crate::system::TurningBody;
 
@@ -34,10 +35,14 @@ pub fn commit(
 ) {
     let dt = to - state.time;
     if cx.is_dynamic() {
-        for &node in &cx.independent_nodes {
-            let (start, end) = (&state.nodes[node], &ws.trial[node]);
-            state.jerk[node] = stack(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
-        }
+        let (nodes, trial) = (&state.nodes, &ws.trial);
+        cx.chunks.run(&mut state.jerk[..], &|chunk: &NodeChunk, jerk: &mut [Vec6]| {
+            for &node in &cx.independent_nodes[chunk.independent.clone()] {
+                let (start, end) = (&nodes[node], &trial[node]);
+                jerk[node - chunk.nodes.start] = stack(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
+            }
+            Nothing
+        });
     }
     update_algorithmic_accelerations(cx, ws, state);
     state.work.material += account.dissipated;

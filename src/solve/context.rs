@@ -1,5 +1,6 @@
 //! The constants of a run: the model, its plan, its system, and what is computed from them once.
 
+use super::node_chunks::NodeChunks;
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model, Restraint};
 use crate::plan::Plan;
@@ -18,6 +19,8 @@ pub struct Context<'a> {
     pub excitation: Excitation<'a>,
     /// Nodes that move by increments of their own, in ascending order; the others do not move or follow a master.
     pub independent_nodes: Vec<usize>,
+    /// All nodes in chunks, by which loops over them go.
+    pub chunks: NodeChunks,
     /// Prescribed degrees of freedom, by index in the model's list, whose motion joints transmit to other nodes.
     pub driving: Vec<usize>,
     /// Nodes whose displacement along x is a number: no place in space.
@@ -45,12 +48,15 @@ impl<'a> Context<'a> {
         wants_energy: bool,
     ) -> Context<'a> {
         let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
+        let independent_nodes = independent_nodes(model, plan, system);
+        let restraints = &model.constraints.restraints;
         Context {
             model,
             plan,
             system,
             excitation: Excitation::new(model),
-            independent_nodes: independent_nodes(model, plan, system),
+            chunks: NodeChunks::new(model.nodes.len(), &independent_nodes, restraints, plan.threads),
+            independent_nodes,
             driving: driving(model, system),
             numbers: model.number_nodes().collect(),
             algorithmic_acceleration: if dynamic { model.solution.scheme.algorithmic_acceleration() } else { None },

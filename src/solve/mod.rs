@@ -25,6 +25,7 @@ mod load_steps;
 mod march;
 mod modes;
 mod motion;
+mod node_chunks;
 mod outcome;
 mod projection;
 mod recorder;

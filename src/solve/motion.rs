@@ -183,8 +183,9 @@ pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) 
     }
 }
 
+/// Writes a prescribed degree of freedom of an increment.
 #[inline]
-fn prescribe(increment: &mut Increment, dof: usize, given: &Prescribed) {
+pub fn prescribe(increment: &mut Increment, dof: usize, given: &Prescribed) {
     increment.q[dof] = given.u;
     increment.d[dof] = given.v;
     increment.dd[dof] = given.a;

@@ -5,12 +5,13 @@ use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
 use super::loads::{Loading, load_on};
 use super::multipliers::{Multipliers, REGULARIZATION, REGULARIZATION_OF_TREES};
+use super::node_sums::SumChunk;
 use super::parts::beam_ends::BeamEnds;
 use super::parts::links::{self, LinkElement};
 use super::scale::Scale;
-use super::thread_partition::Partition;
+use super::thread_partition::{GroupMemory, Partition};
 use super::turning_body::TurningBody;
-use super::{build, joint_tree, plane_motion, thread_partition};
+use super::{build, joint_tree, node_sums, plane_motion, thread_partition};
 use crate::constraints::joint::Joint;
 use crate::constraints::rigid_link::{self, RigidLink};
 use crate::elements::Force;
@@ -74,19 +75,25 @@ pub struct Forces {
     /// Lagrange multipliers of the joints and violations of their constraint equations.
     pub multipliers: Multipliers,
     partitions: Vec<Partition>,
+    chunks: Vec<SumChunk>,
+    /// What each group of elements dissipates; [`System::advance`] writes it.
+    spent: Vec<Dissipation>,
     threads: bool,
 }
 
-keep!(Forces { on_nodes, on_dependents, multipliers } without { partitions, threads });
+keep!(Forces { on_nodes, on_dependents, multipliers } without { partitions, chunks, spent, threads });
 
 impl Forces {
     /// Zero forces for this number of nodes, to be summed on one thread.
     pub fn new(system: &System, nodes: usize) -> Self {
+        let partitions = thread_partition::partition(&system.groups);
         Forces {
             on_nodes: vec![[0.0; 6]; nodes],
             on_dependents: vec![Vec3::zeros(); system.rigid_links.len()],
             multipliers: Multipliers::new(system.multipliers(), system.regularization),
-            partitions: thread_partition::partition(&system.groups),
+            chunks: node_sums::chunks(&partitions, &system.inertias, nodes),
+            partitions,
+            spent: vec![Dissipation::default(); system.groups.len()],
             threads: false,
         }
     }
@@ -144,7 +151,10 @@ impl System {
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
         let (mut inertias, consistent) = build::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
-        let groups = build::groups(model, &x, plane);
+        let mut groups = build::groups(model, &x, plane);
+        if model.analysis.kind == model::AnalysisKind::Dynamic && model.solution.scheme.is_explicit() {
+            groups.iter_mut().for_each(|group| group.block.pack());
+        }
         let joints = build::joints(model, &x, plane);
         let turning_bodies = TurningBody::of(model, (&mut inertias, &consistent), &rigid_links, plane);
         let contacts = groups.iter().position(|group| group.kind.is_unilateral());
@@ -205,21 +215,45 @@ impl System {
     /// Sums f_ext − f_int − C v − M a at each node and transfers the forces on dependent degrees of freedom to their
     /// masters (58). Returns the magnitudes of the terms.
     pub fn residual(&self, now: &Configuration, loading: &Loading, forces: &mut Forces) -> Scale {
+        self.sum_forces(now, loading, forces, None)
+    }
+
+    /// Sums forces as [`System::residual`] does and writes the history variables at `now` into `history`, as [`System::update_history`]
+    /// does for the whole of the way, with each material computed once. Returns what is dissipated.
+    pub fn advance(
+        &self,
+        now: &Configuration,
+        loading: &Loading,
+        forces: &mut Forces,
+        history: &mut [f64],
+    ) -> Dissipation {
+        self.sum_forces(now, loading, forces, Some(history));
+        thread_partition::sum_spent(&forces.spent)
+    }
+
+    fn sum_forces(
+        &self,
+        now: &Configuration,
+        loading: &Loading,
+        forces: &mut Forces,
+        history: Option<&mut [f64]>,
+    ) -> Scale {
         let nodes = now.nodes;
-        let F = &mut forces.on_nodes[..];
-        F.fill([0.0; 6]);
+        let Forces { on_nodes, partitions, chunks, spent, threads, .. } = forces;
+        let F = &mut on_nodes[..];
+        let memory = history.map(|history| GroupMemory { history, spent });
+        let add = |inertias: &[Inertia], (F, first): (&mut [Force], usize), scale: &mut Scale| {
+            self.add_inertia_forces(inertias, (nodes, &loading.field), (F, first), scale)
+        };
         let mut scale = Scale::default();
-        thread_partition::subtract_forces(&self.groups, now, &mut forces.partitions, forces.threads, F);
-        scale.include(F);
-        for inertia in &self.inertias {
-            let node = &nodes[inertia.node];
-            let mut f = inertia.force(node, &loading.field, self.dynamic, &mut scale);
-            if self.mass_damping > 0.0 {
-                inertia.add_damping(node, self.mass_damping, &mut f);
-            }
-            for (sum, f) in F[inertia.node].iter_mut().zip(f) {
-                *sum += f;
-            }
+        if partitions.is_empty() {
+            F.fill([0.0; 6]);
+            thread_partition::run(&self.groups, now, memory, F);
+            scale.include(F);
+            add(&self.inertias, (F, 0), &mut scale);
+        } else {
+            thread_partition::run_partitions(partitions, &self.groups, now, memory, *threads);
+            scale = node_sums::sum(chunks, partitions, (&self.inertias, &add), *threads, F);
         }
         for mass in &self.consistent {
             mass.add_forces(nodes, &loading.field, self.dynamic, self.mass_damping, F);
@@ -233,6 +267,26 @@ impl System {
         self.subtract_joint_forces(nodes, forces, &mut scale);
         self.transfer_to_masters(nodes, forces);
         scale
+    }
+
+    /// Adds weight, inertia and Rayleigh damping forces of some of the inertias to `F`, whose first entry is that of node `first`.
+    fn add_inertia_forces(
+        &self,
+        inertias: &[Inertia],
+        (nodes, field): (&[Node], &Vec3),
+        (F, first): (&mut [Force], usize),
+        scale: &mut Scale,
+    ) {
+        for inertia in inertias {
+            let node = &nodes[inertia.node];
+            let mut f = inertia.force(node, field, self.dynamic, scale);
+            if self.mass_damping > 0.0 {
+                inertia.add_damping(node, self.mass_damping, &mut f);
+            }
+            for (sum, f) in F[inertia.node - first].iter_mut().zip(f) {
+                *sum += f;
+            }
+        }
     }
 
     /// Writes loads and weight alone, without inertia forces. With the rates of the loads as `loading` this is ∂r/∂t at

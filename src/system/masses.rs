@@ -32,6 +32,15 @@ pub struct MassBlock {
     pub free: [bool; 6],
     /// Mass, with that of all rigidly attached nodes.
     pub mass: f64,
+    /// Mean moment of inertia about the centre of mass.
+    mean_inertia: f64,
+    kind: BlockKind,
+    body: Box<BodyInertia>,
+}
+
+/// The inertia of a block, apart from what every loop over blocks reads.
+#[derive(Debug, Clone)]
+struct BodyInertia {
     /// Vector from the node to the centre of mass, in axes fixed to the node that were global at t = 0, like those of
     /// `J0`.
     s0: Vec3,
@@ -42,7 +51,6 @@ pub struct MassBlock {
     J_pivot: Mat3,
     J_pivot_inverse: Mat3,
     free_rotation: FreeRotation,
-    kind: BlockKind,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,6 +60,9 @@ enum BlockKind {
     /// All rotations are unknowns. The node is the centre of mass, or the centre moves freely, or the node does not
     /// translate and the body turns about it.
     RigidBody,
+    /// The only rotation that is an unknown is that about a global axis, at t = 0 a principal one, and the node is the centre of mass:
+    /// a node of a plane scene.
+    OneRotation { axis: usize },
     /// Some degrees of freedom are restrained.
     Restrained,
 }
@@ -67,6 +78,17 @@ pub struct NodeRates {
     pub a: Vec3,
     /// Angular acceleration.
     pub alpha: Vec3,
+}
+
+impl NodeRates {
+    /// The rates at the end of a step of length `dt` by the mean of the accelerations; `missing` is the difference of those of the trial
+    /// motion `now`.
+    #[inline]
+    pub fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> NodeRates {
+        let (a, alpha) = (now.a + linear(missing), now.alpha + angular(missing));
+        let h = 0.5 * dt;
+        NodeRates { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
+    }
 }
 
 impl Masses {
@@ -145,22 +167,46 @@ impl MassBlock {
             (true, true, true) => BlockKind::RigidBody,
             (true, true, false) if all(&free) => BlockKind::RigidBody,
             (true, true, false) if !free[..3].contains(&true) => BlockKind::RigidBody,
+            (true, false, true) => match turning_axis(&free, &J0) {
+                Some(axis) => BlockKind::OneRotation { axis },
+                None => BlockKind::Restrained,
+            },
             _ => BlockKind::Restrained,
         };
         let pivots = !free[..3].contains(&true);
         let (arm, J_pivot) = if pivots { (Vec3::zeros(), J0 - mass * skew(&s0) * skew(&s0)) } else { (s0, J0) };
         let J_pivot_inverse = J_pivot.try_inverse().unwrap_or_else(Mat3::zeros);
         let free_rotation = FreeRotation::new(&J_pivot);
-        MassBlock { node, free, mass, s0, J0, arm, J_pivot, J_pivot_inverse, free_rotation, kind }
+        let mean_inertia = J0.trace() / 3.0;
+        let body = Box::new(BodyInertia { s0, J0, arm, J_pivot, J_pivot_inverse, free_rotation });
+        MassBlock { node, free, mass, mean_inertia, kind, body }
+    }
+
+    /// The accelerations of unknown degrees of freedom, and zero for the others.
+    #[inline]
+    pub fn of_unknowns(&self, a: &Vec6) -> Vec6 {
+        Vec6::from_fn(|i, _| if self.free[i] { a[i] } else { 0.0 })
+    }
+
+    /// The moment of inertia about a global axis through the centre of mass.
+    #[inline]
+    fn moment_of_inertia(&self, node: &Node, axis: usize) -> f64 {
+        let J0 = &self.body.J0;
+        if turns_about(node, axis) {
+            return J0[(axis, axis)];
+        }
+        let row = node.R().row(axis).transpose();
+        let J: [f64; 3] = std::array::from_fn(|j| row[0] * J0[(0, j)] + row[1] * J0[(1, j)] + row[2] * J0[(2, j)]);
+        J[0] * row[0] + J[1] * row[1] + J[2] * row[2]
     }
 
     /// The mass matrix of all six degrees of freedom, about the node; `R` is the node's rotation.
     fn matrix(&self, R: &Mat3) -> Mat6 {
-        let s = skew(&(R * self.s0));
+        let s = skew(&(R * self.body.s0));
         let mut M = Mat6::identity() * self.mass;
         M.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-self.mass * s));
         M.fixed_view_mut::<3, 3>(3, 0).copy_from(&(self.mass * s));
-        M.fixed_view_mut::<3, 3>(3, 3).copy_from(&(R * self.J0 * R.transpose() - self.mass * s * s));
+        M.fixed_view_mut::<3, 3>(3, 3).copy_from(&(R * self.body.J0 * R.transpose() - self.mass * s * s));
         M
     }
 
@@ -175,14 +221,20 @@ impl MassBlock {
     #[inline]
     pub fn accelerate(&self, node: &Node, F: &Force) -> Vec6 {
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
-        let kept = |a: Vec6| Vec6::from_fn(|i, _| if self.free[i] { a[i] } else { 0.0 });
+        let kept = |a: Vec6| self.of_unknowns(&a);
         match self.kind {
             BlockKind::Point { inverse_inertia } => kept(stack(&(f / self.mass), &(m * inverse_inertia))),
+            BlockKind::OneRotation { axis } => {
+                let J = self.moment_of_inertia(node, axis);
+                let over = |f: f64, mass: f64| if mass > 0.0 { f / mass } else { 0.0 };
+                let f = f.map(|f| over(f, self.mass));
+                kept(stack(&f, &Vec3::ith(axis, over(m[axis], J))))
+            }
             BlockKind::RigidBody => {
                 let R = node.R();
                 // The moment is taken about the centre of mass, and the acceleration back to the node.
-                let s = R * self.arm;
-                let alpha = R * (self.J_pivot_inverse * R.tr_mul(&(m - s.cross(&f))));
+                let s = R * self.body.arm;
+                let alpha = R * (self.body.J_pivot_inverse * R.tr_mul(&(m - s.cross(&f))));
                 kept(stack(&(f / self.mass - alpha.cross(&s)), &alpha))
             }
             BlockKind::Restrained => {
@@ -207,8 +259,8 @@ impl MassBlock {
                 let R = node.R();
                 let in_body = |v: &Vec6| (R.tr_mul(&linear(v)), R.tr_mul(&angular(v)));
                 let ((u, theta), (w, phi)) = (in_body(a), in_body(b));
-                let at_centre = |u: Vec3, theta: &Vec3| u + theta.cross(&self.s0);
-                self.mass * at_centre(u, &theta).dot(&at_centre(w, &phi)) + theta.dot(&(self.J0 * phi))
+                let at_centre = |u: Vec3, theta: &Vec3| u + theta.cross(&self.body.s0);
+                self.mass * at_centre(u, &theta).dot(&at_centre(w, &phi)) + theta.dot(&(self.body.J0 * phi))
             }
         }
     }
@@ -222,23 +274,29 @@ impl MassBlock {
         }
         let R = node.R();
         let [a, alpha, omega] = [linear(a), angular(a), node.omega].map(|v| R.tr_mul(&v));
-        let a = a + alpha.cross(&self.arm) + omega.cross(&omega.cross(&self.arm));
-        let m = self.J_pivot * alpha + omega.cross(&(self.J_pivot * omega));
-        self.mass * a.norm_squared() + m.dot(&(self.J_pivot_inverse * m))
+        let a = a + alpha.cross(&self.body.arm) + omega.cross(&omega.cross(&self.body.arm));
+        let m = self.body.J_pivot * alpha + omega.cross(&(self.body.J_pivot * omega));
+        self.mass * a.norm_squared() + m.dot(&(self.body.J_pivot_inverse * m))
     }
 
     /// Mass and mean moment of inertia, a rough measure for comparisons.
     pub fn mean_mass(&self) -> [f64; 2] {
-        [self.mass, self.J0.trace() / 3.0]
+        [self.mass, self.mean_inertia]
     }
 
     /// Subtracts inertia forces, F ← F − M a, from all degrees of freedom, the restrained ones included.
     #[inline]
     pub fn subtract_inertia(&self, node: &Node, a: &Vec6, F: &mut Force) {
-        // In all other cases no inertia couples restrained and free degrees of freedom.
-        let coupled = self.s0.amax() > 0.0 && self.free.contains(&false);
-        if !coupled && self.kind != BlockKind::Restrained {
-            return;
+        match self.kind {
+            BlockKind::OneRotation { axis } if turns_about(node, axis) => {
+                (0..3).for_each(|i| F[i] -= self.mass * a[i]);
+                F[3 + axis] -= self.body.J0[(axis, axis)] * a[3 + axis];
+                return;
+            }
+            BlockKind::OneRotation { .. } | BlockKind::Restrained => {}
+            // In all other cases no inertia couples restrained and free degrees of freedom, unless the mass is off the node.
+            _ if self.free == [true; 6] || self.body.s0.amax() == 0.0 => return,
+            _ => {}
         }
         let rest = self.matrix(&node.R()) * a;
         F.iter_mut().zip(&rest).for_each(|(f, rest)| *f -= rest);
@@ -247,9 +305,9 @@ impl MassBlock {
     /// Force and moment that angular velocities cause: m ω × (ω × s) of a mass off the node, and ω × J ω about the
     /// centre of mass.
     fn gyroscopic_force(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
-        let s = R * self.s0;
+        let s = R * self.body.s0;
         let f = self.mass * omega.cross(&omega.cross(&s));
-        stack(&f, &(omega.cross(&(R * (self.J0 * R.tr_mul(omega)))) + s.cross(&f)))
+        stack(&f, &(omega.cross(&(R * (self.body.J0 * R.tr_mul(omega)))) + s.cross(&f)))
     }
 
     /// Displacement and rotation vector of a body that turns freely in a step of length `dt` from `start`: the point that it
@@ -262,11 +320,11 @@ impl MassBlock {
         }
         let h = 0.5 * dt;
         let R = start.R();
-        let times = |v: &Vec3| R * (self.J_pivot * R.tr_mul(v));
+        let times = |v: &Vec3| R * (self.body.J_pivot * R.tr_mul(v));
         let L = times(&start.omega);
         let L = L + h * (times(&start.alpha) + start.omega.cross(&L));
-        let turn = self.free_rotation.turn(&start.rotation, &L, dt);
-        let s = R * self.arm;
+        let turn = self.body.free_rotation.turn(&start.rotation, &L, dt);
+        let s = R * self.body.arm;
         let v = start.v + start.omega.cross(&s);
         let a = start.a + start.alpha.cross(&s) + start.omega.cross(&start.omega.cross(&s));
         let u = dt * (v + h * a) - rotation::change(&rotation::exp(&turn), &s);
@@ -274,41 +332,54 @@ impl MassBlock {
     }
 
     /// Velocities and accelerations at the end of a velocity Verlet step of length `dt` from `start`. `F` is the
-    /// residual at the motion `now` there, with predicted velocities. The velocities follow from the mean of the
+    /// residual at the motion `now` there, with predicted velocities, and `found` what [`MassBlock::accelerate`] makes of it. The velocities follow from the mean of the
     /// accelerations; those of a freely turning body from the mean rate of its angular momentum, which no moment of its
     /// own inertia changes. Where degrees of freedom are restrained, the gyroscopic terms of the predicted angular
     /// velocities are corrected: they would feed energy into the motion.
     #[inline]
-    pub fn verlet(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> NodeRates {
-        let h = 0.5 * dt;
-        if self.kind != BlockKind::RigidBody {
-            let mean = |push: Vec6| {
-                let (a, alpha) = (now.a + linear(&push), now.alpha + angular(&push));
-                NodeRates { v: start.v + h * (start.a + a), omega: start.omega + h * (start.alpha + alpha), a, alpha }
-            };
-            let mut end = mean(self.accelerate(now, F));
-            for _ in 0..if self.kind == BlockKind::Restrained { CORRECTIONS } else { 0 } {
-                let R = now.R();
-                let given = |i: usize| if self.free[3 + i] { end.omega[i] } else { now.omega[i] };
-                let change =
-                    self.gyroscopic_force(&R, &Vec3::from_fn(|i, _| given(i))) - self.gyroscopic_force(&R, &now.omega);
-                let F = Vec6::from(*F) - change;
-                end = mean(self.accelerate(now, F.as_ref()));
+    pub fn verlet(&self, start: &Node, now: &Node, F: &Force, found: &Vec6, dt: f64) -> NodeRates {
+        match self.kind {
+            BlockKind::RigidBody => self.turn_freely(start, now, F, dt),
+            BlockKind::Point { .. } => NodeRates::mean(start, now, found, dt),
+            BlockKind::OneRotation { axis }
+                if turns_about(now, axis) && now.omega == Vec3::ith(axis, now.omega[axis]) =>
+            {
+                NodeRates::mean(start, now, found, dt)
             }
-            return end;
+            _ => self.correct(start, now, F, found, dt),
         }
+    }
+
+    /// [`MassBlock::verlet`] with the gyroscopic terms of the predicted angular velocities corrected.
+    fn correct(&self, start: &Node, now: &Node, F: &Force, found: &Vec6, dt: f64) -> NodeRates {
+        let mut end = NodeRates::mean(start, now, found, dt);
+        for _ in 0..CORRECTIONS {
+            let R = now.R();
+            let given = |i: usize| if self.free[3 + i] { end.omega[i] } else { now.omega[i] };
+            let change =
+                self.gyroscopic_force(&R, &Vec3::from_fn(|i, _| given(i))) - self.gyroscopic_force(&R, &now.omega);
+            let F = Vec6::from(*F) - change;
+            end = NodeRates::mean(start, now, &self.accelerate(now, F.as_ref()), dt);
+        }
+        end
+    }
+
+    /// [`MassBlock::verlet`] for a body that turns freely.
+    #[inline]
+    fn turn_freely(&self, start: &Node, now: &Node, F: &Force, dt: f64) -> NodeRates {
+        let h = 0.5 * dt;
         let (f, m) = (Vec3::new(F[0], F[1], F[2]), Vec3::new(F[3], F[4], F[5]));
         let (R0, R) = (start.R(), now.R());
-        let times = |R: &Mat3, v: &Vec3| R * (self.J_pivot * R.tr_mul(v));
+        let times = |R: &Mat3, v: &Vec3| R * (self.body.J_pivot * R.tr_mul(v));
         let centripetal = |node: &Node, s: &Vec3| node.alpha.cross(s) + node.omega.cross(&node.omega.cross(s));
-        let (s0, s) = (R0 * self.arm, R * self.arm);
+        let (s0, s) = (R0 * self.body.arm, R * self.body.arm);
         // The balance of angular momentum about the centre of mass, or about a node that does not translate: L̇ = m, at
         // both ends of the step.
         let L0 = times(&R0, &start.omega);
         let m0 = times(&R0, &start.alpha) + start.omega.cross(&L0);
         let m1 = m - s.cross(&f) + times(&R, &now.alpha) + now.omega.cross(&times(&R, &now.omega));
         let L = L0 + h * (m0 + m1);
-        let divided = |v: &Vec3| R * (self.J_pivot_inverse * R.tr_mul(v));
+        let divided = |v: &Vec3| R * (self.body.J_pivot_inverse * R.tr_mul(v));
         let omega = divided(&L);
         let alpha = divided(&(m1 - omega.cross(&L)));
         let a0 = start.a + centripetal(start, &s0);
@@ -322,6 +393,21 @@ impl MassBlock {
         }
         end
     }
+}
+
+/// The axis of the only rotation that is free, where it is a principal axis of `J0`.
+fn turning_axis(free: &[bool; 6], J0: &Mat3) -> Option<usize> {
+    let axis = free[3..].iter().position(|&free| free)?;
+    let alone = (0..3).all(|i| i == axis || !free[3 + i] && J0[(axis, i)] == 0.0 && J0[(i, axis)] == 0.0);
+    alone.then_some(axis)
+}
+
+/// True where a node has turned about this global axis alone.
+#[inline]
+fn turns_about(node: &Node, axis: usize) -> bool {
+    let q = &node.rotation;
+    let off = [q.i, q.j, q.k];
+    (0..3).all(|i| i == axis || off[i] == 0.0)
 }
 
 /// Solves M x = b for the free degrees of freedom and overwrites both; the other entries of x are zero. Returns a

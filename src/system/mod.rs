@@ -21,6 +21,7 @@ pub mod joints;
 mod loads;
 pub mod masses;
 mod multipliers;
+mod node_sums;
 pub mod parts;
 mod plane;
 mod plane_motion;

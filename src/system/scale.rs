@@ -24,6 +24,11 @@ impl Scale {
         self.moment.max(ARM * length * self.force)
     }
 
+    /// The larger of two scales, of forces and of moments.
+    pub(super) fn or_larger(&self, other: &Scale) -> Scale {
+        Scale { force: larger(self.force, other.force), moment: larger(self.moment, other.moment) }
+    }
+
     /// Raises the scale of forces to the largest component of a force.
     #[inline]
     pub(super) fn include_force(&mut self, f: &Vec3) {

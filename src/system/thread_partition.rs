@@ -3,8 +3,8 @@
 
 use super::group::Group;
 use crate::elements::Force;
+use crate::materials::Dissipation;
 use crate::state::Configuration;
-use rayon::prelude::*;
 use std::ops::{AddAssign, Range};
 
 /// Largest number of elements in a group.
@@ -19,9 +19,9 @@ const MOST_PARTITIONS: usize = 16;
 pub struct Partition {
     groups: Range<usize>,
     /// The ranges of nodes on which they act.
-    nodes: Vec<Range<usize>>,
-    /// Forces by node. [`subtract_forces`] writes them.
-    F: Vec<Force>,
+    pub(super) nodes: Vec<Range<usize>>,
+    /// Forces by node. [`run_partitions`] writes them.
+    pub(super) F: Vec<Force>,
 }
 
 /// True where the elements are many enough for several threads.
@@ -51,32 +51,82 @@ fn part(all: &[Group], groups: Range<usize>) -> Partition {
     Partition { groups, nodes, F: vec![[0.0; 6]; touched.last().map_or(0, |last| last + 1)] }
 }
 
-/// Subtracts the internal forces of all elements from `F`.
-pub(super) fn subtract_forces(
+/// Where the history variables of a contiguous range of groups are written, and what each group dissipates.
+pub(super) struct GroupMemory<'a> {
+    /// History variables of these groups.
+    pub history: &'a mut [f64],
+    /// Dissipation by group.
+    pub spent: &'a mut [Dissipation],
+}
+
+impl GroupMemory<'_> {
+    /// The memories of the groups before the one at `middle` and of the others.
+    fn split(self, groups: &[Group], middle: usize) -> [Self; 2] {
+        let at = groups[middle].history.start - groups[0].history.start;
+        let (history, spent) = (self.history.split_at_mut(at), self.spent.split_at_mut(middle));
+        [GroupMemory { history: history.0, spent: spent.0 }, GroupMemory { history: history.1, spent: spent.1 }]
+    }
+}
+
+/// Subtracts the internal forces of groups from `F`, and writes their history where there is a memory.
+pub(super) fn run(groups: &[Group], now: &Configuration, memory: Option<GroupMemory>, F: &mut [Force]) {
+    let Some(GroupMemory { mut history, spent }) = memory else {
+        return groups.iter().for_each(|group| group.block.subtract_forces(&group.configuration(now), F));
+    };
+    for (group, spent) in groups.iter().zip(spent) {
+        let (own, rest) = history.split_at_mut(group.history.len());
+        history = rest;
+        let now = group.configuration(now);
+        if own.is_empty() {
+            group.block.subtract_forces(&now, F);
+            *spent = Dissipation::default();
+        } else {
+            *spent = group.block.advance(&now, F, own);
+        }
+    }
+}
+
+/// Writes the forces of partitions, which are those of `groups`, and their history.
+pub(super) fn run_partitions(
+    parts: &mut [Partition],
     groups: &[Group],
     now: &Configuration,
-    partitions: &mut [Partition],
+    memory: Option<GroupMemory>,
     threads: bool,
-    F: &mut [Force],
 ) {
-    if partitions.is_empty() {
-        return groups.iter().for_each(|group| group.block.subtract_forces(&group.configuration(now), F));
-    }
-    let run = |part: &mut Partition| {
-        part.nodes.iter().for_each(|run| part.F[run.clone()].fill([0.0; 6]));
-        for group in &groups[part.groups.clone()] {
-            group.block.subtract_forces(&group.configuration(now), &mut part.F);
+    match parts {
+        [] => {}
+        [part] => {
+            part.nodes.iter().for_each(|run| part.F[run.clone()].fill([0.0; 6]));
+            run(groups, now, memory, &mut part.F);
         }
-    };
-    if threads {
-        partitions.par_iter_mut().for_each(run);
-    } else {
-        partitions.iter_mut().for_each(run);
+        _ => {
+            let (left, right) = parts.split_at_mut(parts.len() / 2);
+            let middle = right[0].groups.start - left[0].groups.start;
+            let (first, second) = groups.split_at(middle);
+            let [a, b] = match memory.map(|memory| memory.split(groups, middle)) {
+                Some(halves) => halves.map(Some),
+                None => [None, None],
+            };
+            both(
+                threads,
+                || run_partitions(left, first, now, a, threads),
+                || run_partitions(right, second, now, b, threads),
+            );
+        }
     }
-    for part in partitions {
-        for run in &part.nodes {
-            let pairs = F[run.clone()].as_flattened_mut().iter_mut().zip(part.F[run.clone()].as_flattened());
-            pairs.for_each(|(sum, f)| *sum += f);
+}
+
+/// Sums what groups dissipate in the order of [`sum`].
+pub(super) fn sum_spent(spent: &[Dissipation]) -> Dissipation {
+    match spent {
+        [] => Dissipation::default(),
+        [one] => *one,
+        _ => {
+            let (left, right) = spent.split_at(spent.len() / 2);
+            let mut sum = sum_spent(left);
+            sum += sum_spent(right);
+            sum
         }
     }
 }
@@ -122,6 +172,10 @@ where
     }
 }
 
-fn both<A: Send, B: Send>(threads: bool, a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
+pub(super) fn both<A: Send, B: Send>(
+    threads: bool,
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
     if threads { rayon::join(a, b) } else { (a(), b()) }
 }

@@ -210,6 +210,49 @@ fn layers_have_the_tangent_of_their_stress() {
     }
 }
 
+/// Eight elements side by side have the bits of one after the other, forces and history, whole packs and parts of one.
+#[test]
+fn packs_have_the_bits_of_their_elements() {
+    let mut rng = StdRng::seed_from_u64(11);
+    let plain = MaterialLaw::new(1e3, 0.3, Hardening::Linear { yield_stress: 5.0, modulus: 50.0 }, 0.0, None);
+    for triangle in [false, true] {
+        let mesh = Mesh::patch(triangle);
+        let model = LayerModel { law: plain.clone(), layers: 5 };
+        for yields in [false, true] {
+            let block = || if yields { mesh.layered(&PLATE, &model) } else { mesh.block(&PLATE) };
+            let (single, mut packed) = (block(), block());
+            packed.pack();
+            let mut past = vec![0.0; single.history()];
+            let mut spent = 0.0;
+            for strain in [1e-3, 1e-2, 5e-3, 2e-3, 2e-2] {
+                let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
+                let R: Mat3 = rotation::matrix(&q);
+                let mut node = |x: &Vec3| Node {
+                    rotation: rotation::exp(&vector(&mut rng, strain)) * q,
+                    low: vector(&mut rng, 1e-17),
+                    ..Node::at_rest(R * (x + vector(&mut rng, 0.1 * strain)) + shift)
+                };
+                let nodes: Vec<Node> = mesh.x.iter().map(&mut node).collect();
+                let now = Configuration { nodes: &nodes, history: &past, dt: 1.0, lead: None };
+                assert_eq!(forces(&*packed, &now), forces(&*single, &now), "at {strain}");
+                let mut sums = [vec![[0.0; 6]; nodes.len()], vec![[0.0; 6]; nodes.len()]];
+                let mut new = [past.clone(), past.clone()];
+                let [a, b] =
+                    [(&packed, 0), (&single, 1)].map(|(block, i)| block.advance(&now, &mut sums[i], &mut new[i]));
+                assert_eq!((&sums[0], &new[0], a), (&sums[1], &new[1], b), "at {strain}");
+                // Forces and history by themselves are those found together.
+                let (mut alone, mut F) = (past.clone(), vec![[0.0; 6]; nodes.len()]);
+                assert_eq!(single.update_history(&now, 1.0, &mut alone), b);
+                single.subtract_forces(&now, &mut F);
+                assert_eq!((&alone, &F), (&new[1], &sums[1]));
+                past = alone;
+                spent += b.plastic;
+            }
+            assert_eq!(spent > 0.0, yields);
+        }
+    }
+}
+
 /// As long as nothing yields, layers are the elastic shell: same forces and energy to rounding.
 #[test]
 fn layers_that_do_not_yield_are_elastic() {

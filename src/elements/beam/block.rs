@@ -1,7 +1,7 @@
 //! Forces, energies and results of beams.
 
-use super::kinematics::{Beam, Beams};
-use super::quaternion::{left, right, times_conjugate};
+use super::kinematics::{Beam, Beams, GaussPoint};
+use super::quaternion::{Quat, left, right, times_conjugate};
 use super::section::BeamSection;
 use super::tangent::tangent;
 use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
@@ -14,14 +14,25 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     /// Internal forces and moments on the nodes of an element, global components.
     #[inline(always)]
     fn nodal_forces(&self, element: &Beam<N, S>, now: &Configuration) -> ([Vec3; N], [Vec3; N]) {
-        let nodes = now.nodes;
-        let motion = self.gather(element, nodes);
-        let q = &motion.0;
+        let motion = self.gather(element, now.nodes);
+        self.forces_of(element, &motion, now, |g, point| element.section.stress(g, &point.gamma, &point.kappa, now))
+    }
+
+    /// The same where the nodes move by `motion` and the sections have the stress resultants `stress`.
+    #[inline(always)]
+    fn forces_of(
+        &self,
+        element: &Beam<N, S>,
+        motion: &([Quat; N], [Vec3; N]),
+        now: &Configuration,
+        mut stress: impl FnMut(usize, &GaussPoint) -> (Vec3, Vec3),
+    ) -> ([Vec3; N], [Vec3; N]) {
+        let (nodes, q) = (now.nodes, &motion.0);
         let mut gradient = [[0.0; 4]; N]; // ∂U/∂q_a
         let mut force = [Vec3::zeros(); N];
         for g in 0..self.integration_points() {
-            let point = self.interpolate(element, g, &motion);
-            let (mut n, mut m) = element.section.stress(g, &point.gamma, &point.kappa, now);
+            let point = self.interpolate(element, g, motion);
+            let (mut n, mut m) = stress(g, &point);
             if self.damping > 0.0 && !element.section.has_failed(now.history) {
                 let (gamma_rate, kappa_rate, _) = self.rates(element, g, &point, q, nodes);
                 let (nd, md) = element.section.elastic().stress(&gamma_rate, &kappa_rate);
@@ -46,6 +57,18 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
             }
         }
         (force, std::array::from_fn(|a| 0.5 * times_conjugate(&gradient[a], &q[a]).1))
+    }
+}
+
+impl<const N: usize, S> Beam<N, S> {
+    /// Subtracts forces and moments on the nodes from `F`.
+    #[inline(always)]
+    fn subtract_from_nodes(&self, (force, moment): &([Vec3; N], [Vec3; N]), F: &mut [Force]) {
+        for a in 0..N {
+            let f = &mut F[self.nodes[a]];
+            subtract(f, 0, &force[a]);
+            subtract(f, 3, &moment[a]);
+        }
     }
 }
 
@@ -85,13 +108,25 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for element in &self.elements {
-            let (force, moment) = self.nodal_forces(element, now);
-            for a in 0..N {
-                let f = &mut F[element.nodes[a]];
-                subtract(f, 0, &force[a]);
-                subtract(f, 3, &moment[a]);
+            element.subtract_from_nodes(&self.nodal_forces(element, now), F);
+        }
+    }
+
+    fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
+        let mut sum = Dissipation::default();
+        for element in &self.elements {
+            let motion = self.gather(element, now.nodes);
+            let forces = self.forces_of(element, &motion, now, |g, point| {
+                let (n, m, spent) = element.section.advance(g, (&point.gamma, &point.kappa), now, new);
+                sum += spent * (self.shape.weight[g] * element.jacobian);
+                (n, m)
+            });
+            element.subtract_from_nodes(&forces, F);
+            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+                sum.eroded += self.left_in(element, &Configuration { history: new, ..*now });
             }
         }
+        sum
     }
 
     fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {

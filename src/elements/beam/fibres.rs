@@ -5,6 +5,7 @@
 //! beside them, in proportion to the area of the fibres that have not failed. An element of which one section has no fibres left is
 //! severed: it carries nothing.
 
+use super::fibre_lanes::FibreLanes;
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
 use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
@@ -27,6 +28,8 @@ pub struct FibreProfile<S, const N: usize> {
     whole: BeamStiffness,
     /// The elastic section less its elastic fibres, in section axes.
     rest: BeamStiffness,
+    /// The fibres side by side; `None` where they must be computed one by one.
+    lanes: Option<FibreLanes<S, N>>,
 }
 
 impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
@@ -46,6 +49,7 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
             stiffness,
             whole,
             rest,
+            lanes: FibreLanes::new(law, state, fibres),
         }
     }
 
@@ -309,6 +313,47 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
             sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
         }
         sum
+    }
+
+    fn advance(
+        &self,
+        g: usize,
+        (gamma, kappa): (&Vec3, &Vec3),
+        now: &Configuration,
+        new: &mut [f64],
+    ) -> (Vec3, Vec3, Dissipation) {
+        let FibreProfile { law, state, variables, rest, .. } = &*self.profile;
+        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let before = self.intact(g, now.history);
+        let now = self.at(g, now);
+        let mut sum = Dissipation::default();
+        let new = &mut new[self.history_range(g)];
+        if before == 0.0 {
+            new.copy_from_slice(now.history);
+            return (Vec3::zeros(), Vec3::zeros(), sum);
+        }
+        let (mut n, mut m) = rest.stress(&gamma, &kappa);
+        if before < 1.0 {
+            (n, m) = (before * n, before * m);
+        }
+        if let Some(lanes) = &self.profile.lanes {
+            lanes.advance((&gamma, &kappa), now.dt, (now.history, new), |i, stress, plastic| {
+                let fibre = &self.profile.fibres[i];
+                FibreProfile::<S, N>::add(fibre, stress, &mut n, &mut m);
+                sum.plastic += plastic * fibre.area;
+            });
+            return (self.frame * n, self.frame * m, sum);
+        }
+        for ((fibre, old), new) in self.profile.with_history(now.history).zip(new.chunks_exact_mut(*variables)) {
+            let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
+            let (stress, spent) = law.advance(*state, &strain, (now.dt, 1.0), old, new);
+            FibreProfile::<S, N>::add(fibre, &stress, &mut n, &mut m);
+            sum += spent * fibre.area;
+        }
+        if self.can_fail() {
+            sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
+        }
+        (self.frame * n, self.frame * m, sum)
     }
 
     fn can_fail(&self) -> bool {

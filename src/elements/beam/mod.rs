@@ -15,6 +15,7 @@
 
 mod block;
 mod build;
+mod fibre_lanes;
 mod fibres;
 mod kinematics;
 mod quaternion;

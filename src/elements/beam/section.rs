@@ -39,6 +39,17 @@ pub trait BeamSection: Send + Sync {
     ) -> Dissipation {
         Dissipation::default()
     }
+    /// Stress at point `g`, with the history variables there written as [`BeamSection::update_history`] does and its dissipation.
+    fn advance(
+        &self,
+        g: usize,
+        (gamma, kappa): (&Vec3, &Vec3),
+        now: &Configuration,
+        new: &mut [f64],
+    ) -> (Vec3, Vec3, Dissipation) {
+        let (n, m) = self.stress(g, gamma, kappa, now);
+        (n, m, self.update_history(g, (gamma, kappa), now, 1.0, new))
+    }
     /// Largest accumulated plastic strain at point `g`, by the history variables of the group.
     fn plastic_strain(&self, _g: usize, _history: &[f64]) -> f64 {
         0.0

@@ -1,15 +1,60 @@
 //! Forces, energies and results of shells.
 
 use super::interpolation::Interpolation;
-use super::kinematics::{Shells, Strains};
+use super::kinematics::{NodalVectors, Shell, Shells, Strains};
+use super::packed::PackedSections;
+use super::packing::pack;
 use super::results;
-use super::section::ShellSection;
+use super::section::{InPlane, ShellSection};
 use super::tangent::tangent;
 use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::elements::results::ShellResultants;
 use crate::materials::{Dissipation, FAILED_STIFFNESS};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
+
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Shells<K, N, V, P, E, S>
+where
+    K: Interpolation<N, V, P>,
+    S: ShellSection<P, E>,
+{
+    /// Subtracts from `F` the forces and moments on the nodes of an element with this stress in its plane and these shear strains.
+    #[inline(always)]
+    fn subtract_from_nodes(
+        &self,
+        element: &Shell<N, V, P, E, S>,
+        motion: &NodalVectors<N>,
+        (plane, shear): (InPlane<P, E>, &[f64; N]),
+        nodes: &[Node],
+        F: &mut [Force],
+    ) {
+        let stress = Strains { plane, shear: element.shear_stress(shear) };
+        let mut gradient = element.gradient::<K, true>(&stress, motion);
+        if self.damping > 0.0 {
+            let viscous = self.viscous_stress(element, motion, nodes);
+            gradient = gradient.plus(1.0, &element.gradient::<K, false>(&viscous, motion));
+        }
+        for a in 0..N {
+            let f = &mut F[element.nodes[a]];
+            subtract(f, 0, &gradient.x[a]);
+            let mut moment = Vec3::zeros();
+            for k in 0..3 {
+                moment += motion.turning[k][a].cross(&gradient.turning[k][a]);
+            }
+            subtract(f, 3, &moment);
+        }
+    }
+}
+
+/// The elastic energy that is left in an element that fails; what its layers had stored is booked by then.
+fn left_in<const N: usize, const V: usize, const P: usize, const E: usize, S: ShellSection<P, E>>(
+    element: &Shell<N, V, P, E, S>,
+    strains: &Strains<N, P, E>,
+    now: &Configuration,
+    new: &[f64],
+) -> f64 {
+    element.elastic_energy(strains, &Configuration { history: new, ..*now }).into_iter().sum()
+}
 
 impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> ElementBlock for Shells<K, N, V, P, E, S>
 where
@@ -36,27 +81,55 @@ where
         self.elements.iter().map(|e| e.section.history()).sum()
     }
 
+    fn pack(&mut self) {
+        // Damping needs the rates of the strains too.
+        if self.damping == 0.0 {
+            self.packs = pack(&self.elements);
+        }
+    }
+
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        for pack in &self.packs {
+            pack.subtract_forces::<K>(now.nodes, F, |sections, strain, count| {
+                sections.advance(strain, now, None, count)
+            });
+        }
+        if !self.packs.is_empty() {
+            return;
+        }
         for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
             let motion = element.gather(now.nodes);
             let strains = element.strains::<K>(&motion);
-            let shear = element.shear_stress(&strains.shear);
-            let stress = Strains { plane: element.section.stress(&strains.plane, now), shear };
-            let mut gradient = element.gradient::<K, true>(&stress, &motion);
-            if self.damping > 0.0 {
-                let viscous = self.viscous_stress(element, &motion, now.nodes);
-                gradient = gradient.plus(1.0, &element.gradient::<K, false>(&viscous, &motion));
-            }
-            for a in 0..N {
-                let f = &mut F[element.nodes[a]];
-                subtract(f, 0, &gradient.x[a]);
-                let mut moment = Vec3::zeros();
-                for k in 0..3 {
-                    moment += motion.turning[k][a].cross(&gradient.turning[k][a]);
-                }
-                subtract(f, 3, &moment);
-            }
+            let plane = element.section.stress(&strains.plane, now);
+            self.subtract_from_nodes(element, &motion, (plane, &strains.shear), now.nodes, F);
         }
+    }
+
+    fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
+        let mut dissipation = Dissipation::default();
+        for pack in &self.packs {
+            let advance = |sections: &S::Packed, strain: &_, count| {
+                sections.advance(strain, now, Some((&mut *new, &mut dissipation)), count)
+            };
+            pack.subtract_forces::<K>(now.nodes, F, advance);
+        }
+        if !self.packs.is_empty() {
+            return dissipation;
+        }
+        for element in &self.elements {
+            let motion = element.gather(now.nodes);
+            let strains = element.strains::<K>(&motion);
+            let (plane, spent) = element.section.advance(&strains.plane, now, new);
+            dissipation += spent;
+            if element.section.has_failed(now.history) {
+                continue;
+            }
+            if element.section.has_failed(new) {
+                dissipation.eroded += left_in(element, &strains, now, new);
+            }
+            self.subtract_from_nodes(element, &motion, (plane, &strains.shear), now.nodes, F);
+        }
+        dissipation
     }
 
     fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
@@ -89,9 +162,7 @@ where
             let strains = element.strains::<K>(&element.gather(now.nodes));
             dissipation += element.section.update_history(&strains.plane, now, part, new);
             if element.section.has_failed(new) && !element.section.has_failed(now.history) {
-                // What the layers had stored is booked by then.
-                let left = element.elastic_energy(&strains, &Configuration { history: new, ..*now });
-                dissipation.eroded += left.into_iter().sum::<f64>();
+                dissipation.eroded += left_in(element, &strains, now, new);
             }
         }
         dissipation

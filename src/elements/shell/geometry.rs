@@ -116,9 +116,10 @@ fn build<'a, K, const N: usize, const V: usize, const P: usize, const E: usize, 
 ) -> Shells<K, N, V, P, E, S>
 where
     K: PlaneStrains<N, V, P, E>,
+    S: ShellSection<P, E>,
 {
     let elements = elements.map(|e| shell::<K, N, V, P, E, S>(&e, x, plate, &mut section)).collect();
-    Shells { elements, damping, interpolation: PhantomData }
+    Shells { elements, packs: Vec::new(), damping, interpolation: PhantomData }
 }
 
 /// An undeformed element with its directors and tangents.

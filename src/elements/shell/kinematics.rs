@@ -3,6 +3,7 @@
 use super::arc::Arc;
 use super::edge::EdgeTangents;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
+use super::lanes::ShellPack;
 use super::section::{InPlane, ShellSection, ShellStiffness};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
@@ -61,9 +62,14 @@ pub(super) struct StrainHessian<const N: usize> {
 }
 
 /// A group of shells of one interpolation `K`, whose sections are of type `S`.
-pub struct Shells<K, const N: usize, const V: usize, const P: usize, const E: usize, S = ShellStiffness<P, E>> {
+pub struct Shells<K, const N: usize, const V: usize, const P: usize, const E: usize, S = ShellStiffness<P, E>>
+where
+    S: ShellSection<P, E>,
+{
     /// The elements.
     pub(super) elements: Vec<Shell<N, V, P, E, S>>,
+    /// The elements in packs of eight, where forces are computed from these.
+    pub(super) packs: Vec<ShellPack<N, V, P, E, S::Packed>>,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
     /// The interpolation, which holds no data.

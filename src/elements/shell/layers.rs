@@ -1,11 +1,14 @@
 //! A shell of layers in plane stress, each with history variables of its own, that yields. Transverse shear stays elastic until all layers
 //! have failed.
 
+use super::layer_lanes::{LayerLanes, PointLanes};
+use super::packed::{InPlaneLanes, PackedSections};
 use super::plane_strains::PointStrains;
 use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
-use crate::materials::{Dissipation, MaterialLaw, PlaneStress};
+use crate::materials::{Dissipation, EightPoints, MaterialLaw, PlaneStress};
+use crate::math::lanes::lanes;
 use crate::math::quadrature;
 use crate::state::Configuration;
 use nalgebra::SMatrix;
@@ -161,7 +164,46 @@ fn subtract<const R: usize, const Q: usize>(
     }
 }
 
+impl<const P: usize, const E: usize> PackedSections<LayeredSection<P, E>, P, E> for LayerLanes<P, E> {
+    fn pack(sections: &[&LayeredSection<P, E>]) -> Option<Self> {
+        let first = sections.first()?;
+        let law = EightPoints::new(&first.layers.law, PlaneStress)?;
+        let at = |lane: usize| sections[lane.min(sections.len() - 1)];
+        // The flat elements of a part have more points than the others.
+        if sections.iter().any(|section| section.points.len() != first.points.len()) {
+            return None;
+        }
+        let point = |g: usize| PointLanes {
+            membrane: from_fn(|i| from_fn(|m| lanes(|lane| at(lane).points[g].membrane[(i, m)]))),
+            bending: from_fn(|i| from_fn(|m| lanes(|lane| at(lane).points[g].bending[(i, m)]))),
+            weight: lanes(|lane| at(lane).points[g].weight),
+        };
+        Some(LayerLanes {
+            law,
+            at: first.layers.at.clone(),
+            edges: from_fn(|i| lanes(|lane| at(lane).drilling.stiffness * at(lane).drilling.edges[i])),
+            stiffness: lanes(|lane| at(lane).drilling.stiffness),
+            rows: from_fn(|k| from_fn(|i| lanes(|lane| at(lane).drilling.rows[k][i]))),
+            points: (0..first.points.len()).map(point).collect(),
+            first: from_fn(|lane| at(lane).first),
+        })
+    }
+
+    #[inline(always)]
+    fn advance(
+        &self,
+        strain: &InPlaneLanes<P, E>,
+        now: &Configuration,
+        new: Option<(&mut [f64], &mut Dissipation)>,
+        count: usize,
+    ) -> InPlaneLanes<P, E> {
+        LayerLanes::advance(self, strain, now, new, count)
+    }
+}
+
 impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E> {
+    type Packed = LayerLanes<P, E>;
+
     fn elastic(&self) -> &ShellStiffness<P, E> {
         &self.elastic
     }
@@ -254,6 +296,25 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
             }
         });
         dissipation
+    }
+
+    fn advance(&self, strain: &InPlane<P, E>, now: &Configuration, new: &mut [f64]) -> (InPlane<P, E>, Dissipation) {
+        let (mut stress, mut dissipation) = (self.drilling(strain), Dissipation::default());
+        let all = self.layers.at.len() * self.layers.variables;
+        let old = now.history[self.history_range()].chunks_exact(all);
+        let new = new[self.history_range()].chunks_exact_mut(all);
+        for ((point, old), new) in self.points.iter().zip(old).zip(new) {
+            let mut section = [[0.0; 3]; 2];
+            let mut new = new.chunks_exact_mut(self.layers.variables);
+            self.through(point, strain, old, |[z, w], strain, old| {
+                let Some(new) = new.next() else { return };
+                let (sigma, spent) = self.layers.law.advance(PlaneStress, strain, (now.dt, 1.0), old, new);
+                accumulate(&mut section, [z, w], &sigma);
+                dissipation += spent * (w * point.weight);
+            });
+            Self::add(point, &section, &mut stress);
+        }
+        (stress, dissipation)
     }
 
     fn layers(&self, strain: &InPlane<P, E>, now: &Configuration, layers: &mut [LayerStress]) -> usize {

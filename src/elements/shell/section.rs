@@ -1,9 +1,11 @@
 //! What a shell asks of its sections; a section that stays elastic. Those that yield stand in [`super::layers`].
 
+use super::packed::{InPlaneLanes, PackedSections};
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::Dissipation;
 use crate::math::fma;
+use crate::math::lanes::{self, Lanes, lanes};
 use crate::state::Configuration;
 use std::array::from_fn;
 
@@ -30,7 +32,9 @@ impl<const P: usize, const E: usize> InPlane<P, E> {
 }
 
 /// The sections of one element.
-pub trait ShellSection<const P: usize, const E: usize>: Send + Sync {
+pub trait ShellSection<const P: usize, const E: usize>: Send + Sync + Sized {
+    /// The sections of eight elements side by side.
+    type Packed: PackedSections<Self, P, E>;
     /// The stiffness before the material yields.
     fn elastic(&self) -> &ShellStiffness<P, E>;
     /// Stress at a strain.
@@ -55,6 +59,10 @@ pub trait ShellSection<const P: usize, const E: usize>: Send + Sync {
         _new: &mut [f64],
     ) -> Dissipation {
         Dissipation::default()
+    }
+    /// Stress at a strain, with the history variables there written as [`ShellSection::update_history`] does and its dissipation.
+    fn advance(&self, strain: &InPlane<P, E>, now: &Configuration, new: &mut [f64]) -> (InPlane<P, E>, Dissipation) {
+        (self.stress(strain, now), self.update_history(strain, now, 1.0, new))
     }
     /// Writes the mean stress and the largest plastic strain of each layer, in axes of the element, and returns the number of layers.
     fn layers(&self, _strain: &InPlane<P, E>, _now: &Configuration, _layers: &mut [LayerStress]) -> usize {
@@ -156,7 +164,49 @@ impl<const P: usize, const E: usize> ShellStiffness<P, E> {
     }
 }
 
+/// The stiffnesses of eight elements.
+pub struct StiffnessLanes<const P: usize, const E: usize> {
+    N: [[Lanes; E]; E],
+    M: [[Lanes; P]; P],
+}
+
+impl<const P: usize, const E: usize> PackedSections<ShellStiffness<P, E>, P, E> for StiffnessLanes<P, E> {
+    fn pack(sections: &[&ShellStiffness<P, E>]) -> Option<Self> {
+        let at = |lane: usize| sections[lane.min(sections.len() - 1)];
+        sections.iter().all(|section| !section.coupled).then(|| StiffnessLanes {
+            N: from_fn(|i| from_fn(|j| lanes(|lane| at(lane).N[i][j]))),
+            M: from_fn(|i| from_fn(|j| lanes(|lane| at(lane).M[i][j]))),
+        })
+    }
+
+    #[inline(always)]
+    fn advance(
+        &self,
+        strain: &InPlaneLanes<P, E>,
+        _: &Configuration,
+        _: Option<(&mut [f64], &mut Dissipation)>,
+        _: usize,
+    ) -> InPlaneLanes<P, E> {
+        let mut stress = InPlaneLanes::ZERO;
+        for i in 0..E {
+            for j in 0..E {
+                // The matrices are symmetric to the last bit: their lower halves are not read.
+                let entry = self.N[i.min(j)][i.max(j)];
+                stress.membrane[j] = lanes::fma(entry, strain.membrane[i], stress.membrane[j]);
+            }
+        }
+        for i in 0..P {
+            for j in 0..P {
+                stress.bending[j] = lanes::fma(self.M[i.min(j)][i.max(j)], strain.bending[i], stress.bending[j]);
+            }
+        }
+        stress
+    }
+}
+
 impl<const P: usize, const E: usize> ShellSection<P, E> for ShellStiffness<P, E> {
+    type Packed = StiffnessLanes<P, E>;
+
     #[inline(always)]
     fn elastic(&self) -> &ShellStiffness<P, E> {
         self

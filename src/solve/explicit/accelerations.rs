@@ -62,6 +62,14 @@ impl Accelerations {
         self.masses.is_none()
     }
 
+    /// The masses of nodes that move each by itself, without joints, and the differences of their accelerations; `None` in other scenes.
+    pub fn free(&mut self) -> Option<(&Masses, &mut [Vec6])> {
+        match self {
+            Accelerations { masses: Some(masses), schur: None, missing, .. } => Some((masses, missing)),
+            _ => None,
+        }
+    }
+
     /// The projection onto the constraints with a coupled mass matrix.
     pub fn projection(&mut self) -> Option<&mut ConstraintProjection> {
         self.projection.as_mut()

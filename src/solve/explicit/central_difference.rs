@@ -4,19 +4,22 @@ use super::accelerations::{Accelerations, set_rates};
 use super::critical_step::CriticalStep;
 use super::dense_projection::project_onto_constraints;
 use super::inner_product::{aMa_of_nodes, aMa_of_trial};
-use super::stiffening::{change, is_growing, resistance};
+use super::node_loops::{accelerate, end_step, move_ahead};
+use super::node_sums::StepSums;
+use super::stiffening::{change, is_growing, is_growing_by, resistance, resistance_of_nodes};
 use crate::integrators::Coefficients;
 use crate::linear::TooLarge;
-use crate::math::{Vec6, angular, linear, stack};
+use crate::materials::Dissipation;
+use crate::math::Vec6;
 use crate::snapshot::keep;
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::motion::{Stage, excite, move_to_step_end, move_trial, predict};
+use crate::solve::motion::{excite, measure_reach, move_to_step_end};
 use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, links, residual};
-use crate::state::{Configuration, Node, State, Work};
+use crate::state::{Configuration, State, Work};
 use crate::system::masses::{CORRECTIONS, NodeRates};
 
 /// Central differences, with what they need besides the workspace. It is allocated once.
@@ -25,9 +28,11 @@ pub struct CentralDifferenceStepper {
     critical: CriticalStep,
     /// True where steps find their own length; the advice of a failure depends on it.
     automatic: bool,
+    /// Energy dissipated by materials and contacts on the way to the motion that was evaluated last.
+    dissipated: Dissipation,
 }
 
-keep!(CentralDifferenceStepper { accelerations, critical } without { automatic });
+keep!(CentralDifferenceStepper { accelerations, critical } without { automatic, dissipated });
 
 impl CentralDifferenceStepper {
     /// A stepper for central differences.
@@ -39,6 +44,7 @@ impl CentralDifferenceStepper {
             accelerations: Accelerations::new(cx)?,
             critical: CriticalStep::new(cx.model, cx.plan),
             automatic: cx.model.analysis.step_length.is_automatic(),
+            dissipated: Dissipation::default(),
         })
     }
 
@@ -98,17 +104,15 @@ impl CentralDifferenceStepper {
         contacts::check_length(cx, state, dt)?;
         self.critical.update_if_due(cx, ws, &mut self.accelerations, state, dt)?;
         self.check_stability(dt)?;
-        let mut evaluations = self.find_accelerations(cx, ws, state, to, &scheme)?;
-        let (mut aMa, suspicious) = self.check_stiffening(cx, ws, state, dt);
+        let (mut evaluations, sums) = self.find_accelerations(cx, ws, state, to, &scheme)?;
+        let (mut aMa, suspicious) = self.check_stiffening(cx, ws, state, (sums.as_ref(), dt));
         if suspicious {
             self.measure_critical_step(cx, ws, state, dt)?;
             // The scene has not stiffened after all; measuring has overwritten what was found.
-            evaluations += self.find_accelerations(cx, ws, state, to, &scheme)?;
+            evaluations += self.find_accelerations(cx, ws, state, to, &scheme)?.0;
             aMa = aMa_of_trial(cx, ws, &mut self.accelerations);
         }
-        self.set_end_rates(cx, ws, state, dt);
-        let account = self.account(cx, ws, state, dt);
-        move_to_step_end(cx, ws, state, &scheme);
+        let account = self.end_step(cx, ws, state, (&scheme, dt));
         if self.accelerations.are_coupled() {
             self.accelerations.project(cx, ws, state, &scheme, dt)?;
         } else {
@@ -133,7 +137,7 @@ impl CentralDifferenceStepper {
     }
 
     /// Finds the trial motion at the end of the step, with predicted velocities, and the difference of its
-    /// accelerations. Returns the number of residuals evaluated.
+    /// accelerations. Returns the number of residuals evaluated, and the sums over nodes that move by themselves.
     fn find_accelerations(
         &mut self,
         cx: &Context,
@@ -141,56 +145,98 @@ impl CentralDifferenceStepper {
         state: &State,
         to: f64,
         scheme: &Coefficients,
-    ) -> Result<usize, Failure> {
+    ) -> Result<(usize, Option<StepSums>), Failure> {
         let dt = to - state.time;
         excite(cx, ws, state.time, to, 1.0);
-        predict(cx, ws, state, &Stage::from(scheme));
-        self.turn_bodies(ws, state, dt);
-        if self.accelerations.schur.is_some() {
-            ws.forces.multipliers.values.fill(0.0);
-        }
-        move_trial(cx, ws, state, &Stage::from(scheme));
+        self.predict_multipliers(cx, ws, state);
+        move_ahead(cx, ws, self.accelerations.masses.as_ref(), state, (scheme, dt));
         let mut evaluations = 0;
         // Gyroscopic moments of bodies at predicted velocities would feed energy into the motion where masses are
         // coupled.
         let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
         loop {
             let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
-            cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
+            // What is evaluated last is the motion that the step ends with, unless it is refused.
+            self.dissipated = cx.system.advance(&now, &ws.loads.instant, &mut ws.forces, &mut ws.history);
             evaluations += 1;
+            if let Some(free) = self.accelerations.free() {
+                let sums = accelerate(cx, ws, free, state, dt);
+                return if sums.all.is_finite() {
+                    Ok((evaluations, Some(sums)))
+                } else {
+                    Err(residual::not_finite(cx, ws))
+                };
+            }
             self.accelerations.solve(cx, ws, state, true)?;
             if evaluations > corrections {
                 break;
             }
             for &node in &cx.independent_nodes {
                 let trial = &ws.trial[node];
-                let NodeRates { v, omega, .. } = mean(&state.nodes[node], trial, &self.accelerations.missing[node], dt);
+                let NodeRates { v, omega, .. } =
+                    NodeRates::mean(&state.nodes[node], trial, &self.accelerations.missing[node], dt);
                 let (a, alpha) = (trial.a, trial.alpha);
                 set_rates(&mut ws.increments[node], &NodeRates { v, omega, a, alpha });
             }
             move_to_step_end(cx, ws, state, scheme);
         }
-        if self.accelerations.are_finite(cx, ws) { Ok(evaluations) } else { Err(residual::not_finite(cx, ws)) }
+        if self.accelerations.are_finite(cx, ws) { Ok((evaluations, None)) } else { Err(residual::not_finite(cx, ws)) }
     }
 
-    /// Replaces the predicted motion of bodies that turn freely.
-    fn turn_bodies(&self, ws: &mut Workspace, state: &State, dt: f64) {
-        let Some(masses) = &self.accelerations.masses else { return };
-        for block in &masses.blocks {
-            if let Some(motion) = block.drift(&state.nodes[block.node], dt) {
-                ws.increments[block.node].q = motion;
-            }
+    /// Writes the multipliers that the search for accelerations begins with.
+    fn predict_multipliers(&self, cx: &Context, ws: &mut Workspace, state: &State) {
+        if cx.system.joints.is_empty() {
+            return;
+        }
+        measure_reach(cx, ws, state);
+        let values = &mut ws.forces.multipliers.values;
+        match self.accelerations.schur {
+            Some(_) => values.fill(0.0),
+            None => values.copy_from_slice(&state.multipliers),
         }
     }
 
     /// The product aᵀMa of the accelerations found, and whether these or the motion suggest that the scene has
     /// stiffened.
-    fn check_stiffening(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> (f64, bool) {
-        let accelerations = &mut self.accelerations;
-        let stiffened = resistance(cx, ws, accelerations, state, dt) > self.critical.known();
+    fn check_stiffening(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        (sums, dt): (Option<&StepSums>, f64),
+    ) -> (f64, bool) {
+        let (accelerations, critical) = (&mut self.accelerations, &self.critical);
+        if let (Some(sums), Some((masses, missing))) = (sums, accelerations.free()) {
+            let resists = resistance_of_nodes(ws, (masses, missing), state, (sums, dt));
+            let suspicious = resists > critical.known() || critical.is_struck(sums.aMa) || is_growing_by(sums);
+            return (sums.aMa, suspicious);
+        }
+        let stiffened = resistance(cx, ws, accelerations, state, dt) > critical.known();
         let aMa = aMa_of_trial(cx, ws, accelerations);
-        let suspicious = stiffened || self.critical.is_struck(aMa) || is_growing(cx, ws, accelerations, state, dt);
+        let suspicious = stiffened || critical.is_struck(aMa) || is_growing(cx, ws, accelerations, state, dt);
         (aMa, suspicious)
+    }
+
+    /// Takes the trial motion to the end of the step, with the velocities and accelerations there, and accounts for reactions, damping
+    /// and dissipation.
+    fn end_step(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        (scheme, dt): (&Coefficients, f64),
+    ) -> Account {
+        let account = self.account(cx, ws, state, dt);
+        if let Some((masses, missing)) = self.accelerations.free() {
+            end_step(cx, ws, (masses, missing), state, dt);
+            return account;
+        }
+        self.set_end_rates(cx, ws, state, dt);
+        if cx.wants_forces {
+            self.accelerations.update_reactions(cx, ws, state, dt);
+        }
+        move_to_step_end(cx, ws, state, scheme);
+        account
     }
 
     /// Measures the critical time step in the trial motion, from the change of the accelerations.
@@ -221,26 +267,22 @@ impl CentralDifferenceStepper {
         for &node in &cx.independent_nodes {
             let (start, now) = (&state.nodes[node], &ws.trial[node]);
             let motion = match masses.as_ref().and_then(|masses| masses.of(node)) {
-                Some(block) => block.verlet(start, now, &ws.forces.on_nodes[node], dt),
-                None => mean(start, now, &missing[node], dt),
+                Some(block) => {
+                    let F = &ws.forces.on_nodes[node];
+                    block.verlet(start, now, F, &block.accelerate(now, F), dt)
+                }
+                None => NodeRates::mean(start, now, &missing[node], dt),
             };
             set_rates(&mut ws.increments[node], &motion);
         }
     }
 
-    /// Evaluates the forces and updates the history variables in the trial motion.
-    fn account(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Account {
-        let mut account = Account { damping_power: Some(0.0), ..Account::default() };
-        if cx.wants_forces {
-            self.accelerations.update_reactions(cx, ws, state, dt);
-            if cx.system.is_damped() {
-                let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
-                account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
-            }
-        }
-        if cx.system.history > 0 {
+    /// Evaluates the power of damping in the trial motion.
+    fn account(&self, cx: &Context, ws: &Workspace, state: &State, dt: f64) -> Account {
+        let mut account = Account { damping_power: Some(0.0), dissipated: self.dissipated, ..Account::default() };
+        if cx.wants_forces && cx.system.is_damped() {
             let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
-            account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
+            account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
         }
         account
     }
@@ -253,15 +295,6 @@ fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
     let last = if *step > 0.0 { *step } else { dt };
     *verlet_energy_offset += 0.125 * (dt * dt * aMa - last * last * *before);
     (*before, *step) = (aMa, dt);
-}
-
-/// The rates at the end of a step by the mean of the accelerations; `missing` is the difference of those of the trial
-/// motion.
-fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> NodeRates {
-    let (a, alpha) = (now.a + linear(missing), now.alpha + angular(missing));
-    let old = stack(&start.a, &start.alpha);
-    let both = (old + stack(&a, &alpha)) * (0.5 * dt);
-    NodeRates { v: start.v + linear(&both), omega: start.omega + angular(&both), a, alpha }
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ mod central_difference;
 mod critical_step;
 mod dense_projection;
 mod inner_product;
+mod node_loops;
+mod node_sums;
 mod runge_kutta;
 mod stiffening;
 

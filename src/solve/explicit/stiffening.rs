@@ -3,10 +3,12 @@
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
+use super::node_sums::StepSums;
 use crate::math::{Vec6, angular, linear, stack};
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
 use crate::state::{Node, State};
+use crate::system::masses::Masses;
 
 /// The change of a node's acceleration over the step; `missing` is the difference of those of the trial motion.
 pub fn change(missing: &[Vec6], trial: &[Node], state: &State, node: usize) -> Vec6 {
@@ -14,12 +16,13 @@ pub fn change(missing: &[Vec6], trial: &[Node], state: &State, node: usize) -> V
     stack(&(now.a - start.a), &(now.alpha - start.alpha)) + missing[node]
 }
 
+/// Below this fraction of the limit, by approximate inertias, the quotient is not computed.
+const QUICK: f64 = 0.05;
+
 /// The Rayleigh quotient −Δaᵀ M q/qᵀ M q of the step's motion, a mean of ω² over its modes. More than ω² of the fastest
 /// known mode shows that the scene has stiffened, as in an impact. It is zero where the step is short enough in any
 /// case.
 pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> f64 {
-    // Below this fraction of the limit, by approximate inertias, the quotient is not computed.
-    const QUICK: f64 = 0.05;
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let (trial, increments) = (&ws.trial, &ws.increments);
     let change = |node: usize| change(missing, trial, state, node);
@@ -36,24 +39,38 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
         force -= mass * linear(&da).dot(&linear(q)) + inertia * angular(&da).dot(&angular(q));
         size += mass * linear(q).norm_squared() + inertia * angular(q).norm_squared();
     }
-    if force <= QUICK * 4.0 / (dt * dt) * size {
-        return 0.0;
-    }
-    (force, size) = (0.0, 0.0);
+    if force <= QUICK * 4.0 / (dt * dt) * size { 0.0 } else { quotient(ws, (masses, missing), state) }
+}
+
+/// The same of nodes that move by themselves, of which the sums are at hand.
+pub fn resistance_of_nodes(
+    ws: &Workspace,
+    of_nodes: (&Masses, &[Vec6]),
+    state: &State,
+    (sums, dt): (&StepSums, f64),
+) -> f64 {
+    let [force, size] = sums.resistance;
+    if force <= QUICK * 4.0 / (dt * dt) * size { 0.0 } else { quotient(ws, of_nodes, state) }
+}
+
+/// The quotient with the masses as they are.
+fn quotient(ws: &Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State) -> f64 {
+    let (mut force, mut size) = (0.0, 0.0);
     for block in &masses.blocks {
-        let (da, q) = (change(block.node), &increments[block.node].q);
-        let node = &trial[block.node];
+        let (da, q) = (change(missing, &ws.trial, state, block.node), &ws.increments[block.node].q);
+        let node = &ws.trial[block.node];
         force -= block.inner_product(node, &da, q);
         size += block.inner_product(node, q, q);
     }
     force / size
 }
 
+/// What tells that a mode grows, a little above the value of one at the limit.
+const LIMIT: f64 = 4.1;
+
 /// A quick check whether a mode grows. Without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is a mean of (ω Δt)²
 /// over the modes, in which the gross motion does not hide the fast ones; decaying modes do no harm.
 pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> bool {
-    // The value is a little above that of a mode at the limit.
-    const LIMIT: f64 = 4.1;
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let trial = &ws.trial;
     let before = |node: usize| stack(&state.nodes[node].a, &state.nodes[node].alpha);
@@ -80,5 +97,11 @@ pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
         increase -= mass * linear(&second).dot(&start.a) + inertia * angular(&second).dot(&start.alpha);
         size += mass * start.a.norm_squared() + inertia * start.alpha.norm_squared();
     }
+    increase > LIMIT * size && next > size
+}
+
+/// The same of nodes that move by themselves, by their sums.
+pub fn is_growing_by(sums: &StepSums) -> bool {
+    let [increase, size, next] = sums.growth;
     increase > LIMIT * size && next > size
 }

@@ -1,0 +1,121 @@
+//! The loops over nodes of a step by central differences: to the end of the step, and, where each node is a body of its own that no
+//! joint holds, its acceleration with what is judged by it, and its rates there.
+
+use super::node_sums::StepSums;
+use crate::integrators::Coefficients;
+use crate::math::rotation::Chart;
+use crate::math::{Vec6, angular, linear, stack};
+use crate::solve::context::Context;
+use crate::solve::motion::{prescribe, rates_of, update_dependent_nodes};
+use crate::solve::node_chunks::{Largest, NodeChunk, Nothing};
+use crate::solve::workspace::Workspace;
+use crate::state::{Increment, Node, State};
+use crate::system::Prescribed;
+use crate::system::masses::{Masses, NodeRates};
+
+/// Moves the trial motion to the end of the step of length `dt`, with predicted velocities; bodies that turn freely by their angular
+/// momentum.
+pub fn move_ahead(
+    cx: &Context,
+    ws: &mut Workspace,
+    masses: Option<&Masses>,
+    state: &State,
+    (scheme, dt): (&Coefficients, f64),
+) {
+    let (trial, increments, given) = (&mut ws.trial[..], &mut ws.increments[..], &ws.prescribed.instant);
+    let restraints = &cx.model.constraints.restraints;
+    let drift = cx.chunks.run((trial, increments), &|chunk: &NodeChunk, (trial, increments): Moving| {
+        let first = chunk.nodes.start;
+        let independent = &cx.independent_nodes[chunk.independent.clone()];
+        for &node in independent {
+            let (start, increment) = (&state.nodes[node], &mut increments[node - first]);
+            let [v, a] = rates_of(start);
+            let turning = masses.and_then(|masses| masses.of(node)?.drift(start, dt));
+            increment.q = turning.unwrap_or_else(|| scheme.predict(&v, &a, &state.jerk[node]));
+            scheme.differentiate(increment, &v, &a, &a);
+        }
+        for &i in &cx.chunks.restraints[chunk.restraints.clone()] {
+            prescribe(&mut increments[restraints[i].node - first], restraints[i].dof, &given[i]);
+        }
+        let mut drift = Largest(0.0);
+        for &node in independent {
+            let increment = &increments[node - first];
+            drift += Largest(trial[node - first].advance(&state.nodes[node], increment, scheme.rotation));
+        }
+        drift
+    });
+    ws.rotation_drift = ws.rotation_drift.max(drift.0);
+    update_dependent_nodes(cx, ws, &state.nodes);
+}
+
+/// The motion of the nodes of a chunk: where they are, and what they have moved by.
+type Moving<'a> = (&'a mut [Node], &'a mut [Increment]);
+
+/// Writes the differences of the accelerations of nodes that move by themselves, and returns what the step is judged by.
+pub fn accelerate(
+    cx: &Context,
+    ws: &mut Workspace,
+    (masses, missing): (&Masses, &mut [Vec6]),
+    state: &State,
+    dt: f64,
+) -> StepSums {
+    ws.solves += 1;
+    let (trial, increments, F) = (&ws.trial, &ws.increments, &ws.forces.on_nodes);
+    cx.chunks.run(missing, &|chunk: &NodeChunk, missing: &mut [Vec6]| {
+        let mut sums = StepSums::default();
+        for &node in &cx.independent_nodes[chunk.independent.clone()] {
+            let (now, found) = (&trial[node], &mut missing[node - chunk.nodes.start]);
+            if let Some(block) = masses.of(node) {
+                *found = block.accelerate(now, &F[node]);
+                let jerk_dt = state.jerk[node] * dt;
+                sums.add(block, [&state.nodes[node], now], &increments[node].q, found, &jerk_dt);
+            }
+            sums.all += found.sum() + now.x.sum();
+        }
+        sums
+    })
+}
+
+/// Writes the motion of such nodes at the end of the step, with its rates by the increments, and the residual on prescribed degrees of
+/// freedom where forces are wanted.
+pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State, dt: f64) {
+    let given = &ws.prescribed;
+    let restraints = &cx.model.constraints.restraints;
+    let data = ((&mut ws.trial[..], &mut ws.increments[..]), &mut ws.forces.on_nodes[..]);
+    cx.chunks.run(data, &|chunk: &NodeChunk, ((trial, increments), F): (Moving, &mut [[f64; 6]])| {
+        let first = chunk.nodes.start;
+        let mut held = cx.chunks.restraints[chunk.restraints.clone()].iter().peekable();
+        for &node in &cx.independent_nodes[chunk.independent.clone()] {
+            let (start, now, found) = (&state.nodes[node], &mut trial[node - first], &missing[node]);
+            let (increment, F) = (&mut increments[node - first], &mut F[node - first]);
+            let motion = match masses.of(node) {
+                Some(block) => {
+                    let motion = block.verlet(start, now, F, found, dt);
+                    if cx.wants_forces {
+                        block.subtract_inertia(now, found, F);
+                    }
+                    motion
+                }
+                None => NodeRates::mean(start, now, found, dt),
+            };
+            let chart = Chart::new(&angular(&increment.q));
+            let (d, dd) = chart.vector_rates(&motion.omega, &motion.alpha);
+            (increment.d, increment.dd) = (stack(&motion.v, &d), stack(&motion.a, &dd));
+            // Positions and rotations are those of the trial motion, as prescribed ones are.
+            while let Some(&i) = held.next_if(|&&i| restraints[i].node <= node) {
+                if restraints[i].node == node {
+                    prescribe(increment, restraints[i].dof, &moved(&given.start[i], &given.end[i]));
+                }
+            }
+            (now.v, now.a) = (linear(&increment.d), linear(&increment.dd));
+            (now.omega, now.alpha) = chart.spatial_rates(&angular(&increment.d), &angular(&increment.dd));
+        }
+        Nothing
+    });
+    update_dependent_nodes(cx, ws, &state.nodes);
+}
+
+/// The prescribed motion over the step.
+fn moved(from: &Prescribed, to: &Prescribed) -> Prescribed {
+    Prescribed { u: to.u - from.u, ..*to }
+}
