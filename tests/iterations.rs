@@ -1,6 +1,7 @@
 //! The number of corrections that an equilibrium takes.
 
-use crate::support::{read, run_to_the_end};
+use crate::support::{node, position, read, run_to_the_end};
+use rdsolve::solve::Frame;
 
 /// Automatic steps of a slender frame that are long for it, a fiftieth of the run: stages converge in three to four corrections each.
 /// Without the stresses extrapolated from the iterate before, these take 7.5.
@@ -20,4 +21,51 @@ fn long_steps_of_slender_beams() {
     let each = done.counts.iterations as f64 / stages;
     println!("{each:.2} corrections a stage, {:?}", done.counts);
     assert!(each < 4.5, "{each} {:?}", done.counts);
+}
+
+/// Iterations a step, and the motion of these nodes, with the iteration of the deck and as many elements as it has.
+fn steps_of(deck: &str, labels: &[&str], sets: &[&str]) -> (f64, Vec<Vec<f64>>) {
+    let mut given = vec!["expect=[]".to_owned()];
+    given.extend(sets.iter().map(|set| (*set).to_owned()));
+    let model = read(deck, &given);
+    let nodes: Vec<usize> = labels.iter().map(|label| node(&model, label)).collect();
+    let mut probe = |frame: &Frame| nodes.iter().flat_map(|&node| position(&frame.state.nodes[node])).collect();
+    let done = run_to_the_end(&model, &mut probe);
+    (done.counts.iterations as f64 / done.counts.steps as f64, done.rows)
+}
+
+fn distance(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().flatten().zip(b.iter().flatten()).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
+}
+
+/// Equal steps are iterated to a part of their own error: what the iteration leaves is a tenth of what the steps leave at the most,
+/// a hundredth being asked for in each step alone, and two to three corrections do.
+#[test]
+fn equal_steps_end_with_a_part_of_their_own_error() {
+    for (deck, labels, dt, end, most) in [
+        ("flying_beam", ["a", "b"], 0.0125, 5.0, 2.7),
+        ("right_angle_cantilever", ["elbow", "tip"], 0.0375, 15.0, 3.0),
+        ("spherical_cap/elastic", ["apex", "half"], 2.5e-6, 4e-4, 2.2),
+    ] {
+        let run = |division: f64, tolerance: &[&str]| {
+            let step = format!("analysis.time_step={:e}", dt / division);
+            let (end, every) = (format!("analysis.end_time={end:e}"), format!("output.interval={:e}", 8.0 * dt));
+            steps_of(deck, &labels, &[&[step.as_str(), &end, &every], tolerance].concat())
+        };
+        let tight = ["iteration.tolerance=1e-10"];
+        let ((iterations, motion), (more, exact), (_, finer)) = (run(1.0, &[]), run(1.0, &tight), run(2.0, &tight));
+        // A half of the step leaves a quarter of the error.
+        let (of_iteration, of_steps) = (distance(&motion, &exact), 4.0 / 3.0 * distance(&exact, &finer));
+        println!("{deck}: {iterations:.2} of {more:.2} iterations, {of_iteration:.2e} beside {of_steps:.2e}");
+        assert!(iterations < most && of_iteration < 0.1 * of_steps, "{deck}: {iterations} {of_iteration} {of_steps}");
+    }
+}
+
+/// Schemes that keep energy are iterated to the digits of the default.
+#[test]
+fn the_trapezoidal_rule_keeps_its_iteration() {
+    let newmark = "integrator={scheme=\"newmark\"}";
+    let run = |sets: &[&str]| steps_of("flying_beam", &["a"], &[&[newmark, "analysis.end_time=1.0"], sets].concat());
+    assert_eq!(run(&[]), run(&["iteration.tolerance=1e-8"]));
 }

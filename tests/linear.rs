@@ -17,8 +17,8 @@ fn shapes(random: &mut Random) -> Vec<Structure> {
         sheet(5, 6, 5),
         frame(3, 3, 3, 6),
         frame(1, 4, 5, 3),
-        Structure { sizes: vec![6, 2, 3], connectivity: vec![], multipliers: 0 },
-        Structure { sizes: vec![], connectivity: vec![], multipliers: 0 },
+        Structure { sizes: vec![6, 2, 3], connectivity: vec![], multipliers: 0, positions: Vec::new() },
+        Structure { sizes: vec![], connectivity: vec![], multipliers: 0, positions: Vec::new() },
     ];
     for groups in [2, 5, 17, 40] {
         shapes.push(tree(groups, random));
@@ -208,7 +208,8 @@ fn stiff_directions_do_not_spoil_the_soft_ones() {
 /// A block without a diagonal needs its rows exchanged.
 #[test]
 fn rows_are_exchanged_within_a_block() {
-    let structure = Structure { sizes: vec![6, 6], connectivity: vec![vec![0, 1]], multipliers: 0 };
+    let structure =
+        Structure { sizes: vec![6, 6], connectivity: vec![vec![0, 1]], multipliers: 0, positions: Vec::new() };
     let mut solver = Solver::new(&structure, Factorization::BlockLu, 1).unwrap();
     let matrix = DMatrix::from_fn(12, 12, |i, j| match ((i + 1) % 6 == j % 6, i / 6 == j / 6) {
         (true, true) => 2.0 + i as f64,
@@ -231,7 +232,12 @@ fn chains_go_to_blocks_and_large_frames_to_cholesky() {
     assert_eq!(Factorization::choose(&chain(2000, 6)), Factorization::BlockLu);
     assert_eq!(Factorization::choose(&frame(10, 6, 6, 6)), Factorization::Cholesky);
     assert_eq!(
-        Factorization::choose(&Structure { sizes: vec![], connectivity: vec![], multipliers: 0 }),
+        Factorization::choose(&Structure {
+            sizes: vec![],
+            connectivity: vec![],
+            multipliers: 0,
+            positions: Vec::new()
+        }),
         Factorization::BlockLu
     );
 }
@@ -293,6 +299,7 @@ fn blocks_lie_where_their_entries_do() {
         sizes: vec![6, 6, 5, 6, 6, 3],
         connectivity: vec![vec![0, 1, 2], vec![4, 1, 5], vec![3, 4]],
         multipliers: 0,
+        positions: Vec::new(),
     };
     let solver = Solver::new(&structure, Factorization::Cholesky, 1).unwrap();
     let first = [0, 6, 12, 17, 23, 29];

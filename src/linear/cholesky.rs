@@ -86,7 +86,7 @@ impl Cholesky {
     /// # Errors
     /// The factor does not fit into memory.
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
-        let elimination = Elimination::new(&graph).postordered(&graph);
+        let elimination = Elimination::new(&graph).or_dissected(&graph).postordered(&graph);
         memory::require(graph.unknowns(), elimination.nonzeros)?;
         let external: Vec<usize> = elimination.order.iter().flat_map(|&g| graph.first[g]..graph.first[g + 1]).collect();
         let mut position = vec![0; external.len()];

@@ -31,7 +31,7 @@ pub(super) fn potrf(A: MatMut<f64>, scratch: &mut MemStack, threads: bool) -> bo
         return false;
     }
     trsm(first.rb(), below.rb_mut(), threads);
-    syrk(below.rb(), rest.rb_mut(), threads);
+    syrk(Accum::Add, below.rb(), rest.rb_mut(), threads);
     potrf(rest, scratch, threads)
 }
 
@@ -45,30 +45,30 @@ pub(super) fn trsm(L: MatRef<f64>, B: MatMut<f64>, threads: bool) {
     join(threads, || trsm(L, upper, threads), || trsm(L, lower, threads));
 }
 
-/// U ← U − B Bᵀ, lower triangles.
-pub(super) fn syrk(B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
+/// U ← U − B Bᵀ or −B Bᵀ, lower triangles.
+pub(super) fn syrk(accum: Accum, B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
     use triangular::BlockStructure::{Rectangular, TriangularLower};
     let n = B.nrows();
     if n < 2 * SMALLEST {
         let (lhs, rhs) = ((B, Rectangular), (B.transpose(), Rectangular));
-        return triangular::matmul(U, TriangularLower, Accum::Add, lhs.0, lhs.1, rhs.0, rhs.1, -1.0, Par::Seq);
+        return triangular::matmul(U, TriangularLower, accum, lhs.0, lhs.1, rhs.0, rhs.1, -1.0, Par::Seq);
     }
     let (upper, lower) = B.split_at_row(n / 2);
     let (first, _, beside, rest) = U.split_at_mut(n / 2, n / 2);
     join(
         threads,
-        || gemm(lower, upper, beside, threads),
-        || join(threads, || syrk(upper, first, threads), || syrk(lower, rest, threads)),
+        || gemm(accum, lower, upper, beside, threads),
+        || join(threads, || syrk(accum, upper, first, threads), || syrk(accum, lower, rest, threads)),
     );
 }
 
-/// U ← U − A Bᵀ.
-fn gemm(A: MatRef<f64>, B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
+/// U ← U − A Bᵀ or −A Bᵀ.
+pub(super) fn gemm(accum: Accum, A: MatRef<f64>, B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
     let n = B.nrows();
     if n < 2 * SMALLEST {
-        return matmul(U, Accum::Add, A, B.transpose(), -1.0, Par::Seq);
+        return matmul(U, accum, A, B.transpose(), -1.0, Par::Seq);
     }
     let (upper, lower) = B.split_at_row(n / 2);
     let (left, right) = U.split_at_col_mut(n / 2);
-    join(threads, || gemm(A, upper, left, threads), || gemm(A, lower, right, threads));
+    join(threads, || gemm(accum, A, upper, left, threads), || gemm(accum, A, lower, right, threads));
 }

@@ -1,12 +1,14 @@
 //! Multifrontal L Lᵀ: each supernode adds up the update matrices of its children in its front, eliminates its columns and
-//! leaves one update matrix to its parent.
+//! leaves one update matrix, a packed triangle, to its parent. Update matrices wait on two stacks, one for every other level of the tree: a
+//! front is then written where it stays, beside those of its children, and nothing is moved.
 //! I. S. Duff & J. K. Reid, ACM Trans. Math. Softw. 9 (1983).
 //!
 //! Subtrees of the elimination tree are independent: each is factored on one thread with a workspace of its own. The
 //! supernodes above them follow one by one, the large dense operations of each in halves ([`super::dense`]). Both cuts
 //! depend on the structure alone, so the bits do not depend on the number of threads. Factorisations allocate nothing.
 
-use super::dense::{join, potrf, syrk, trsm};
+use super::dense::{join, potrf, trsm};
+use super::packed::Packed;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::prelude::{Reborrow, ReborrowMut};
@@ -44,15 +46,17 @@ pub(super) struct Tree {
     pub rows: Vec<u32>,
     /// The row in the front of the parent of each of `rows`.
     pub places: Vec<u32>,
+    /// Where rows follow each other in the front of the parent too: the first of each such run, counted from the supernode's own first, and
+    /// its place in the front of the parent.
+    runs: Vec<[u32; 2]>,
     /// The place in the panel of its supernode of each entry of the matrix.
     entries: Vec<u32>,
 }
 
-/// The memory of a walk through supernodes: update matrices that wait for their parents, the last on top, and the scratch
-/// of the dense operations.
+/// The memory of a walk through supernodes: update matrices that wait for their parents, the last on top, by level of the tree, and
+/// the scratch of the dense operations.
 pub(super) struct FrontWorkspace {
-    stack: Vec<f64>,
-    top: usize,
+    stacks: [Vec<f64>; 2],
     scratch: MemBuffer,
     /// The stack of update vectors of a substitution.
     pub vectors: Vec<f64>,
@@ -77,7 +81,11 @@ pub(super) struct Front {
     entry: usize,
     /// Start of its children in `Tree::children`.
     child: usize,
-    /// Start of its update matrix on the stack.
+    /// Start of its runs in `Tree::runs`.
+    run: usize,
+    /// Its level in the tree is odd: the stack of its update matrix.
+    level: usize,
+    /// Start of its update matrix on its stack.
     update: usize,
     /// Start of its update vector on the stack of vectors.
     pub vector: usize,
@@ -95,6 +103,8 @@ impl Front {
         place: 0,
         entry: 0,
         child: 0,
+        run: 0,
+        level: 0,
         update: 0,
         vector: 0,
         subtree: None,
@@ -165,7 +175,33 @@ impl Tree {
             ..Front::END
         });
         let all = (0..count).flat_map(|s| rows(s).iter().map(|&row| row as u32)).collect();
-        Tree { fronts, children, rows: all, places, entries }
+        let mut tree = Tree { fronts, children, rows: all, places, runs: Vec::new(), entries };
+        tree.find_runs();
+        tree.find_levels();
+        tree
+    }
+
+    fn find_runs(&mut self) {
+        for s in 0..self.fronts.len() {
+            self.fronts[s].run = self.runs.len();
+            let Front { place, rows, .. } = self.fronts[s];
+            let places = &self.places[place..place + rows];
+            for (j, &place) in places.iter().enumerate() {
+                if j == 0 || place != places[j - 1] + 1 {
+                    self.runs.push([j as u32, place]);
+                }
+            }
+        }
+    }
+
+    /// Levels count from the roots, which come after all below them.
+    fn find_levels(&mut self) {
+        for s in (0..self.fronts.len() - 1).rev() {
+            let level = 1 - self.fronts[s].level;
+            for at in self.fronts[s].child..self.fronts[s + 1].child {
+                self.fronts[self.children[at] as usize].level = level;
+            }
+        }
     }
 
     /// The children of supernode `s`, ascending.
@@ -211,26 +247,26 @@ impl Tree {
 
     /// The workspace for the given supernodes, and their places in it, by walking through them as a factorisation does.
     fn workspace(&mut self, supernodes: impl Iterator<Item = usize>, subtree: Option<usize>) -> FrontWorkspace {
-        let (mut top, mut highest, mut vector, mut longest) = (0, 0, 0, 0);
+        let (mut top, mut highest, mut vector, mut longest) = ([0; 2], [0; 2], 0, 0);
         let (mut widest, mut tallest) = (0, 0);
         for s in supernodes {
-            let Front { columns, rows, .. } = self.fronts[s];
-            highest = highest.max(top + rows * rows);
+            let Front { columns, rows, level, .. } = self.fronts[s];
+            let size = Packed::new(rows).len();
+            highest[level] = highest[level].max(top[level] + size);
             (widest, tallest) = (widest.max(columns), tallest.max(columns + rows));
             for child in self.children(s).map(|child| &self.fronts[child]).filter(|child| child.subtree == subtree) {
-                top -= child.rows * child.rows;
+                top[child.level] -= Packed::new(child.rows).len();
                 vector -= child.rows;
             }
             let front = &mut self.fronts[s];
-            (front.update, front.vector, front.subtree) = (top, vector, subtree);
-            top += rows * rows;
+            (front.update, front.vector, front.subtree) = (top[level], vector, subtree);
+            top[level] += size;
             vector += rows;
             longest = longest.max(vector);
         }
         let scratch = cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
         FrontWorkspace {
-            stack: vec![0.0; highest],
-            top: 0,
+            stacks: highest.map(|highest| vec![0.0; highest]),
             scratch: MemBuffer::new(scratch),
             vectors: vec![0.0; longest],
             front: vec![0.0; tallest],
@@ -249,7 +285,6 @@ impl Tree {
         match of {
             [] => true,
             [(supernodes, workspace)] => {
-                workspace.top = 0;
                 let panel = |s: usize| self.fronts[s].panel - base;
                 supernodes.clone().all(|s| self.eliminate(s, K, &mut L[panel(s)..panel(s + 1)], workspace, &[], false))
             }
@@ -280,35 +315,94 @@ impl Tree {
     ) -> bool {
         let (front, next) = (&self.fronts[s], &self.fronts[s + 1]);
         let (columns, rows) = (front.columns, front.rows);
-        panel.fill(0.0);
+        let height = columns + rows;
+        for j in 0..columns {
+            panel[j * height + j..(j + 1) * height].fill(0.0);
+        }
         for (&at, &k) in self.entries[front.entry..next.entry].iter().zip(&K[front.entry..next.entry]) {
             panel[at as usize] = k;
         }
-        let (old, new) = workspace.stack.split_at_mut(workspace.top);
-        let update = &mut new[..rows * rows];
-        update.fill(0.0);
-        for child in self.children(s).map(|child| &self.fronts[child]) {
-            let stack = match child.subtree {
-                Some(t) if child.subtree != front.subtree => &subtrees[t].1.stack,
-                _ => &*old,
-            };
-            let places = &self.places[child.place..child.place + child.rows];
-            extend_add(&stack[child.update..], places, (columns, rows), panel, update);
+        let [even, odd] = &mut workspace.stacks;
+        let (own, others) = if front.level == 0 { (even, &*odd) } else { (odd, &*even) };
+        let update_of = |child: &Front| match child.subtree {
+            Some(t) if child.subtree != front.subtree => &subtrees[t].1.stacks[child.level][child.update..],
+            _ => &others[child.update..],
+        };
+        for child in self.children(s) {
+            let (of_panel, _) = self.split(child, columns);
+            let diagonal = |place: usize| place * height + place;
+            self.extend_add(child, update_of(&self.fronts[child]), of_panel, (panel, height), diagonal);
         }
 
-        let panel = MatMut::from_column_major_slice_mut(panel, columns + rows, columns);
+        let panel = MatMut::from_column_major_slice_mut(panel, height, columns);
         let (mut square, mut below) = panel.split_at_row_mut(columns);
         if !potrf(square.rb_mut(), MemStack::new(&mut workspace.scratch), threads) {
             return false;
         }
         if rows > 0 {
             trsm(square.rb(), below.rb_mut(), threads);
-            syrk(below.rb(), MatMut::from_column_major_slice_mut(update, rows, rows), threads);
-            workspace.stack.copy_within(workspace.top..workspace.top + rows * rows, front.update);
+            let shape = Packed::new(rows);
+            let update = &mut own[front.update..front.update + shape.len()];
+            shape.fill(below.rb(), update, threads);
+            for child in self.children(s) {
+                let (_, of_update) = self.split(child, columns);
+                let diagonal = |place: usize| shape.diagonal(place - columns);
+                self.extend_add(child, update_of(&self.fronts[child]), of_update, (update, height), diagonal);
+            }
         }
-        workspace.top = front.update + rows * rows;
         true
     }
+
+    /// The columns of the update matrix of supernode `s` that go into the panel of its parent of `columns` columns, and into its update matrix.
+    fn split(&self, s: usize, columns: usize) -> (Range<usize>, Range<usize>) {
+        let Front { place, rows, .. } = self.fronts[s];
+        let of_panel = self.places[place..place + rows].partition_point(|&place| (place as usize) < columns);
+        (0..of_panel, of_panel..rows)
+    }
+
+    /// Adds `columns` of the update matrix of supernode `s` to a part of the front of its parent, of `height` rows: `diagonal` gives the place
+    /// of each entry of its diagonal, which those below follow.
+    fn extend_add(
+        &self,
+        s: usize,
+        from: &[f64],
+        columns: Range<usize>,
+        (to, height): (&mut [f64], usize),
+        diagonal: impl Fn(usize) -> usize,
+    ) {
+        let (front, next) = (&self.fronts[s], &self.fronts[s + 1]);
+        let (places, runs) = (&self.places[front.place..next.place], &self.runs[front.run..next.run]);
+        let shape = Packed::new(front.rows);
+        let mut run = runs.partition_point(|&[first, _]| (first as usize) < columns.start + 1).saturating_sub(1);
+        for j in columns {
+            let row = places[j] as usize;
+            let column = &mut to[diagonal(row)..][..height - row];
+            let from = &from[shape.diagonal(j)..][..front.rows - j];
+            if runs.get(run + 1).is_some_and(|&[first, _]| first as usize == j) {
+                run += 1;
+            }
+            let mut begin = j;
+            for next in run + 1..=runs.len() {
+                let end = runs.get(next).map_or(front.rows, |&[first, _]| first as usize);
+                let at = places[begin] as usize - row;
+                add(&mut column[at..at + end - begin], &from[begin - j..end - j]);
+                begin = end;
+            }
+        }
+    }
+}
+
+/// a ← a + b, in pieces of a node with six unknowns.
+#[inline]
+fn add(a: &mut [f64], b: &[f64]) {
+    const PIECE: usize = 6;
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks_mut::<PIECE>(), b.as_chunks::<PIECE>());
+    for (a, b) in a.iter_mut().zip(b) {
+        for i in 0..PIECE {
+            a[i] += b[i];
+        }
+    }
+    a_rest.iter_mut().zip(b_rest).for_each(|(a, b)| *a += b);
 }
 
 impl Fronts {
@@ -329,28 +423,10 @@ impl Fronts {
     /// Factors the matrix with the entries `K`, lower triangle by columns, into `L`. False if a pivot is not positive.
     pub fn factor(&mut self, K: &[f64], L: &mut [f64]) -> bool {
         let Fronts { tree, subtrees, above: (above, workspace), threads, .. } = self;
-        workspace.top = 0;
         tree.factor_subtrees(subtrees, K, L, 0, *threads)
             && above.iter().all(|&s| {
                 let panel = &mut L[tree.fronts[s].panel..tree.fronts[s + 1].panel];
                 tree.eliminate(s, K, panel, workspace, subtrees, *threads)
             })
-    }
-}
-
-/// Adds the update matrix of a child to the front of its parent, which is its panel and its own update matrix; lower
-/// triangles. `places`: the rows of the child in the front of the parent.
-fn extend_add(from: &[f64], places: &[u32], (columns, rows): (usize, usize), panel: &mut [f64], update: &mut [f64]) {
-    let m = places.len();
-    for (j, &place) in places.iter().enumerate() {
-        let place = place as usize;
-        let from = &from[j * m + j..(j + 1) * m];
-        if place < columns {
-            let column = &mut panel[place * (columns + rows)..][..columns + rows];
-            from.iter().zip(&places[j..]).for_each(|(f, &i)| column[i as usize] += f);
-        } else {
-            let column = &mut update[(place - columns) * rows..][..rows];
-            from.iter().zip(&places[j..]).for_each(|(f, &i)| column[i as usize - columns] += f);
-        }
     }
 }

@@ -13,6 +13,8 @@ pub(super) struct Graph {
     pub group: Vec<u32>,
     /// So many groups at the end hold Lagrange multipliers: they are eliminated after their neighbours.
     pub multipliers: usize,
+    /// Where the other groups are; empty where that is not known.
+    pub positions: Vec<[f64; 3]>,
     start: Vec<usize>,
     neighbours: Vec<u32>,
 }
@@ -44,7 +46,15 @@ impl Graph {
             start[g + 1] += start[g];
         }
         let neighbours = pairs.into_iter().map(|(_, h)| h).collect();
-        Graph { sizes, first, group, multipliers: structure.multipliers, start, neighbours }
+        Graph {
+            sizes,
+            first,
+            group,
+            multipliers: structure.multipliers,
+            positions: structure.positions.clone(),
+            start,
+            neighbours,
+        }
     }
 
     /// Number of groups.

@@ -11,4 +11,6 @@ pub struct Structure {
     /// Number of groups at the end that hold Lagrange multipliers, whose diagonal is next to zero: each is eliminated
     /// after all groups that it couples with. The matrix is then indefinite.
     pub multipliers: usize,
+    /// Where the groups are, multipliers left out, for an order by dissection; empty where that is not known.
+    pub positions: Vec<[f64; 3]>,
 }

@@ -228,6 +228,7 @@ fn iteration(table: Option<&At<Table<words::Iteration>>>, report: &mut Report) -
         update: Update::Auto,
         gyroscopic: Gyroscopic::Auto,
         tolerance: 1e-8,
+        follows_step: true,
         limit: 20,
     };
     let Some(table) = table else { return iteration };
@@ -235,7 +236,7 @@ fn iteration(table: Option<&At<Table<words::Iteration>>>, report: &mut Report) -
         if !(at.value > 0.0 && at.value < 1.0) {
             report.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
         }
-        iteration.tolerance = at.value;
+        (iteration.tolerance, iteration.follows_step) = (at.value, false);
     }
     iteration.method = chosen(&table.method);
     iteration.gyroscopic = chosen(&table.gyroscopic);

@@ -39,6 +39,8 @@ pub struct Plan {
     /// search.
     pub redundant_constraints: Option<Vec<usize>>,
     nodes: Vec<dof_status::NodeStatus>,
+    /// Where nodes are at the start.
+    places: Vec<[f64; 3]>,
 }
 
 impl Plan {
@@ -48,7 +50,9 @@ impl Plan {
         let unknown = nodes.iter().map(|node| node.map(|status| status == DofStatus::Unknown));
         let dofs = DofMap::new(unknown, &system.joints);
         let explicit = model.analysis.kind == AnalysisKind::Dynamic && model.solution.scheme.is_explicit();
-        let structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
+        let mut structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
+        let places: Vec<[f64; 3]> = model.nodes.iter().map(|node| node.x.into()).collect();
+        structure.positions = positions(&dofs, &places);
         let kind = choose::kind(&structure, model.solution.iteration.gyroscopic);
         // A body that rotates in space has J = R J₀ Rᵀ and a gyroscopic moment; about one fixed axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
@@ -74,6 +78,7 @@ impl Plan {
             threads,
             redundant_constraints: Some(Vec::new()),
             nodes,
+            places,
         };
         if !system.joints.is_empty() {
             plan.redundant_constraints = redundant_constraints::find(model, system, &plan.dofs);
@@ -115,7 +120,9 @@ impl Plan {
     /// # Errors
     /// As for [`Plan::build`].
     pub fn build_with(&self, system: &System, partners: &[(usize, Partners)]) -> Result<(Solver, Assembly), TooLarge> {
-        let solver = Solver::new(&structure_with(system, &self.dofs, partners), self.kind, self.threads)?;
+        let mut structure = structure_with(system, &self.dofs, partners);
+        structure.positions.clone_from(&self.structure.positions);
+        let solver = Solver::new(&structure, self.kind, self.threads)?;
         let assembly = Assembly::with_room(system, &self.dofs, &solver, self.threads, partners);
         Ok((solver, assembly))
     }
@@ -126,8 +133,17 @@ impl Plan {
         let mut unknown: Vec<[bool; 6]> = self.dofs.each_node().iter().map(NodeRows::unknown).collect();
         prescribed.iter().for_each(|&(node, dof)| unknown[node][dof] = true);
         let dofs = DofMap::new(unknown.into_iter(), &system.joints);
-        let (structure, nodes) = (structure(system, &dofs), self.nodes.clone());
-        Plan { dofs, structure, nodes, redundant_constraints: self.redundant_constraints.clone(), ..*self }
+        let mut structure = structure(system, &dofs);
+        structure.positions = positions(&dofs, &self.places);
+        let nodes = self.nodes.clone();
+        Plan {
+            dofs,
+            structure,
+            nodes,
+            places: self.places.clone(),
+            redundant_constraints: self.redundant_constraints.clone(),
+            ..*self
+        }
     }
 
     /// Number of these degrees of freedom, over all nodes, with this status.
@@ -139,6 +155,12 @@ impl Plan {
     pub fn is_unknown(&self, node: usize, dof: usize) -> bool {
         self.nodes[node][dof] == DofStatus::Unknown
     }
+}
+
+/// The places of the nodes that have unknowns, in the order of their groups.
+fn positions(dofs: &DofMap, places: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    let unknowns = dofs.each().iter().map(NodeRows::count);
+    places.iter().zip(unknowns).filter(|(_, count)| *count > 0).map(|(place, _)| *place).collect()
 }
 
 /// The structure of the matrix: groups of unknowns, one for each node and each joint that has any, and their couplings.
@@ -167,5 +189,5 @@ fn grouped(unknowns: &[usize], connectivity: Vec<Vec<usize>>, multipliers: usize
     }
     let known = |coupled: Vec<usize>| -> Vec<usize> { coupled.into_iter().filter_map(|node| group[node]).collect() };
     let connectivity = connectivity.into_iter().map(known).filter(|coupled| coupled.len() > 1);
-    Structure { sizes, connectivity: connectivity.collect(), multipliers: last }
+    Structure { sizes, connectivity: connectivity.collect(), multipliers: last, positions: Vec::new() }
 }

@@ -163,7 +163,7 @@ impl SparseFactor {
         }
         pairs.sort_unstable();
         pairs.dedup();
-        let structure = Structure { sizes, connectivity, multipliers: 0 };
+        let structure = Structure { sizes, connectivity, multipliers: 0, positions: Vec::new() };
         let solver = Solver::new(&structure, Factorization::choose(&structure), 1).ok()?;
         let place = |row: u32, col: u32| solver.slot(row as usize, col as usize).unwrap_or(solver.spare());
         let slots = pairs

@@ -58,6 +58,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
                 update: Update::Auto,
                 gyroscopic: Gyroscopic::Auto,
                 tolerance: 1e-12,
+                follows_step: false,
                 limit: 30,
             },
         },

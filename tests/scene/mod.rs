@@ -71,6 +71,7 @@ pub fn model() -> Model {
                 update: Update::Auto,
                 gyroscopic: Gyroscopic::Auto,
                 tolerance: 1e-8,
+                follows_step: false,
                 limit: 20,
             },
         },

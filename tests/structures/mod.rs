@@ -5,19 +5,29 @@ use rdsolve::linear::{Solver, Structure};
 
 /// Elements of two nodes in a row.
 pub fn chain(groups: usize, size: usize) -> Structure {
-    Structure { sizes: vec![size; groups], connectivity: (1..groups).map(|g| vec![g - 1, g]).collect(), multipliers: 0 }
+    Structure {
+        sizes: vec![size; groups],
+        connectivity: (1..groups).map(|g| vec![g - 1, g]).collect(),
+        multipliers: 0,
+        positions: Vec::new(),
+    }
 }
 
 /// Elements of three nodes in a row, numbered end, middle, end, middle, end.
 pub fn quadratic_chain(elements: usize, size: usize) -> Structure {
     let connectivity = (0..elements).map(|e| vec![2 * e, 2 * e + 1, 2 * e + 2]).collect();
-    Structure { sizes: vec![size; 2 * elements + 1], connectivity, multipliers: 0 }
+    Structure { sizes: vec![size; 2 * elements + 1], connectivity, multipliers: 0, positions: Vec::new() }
 }
 
 /// Each node hangs on a random earlier one.
 pub fn tree(groups: usize, random: &mut Random) -> Structure {
     let sizes = (0..groups).map(|_| 1 + random.below(6)).collect();
-    Structure { sizes, connectivity: (1..groups).map(|g| vec![g, random.below(g)]).collect(), multipliers: 0 }
+    Structure {
+        sizes,
+        connectivity: (1..groups).map(|g| vec![g, random.below(g)]).collect(),
+        multipliers: 0,
+        positions: Vec::new(),
+    }
 }
 
 /// A sheet of four-node elements.
@@ -26,7 +36,7 @@ pub fn sheet(nx: usize, ny: usize, size: usize) -> Structure {
     let connectivity = (1..nx)
         .flat_map(|i| (1..ny).map(move |j| vec![node(i - 1, j - 1), node(i, j - 1), node(i, j), node(i - 1, j)]))
         .collect();
-    Structure { sizes: vec![size; nx * ny], connectivity, multipliers: 0 }
+    Structure { sizes: vec![size; nx * ny], connectivity, multipliers: 0, positions: Vec::new() }
 }
 
 /// A space frame of one beam per member: storeys of nx × ny columns.
@@ -43,14 +53,19 @@ pub fn frame(storeys: usize, nx: usize, ny: usize, size: usize) -> Structure {
             }
         }
     }
-    Structure { sizes: vec![size; storeys * nx * ny], connectivity, multipliers: 0 }
+    Structure { sizes: vec![size; storeys * nx * ny], connectivity, multipliers: 0, positions: Vec::new() }
 }
 
 /// Random couplings of up to five groups of mixed sizes; some groups may stand alone.
 pub fn connectivity(groups: usize, random: &mut Random) -> Structure {
     let sizes = (0..groups).map(|_| 1 + random.below(6)).collect();
     let coupled = |random: &mut Random| (0..2 + random.below(4)).map(|_| random.below(groups)).collect();
-    Structure { sizes, connectivity: (0..groups).map(|_| coupled(random)).collect(), multipliers: 0 }
+    Structure {
+        sizes,
+        connectivity: (0..groups).map(|_| coupled(random)).collect(),
+        multipliers: 0,
+        positions: Vec::new(),
+    }
 }
 
 /// SplitMix64.

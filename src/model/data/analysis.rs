@@ -104,6 +104,8 @@ pub struct Iteration {
     pub gyroscopic: Gyroscopic,
     /// Relative tolerance of residual and correction.
     pub tolerance: f64,
+    /// True where the deck gives no tolerance: the error of the step may then end the iteration earlier.
+    pub follows_step: bool,
     /// Largest number of iterations in a step before a cutback.
     pub limit: usize,
 }

@@ -151,5 +151,5 @@ fn doubled(structure: &Structure) -> (Structure, Vec<[usize; 2]>) {
         connectivity.extend(of(true).map(|multipliers| nodes.iter().copied().chain([multipliers]).collect()));
         connectivity.push(nodes);
     }
-    (Structure { sizes, connectivity, multipliers }, places)
+    (Structure { sizes, connectivity, multipliers, positions: Vec::new() }, places)
 }

@@ -34,13 +34,19 @@ pub struct Judgement {
     stagnant: usize,
     /// Estimated remaining error or residual, the larger, relative.
     left: f64,
-    tolerance: f64,
+    /// The tolerance of the correction.
+    pub tolerance: f64,
 }
 
 impl Convergence {
     /// A criterion with relative tolerances of the correction and of the residual; the first correction is judged by the `usual` contraction.
     pub fn new(tolerances: [f64; 2], exact: bool, usual: f64) -> Self {
         Convergence { tolerances, exact, last: None, usual, stagnant: 0 }
+    }
+
+    /// Takes other tolerances, of the correction and of the residual.
+    pub fn adopt(&mut self, tolerances: [f64; 2]) {
+        self.tolerances = tolerances;
     }
 
     /// Forgets the corrections so far, after a return to the prediction.

@@ -1,7 +1,16 @@
 //! When the iteration ends: its tolerance, and what earlier steps tell of its contraction.
+//!
+//! Where the deck gives no tolerance, equal steps are iterated to a part of their own error (E. Hairer & G. Wanner, Solving Ordinary
+//! Differential Equations II, IV.8). Predictions let accelerations go on in a straight line, so the first correction is what the second
+//! difference of the accelerations moves, Δt² times their second derivative; schemes of second order err by a twelfth of that and more.
+//! Errors are compared as accelerations, for what is left unbalanced acts on in all steps to come.
 
 use super::convergence::Judgement;
+use crate::integrators::Stepping;
+use crate::integrators::spectrum::spectrum;
+use crate::model::StepLength;
 use crate::snapshot::keep;
+use crate::solve::context::Context;
 
 /// Contraction assumed where none was seen.
 const UNKNOWN: f64 = 0.5;
@@ -19,16 +28,20 @@ pub struct Ending {
     least: f64,
     /// The contraction seen last; none is carried from step to step where every step is iterated to the digits of the deck.
     contraction: Option<f64>,
-    /// True where steps are iterated to a part of their error.
+    /// True where steps are iterated to a part of the error that they may leave.
     pub carries: bool,
+    /// True where steps are iterated to a part of the error that they make.
+    of_own_error: bool,
 }
 
-keep!(Ending { tolerance, residual, least, contraction, carries });
+keep!(Ending { tolerance, residual, least, contraction, carries } without { of_own_error });
 
 impl Ending {
-    /// Every step is iterated to this tolerance.
-    pub fn new(tolerance: f64) -> Ending {
-        Ending { tolerance, residual: tolerance, least: tolerance, contraction: None, carries: false }
+    /// The end of the iteration of a scene.
+    pub fn new(cx: &Context) -> Ending {
+        let tolerance = cx.model.solution.iteration.tolerance;
+        let of_own_error = follows_own_error(cx);
+        Ending { tolerance, residual: tolerance, least: tolerance, contraction: None, carries: false, of_own_error }
     }
 
     /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.
@@ -47,6 +60,19 @@ impl Ending {
         self.contraction.map_or(UNKNOWN, |seen| seen.min(UNKNOWN))
     }
 
+    /// The tolerances of correction and residual in a step that begins with a correction of this relative size, which answers this
+    /// relative residual; none where all steps have the same. Contractions are not carried over here: without a second correction that
+    /// confirms, what is left has one sign for many steps and adds up to a sixth of their error.
+    pub fn of_step(&self, size: f64, residual: f64) -> Option<[f64; 2]> {
+        /// A hundredth of a twelfth, rounded: errors of one sign add up.
+        const PART: f64 = 1e-3;
+        /// Whatever the error of the step: an impact, a load that jumps, or stiff parts that turn far in steps which do not resolve them, where
+        /// what is left would drive them.
+        const MOST: f64 = 1e-5;
+        let part = |first: f64| (PART * first).clamp(self.least, MOST.max(self.least));
+        self.of_own_error.then(|| [size, residual].map(part))
+    }
+
     /// Takes account of a correction.
     pub fn note(&mut self, judgement: &Judgement) {
         if !self.carries {
@@ -58,4 +84,20 @@ impl Ending {
             None => None,
         };
     }
+}
+
+/// True where the error of a step may end its iteration. Energy is then kept to the error of the steps and no better, which schemes that
+/// dissipate do not promise; bodies alone turn with an error of higher order.
+fn follows_own_error(cx: &Context) -> bool {
+    /// The step, in radians of an oscillator, for which dissipation is looked at.
+    const TURN: f64 = 1.0;
+    /// Above the rounding of eigenvalues.
+    const NONE: f64 = 1e-9;
+    let scheme = &*cx.model.solution.scheme;
+    cx.model.solution.iteration.follows_step
+        && cx.is_dynamic()
+        && !matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. })
+        && matches!(scheme.stepping(), Stepping::OneStage | Stepping::Composite(_))
+        && cx.system.groups.iter().any(|group| group.kind.is_deformable())
+        && spectrum(scheme, TURN).damping > NONE
 }

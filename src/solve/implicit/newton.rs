@@ -154,7 +154,7 @@ impl Newton {
             projection: ConstraintProjection::for_motion(cx)?,
             mass_weight: 0.0,
             lead: Lead::new(cx),
-            ending: Ending::new(model.solution.iteration.tolerance),
+            ending: Ending::new(cx),
             searched: None,
             opened: None,
             ahead: if cx.system.yields() && !cx.is_dynamic() { vec![0.0; cx.plan.dofs.unknowns()] } else { Vec::new() },
@@ -567,6 +567,11 @@ impl Newton {
         }
         let fresh = report.factorizations > 0;
         let quadratic = *new_matrix && self.ending.carries && cx.system.history == 0;
+        if report.iterations == 1
+            && let Some(tolerances) = self.ending.of_step(size, report.residual)
+        {
+            convergence.adopt(tolerances);
+        }
         let judgement = convergence.judge(size, report.residual, quadratic);
         self.ending.note(&judgement);
         if self.ending.carries {
@@ -600,7 +605,7 @@ impl Newton {
         residual: f64,
         judgement: &Judgement,
     ) -> bool {
-        let sure = cx.system.history == 0 || residual <= (1e3 * self.ending.tolerance).min(1e-3);
+        let sure = cx.system.history == 0 || residual <= (1e3 * judgement.tolerance).min(1e-3);
         let small = is_rounding(cx, ws, correction, fresh && sure);
         let rounding = judgement.stalled() && small;
         if sure && judgement.converged() {
