@@ -110,7 +110,10 @@ fn a_summary_has_peaks_and_ends() {
     let column = json["columns"].as_array().unwrap();
     let column = column.iter().find(|column| column["table"] == "bodies.csv" && column["column"] == "vz").unwrap();
     let pair = |key: &str| (column[key]["time"].as_f64().unwrap(), column[key]["value"].as_f64().unwrap());
-    assert_eq!((pair("min"), pair("max"), pair("end")), (least, largest, rows[rows.len() - 1]));
+    for (found, exact) in [(pair("min"), least), (pair("max"), largest), (pair("end"), rows[rows.len() - 1])] {
+        // JSON is read here by a parser that may be off by one in the last place.
+        assert!(found.0 == exact.0 && (found.1 - exact.1).abs() <= f64::EPSILON * exact.1.abs(), "{found:?} {exact:?}");
+    }
     assert_eq!(column["max"]["at"], "ball");
     let table = rdsolve(folder, &["summary", "out", "--format", "csv"], "").stdout;
     let mut reader = csv::Reader::from_reader(&table[..]);

@@ -1012,7 +1012,19 @@ fn contacts_of_faces() {
     assert_eq!(faces("surface = { part = \"sheet\" }\nwith = [\"brick\", \"marble\"]"), "");
     assert_eq!(faces("surface = { part = \"sheet\" }\nwith = \"itself\""), "");
     assert_snapshot!("faces_unknown", faces("surface = { part = \"sheat\" }\nwith = \"brick\""));
-    assert_snapshot!("faces_of_a_beam", faces("surface = { part = \"rod\" }\nwith = \"brick\""));
+    assert_snapshot!("faces_of_a_body", faces("surface = { part = \"marble\" }\nwith = \"brick\""));
+    assert_snapshot!("bar_without_radius", faces("surface = { part = \"rod\" }\nwith = \"brick\""));
+    assert_snapshot!(
+        "bar_that_rubs",
+        faces("surface = { part = \"rod\", radius = 0.01, axis = [0.0, 0.0, 1.0] }\nwith = \"marble\"\nfriction = 0.3")
+    );
+    assert_snapshot!("bar_and_radius", faces("surface = { part = \"rod\", radius = -0.01 }\nwith = \"rod\""));
+    assert_snapshot!(
+        "lines_that_rub",
+        faces("surface = { part = \"rod\", radius = 0.01 }\nwith = \"itself\"\nfriction = 0.3")
+    );
+    assert_eq!(faces("surface = { part = \"rod\", radius = 0.01 }\nwith = \"marble\""), "");
+    assert_eq!(faces("surface = { part = \"rod\", radius = 0.01 }\nwith = \"itself\""), "");
     assert_snapshot!(
         "faces_and_shape",
         faces("surface = { part = \"sheet\", shape = \"plane\", body = \"brick\", radius = 0.1 }\nwith = \"brick\"")

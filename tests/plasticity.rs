@@ -222,7 +222,12 @@ fn all_methods_take_a_frame_in_space_the_same_way() {
 #[test]
 fn cut_steps_go_on() {
     let history = |of: &[&str]| {
-        let common = ["beams.portal.elements=2", "beams.portal.order=2", "iteration.update=\"step\""];
+        let common = [
+            "beams.portal.elements=2",
+            "beams.portal.order=2",
+            "iteration.update=\"step\"",
+            "iteration.tolerance=1e-8",
+        ];
         let model = scene("portal_and_block", &[&common[..], of].concat());
         let done = run_to_the_end(&model, &mut everything);
         (displacements(&model, &done), done.counts)

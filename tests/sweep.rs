@@ -186,7 +186,7 @@ fn a_killed_case_goes_on_from_its_checkpoint() {
     let folder = files(&SWEEP.replace("steps = 5", "steps = 1").replace("[1.0, 2.0, 4.0]", "[1.0]"));
     let folder = folder.path();
     let long = DECK
-        .replace("end_time = 1.0", "end_time = 40.0")
+        .replace("end_time = 1.0", "end_time = 400.0")
         .replace("[output]", "[output]\nevery = 500\ncheckpoint = 0.01");
     fs::write(folder.join("deck.toml"), long).unwrap();
     assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "alone"]).status.success());

@@ -67,7 +67,7 @@ pub struct Surface {
     /// Name of the body that carries it. Default: the ground.
     pub body: Maybe<String>,
     /// Name of a shell whose faces are the surface, in place of a shape: both sides, with its thickness, wherever it
-    /// bends.
+    /// bends; or of a beam or bar, by its `radius`, which of a beam is half the depth of its section by default.
     pub part: Maybe<String>,
 }
 

@@ -133,6 +133,11 @@ impl PartKind {
         self == PartKind::Shell
     }
 
+    /// True for parts whose elements are lines with a section.
+    pub fn is_line(self) -> bool {
+        matches!(self, PartKind::Beam | PartKind::Bar)
+    }
+
     /// True for parts whose elements act while they are closed and are left out otherwise: unilateral constraints.
     #[inline]
     pub fn is_unilateral(self) -> bool {

@@ -368,6 +368,25 @@ impl<'d> Along<'_, 'd> {
         (limit > 0.0 || per_load > 0.0).then_some(JointFriction { limit, per_load, stick: 0.0 })
     }
 
+    /// Friction by a coefficient follows the load of the step before.
+    fn judge_steps(&mut self, friction: &'d At<f64>) {
+        let analysis = &self.scene.analysis;
+        if analysis.modes.is_some() {
+            return;
+        }
+        if analysis.kind == AnalysisKind::Static {
+            let message = "`friction` follows the load of the load step before, and the first has none";
+            self.report.warn(
+                &friction.span,
+                message,
+                "take several load steps, the last of them small, or a limit that is given",
+            );
+        } else if analysis.step_length.is_automatic() {
+            let message = "`friction` needs a `time_step` that is given: it follows the load of the step before, which errors of steps do not tell";
+            self.report.error_with::<()>(&friction.span, message, "or a limit that the joint's load does not change");
+        }
+    }
+
     /// By how much the limit of friction grows with the force that the joint carries across its axis.
     fn friction_per_load(&mut self, kind: &JointKind, coordinate: Coordinate) -> f64 {
         let joint = self.joint;
@@ -387,6 +406,7 @@ impl<'d> Along<'_, 'd> {
             );
             return 0.0;
         }
+        self.judge_steps(friction);
         if !turns {
             self.report.reject_unused("friction against a distance", &[("radius", span(&joint.radius))]);
             return coefficient;

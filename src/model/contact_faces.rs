@@ -1,4 +1,4 @@
-//! Contacts of faces of shells, and of balls among themselves.
+//! Contacts of faces of shells, of beams by their radius, and of balls among themselves.
 
 use super::contact_points::Finder;
 use super::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
@@ -7,6 +7,7 @@ use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
 use crate::deck::contacts as words;
+use crate::deck::parts::PartIndex;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, Facet, FacetTouchers, Surface, SurfaceShape};
@@ -52,26 +53,14 @@ fn faces<'d>(
     table: &'d At<OneOf<words::Surface>>,
 ) -> Option<(FacetSurface, Vec<ContactPoint>)> {
     let part = table.part.as_ref()?;
-    let what = "a surface that is the faces of a part";
-    finder.report.reject_unused(what, &[("shape", span(&table.kind)), ("body", span(&table.body))]);
-    for place in table.values.places() {
-        finder.report.error::<()>(place, "this is a dimension of shapes, and does not apply to the faces of a part");
-    }
+    let Sides { place, surface, half } = sides(finder, contact, table)?;
     let scene = finder.scene;
-    let place = scene.names.find(part, finder.report)?;
-    let Some(surface) = scene.names.surface_of(place) else {
-        let message = format!("`{}` is {}, and has no faces", part.value, place.kind());
-        return finder.report.error_with(&part.span, message, "a surface is a `part` that is a shell, or a `shape`");
-    };
-    let half = finder.contact_radius(surface);
+    let is_line = surface.kind.is_line();
+    if is_line {
+        refuse_friction(finder, contact)?;
+    }
     let elements = scene.parts.elements(surface);
-    let facet = |nodes: &[usize], corners: &[usize]| {
-        let corners: Vec<usize> = corners.iter().map(|&k| nodes[k]).collect();
-        Facet::new(&corners, half)
-    };
-    let flat =
-        elements.iter().flat_map(|nodes| curved_faces::facets(nodes.len()).iter().map(|corners| facet(nodes, corners)));
-    let facets: Vec<Facet> = flat.collect();
+    let facets = facets_of(&elements, half, is_line);
     if facets.is_empty() {
         // A part with errors of its own has no faces, and these have been said.
         return None;
@@ -86,23 +75,110 @@ fn faces<'d>(
         }
         faces.touchers = FacetTouchers::Itself;
         let radius = contact.radius.as_ref().map_or(half, |at| at.value);
+        if is_line {
+            let lines = finder.lines_at(&elements, radius, contact);
+            return Some((faces, lines));
+        }
         let points = finder.points_at(&own_nodes(&faces.facets), radius, contact);
         return Some((faces, points));
     }
     if let Some(at) = names.values.iter().find(|at| scene.names.place(&at.value) == Some(place)) {
-        let message = format!("`{}` is the part whose faces it would touch", at.value);
-        let hint = format!("for a shell that touches itself, give with = \"{ITSELF}\"");
+        let message = format!("`{}` is the part whose surface it would touch", at.value);
+        let hint = format!("for a part that touches itself, give with = \"{ITSELF}\"");
         return finder.report.error_with(&at.span, message, hint);
     }
     // What is attached to the body that carries rigid faces does not touch them.
     let root = finder.topology.root(faces.facets[0].nodes[0]);
     let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
+    finder.on_lines = is_line;
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
     faces.boxes = boxes_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
     if !faces.boxes.is_empty() {
         faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
     }
     Some((faces, points))
+}
+
+/// The facets of elements by their nodes, half as thick as given: lines from node to node, or faces.
+fn facets_of(elements: &[Vec<usize>], half: f64, is_line: bool) -> Vec<Facet> {
+    let facet = |nodes: &[usize], corners: &[usize]| {
+        let corners: Vec<usize> = corners.iter().map(|&k| nodes[k]).collect();
+        Facet::new(&corners, half)
+    };
+    let of_element = |nodes: &Vec<usize>| -> Vec<Facet> {
+        match is_line {
+            true => nodes.windows(2).map(|ends| Facet::new(ends, half)).collect(),
+            false => curved_faces::facets(nodes.len()).iter().map(|corners| facet(nodes, corners)).collect(),
+        }
+    };
+    elements.iter().flat_map(of_element).collect()
+}
+
+/// Lines that touch lines do not rub: what is nearest slides along both, which is not the way of the material.
+fn refuse_friction<'d>(finder: &mut Finder<'_, 'd>, contact: &'d words::Contact) -> Option<()> {
+    let scene = finder.scene;
+    let touches_as_line = |at: &At<String>| {
+        let places = scene.names.place(&at.value).into_iter().flat_map(|place| scene.names.leaves(place));
+        at.value == ITSELF || places.into_iter().any(|place| scene.names.line_of(place).is_some())
+    };
+    match (contact.friction.as_ref().filter(|at| at.value > 0.0), &contact.with) {
+        (Some(friction), Some(names)) if names.values.iter().any(touches_as_line) => {
+            let message = "there is no friction between beams or bars that touch by their radius";
+            let hint = "name a set of the nodes of one of them in `with`, which rub as points";
+            finder.report.error_with(&friction.span, message, hint)
+        }
+        _ => Some(()),
+    }
+}
+
+/// The part that is a surface.
+struct Sides {
+    place: Place,
+    surface: PartIndex,
+    /// Half its thickness, or its radius.
+    half: f64,
+}
+
+/// Finds the part that is a surface, and how thick it is.
+fn sides<'d>(
+    finder: &mut Finder<'_, 'd>,
+    contact: &'d words::Contact,
+    table: &'d At<OneOf<words::Surface>>,
+) -> Option<Sides> {
+    let part = table.part.as_ref()?;
+    let what = "a surface that is a part";
+    finder.report.reject_unused(what, &[("shape", span(&table.kind)), ("body", span(&table.body))]);
+    let scene = finder.scene;
+    let place = scene.names.find(part, finder.report)?;
+    let (surface, line) = (scene.names.surface_of(place), scene.names.line_of(place));
+    let Some(surface) = surface.or(line) else {
+        let message = format!("`{}` is {}, and has no surface", part.value, place.kind());
+        let hint = "a surface is a `part` that is a shell, a beam or a bar, or a `shape`";
+        return finder.report.error_with(&part.span, message, hint);
+    };
+    let radius_place = table.values.place("radius").filter(|_| line.is_some());
+    for place in table.values.places().filter(|&place| Some(place) != radius_place) {
+        finder.report.error::<()>(place, "this is a dimension of shapes, and does not apply to a part");
+    }
+    let half = match radius_place {
+        Some(_) => table.values.numbers("radius").first().copied().unwrap_or(0.0),
+        None => finder.contact_radius(surface),
+    };
+    if line.is_some() && half <= 0.0 {
+        let hint = format!("surface = {{ part = \"{}\", radius = ... }}", part.value);
+        let message = match radius_place {
+            Some(_) => "`radius` must be above zero".to_owned(),
+            None => format!("`{}` is {} without a radius", part.value, Place::Part(surface).kind()),
+        };
+        return finder.report.error_with(radius_place.unwrap_or(&part.span), message, hint);
+    }
+    let friction = contact.friction.as_ref().filter(|at| at.value > 0.0);
+    if let Some(friction) = friction.filter(|_| line.is_some() && !surface.kind.has_sections()) {
+        let hint = "make it a beam";
+        let message = "nothing rubs on a bar, which has no rotations to take a moment";
+        return finder.report.error_with(&friction.span, message, hint);
+    }
+    Some(Sides { place, surface, half })
 }
 
 /// The surfaces of all bodies in a list that are boxes.

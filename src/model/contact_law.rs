@@ -245,7 +245,7 @@ fn with_boxes((points, boxes): (&[ContactPoint], &[TouchingBox])) -> (Vec<Contac
     let ball = |one: &TouchingBox| {
         let (nodes, mut weights) = ([one.node; MOST_NODES], [0.0; MOST_NODES]);
         weights[0] = 1.0;
-        ContactPoint { nodes, weights, count: 1, radius: one.half.min(), rolling_radius: 0.0 }
+        ContactPoint { nodes, weights, count: 1, radius: one.half.min(), rolling_radius: 0.0, is_line: false }
     };
     let levers = points.iter().map(|_| 0.0).chain(boxes.iter().map(|one| one.half.norm())).collect();
     (points.iter().cloned().chain(boxes.iter().map(ball)).collect(), levers)

@@ -42,7 +42,7 @@ impl Opposite<'_> {
         match self {
             Opposite::Shape(_, surface) => surface.least(),
             Opposite::Facets(facets) => {
-                let balls = facets.iter().filter(|facet| facet.is_ball());
+                let balls = facets.iter().filter(|facet| facet.is_ball() || facet.is_line());
                 balls.map(|facet| 2.0 * facet.half).fold(f64::INFINITY, f64::min)
             }
         }

@@ -21,12 +21,23 @@ const MOST_POINTS: usize = 100;
 struct Touch {
     nodes: NodeWeights,
     radius: f64,
+    /// True for the whole line between its two nodes.
+    is_line: bool,
 }
 
 impl Touch {
     fn node(node: usize, radius: f64) -> Touch {
-        Touch { nodes: vec![(node, 1.0)], radius }
+        Touch { nodes: vec![(node, 1.0)], radius, is_line: false }
     }
+
+    fn line(ends: &[usize], radius: f64) -> Touch {
+        Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, is_line: true }
+    }
+}
+
+/// The lines from node to node of an element.
+fn lines_of(nodes: &[usize], radius: f64) -> Vec<Touch> {
+    nodes.windows(2).map(|ends| Touch::line(ends, radius)).collect()
 }
 
 /// Connects points that the deck names as touching something, so that supports and loads find them connected.
@@ -49,6 +60,8 @@ pub(super) struct Finder<'a, 'd> {
     pub report: &'a mut Report<'d>,
     /// The node that carries the surface, where that is a box: bodies that are boxes touch it with their edges and faces too.
     pub on_box: Option<usize>,
+    /// True where the surface is made of lines: beams and bars touch it with theirs.
+    pub on_lines: bool,
     /// The boxes found.
     pub boxes: Vec<TouchingBox>,
     /// What is seen of all that was found.
@@ -161,10 +174,17 @@ impl<'d> Finder<'_, 'd> {
         // A point without rotation cannot be turned by friction.
         let turns = touch.nodes.iter().all(|&(node, _)| self.topology.turns(self.topology.root(node)));
         let rolling_radius = if friction && turns { radius } else { 0.0 };
-        ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius }
+        ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius, is_line: touch.is_line }
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        let line = self.scene.names.line_of(place).filter(|_| self.on_lines);
+        if let Some(part) = line {
+            self.sight.touchers.insert(Toucher::Ball);
+            let radius = self.contact_radius(part);
+            found.extend(self.scene.parts.elements(part).iter().flat_map(|nodes| lines_of(nodes, radius)));
+            return;
+        }
         self.sight.touchers.insert(match place {
             Place::Body(body) => self.toucher_of_body(body),
             Place::Part(_) | Place::Edge(..) => Toucher::Nodes,
@@ -177,7 +197,7 @@ impl<'d> Finder<'_, 'd> {
                 self.open(&self.scene.parts.elements(part), part.kind.is_surface(), radius, Some(between));
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
                 let between = self.scene.parts.of(part).iter().flat_map(|part| part.places_between(between));
-                found.extend(between.map(|nodes| Touch { nodes, radius }));
+                found.extend(between.map(|nodes| Touch { nodes, radius, is_line: false }));
             }
             Place::Edge(part, _) => {
                 let radius = self.contact_radius(part);
@@ -220,6 +240,13 @@ impl<'d> Finder<'_, 'd> {
     pub fn points_at(&self, nodes: &[usize], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
         let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
         nodes.iter().map(|&node| self.contact_point(Touch::node(node, radius), Some(radius), friction)).collect()
+    }
+
+    /// The lines of elements, by the nodes of each, as what touches.
+    pub fn lines_at(&self, elements: &[Vec<usize>], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
+        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        let lines = elements.iter().flat_map(|nodes| lines_of(nodes, radius));
+        lines.map(|line| self.contact_point(line, Some(radius), friction)).collect()
     }
 
     /// Half the thickness of a part, or another distance from its nodes at which it is in contact.

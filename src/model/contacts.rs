@@ -45,7 +45,8 @@ pub(super) fn contacts<'d>(
         let surface = surface.and_then(|table| read_surface(&name, table, scene, topology, report));
         let carrier = surface.as_ref().map(|(node, _)| *node);
         let on_box = surface.as_ref().and_then(|(node, surface)| surface.as_box().map(|_| *node));
-        let mut finder = Finder { scene, topology, report, on_box, boxes: Vec::new(), sight: Sight::default() };
+        let mut finder =
+            Finder { scene, topology, report, on_box, on_lines: false, boxes: Vec::new(), sight: Sight::default() };
         let points = finder.touching(&owner, &name, contact, carrier);
         let (boxes, sight) = (finder.boxes, finder.sight);
         let is_zone = is_zone(&owner, contact, report);
@@ -89,7 +90,8 @@ fn of_facets<'d>(
     report: &mut Report<'d>,
 ) -> Option<Contact> {
     let &LawSetting { scene, masses, at_nodes, gravity } = setting;
-    let mut finder = Finder { scene, topology, report, on_box: None, boxes: Vec::new(), sight: Sight::default() };
+    let mut finder =
+        Finder { scene, topology, report, on_box: None, on_lines: false, boxes: Vec::new(), sight: Sight::default() };
     let found = read_facets(&mut finder, owner, name, contact);
     let is_zone = is_zone(owner, contact, report);
     let (mut found, is_zone) = (found?, is_zone?);

@@ -307,18 +307,27 @@ impl<'d> Names<'d> {
 
     /// The surface that a name stands for, a rigid one and one made of the group of this name too.
     pub fn surface_of(&self, place: Place) -> Option<PartIndex> {
+        self.part_of(place, |part| part.kind.is_surface())
+    }
+
+    /// The beam or bar that a name stands for, likewise.
+    pub fn line_of(&self, place: Place) -> Option<PartIndex> {
+        self.part_of(place, |part| part.kind.is_line())
+    }
+
+    fn part_of(&self, place: Place, is_meant: impl Fn(PartIndex) -> bool) -> Option<PartIndex> {
         let part = match place {
             Place::Part(part) => Some(part),
             Place::Body(body) => self.rigid_part(body),
             Place::Group(index) => {
                 let name = self.mesh.input?.mesh.groups[index].name.as_str();
                 let is_made_of_it = |part: &DeckPart| part.table.group().is_some_and(|group| group.value == name);
-                let mut surfaces = self.deck.parts().filter(|part| part.at.kind.is_surface());
-                surfaces.find(is_made_of_it).map(|part| part.at)
+                let mut meant = self.deck.parts().filter(|part| is_meant(part.at));
+                meant.find(is_made_of_it).map(|part| part.at)
             }
             _ => None,
         };
-        part.filter(|part| part.kind.is_surface())
+        part.filter(|&part| is_meant(part))
     }
 
     /// A place without its sets, in the order of the deck.

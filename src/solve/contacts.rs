@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::failure::Failure;
+use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::model::{Contact, Model, PartType};
 use crate::state::{Configuration, State};
@@ -39,6 +40,11 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
     const TO_THE_MIDDLE: f64 = 0.5;
     if !cx.system.has_contacts() {
         return;
+    }
+    if !ws.warnings.knows_side_by_side()
+        && let Some(part) = cx.system.side_by_side(state)
+    {
+        ws.warnings.add(Warning::SideBySide { name: cx.model.parts[part].name().to_owned() });
     }
     for (part, gap) in cx.system.last_gaps(state) {
         let Some(contact) = Contact::of(&cx.model.parts[part]).filter(|contact| gap < -SEEN * contact.size) else {

@@ -49,6 +49,11 @@ pub enum Warning {
     },
     /// What modes leave out, in words.
     Modes(String),
+    /// Beams press each other side by side.
+    SideBySide {
+        /// The name of the contact.
+        name: String,
+    },
 }
 
 keep_either!(Warning {
@@ -60,6 +65,7 @@ keep_either!(Warning {
     5 => UnstableOutOfPlane(instability),
     6 => Grows { modes, rate, fastest },
     7 => Modes(doubts),
+    8 => SideBySide { name },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -95,6 +101,15 @@ fn step_error(asked: f64, estimate: Option<f64>) -> String {
              to its end. Compare with a run at a smaller `error_tolerance`"
         ),
     }
+}
+
+/// What is wrong where beams press each other side by side.
+fn side_by_side(contact: &str) -> String {
+    format!(
+        "contact `{contact}`: beams or bars press each other side by side. Each pair of elements touches in one point, which jumps from end to \
+         end of where they are alongside: forces are rough, and energies wrong, whatever the step. Name a set of the nodes of one of them in \
+         `with`, which touch as points"
+    )
 }
 
 impl fmt::Display for Warning {
@@ -144,6 +159,7 @@ impl fmt::Display for Warning {
                 to_digits(*rate, 4)
             ),
             Warning::Modes(doubts) => f.write_str(doubts),
+            Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);
@@ -171,6 +187,11 @@ impl Warnings {
         if self.warnings.iter().all(|known| discriminant(known) != discriminant(&warning)) {
             self.warnings.push(warning);
         }
+    }
+
+    /// True where beams that press each other side by side are known.
+    pub fn knows_side_by_side(&self) -> bool {
+        self.warnings.iter().any(|known| matches!(known, Warning::SideBySide { .. }))
     }
 
     /// Adds the depth of a contact, or keeps it where it is relatively deeper than the one known.

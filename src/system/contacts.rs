@@ -121,6 +121,16 @@ impl System {
         self.contact_groups().map(gap)
     }
 
+    /// The contact, by its index in [`Model::parts`], in which beams press each other side by side.
+    pub fn side_by_side(&self, state: &State) -> Option<usize> {
+        let now = state.configuration();
+        let is_so = |(group, block): &(&Group, ContactBlock)| match block {
+            ContactBlock::Facets(block) => block.is_side_by_side(&group.configuration(&now)),
+            ContactBlock::Points(_) | ContactBlock::Boxes(_) => false,
+        };
+        self.contact_groups().find(is_so).map(|(group, _)| group.part)
+    }
+
     /// Writes the states of all contacts into `out`, in deck order.
     pub fn contact_states(&self, model: &Model, now: &Configuration, out: &mut Vec<ContactState>) {
         out.clear();

@@ -372,18 +372,23 @@ pub(super) fn tangents(
                 add_stiffness(row, [a, b], lambda, (K, width));
             }
             let [Ga, Gb] = row.gradient(a, b);
-            let mut G = [0.0; 18];
-            G[..6].copy_from_slice(Ga.as_slice());
-            G[6..12].copy_from_slice(Gb.as_slice());
-            if let Some(drive) = joint.shared().filter(|_| joint.is_driven(k)) {
-                G[12] = -drive.ratio;
-            }
-            for i in 0..own {
-                for j in 0..own {
+            let G: [f64; 12] = std::array::from_fn(|i| if i < 6 { Ga[i] } else { Gb[i - 6] });
+            for i in 0..12 {
+                for j in 0..12 {
                     K[i * width + j] += s * G[i] * G[j];
                 }
                 K[i * width + own + k] = s * G[i];
                 K[(own + k) * width + i] = s * G[i];
+            }
+            if let Some(drive) = joint.shared().filter(|_| joint.is_driven(k)) {
+                let g = -drive.ratio;
+                for (i, G) in G.iter().enumerate() {
+                    K[i * width + 12] += s * G * g;
+                    K[12 * width + i] += s * g * G;
+                }
+                K[12 * width + 12] += s * g * g;
+                K[12 * width + own + k] = s * g;
+                K[(own + k) * width + 12] = s * g;
             }
             K[(own + k) * (width + 1)] = -system.regularization() * s;
         }

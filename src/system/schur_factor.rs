@@ -230,7 +230,7 @@ mod tests {
             let bodies: String = (0..bodies).map(body).collect();
             format!("[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.1\n{bodies}")
         };
-        let source = crate::diagnostic::Source::new("chain.toml", &text(7), &[]);
+        let source = crate::diagnostic::Source::new("chain.toml", text(7), &[]);
         let model = crate::model::read(&source).0.unwrap();
         let system = System::new(&model).unwrap();
         // Each joint of five equations moves the body before it and its own.

@@ -82,7 +82,8 @@ fn heap(count: usize) -> (FacetContacts, Vec<Node>) {
 fn ball(node: usize, radius: f64) -> (ContactPoint, Facet) {
     let mut weights = [0.0; MOST_NODES];
     weights[0] = 1.0;
-    let point = ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius: 0.0 };
+    let point =
+        ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius: 0.0, is_line: false };
     (point, Facet::ball(node, radius, 0.0))
 }
 

@@ -45,7 +45,7 @@ fn touch(
     (0..count).for_each(|k| weights[k] = parts[k] / sum);
     let mut of = [1; MOST_NODES];
     (0..count).for_each(|k| of[k] = 1 + k);
-    let point = ContactPoint { nodes: of, weights, count, radius, rolling_radius: radius };
+    let point = ContactPoint { nodes: of, weights, count, radius, rolling_radius: radius, is_line: false };
 
     // The carrier anywhere, the point a little inside the surface.
     let mut nodes = vec![Node::at_rest(vector(rng, 1.0)); count + 1];

@@ -10,9 +10,9 @@ use rdsolve::math::Vec3;
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::state::{Configuration, Node};
 
-const STIFFNESS: f64 = 1e3;
+pub const STIFFNESS: f64 = 1e3;
 
-fn law(friction: f64, loss: Loss) -> ContactLaw {
+pub fn law(friction: f64, loss: Loss) -> ContactLaw {
     ContactLaw {
         stiffness: STIFFNESS,
         loss,
@@ -28,33 +28,43 @@ fn law(friction: f64, loss: Loss) -> ContactLaw {
 fn point(node: usize, radius: f64, rolling_radius: f64) -> ContactPoint {
     let mut weights = [0.0; MOST_NODES];
     weights[0] = 1.0;
-    ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius }
+    ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius, is_line: false }
 }
 
-/// A ball against facets: the last node is its own.
-struct Scene {
-    block: FacetContacts,
-    nodes: Vec<Node>,
+/// A ball against facets: the last node is its own. Or lines against lines.
+pub struct Scene {
+    pub block: FacetContacts,
+    pub nodes: Vec<Node>,
     past: Vec<f64>,
 }
 
 impl Scene {
     /// A scene that remembers the state in which it is.
     fn new(law: ContactLaw, nodes: Vec<Node>, facets: Vec<Facet>, radius: f64) -> Scene {
-        let x: Vec<Vec3> = nodes.iter().map(|node| node.x).collect();
         let points = vec![point(nodes.len() - 1, radius, radius)];
-        let block = FacetContacts::new(law, FacetTouchers::Others, points, facets, &x);
+        Scene::of(law, FacetTouchers::Others, points, nodes, facets)
+    }
+
+    pub fn of(
+        law: ContactLaw,
+        touchers: FacetTouchers,
+        points: Vec<ContactPoint>,
+        nodes: Vec<Node>,
+        facets: Vec<Facet>,
+    ) -> Scene {
+        let x: Vec<Vec3> = nodes.iter().map(|node| node.x).collect();
+        let block = FacetContacts::new(law, touchers, points, facets, &x);
         let nothing = vec![0.0; block.history()];
         let mut past = nothing.clone();
         block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, lead: None }, 1.0, &mut past);
         Scene { block, nodes, past }
     }
 
-    fn now<'a>(&'a self, nodes: &'a [Node]) -> Configuration<'a> {
+    pub fn now<'a>(&'a self, nodes: &'a [Node]) -> Configuration<'a> {
         Configuration { nodes, history: &self.past, dt: 0.0, lead: None }
     }
 
-    fn force(&self, nodes: &[Node]) -> Vec<f64> {
+    pub fn force(&self, nodes: &[Node]) -> Vec<f64> {
         let mut F = vec![[0.0; 6]; nodes.len()];
         self.block.subtract_forces(&self.now(nodes), &mut F);
         F.into_iter().flatten().collect()
@@ -81,7 +91,7 @@ impl Scene {
     }
 
     /// Compares the tangent with differences; false where nothing touches or the force has a kink.
-    fn check_tangent(&self, tolerance: f64, what: &str) -> bool {
+    pub fn check_tangent(&self, tolerance: f64, what: &str) -> bool {
         let base = self.force(&self.nodes);
         if base.iter().all(|f| *f == 0.0) {
             return false;

@@ -8,6 +8,8 @@ mod element;
 mod faces;
 mod faces_alone;
 mod impact;
+mod lines;
+mod lines_alone;
 mod rubbing;
 mod sight;
 mod stiffness;

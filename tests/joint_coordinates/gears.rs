@@ -279,7 +279,7 @@ stages = ["wind"]
     let omega = (1000.0f64 * 0.01 / (0.7 + 10.0 * 0.01)).sqrt();
     for scheme in all_schemes() {
         let probe = &mut |frame: &Frame| [vec![frame.state.time], state(frame, &["pivot", "slide"])].concat();
-        let done = run_source(&Source::new("rack.toml", &text(scheme), &[]), probe);
+        let done = run_source(&Source::new("rack.toml", text(scheme), &[]), probe);
         assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
         for row in done.rows.iter().filter(|row| row[0] >= 1.0) {
             let exact = 20.0 * (omega * (row[0] - 1.0)).cos();

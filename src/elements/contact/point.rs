@@ -6,7 +6,7 @@ use crate::state::Node;
 /// Largest number of nodes that a point may lie between.
 pub const MOST_NODES: usize = 9;
 
-/// A point that may touch: a weighted sum of nodes.
+/// A point that may touch: a weighted sum of nodes; or a line between two nodes, of which the point that is nearest touches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactPoint {
     /// The first `count` of them carry it.
@@ -19,12 +19,21 @@ pub struct ContactPoint {
     pub radius: f64,
     /// The radius at which friction turns the nodes; 0 where they have no rotation.
     pub rolling_radius: f64,
+    /// True for the whole line between its two nodes. Its own weights are those of the middle.
+    pub is_line: bool,
 }
 
 impl ContactPoint {
     /// The nodes that carry the point.
     pub fn nodes(&self) -> &[usize] {
         &self.nodes[..self.count]
+    }
+
+    /// The point of a line at which its second end has this share.
+    pub(super) fn at(&self, share: f64) -> ContactPoint {
+        let mut point = self.clone();
+        (point.weights[0], point.weights[1]) = (1.0 - share, share);
+        point
     }
 
     /// Nodes and their weights.

@@ -10,7 +10,7 @@ use std::io;
 pub static TABLE: TableKind = TableKind {
     file: "joints.csv",
     about: "One row for each joint. Written if `[output] joints = true` and there are joints. The first three numbers are those of \
-            revolute, prismatic, cylindrical and screw joints, and empty for others. The reactions of a joint without anything along \
+            joints with a coordinate, and empty for others. The reactions of a joint without anything along \
             its coordinate are the negative of those in reactions.csv, about its second end.",
     columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),

@@ -2,7 +2,7 @@
 
 use super::explanation::Explanation;
 
-use crate::elements::contact::FacetTouchers;
+use crate::elements::contact::{Facet, FacetTouchers};
 use crate::model::{CarriedSurface, Contact, Model, TouchedSurface};
 use crate::names::short;
 use crate::system::System;
@@ -13,6 +13,7 @@ pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
         text.add("contact", contact_in_words(model, contact));
         let unseen = contact.touchers.iter().filter_map(|toucher| match &contact.surface {
             TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape),
+            TouchedSurface::Facets(faces) if faces.facets.iter().any(Facet::is_line) => toucher.unseen_by_lines(),
             TouchedSurface::Facets(_) => toucher.unseen_by_faces(),
         });
         for what in unseen {
@@ -52,9 +53,10 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
         1 => ", and its nodes against a box".to_owned(),
         boxes => format!(", and its nodes against {boxes} boxes"),
     };
+    let kind = if faces.facets.iter().any(Facet::is_line) { "lines" } else { "faces" };
     match faces.touchers {
-        FacetTouchers::Others => format!("{touching} against {count} faces of `{part}`{back}"),
-        FacetTouchers::Itself => format!("{touching} of `{part}` against its own {count} faces"),
+        FacetTouchers::Others => format!("{touching} against {count} {kind} of `{part}`{back}"),
+        FacetTouchers::Itself => format!("{touching} of `{part}` against its own {count} {kind}"),
         FacetTouchers::Among => format!("{count} balls among themselves"),
     }
 }
@@ -68,7 +70,8 @@ fn touching_in_words(contact: &Contact) -> String {
     };
     let radius = contact.points.iter().map(|point| point.radius).fold(0.0, f64::max);
     let radius = if radius > 0.0 { format!(" of contact radius {}", short(radius)) } else { String::new() };
-    let points = counted(contact.points.len(), "point", "points").map(|points| points + &radius);
+    let words = if contact.points.iter().any(|point| point.is_line) { ["line", "lines"] } else { ["point", "points"] };
+    let points = counted(contact.points.len(), words[0], words[1]).map(|points| points + &radius);
     let boxes = counted(contact.boxes.len(), "box", "boxes").map(|boxes| boxes + " with corners, edges and faces");
     points.into_iter().chain(boxes).collect::<Vec<_>>().join(" and ")
 }

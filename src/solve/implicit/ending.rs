@@ -64,8 +64,8 @@ impl Ending {
     /// relative residual; none where all steps have the same. Contractions are not carried over here: without a second correction that
     /// confirms, what is left has one sign for many steps and adds up to a sixth of their error.
     pub fn of_step(&self, size: f64, residual: f64) -> Option<[f64; 2]> {
-        /// A hundredth of a twelfth, rounded: errors of one sign add up.
-        const PART: f64 = 1e-3;
+        /// A thousandth of a twelfth, rounded: errors of one sign add up.
+        const PART: f64 = 1e-4;
         /// Whatever the error of the step: an impact, a load that jumps, or stiff parts that turn far in steps which do not resolve them, where
         /// what is left would drive them.
         const MOST: f64 = 1e-5;
@@ -97,7 +97,7 @@ fn follows_own_error(cx: &Context) -> bool {
     cx.model.solution.iteration.follows_step
         && cx.is_dynamic()
         && !matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. })
-        && matches!(scheme.stepping(), Stepping::OneStage | Stepping::Composite(_))
+        && matches!(scheme.stepping(), Stepping::OneStage)
         && cx.system.groups.iter().any(|group| group.kind.is_deformable())
         && spectrum(scheme, TURN).damping > NONE
 }

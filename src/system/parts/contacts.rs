@@ -50,8 +50,9 @@ fn facet_blocks(
     setting: &Setting,
 ) -> Vec<NumberedBlock> {
     let mut blocks: Vec<NumberedBlock> = Vec::new();
-    for count in 1..=MOST_NODES {
-        let points: Vec<ContactPoint> = points.iter().filter(|point| point.count == count).cloned().collect();
+    for (count, is_line) in (1..=MOST_NODES).map(|count| (count, false)).chain([(2, true)]) {
+        let is_alike = |point: &&ContactPoint| point.count == count && point.is_line == is_line;
+        let points: Vec<ContactPoint> = points.iter().filter(is_alike).cloned().collect();
         if !points.is_empty() {
             let block = FacetContacts::new(law, faces.touchers, points, faces.facets.clone(), setting.x);
             blocks.push((Box::new(block), 0));

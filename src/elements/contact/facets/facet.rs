@@ -1,4 +1,5 @@
-//! One facet of a surface that is made of nodes: a triangle, a quadrilateral, or a single node with a ball around it.
+//! One facet of a surface that is made of nodes: a triangle, a quadrilateral, a line with a tube around it, or a single node with a ball
+//! around it.
 //!
 //! A quadrilateral is four triangles about the mean of its nodes, so that every point of it is a weighted sum of nodes, and
 //! facets of one plane have no seam whatever their shapes.
@@ -14,9 +15,9 @@ pub const MOST_CORNERS: usize = 4;
 pub struct Facet {
     /// Its corners; the first `corners` of them count, and the others repeat the first.
     pub nodes: [usize; MOST_CORNERS],
-    /// Number of corners: 1, 3 or 4.
+    /// Number of corners: 1, 2, 3 or 4.
     pub corners: usize,
-    /// Half the thickness; of a single node, the radius of the ball.
+    /// Half the thickness; of a line or a single node, the radius of what is around it.
     pub half: f64,
     /// The radius at which friction turns the node of a ball; 0 for others.
     pub rolling_radius: f64,
@@ -102,6 +103,16 @@ impl Facet {
         self.corners == 1
     }
 
+    /// True for a line with a tube around it.
+    pub fn is_line(&self) -> bool {
+        self.corners == 2
+    }
+
+    /// True for what has two sides, and a normal.
+    pub(super) fn has_sides(&self) -> bool {
+        self.corners > 2
+    }
+
     /// The places of its corners relative to a point that lies at `x` from the node `origin`.
     #[inline]
     pub(super) fn seen_from(&self, x: &Vec3, origin: &Node, nodes: &[Node]) -> [Vec3; MOST_CORNERS] {
@@ -119,6 +130,7 @@ impl Facet {
         match self.corners {
             4 => [unit(triangle), unit((triangle + 1) % 4), [0.25; MOST_CORNERS]],
             3 => [unit(0), unit(1), unit(2)],
+            2 => [unit(0), unit(1), unit(0)],
             _ => [unit(0); 3],
         }
     }
@@ -137,6 +149,11 @@ impl Facet {
     pub(super) fn closest(&self, p: &[Vec3; MOST_CORNERS]) -> FacetPoint {
         if self.is_ball() {
             return FacetPoint { triangle: 0, N: [1.0, 0.0, 0.0], region: Region::Vertex(0), g: -p[0] };
+        }
+        if self.is_line() {
+            let (s, region) = closest_on_line(&p[0], &p[1]);
+            let N = [1.0 - s, s, 0.0];
+            return FacetPoint { triangle: 0, N, region, g: -(N[0] * p[0] + N[1] * p[1]) };
         }
         let mut best: Option<(f64, FacetPoint)> = None;
         for triangle in (0..self.triangles()).map(|k| self.piece.unwrap_or(k)) {
@@ -164,12 +181,16 @@ impl Facet {
         match at.region {
             Region::Interior => [None; 2],
             Region::Vertex(k) => [Some(self.names[k]), None],
+            Region::Edge(_) if self.is_line() => [None; 2],
             Region::Edge(k) => [Some(self.names[k]), Some(self.names[(k + 1) % 3])],
         }
     }
 
     /// True where the surface ends at a point of the rim: there it has no sides.
     pub(super) fn is_free(&self, at: &FacetPoint) -> bool {
+        if !self.has_sides() {
+            return false;
+        }
         // The third corner of a quadrilateral's triangle lies inside.
         let corner = |k: usize| match self.corners {
             4 => (k < 2).then_some((at.triangle + k) % 4),
@@ -182,10 +203,10 @@ impl Facet {
         }
     }
 
-    /// The unit normal of a triangle, on the side of the surface that its first facet calls its own; zero for a ball.
+    /// The unit normal of a triangle, on the side of the surface that its first facet calls its own; zero for what has no sides.
     #[inline]
     pub(super) fn normal(&self, triangle: usize, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
-        if self.is_ball() {
+        if !self.has_sides() {
             return Vec3::zeros();
         }
         let [a, b, c] = self.triangle(triangle, p);
@@ -193,11 +214,31 @@ impl Facet {
         if self.is_turned { -n } else { n }
     }
 
+    /// The unit vector in which it faces a point at `g` from its nearest point: its normal, or the way to the point where it has no sides.
+    #[inline]
+    pub(super) fn facing(&self, at: &FacetPoint, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
+        match self.has_sides() {
+            true => self.normal(at.triangle, p),
+            false => at.g.try_normalize(0.0).unwrap_or_else(Vec3::zeros),
+        }
+    }
+
+    /// A unit vector that leads out of the middle of what has no sides.
+    pub(super) fn outward(&self, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
+        match self.is_line() {
+            true => {
+                let along = p[1] - p[0];
+                along.cross(&Vec3::ith(along.iamin(), 1.0)).try_normalize(0.0).unwrap_or_else(Vec3::x)
+            }
+            false => Vec3::x(),
+        }
+    }
+
     /// Base vectors that stretch with the facet, from its first node: along two of its sides, and the normal. What has constant components in
-    /// them goes along with the material. Of a ball they are its axes.
+    /// them goes along with the material. Of a ball or a line they are the axes of its first node.
     pub(super) fn base(&self, nodes: &[Node]) -> Mat3 {
         let frame = self.frame(nodes);
-        if self.is_ball() {
+        if !self.has_sides() {
             return frame;
         }
         let from = |k: usize| nodes[self.nodes[k]].relative_position(&nodes[self.nodes[0]]);
@@ -214,7 +255,7 @@ impl Facet {
     /// An origin and axes that go along with the facet: the columns of a rotation, global components. The origin is its first node.
     pub(super) fn frame(&self, nodes: &[Node]) -> Mat3 {
         let first = &nodes[self.nodes[0]];
-        if self.is_ball() {
+        if !self.has_sides() {
             return first.R();
         }
         let from = |k: usize| nodes[self.nodes[k]].relative_position(first);
@@ -223,6 +264,19 @@ impl Facet {
         let n = across.try_normalize(0.0).unwrap_or_else(Vec3::z);
         let e = (along - n.dot(&along) * n).try_normalize(0.0).unwrap_or_else(Vec3::x);
         Mat3::from_columns(&[e, n.cross(&e), n])
+    }
+}
+
+/// The share of the second end in the point of a line closest to the origin.
+#[inline]
+fn closest_on_line(a: &Vec3, b: &Vec3) -> (f64, Region) {
+    let along = b - a;
+    let square = along.norm_squared();
+    let s = -a.dot(&along);
+    match s {
+        _ if s <= 0.0 || square == 0.0 => (0.0, Region::Vertex(0)),
+        _ if s >= square => (1.0, Region::Vertex(1)),
+        _ => (s / square, Region::Edge(0)),
     }
 }
 

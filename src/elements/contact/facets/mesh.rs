@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 /// Finds the free edges of a surface, and turns its facets so that neighbours face the same way.
 pub fn connect(facets: &mut [Facet]) {
     let mut edges: HashMap<[usize; 2], Vec<(usize, usize)>> = HashMap::new();
-    for (number, facet) in facets.iter().enumerate().filter(|(_, facet)| !facet.is_ball()) {
+    for (number, facet) in facets.iter().enumerate().filter(|(_, facet)| facet.has_sides()) {
         for k in 0..facet.corners {
             edges.entry(edge(facet, k)).or_default().push((number, k));
         }
@@ -29,7 +29,7 @@ pub fn connect(facets: &mut [Facet]) {
     for first in 0..facets.len() {
         ahead.push(first);
         while let Some(number) = ahead.pop() {
-            if std::mem::replace(&mut is_seen[number], true) || facets[number].is_ball() {
+            if std::mem::replace(&mut is_seen[number], true) || !facets[number].has_sides() {
                 continue;
             }
             for k in 0..facets[number].corners {

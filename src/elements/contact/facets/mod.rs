@@ -1,4 +1,4 @@
-//! Contact with surfaces of facets: the faces of shells, and balls among themselves.
+//! Contact with surfaces of facets: the faces of shells, beams by their radius, and balls among themselves.
 //!
 //! Two things touch where the distance d of a point from the middle of a facet is less than their reach, the radius of the point and
 //! half the thickness of the facet. The force has the potential ½ k δ², δ = reach − d, d from the nearest point of the surface as it
@@ -6,13 +6,16 @@
 //! that linear and angular momentum are kept to rounding. Facets of one plane are one plane: nothing that slides over them feels
 //! their edges. A point that has come through to the other side is still pushed back to its own.
 //!
-//! `facet` is the geometry, `mesh` how facets hang together, `scene` who may touch whom, `grid` and `nearby` find what is near, `touch` says which facets count,
+//! Lines that touch lines do so where they are nearest to each other, wherever that is on both.
+//!
+//! `facet` is the geometry, `lines` that of two lines, `mesh` how facets hang together, `scene` who may touch whom, `grid` and `nearby` find what is near, `touch` says which facets count,
 //! `pair` what acts between two, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
 //! see, `steps` bounds the steps, `resultant` sums what is shown.
 
 mod block;
 mod facet;
 mod grid;
+mod lines;
 mod memory;
 mod mesh;
 mod nearby;

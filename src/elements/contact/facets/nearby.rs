@@ -51,8 +51,8 @@ impl NearbyFacets {
         self.starts.push(0);
         for e in 0..of.points.len() {
             let from = self.lists.len();
-            let (x, radius) = (of.position(e, nodes), of.points[e].radius);
-            self.grid.query(&FacetBox { low: x, high: x }.wider(radius), &mut self.lists);
+            let extent = of.extent(e, |node| nodes[node].x);
+            self.grid.query(&extent.wider(of.points[e].radius), &mut self.lists);
             let mut kept = from;
             for k in from..self.lists.len() {
                 if of.may_touch(e, self.lists[k]) {
@@ -71,11 +71,9 @@ impl NearbyFacets {
             return self.of(e);
         }
         // The grid knows the places when it was made.
-        let parts = of.points[e].parts();
-        let x: Vec3 = parts.map(|(node, w)| w * self.places[of.place_of(node)]).sum();
+        let extent = of.extent(e, |node| self.places[of.place_of(node)]);
         self.wide.clear();
-        self.grid
-            .query(&FacetBox { low: x, high: x }.wider(of.points[e].radius + of.margin + 2.0 * way), &mut self.wide);
+        self.grid.query(&extent.wider(of.points[e].radius + of.margin + 2.0 * way), &mut self.wide);
         self.wide.retain(|&facet| of.may_touch(e, facet));
         &self.wide
     }

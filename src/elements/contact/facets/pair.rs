@@ -11,12 +11,14 @@ use crate::math::rotation::{log, matrix, renormalise};
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
+use std::borrow::Cow;
 
 /// A point and a facet: what acts between them depends on their nodes and what they remember alone.
 #[derive(Clone)]
 pub(super) struct FacetPair<'a> {
     pub law: &'a ContactLaw,
-    pub point: &'a ContactPoint,
+    /// The point; of a line that touches, the point of it that is nearest.
+    pub point: Cow<'a, ContactPoint>,
     pub facet: &'a Facet,
     pub memory: Option<PairMemory<'a>>,
     /// The facet in whose frame friction remembers: that on which the point was, its neighbour where it has gone on.
@@ -74,6 +76,11 @@ impl<'a> FacetPair<'a> {
         self.point.parts().chain(of_facet)
     }
 
+    /// True for a point of a line against a line.
+    pub fn is_of_lines(&self) -> bool {
+        self.point.is_line
+    }
+
     /// Where the two are to each other.
     #[inline]
     pub fn place(&self, nodes: &[Node]) -> PairPlace {
@@ -86,11 +93,10 @@ impl<'a> FacetPair<'a> {
         let normal = self.facet.normal(at.triangle, &p);
         let actual = if at.g.dot(&normal) < 0.0 { -1.0 } else { 1.0 };
         // A point that has come through still is on the side that it came from, but not beyond the rim, which has no sides.
-        let known = self.memory.filter(|_| !self.facet.is_ball() && !self.facet.is_free(&at));
+        let known = self.memory.filter(|_| self.facet.has_sides() && !self.facet.is_free(&at));
         let side = known.map_or(actual, |memory| memory.side());
         let sign = side * actual;
-        // Any direction leads out of the middle of a ball.
-        let outward = if self.facet.is_ball() { Vec3::x() } else { side * normal };
+        let outward = if self.facet.has_sides() { side * normal } else { self.facet.outward(&p) };
         let n = if distance > 1e-12 * (self.facet.half + self.point.radius) { sign / distance * at.g } else { outward };
         let w = self.parts(&W).map(|(node, share)| share * nodes[node].v).sum();
         let reach = self.facet.half + self.point.radius;
@@ -158,7 +164,7 @@ impl<'a> FacetPair<'a> {
 
 /// The rotation of the frame of a facet.
 pub(super) fn rotation_of(facet: &Facet, nodes: &[Node]) -> Quaternion<f64> {
-    if facet.is_ball() {
+    if !facet.has_sides() {
         return nodes[facet.nodes[0]].rotation;
     }
     let R = facet.frame(nodes);

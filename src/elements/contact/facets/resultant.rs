@@ -2,6 +2,7 @@
 
 use super::facet::Facet;
 use super::grid::FacetBox;
+use super::lines;
 use super::span::FacetSpan;
 use super::surface::FacetContacts;
 use crate::elements::contact::point::ContactPoint;
@@ -51,22 +52,27 @@ pub fn facet_gap(
         let origin = &nodes[point.nodes[0]];
         let x = point.relative_position(origin, nodes);
         let at = origin.x[axis] + x[axis];
+        // Half of what a line has along the coordinate.
+        let spread = if point.is_line { x[axis].abs() } else { 0.0 };
         let look = |&(low, high, number): &FacetSpan, least: &mut f64| {
             let facet = &facets[number];
-            if (low - at).max(at - high) - point.radius < *least && may_touch(e, number) {
+            if (low - at).max(at - high) - spread - point.radius < *least && may_touch(e, number) {
+                let nearest =
+                    lines::share(point, facet, nodes).map(|share| point.at(share).relative_position(origin, nodes));
+                let x = nearest.unwrap_or(x);
                 let gap = facet.closest(&facet.seen_from(&x, origin, nodes)).g.norm() - facet.half - point.radius;
                 *least = least.min(gap);
             }
         };
         let from = sorted.partition_point(|(low, _, _)| *low < at);
         for facet in &sorted[from..] {
-            if facet.0 - at - point.radius >= least {
+            if facet.0 - at - spread - point.radius >= least {
                 break;
             }
             look(facet, &mut least);
         }
         for facet in sorted[..from].iter().rev() {
-            if at - facet.0 - longest - point.radius >= least {
+            if at - facet.0 - longest - spread - point.radius >= least {
                 break;
             }
             look(facet, &mut least);

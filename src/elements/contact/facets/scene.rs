@@ -1,15 +1,21 @@
 //! Points and facets that may touch, without what changes.
 
-use super::facet::Facet;
+use super::facet::{Facet, Region};
+use super::grid::FacetBox;
+use super::lines;
 use super::memory::{self, PairMemory};
 use super::mesh;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::ContactPoint;
 use crate::math::Vec3;
 use crate::state::Node;
+use std::borrow::Cow;
+use std::collections::HashMap;
 
 /// Facets that a point may touch at once: two walls and a floor.
 const MOST_FACES: usize = 3;
+/// Lines that a line may touch at once: what remembers them is bound to it, wherever it is.
+const MOST_LINES: usize = 8;
 /// Balls at least as large that a ball may touch at once: twelve of its own size, and what rounding and penetration add.
 const MOST_BALLS: usize = 14;
 
@@ -27,6 +33,10 @@ pub struct FacetScene {
     pub(super) is_of_balls: bool,
     /// True where the points are the balls themselves, in the same order.
     is_among: bool,
+    /// True where the points are lines between their two nodes, and the facets lines too.
+    pub(super) is_of_lines: bool,
+    /// Of lines that touch: by end, the other ends of the lines that meet there; and the same of the facets.
+    line_ends: [LineEnds; 2],
     /// True where forces on the surface are forces of the surface, and have no resultant.
     pub(super) is_inner: bool,
     /// All nodes that take part, in ascending order.
@@ -48,14 +58,14 @@ pub struct FacetScene {
 pub enum FacetTouchers {
     /// Points of something else.
     Others,
-    /// The nodes of the surface itself.
+    /// The nodes of the surface itself; of lines, these lines in the same order.
     Itself,
     /// The balls, of which the facets are a list, among themselves.
     Among,
 }
 
 impl FacetScene {
-    /// `points` have equally many nodes, one or more; `x` are the places of all nodes at t = 0.
+    /// `points` have equally many nodes, one or more, or are lines, as all facets then are; `x` are the places of all nodes at t = 0.
     pub fn new(
         law: ContactLaw,
         touchers: FacetTouchers,
@@ -74,7 +84,9 @@ impl FacetScene {
         involved.extend(facets.iter().flat_map(Facet::nodes));
         involved.sort_unstable();
         involved.dedup();
+        let is_of_lines = points.first().is_some_and(|point| point.is_line);
         let near_along = match touchers {
+            FacetTouchers::Itself if is_of_lines => lines_near_along(&points, &facets, x),
             FacetTouchers::Itself => {
                 let nodes: Vec<usize> = points.iter().map(|point| point.nodes[0]).collect();
                 // Half a circle about a fold as sharp as the thickness allows.
@@ -83,17 +95,26 @@ impl FacetScene {
             }
             FacetTouchers::Others | FacetTouchers::Among => Vec::new(),
         };
+        let of_points = points.iter().filter(|_| is_of_lines).map(|point| [point.nodes[0], point.nodes[1]]);
+        let of_facets = facets.iter().filter(|_| is_of_lines).map(|facet| [facet.nodes[0], facet.nodes[1]]);
+        let line_ends = [LineEnds::new(of_points), LineEnds::new(of_facets)];
         let count = points.first().map_or(1, |point| point.count);
         let rolls = law.friction > 0.0 && points.iter().any(|point| point.rolling_radius > 0.0);
         FacetScene {
             width: memory::width(law.friction > 0.0, if rolls { count } else { 0 }),
-            slots: if is_of_balls { MOST_BALLS } else { MOST_FACES },
+            slots: match (is_of_balls, is_of_lines) {
+                (true, _) => MOST_BALLS,
+                (_, true) => MOST_LINES,
+                _ => MOST_FACES,
+            },
             margin: 0.25 * mean,
             cell: 2.0 * mean,
             // What is far is known to be far by the lists.
             law: ContactLaw { near: f64::INFINITY, ..law },
             is_inner: touchers != FacetTouchers::Others,
             is_among: touchers == FacetTouchers::Among,
+            is_of_lines,
+            line_ends,
             points,
             facets,
             near_along,
@@ -103,9 +124,52 @@ impl FacetScene {
         }
     }
 
-    /// The place of a point, global.
-    pub(super) fn position(&self, e: usize, nodes: &[Node]) -> Vec3 {
-        self.points[e].parts().map(|(node, w)| w * nodes[node].x).sum()
+    /// What of a point may touch, by the places of nodes: itself, or the ends of a line.
+    pub(super) fn extent(&self, e: usize, x: impl Fn(usize) -> Vec3) -> FacetBox {
+        if self.is_of_lines {
+            return FacetBox::around(self.points[e].nodes().iter().map(|&node| x(node)));
+        }
+        let at = self.points[e].parts().map(|(node, w)| w * x(node)).sum();
+        FacetBox { low: at, high: at }
+    }
+
+    /// A point, or that of a line at which the share of its second end is this; its middle where none is told.
+    pub(super) fn point_at(&self, e: usize, share: Option<f64>) -> Cow<'_, ContactPoint> {
+        let point = &self.points[e];
+        match share {
+            Some(share) => Cow::Owned(point.at(share)),
+            None => Cow::Borrowed(point),
+        }
+    }
+
+    /// The share of the second end of a line that touches in its point nearest to a facet; none for points.
+    pub(super) fn share(&self, e: usize, facet: &Facet, nodes: &[Node]) -> Option<f64> {
+        lines::share(&self.points[e], facet, nodes)
+    }
+
+    /// True where two lines are nearest to each other here, `g` from the facet to the line that touches: not where, beyond an end of one of
+    /// them, the line that goes on there is nearer, nor where that one counts.
+    pub(super) fn is_nearest(
+        &self,
+        e: usize,
+        (facet, region): (usize, Region),
+        share: f64,
+        g: &Vec3,
+        nodes: &[Node],
+    ) -> bool {
+        let own = match share {
+            0.0 => Some(0),
+            1.0 => Some(1),
+            _ => None,
+        };
+        let of_facet = match region {
+            Region::Vertex(k) => Some(k),
+            _ => None,
+        };
+        let ends = &self.points[e].nodes;
+        let other = &self.facets[facet].nodes;
+        own.is_none_or(|k| self.line_ends[0].is_least(e, ends[k], g, nodes))
+            && of_facet.is_none_or(|k| self.line_ends[1].is_least(facet, other[k], &-g, nodes))
     }
 
     /// The place of a node among those that take part.
@@ -115,6 +179,10 @@ impl FacetScene {
 
     /// False for pairs that never act: of a point and its own facets, and of two balls of which the other is the smaller.
     pub(super) fn may_touch(&self, e: usize, facet: u32) -> bool {
+        if self.is_of_lines {
+            let shares = self.points[e].nodes().iter().any(|node| self.facets[facet as usize].nodes().contains(node));
+            return !shares && !self.is_near_along(e, facet) && (!self.is_inner || e < facet as usize);
+        }
         if !self.is_among {
             return self.points[e].nodes().iter().all(|node| !self.facets[facet as usize].nodes().contains(node))
                 || self.near_along.get(e).is_some();
@@ -144,6 +212,45 @@ impl FacetScene {
     pub(super) fn memories<'a>(&self, history: &'a [f64]) -> impl Iterator<Item = PairMemory<'a>> {
         history.chunks_exact(self.width).map(PairMemory)
     }
+}
+
+/// The lines that meet at each node, by their numbers and their other ends.
+#[derive(Default)]
+struct LineEnds(HashMap<usize, Vec<(usize, usize)>>);
+
+impl LineEnds {
+    fn new(lines: impl Iterator<Item = [usize; 2]>) -> LineEnds {
+        let mut ends: HashMap<usize, Vec<(usize, usize)>> = HashMap::new();
+        for (number, [a, b]) in lines.enumerate() {
+            ends.entry(a).or_default().push((number, b));
+            ends.entry(b).or_default().push((number, a));
+        }
+        LineEnds(ends)
+    }
+
+    /// True where no line that meets this one at a node leads against `g`, and this is the first of those that meet there.
+    fn is_least(&self, line: usize, node: usize, g: &Vec3, nodes: &[Node]) -> bool {
+        let leads_nearer = |&(_, other): &(usize, usize)| g.dot(&nodes[other].relative_position(&nodes[node])) < 0.0;
+        let meeting = self.0.get(&node).into_iter().flatten();
+        !meeting.clone().any(|of| of.0 != line && leads_nearer(of)) && meeting.map(|of| of.0).min() == Some(line)
+    }
+}
+
+/// For each line those that it cannot come to touch by bending.
+fn lines_near_along(points: &[ContactPoint], facets: &[Facet], x: &[Vec3]) -> Vec<Vec<u32>> {
+    let ends = |k: usize| points.iter().map(move |point| point.nodes[k]);
+    let nodes: Vec<usize> = ends(0).chain(ends(1)).collect();
+    // Half a circle about a bend as sharp as the radius allows.
+    let along = |k: usize, facet: &Facet| std::f64::consts::FRAC_PI_2 * (points[k % points.len()].radius + facet.half);
+    let near = mesh::near_along(facets, &nodes, along, &|node| x[node]);
+    let (first, last) = near.split_at(points.len());
+    let both = |(a, b): (&Vec<u32>, &Vec<u32>)| {
+        let mut all = [&a[..], &b[..]].concat();
+        all.sort_unstable();
+        all.dedup();
+        all
+    };
+    first.iter().zip(last).map(both).collect()
 }
 
 /// The diameter of a facet at t = 0.

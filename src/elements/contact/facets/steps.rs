@@ -46,7 +46,7 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
         };
         let has_come_through = |slot: usize| {
             let memory = of.memory(old, slot);
-            if !memory.motion().is_known() || memory.motion().gap() > 0.0 || of.facets[memory.facet()].is_ball() {
+            if !memory.motion().is_known() || memory.motion().gap() > 0.0 || !of.facets[memory.facet()].has_sides() {
                 return false;
             }
             let place = of.pair_of(e, slot, old).place(now.nodes);
@@ -60,7 +60,7 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
             let facet = &of.facets[number as usize];
             let Some(beyond) = passes(of, e, facet, [start, now.nodes]) else { return false };
             let stays = || {
-                !facet.is_ball()
+                facet.has_sides()
                     && beyond <= THROUGH * (facet.half + of.points[e].radius)
                     && known(number as usize, &|facet| facet.frame(now.nodes).column(2).into_owned())
             };
@@ -105,13 +105,18 @@ pub fn last_facet_gap(of: &FacetContacts, history: &[f64]) -> f64 {
 
 /// By how far a point has come through a facet between two motions, on straight lines; `None` where it has not.
 fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> Option<f64> {
-    let point = &of.points[e];
     let seen = at.map(|nodes| {
+        let point = of.point_at(e, of.share(e, facet, nodes));
         let origin = &nodes[point.nodes[0]];
         facet.seen_from(&point.relative_position(origin, nodes), origin, nodes)
     });
+    let reach = facet.half + of.points[e].radius;
     if facet.is_ball() {
-        return swaps_sides(seen[0][0], seen[1][0], facet.half + point.radius).then_some(0.0);
+        return swaps_sides(seen[0][0], seen[1][0], reach).then_some(0.0);
+    }
+    if facet.is_line() {
+        let [from, to] = [0, 1].map(|i| facet.closest(&seen[i]).g);
+        return swaps_sides(from, to, reach).then_some(0.0);
     }
     let is_passed = |k: &usize| {
         let k = *k;
@@ -134,7 +139,8 @@ fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> Opti
     Some(a.dot(&n).abs() / n.norm())
 }
 
-/// True where two balls whose centres are at `from` and then at `to` from each other go through each other's middle.
+/// True where two balls whose centres are at `from` and then at `to` from each other go through each other's middle, or a ball through that
+/// of a line, from whose nearest points it lies so.
 fn swaps_sides(from: Vec3, to: Vec3, reach: f64) -> bool {
     let way = to - from;
     let square = way.norm_squared();

@@ -8,7 +8,7 @@ use super::touch::{self, FacetTouch, TouchQuery};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::ContactPoint;
 use crate::math::Vec3;
-use crate::state::Node;
+use crate::state::{Configuration, Node};
 use std::ops::Deref;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -50,14 +50,33 @@ impl FacetContacts {
         let memory = touch.slot.map(|slot| self.memory(history, slot));
         let facet = &self.facets[touch.facet];
         let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
-        FacetPair { law: &self.law, point: &self.points[e], facet, memory, kept }
+        FacetPair { law: &self.law, point: self.point_at(e, touch.share), facet, memory, kept }
     }
 
     /// A point and the facet that it remembers in this slot.
     pub(super) fn pair_of<'a>(&'a self, e: usize, slot: usize, history: &'a [f64]) -> FacetPair<'a> {
         let memory = self.memory(history, slot);
         let facet = &self.facets[memory.facet()];
-        FacetPair { law: &self.law, point: &self.points[e], facet, memory: Some(memory), kept: facet }
+        FacetPair { law: &self.law, point: self.point_at(e, None), facet, memory: Some(memory), kept: facet }
+    }
+
+    /// True where two lines touch that are parallel within some degrees, and not end to end.
+    pub fn is_side_by_side(&self, now: &Configuration) -> bool {
+        /// The square of the cosine of six degrees.
+        const ALONG: f64 = 0.989;
+        if !self.is_of_lines {
+            return false;
+        }
+        let mut found = false;
+        self.each_touch(now.nodes, now.history, |_, touch, pair| {
+            let along = |ends: &[usize]| now.nodes[ends[1]].relative_position(&now.nodes[ends[0]]);
+            let (u, v) = (along(pair.point.nodes()), along(pair.facet.nodes()));
+            let is_parallel = u.dot(&v).powi(2) > ALONG * u.norm_squared() * v.norm_squared();
+            // End to end they touch along themselves.
+            let is_beside = u.dot(&touch.toward).powi(2) < 0.5 * u.norm_squared();
+            found |= is_parallel && is_beside;
+        });
+        found
     }
 
     /// Calls with each pair that touches, `history` being that of the block.

@@ -8,11 +8,13 @@
 //! ```
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
+use super::lines::LineHessian;
 use super::pair::{FacetPair, MOST_OF_PAIR, PairPlace};
 use crate::elements::contact::point::ContactPoint;
 use crate::math::rotation::{exp, renormalise};
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
+use std::borrow::Cow;
 
 /// How the nearest point moves with the nodes.
 struct NearestMotion {
@@ -29,7 +31,10 @@ struct NearestMotion {
 /// Adds the tangent of the force on the nodes of a pair, internal forces: K ← K + ∂f/∂x + `rate_weight` ∂f/∂v, row-major over the point's
 /// nodes and those of the facet, six directions each.
 pub(super) fn add_tangent(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
-    add_normal(pair, place, nodes, rate_weight, K);
+    match pair.is_of_lines() {
+        true => add_normal_of_lines(pair, place, nodes, rate_weight, K),
+        false => add_normal(pair, place, nodes, rate_weight, K),
+    }
     if pair.law.friction > 0.0 && pair.memory.is_some() {
         add_friction(pair, place, nodes, rate_weight, K);
     }
@@ -60,6 +65,24 @@ fn add_normal(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: 
             let block =
                 normal.by_depth * c[i] * c[j] * N - normal.force * H - normal.by_rate * c[i] * n * rates[j].transpose();
             put(K, count, (6 * i, 6 * j), &block);
+        }
+    }
+}
+
+/// The same for the force between two lines.
+fn add_normal_of_lines(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
+    let normal = pair.force(place, nodes).normal;
+    let (n, hessian) = (&place.n, LineHessian::new(pair, place, nodes));
+    let ends: Vec<(usize, f64)> = pair.parts(&place.W).collect();
+    let N = n * n.transpose();
+    for (j, (_, c_j)) in ends.iter().enumerate() {
+        let by_motion: Vec3 = ends.iter().enumerate().map(|(i, (node, _))| hessian.block(j, i) * nodes[*node].v).sum();
+        let rate = -rate_weight * *c_j * n - by_motion;
+        for (i, (_, c_i)) in ends.iter().enumerate() {
+            let block = normal.by_depth * *c_i * *c_j * N
+                - normal.force * hessian.block(i, j)
+                - normal.by_rate * *c_i * n * rate.transpose();
+            put(K, ends.len(), (6 * i, 6 * j), &block);
         }
     }
 }
@@ -123,7 +146,8 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     for (k, (node, _)) in pair.parts(&place.W).enumerate() {
         local[k] = nodes[node];
     }
-    let point = ContactPoint { nodes: std::array::from_fn(|k| k.min(pair.point.count - 1)), ..pair.point.clone() };
+    let own_nodes = std::array::from_fn(|k: usize| k.min(pair.point.count - 1));
+    let point = Cow::Owned(ContactPoint { nodes: own_nodes, ..ContactPoint::clone(&pair.point) });
     let first = pair.point.count;
     let own = |k: usize| first + if k < pair.facet.corners { k } else { 0 };
     let facet = Facet { nodes: std::array::from_fn(own), ..pair.facet.clone() };
@@ -131,7 +155,7 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let left = Facet { nodes: std::array::from_fn(|k| count + k), ..pair.kept.clone() };
     (0..MOST_CORNERS).for_each(|k| local[count + k] = nodes[pair.kept.nodes[k]]);
     let kept = if std::ptr::eq(pair.kept, pair.facet) { &facet } else { &left };
-    let pair = FacetPair { point: &point, facet: &facet, kept, ..pair.clone() };
+    let pair = FacetPair { point, facet: &facet, kept, ..pair.clone() };
     let length = place.reach.max(place.d.abs()).max(place.at.g.norm());
     for column in 0..6 * count {
         let (k, dof) = (column / 6, column % 6);

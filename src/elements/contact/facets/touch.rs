@@ -31,6 +31,8 @@ pub(super) struct FacetTouch {
     pub counts: bool,
     /// The place where what is remembered of it stands.
     pub slot: Option<usize>,
+    /// Of a line that touches, the share of its second end in its nearest point.
+    pub share: Option<f64>,
 }
 
 /// What is to be found.
@@ -58,25 +60,26 @@ pub(super) fn find(
     let origin = &nodes[point.nodes[0]];
     let x = point.relative_position(origin, nodes);
     find_within(of, near, query, (&x, origin), nodes, found);
-    if !of.is_of_balls {
+    let stand_alone = of.is_of_balls || of.is_of_lines;
+    if !stand_alone {
         keep_minima(&of.facets, found);
     }
     found.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then(a.facet.cmp(&b.facet)));
-    if query.stays && !of.is_of_balls {
+    if query.stays && !stand_alone {
         prefer_known(of, history, found);
     }
     let mut kept = 0;
     for k in 0..found.len() {
         let touch = found[k];
         let is_new =
-            || of.is_of_balls || found[..kept].iter().all(|other| other.toward.dot(&touch.toward) < ONE_DIRECTION);
+            || stand_alone || found[..kept].iter().all(|other| other.toward.dot(&touch.toward) < ONE_DIRECTION);
         if kept < of.slots && touch.counts && is_new() {
             found[kept] = touch;
             kept += 1;
         }
     }
     found.truncate(kept);
-    match_memory(of, (&x, origin), nodes, history, found);
+    match_memory(of, query.e, (&x, origin), nodes, history, found);
 }
 
 /// All facets within the gap asked for, of a point that lies at `x` from the node `origin`.
@@ -92,6 +95,9 @@ fn find_within(
     let radius = of.points[e].radius;
     for &number in near {
         let facet = &of.facets[number as usize];
+        let share = of.share(e, facet, nodes);
+        let nearest = share.map(|_| of.point_at(e, share).relative_position(origin, nodes));
+        let x = nearest.as_ref().unwrap_or(x);
         let p = facet.seen_from(x, origin, nodes);
         let reach = facet.half + radius;
         // Most are too far: their corners alone tell.
@@ -108,10 +114,13 @@ fn find_within(
         if distance - reach > limit {
             continue;
         }
-        let normal = facet.normal(at.triangle, &p);
+        let normal = facet.facing(&at, &p);
         let toward = if distance > 1e-9 * reach { at.g / distance } else { normal };
         let rim = if facet.is_ball() { [None; 2] } else { facet.rim(&at) };
-        let counts = !of.is_near_along(e, number);
+        let counts = match share {
+            Some(share) => of.is_nearest(e, (number as usize, at.region), share, &at.g, nodes),
+            None => !of.is_near_along(e, number),
+        };
         found.push(FacetTouch {
             facet: number as usize,
             gap: distance - reach,
@@ -120,6 +129,7 @@ fn find_within(
             normal,
             counts,
             slot: None,
+            share,
         });
     }
 }
@@ -168,6 +178,7 @@ fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
 /// Gives each facet found the place of what is remembered of it, or of the neighbour from which the point came.
 fn match_memory(
     of: &FacetScene,
+    e: usize,
     (x, origin): (&Vec3, &Node),
     nodes: &[Node],
     history: &[f64],
@@ -191,9 +202,11 @@ fn match_memory(
             continue;
         }
         let facet = &of.facets[memory.facet()];
-        let p = facet.seen_from(x, origin, nodes);
+        let share = of.share(e, facet, nodes);
+        let nearest = share.map(|_| of.point_at(e, share).relative_position(origin, nodes));
+        let p = facet.seen_from(nearest.as_ref().unwrap_or(x), origin, nodes);
         let at = facet.closest(&p);
-        let normal = facet.normal(at.triangle, &p);
+        let normal = facet.facing(&at, &p);
         let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);
         let goes_on = |touch: &&mut FacetTouch| {
             touch.slot.is_none() && likeness(touch) > NEIGHBOURS && is_close(of, touch, &at.g)

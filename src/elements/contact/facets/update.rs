@@ -157,9 +157,12 @@ fn kept_rotation(
 fn sliding_direction(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration) -> Vec3 {
     let (n, r) = (&place.n, pair.point.rolling_radius);
     let spin: Vec3 = pair.point.parts().map(|(node, w)| w * now.nodes[node].omega).sum();
-    let of_ball = if pair.facet.is_ball() { now.nodes[pair.facet.nodes[0]].omega } else { Vec3::zeros() };
-    let w = place.w - of_ball.cross(&(place.d * n));
-    let slip = w - n.dot(&w) * n - r * (spin - of_ball).cross(n);
+    let of_facet = match pair.facet.has_sides() {
+        true => Vec3::zeros(),
+        false => pair.facet.nodes().iter().zip(place.W).map(|(&node, w)| w * now.nodes[node].omega).sum(),
+    };
+    let w = place.w - of_facet.cross(&(place.d * n));
+    let slip = w - n.dot(&w) * n - r * (spin - of_facet).cross(n);
     let speed = slip.norm();
     if speed > floor { slip / speed } else { Vec3::zeros() }
 }

@@ -59,6 +59,17 @@ impl Toucher {
         }
     }
 
+    /// What of the one and of beams by their radius is not seen; `None` where they see each other in full.
+    pub fn unseen_by_lines(self) -> Option<&'static str> {
+        match self {
+            Toucher::Ball => None,
+            // The nodes of the beams see the faces of the box.
+            Toucher::Box => Some("edges of the box that cross lines"),
+            Toucher::Rims => Some("ends and side of the cylinder between its points"),
+            Toucher::Nodes => Some("what lies between nodes"),
+        }
+    }
+
     /// True where a body as a whole may pass the surface unseen, and not only sink in a little further than it should.
     pub fn may_pass(self, surface: &SurfaceShape) -> bool {
         matches!(self, Toucher::Box | Toucher::Rims)
