@@ -529,6 +529,10 @@ fn joint_coordinates() {
             ["spherical", "yield_moment = 3.0"],
         ])
     );
+    let rubs = joint("rail", "revolute", "friction = 0.1\nradius = 0.02");
+    let step = |to: &str| portal(&[("time_step = 1e-4", to), ("[sets]", &format!("{rubs}\n[sets]"))]);
+    assert_snapshot!("friction_and_automatic_steps", step("time_step = \"auto\""));
+    assert_eq!(step("time_step = 1e-4").trim(), "");
     let gear = |joint: &str| format!("gear = {{ joint = \"{joint}\", ratio = 2.0 }}");
     assert_snapshot!(
         "joint_gears",
