@@ -1,6 +1,7 @@
 //! Shells: what every element must do, and the benchmarks of Sze, Liu & Lo (2004) and MacNeal & Harder (1985).
 
 mod benchmarks;
+mod boxes;
 mod curved;
 mod curved_linear;
 mod curved_scenes;
@@ -11,6 +12,7 @@ mod linear;
 mod linear_beams;
 mod loads;
 mod membrane;
+mod plastic_beams;
 mod pressure;
 mod results;
 mod symmetry;
