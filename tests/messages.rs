@@ -775,6 +775,7 @@ fn shells() {
     );
     assert_snapshot!("shell_kind", sheet("[3, 4]", "[3, 4]\nkind = \"quad\""));
     assert_snapshot!("shell_layers_when_elastic", sheet("[3, 4]", "[3, 4]\nlayers = 5"));
+    assert_snapshot!("shell_strain_when_elastic", sheet("[3, 4]", "[3, 4]\nstrain = \"logarithmic\""));
     let plastic = SHEET.replace("model = \"elastic\"", "model = \"elastic-plastic\"\nyield_stress = 2e8");
     assert_snapshot!("shell_of_one_layer", said(&plastic.replace("[3, 4]", "[3, 4]\nlayers = 1"), &[]));
     assert_eq!(sheet("poisson_ratio = 0.3", "poisson_ratio = 0.5"), "");

@@ -36,6 +36,8 @@ pub struct Shell {
     pub order: Maybe<u64>,
     /// Integration points through the thickness, 2 to 10, for shells whose material yields. Default: 5.
     pub layers: Maybe<u64>,
+    /// Strain of the surface in shells whose material yields. Default: "green".
+    pub strain: Maybe<StrainMeasure>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
     pub surface: Maybe<Table<PatchSurface>>,
     /// Direction that, projected into the surface, is axis 1 of results; where it is normal to the surface, the
@@ -94,6 +96,17 @@ pub enum ElementKind {
     Quadrilateral,
     /// Three-node elements with assumed transverse shear strains; of six nodes with `order = 2`.
     Triangle,
+}
+
+/// What the material of a shell that yields takes as strain of its surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StrainMeasure {
+    /// Green's, and yield in the stress conjugate to it, on the thickness at t = 0: for strains of some per cent.
+    Green,
+    /// The logarithm of stretches, and yield in true stress, with the thickness that plastic flow leaves: for sheets that stretch by 5 % and
+    /// more.
+    Logarithmic,
 }
 
 /// Where the nodes between the corners lie. With an axis, edges are straight in the coordinates about it.

@@ -297,15 +297,18 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
 fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<LayerModel>> {
     // Errors of the material have been reported.
     let Some(law) = cx.materials.yielding_of(&shell.material)? else {
-        cx.report
-            .reject_unused(&format!("{}, whose material is elastic", owner.what), &[("layers", span(&shell.layers))]);
+        cx.report.reject_unused(
+            &format!("{}, whose material is elastic", owner.what),
+            &[("layers", span(&shell.layers)), ("strain", span(&shell.strain))],
+        );
         return Some(None);
     };
     let layers = cx.report.count("layers", &shell.layers, DEFAULT_LAYERS);
+    let logarithmic = shell.strain.as_ref().is_some_and(|at| at.value == words::StrainMeasure::Logarithmic);
     match &shell.layers {
         Some(at) if !(2..=MOST_LAYERS).contains(&layers) => {
             cx.report.error(&at.span, format!("`layers` must lie between 2 and {MOST_LAYERS}"))
         }
-        _ => Some(Some(LayerModel { law, layers })),
+        _ => Some(Some(LayerModel { law, layers, logarithmic })),
     }
 }

@@ -326,7 +326,7 @@ pub fn soften(m: &mut Model, yield_stress: f64) {
         bar.tension_only = i % 2 == 1;
     }
     for (i, part) in m.each_mut::<Shell>().enumerate() {
-        part.yielding = Some(shell::LayerModel { law: laws[i % 2].clone(), layers: 3 });
+        part.yielding = Some(shell::LayerModel { law: laws[i % 2].clone(), layers: 3, logarithmic: i % 2 == 1 });
     }
 }
 

@@ -248,7 +248,7 @@ fn tangents_are_those_of_forces() {
             let block = match round % 3 {
                 0 => mesh.block(&PLATE, 0.0),
                 1 => mesh.block(&PLATE, 0.3),
-                _ => mesh.layered(&PLATE, &LayerModel { law: law(), layers: 3 }),
+                _ => mesh.layered(&PLATE, &LayerModel { law: law(), layers: 3, logarithmic: round == 5 }),
             };
             let (first, second) = (moved(&mut rng, &mesh.x, 0.02), moved(&mut rng, &mesh.x, 0.02));
             let mut history = vec![0.0; block.history()];
@@ -287,7 +287,7 @@ fn layers_that_do_not_yield_are_elastic() {
     let mut rng = StdRng::seed_from_u64(5);
     for n in SIZES {
         let mesh = Mesh::one(&mut rng, n);
-        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 2 });
+        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 2, logarithmic: false });
         let elastic = mesh.block(&PLATE, 0.0);
         let nodes = moved(&mut rng, &mesh.x, 3e-4);
         let history = vec![0.0; layered.history()];
@@ -382,7 +382,10 @@ fn resultants_are_those_of_the_state() {
         let nodes: Vec<Node> = mesh.x.iter().map(stretched).collect();
         let green = 0.5 * (U * U - Mat3::identity());
         let green = [green[(0, 0)], green[(1, 1)], green[(0, 1)]];
-        for block in [mesh.block(&PLATE, 0.0), mesh.layered(&PLATE, &LayerModel { law: far_off.clone(), layers: 3 })] {
+        for block in [
+            mesh.block(&PLATE, 0.0),
+            mesh.layered(&PLATE, &LayerModel { law: far_off.clone(), layers: 3, logarithmic: false }),
+        ] {
             let past = vec![0.0; block.history()];
             let now = Configuration { nodes: &nodes, history: &past, dt: 0.0, lead: None };
             let at = block.resultants(0, &Vec3::x(), &start, &now).unwrap();

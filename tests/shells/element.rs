@@ -166,7 +166,7 @@ fn layers_have_the_tangent_of_their_stress() {
     for triangle in [false, true] {
         for round in 0..10 {
             let mesh = Mesh::one(&mut rng, triangle);
-            let block = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 4 });
+            let block = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 4, logarithmic: round % 2 == 1 });
             let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
             let R: Mat3 = rotation::matrix(&q);
             let mut moved = |strain: f64| -> Vec<Node> {
@@ -217,8 +217,8 @@ fn packs_have_the_bits_of_their_elements() {
     let plain = MaterialLaw::new(1e3, 0.3, Hardening::Linear { yield_stress: 5.0, modulus: 50.0 }, 0.0, None);
     for triangle in [false, true] {
         let mesh = Mesh::patch(triangle);
-        let model = LayerModel { law: plain.clone(), layers: 5 };
-        for yields in [false, true] {
+        for (yields, logarithmic) in [(false, false), (true, false), (true, true)] {
+            let model = LayerModel { law: plain.clone(), layers: 5, logarithmic };
             let block = || if yields { mesh.layered(&PLATE, &model) } else { mesh.block(&PLATE) };
             let (single, mut packed) = (block(), block());
             packed.pack();
@@ -259,7 +259,7 @@ fn layers_that_do_not_yield_are_elastic() {
     let mut rng = StdRng::seed_from_u64(4);
     for triangle in [false, true] {
         let mesh = Mesh::one(&mut rng, triangle);
-        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 2 });
+        let layered = mesh.layered(&PLATE, &LayerModel { law: law(), layers: 2, logarithmic: false });
         let elastic = mesh.block(&PLATE);
         let nodes: Vec<Node> = mesh
             .x

@@ -15,4 +15,5 @@ mod membrane;
 mod plastic_beams;
 mod pressure;
 mod results;
+mod stretched;
 mod symmetry;

@@ -77,7 +77,7 @@ fn assert_near(found: &[f64], wanted: &[f64], bound: f64) {
 fn even_strain() {
     let mut rng = StdRng::seed_from_u64(21);
     let law = MaterialLaw::new(E, NU, Hardening::Linear { yield_stress: 1e9, modulus: 0.0 }, 0.0, None);
-    let layered = LayerModel { law, layers: 3 };
+    let layered = LayerModel { law, layers: 3, logarithmic: false };
     for triangles in [false, true] {
         for yielding in [None, Some(&layered)] {
             let patch = Patch::new(triangles);
@@ -213,7 +213,7 @@ fn a_cantilever_obeys_statics() {
 fn layers_yield_one_by_one() {
     let (limit, hardening) = (1e-6, 50.0);
     let law = MaterialLaw::new(E, NU, Hardening::Linear { yield_stress: limit, modulus: hardening }, 0.3, None);
-    let layered = LayerModel { law, layers: 5 };
+    let layered = LayerModel { law, layers: 5, logarithmic: false };
     let (z, w) = quadrature::gauss(5);
     for triangles in [false, true] {
         let patch = Patch::new(triangles);

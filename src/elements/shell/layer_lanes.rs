@@ -1,6 +1,7 @@
 //! The layers of eight shell elements side by side, with the bits of [`super::layers`].
 
 use super::packed::InPlaneLanes;
+use super::stretch::Stretch;
 use crate::materials::{Dissipation, EightPoints, PlaneStress, PointsHistory};
 use crate::math::lanes::{LANES, Lanes};
 use crate::state::Configuration;
@@ -13,6 +14,8 @@ const VARIABLES: usize = 4;
 pub struct LayerLanes<const P: usize, const E: usize> {
     /// The law of a layer.
     pub law: EightPoints<PlaneStress, 3>,
+    /// Strain of the reference surface is logarithmic.
+    pub logarithmic: bool,
     /// Height above the reference surface, and thickness, of each layer.
     pub at: Vec<[f64; 2]>,
     /// What the stiffness of drilling is multiplied by for each edge, and for its rows.
@@ -65,6 +68,8 @@ impl<const P: usize, const E: usize> LayerLanes<P, E> {
         for point in &self.points {
             let e: [Lanes; 3] = from_fn(|i| product(&point.membrane[i], &strain.membrane));
             let k: [Lanes; 3] = from_fn(|i| product(&point.bending[i], &strain.bending));
+            let stretch = self.logarithmic.then(|| Stretch::new(&e));
+            let e = stretch.as_ref().map_or(e, |stretch| stretch.strain);
             let mut section = [[Lanes::ZERO; 3]; 2];
             for &[z, w] in &self.at {
                 let there = from_fn(|i| e[i] + Lanes::splat(z) * k[i]);
@@ -78,7 +83,8 @@ impl<const P: usize, const E: usize> LayerLanes<P, E> {
                 sum += more * (Lanes::splat(w) * point.weight);
                 at += VARIABLES;
             }
-            let [N, M] = section.map(|part| part.map(|s| point.weight * s));
+            let N = stretch.as_ref().map_or(section[0], |stretch| stretch.conjugate(&section[0]));
+            let [N, M] = [N, section[1]].map(|part| part.map(|s| point.weight * s));
             let by = |rows: [Lanes; 3], s: &[Lanes; 3]| product(&rows, s);
             (0..E).for_each(|m| stress.membrane[m] += by(from_fn(|i| point.membrane[i][m]), &N));
             (0..P).for_each(|m| stress.bending[m] += by(from_fn(|i| point.bending[i][m]), &M));

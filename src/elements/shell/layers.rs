@@ -1,10 +1,11 @@
-//! A shell of layers in plane stress, each with history variables of its own, that yields. Transverse shear stays elastic until all layers
-//! have failed.
+//! A shell of layers in plane stress, each with history variables of its own, that yields. Strain of the reference surface is Green's, or
+//! logarithmic, see [`super::stretch`], and curvature adds to it. Transverse shear stays elastic until all layers have failed.
 
 use super::layer_lanes::{LayerLanes, PointLanes};
 use super::packed::{InPlaneLanes, PackedSections};
 use super::plane_strains::PointStrains;
 use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
+use super::stretch::Stretch;
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::{Dissipation, EightPoints, MaterialLaw, PlaneStress};
@@ -23,6 +24,8 @@ pub struct LayerModel {
     pub law: MaterialLaw,
     /// The number of Gauss points through the thickness, at most [`super::MOST_LAYERS`].
     pub layers: usize,
+    /// Strain of the reference surface is logarithmic, not Green's: see the file `stretch.rs`.
+    pub logarithmic: bool,
 }
 
 impl LayerModel {
@@ -35,6 +38,8 @@ impl LayerModel {
             at: points.iter().zip(weights).map(|(z, w)| [half * z, half * w]).collect(),
             variables: self.law.history(PlaneStress),
             stiffness: self.law.stiffness(PlaneStress),
+            thickness,
+            logarithmic: self.logarithmic,
         })
     }
 }
@@ -48,6 +53,10 @@ pub struct Layers {
     variables: usize,
     /// ∂stress/∂strain of a layer that does not yield.
     stiffness: [[f64; 3]; 3],
+    /// Of all layers.
+    thickness: f64,
+    /// Strain of the reference surface is logarithmic, see [`Stretch`].
+    logarithmic: bool,
 }
 
 /// The stiffness of an element in its plane, and what it is made of.
@@ -112,7 +121,8 @@ impl<const P: usize, const E: usize> LayeredSection<P, E> {
         }
     }
 
-    /// Calls `of` for each layer of an integration point with [z, thickness], strain and history variables.
+    /// Calls `of` for each layer of an integration point with [z, thickness], strain and history variables; answers with the strain of the
+    /// reference surface if that is logarithmic.
     #[inline(always)]
     fn through(
         &self,
@@ -120,17 +130,38 @@ impl<const P: usize, const E: usize> LayeredSection<P, E> {
         strain: &InPlane<P, E>,
         old: &[f64],
         mut of: impl FnMut([f64; 2], &[f64; 3], &[f64]),
-    ) {
+    ) -> Option<Stretch<f64>> {
         let [e, k] = Self::strain(point, strain);
+        let stretch = self.layers.logarithmic.then(|| Stretch::new(&e));
+        let e = stretch.as_ref().map_or(e, |stretch| stretch.strain);
         for (&[z, w], old) in self.layers.at.iter().zip(old.chunks_exact(self.layers.variables)) {
             of([z, w], &from_fn(|i| e[i] + z * k[i]), old);
         }
+        stretch
+    }
+
+    /// The losses of N and NM by logarithmic strain as those by Green's: C − (∂H/∂E)ᵀ (C − loss) ∂H/∂E − N:∂²H/∂E², (∂H/∂E)ᵀ loss.
+    fn stretched(&self, stretch: &Stretch<f64>, N: &[f64; 3], loss: &mut [[[f64; 3]; 3]; 3]) {
+        let Layers { stiffness, thickness, .. } = &*self.layers;
+        let (slopes, curvature) = (stretch.slopes(), stretch.curvature(N));
+        let whole = |i: usize, j: usize| thickness * stiffness[i][j];
+        let right: [[f64; 3]; 3] =
+            from_fn(|j| from_fn(|i| (0..3).map(|k| (whole(i, k) - loss[0][i][k]) * slopes[j][k]).sum()));
+        let kept = |i: usize, j: usize| (0..3).map(|k| slopes[i][k] * right[j][k]).sum::<f64>() + curvature[j][i];
+        loss[0] = from_fn(|i| from_fn(|j| whole(i, j) - 0.5 * (kept(i, j) + kept(j, i))));
+        loss[1] = from_fn(|i| from_fn(|j| (0..3).map(|k| slopes[i][k] * loss[1][k][j]).sum()));
     }
 
     /// Adds to the stress of the element that of a point, where the section has the resultants N and M.
     #[inline(always)]
-    fn add(point: &PointStrains<P, E>, section: &[[f64; 3]; 2], stress: &mut InPlane<P, E>) {
-        let [N, M] = section.map(|part| part.map(|s| point.weight * s));
+    fn add(
+        point: &PointStrains<P, E>,
+        stretch: &Option<Stretch<f64>>,
+        [N, M]: &[[f64; 3]; 2],
+        stress: &mut InPlane<P, E>,
+    ) {
+        let N = stretch.as_ref().map_or(*N, |stretch| stretch.conjugate(N));
+        let [N, M] = [N, *M].map(|part| part.map(|s| point.weight * s));
         for m in 0..E {
             stress.membrane[m] += (0..3).map(|i| point.membrane[(i, m)] * N[i]).sum::<f64>();
         }
@@ -180,6 +211,7 @@ impl<const P: usize, const E: usize> PackedSections<LayeredSection<P, E>, P, E> 
         };
         Some(LayerLanes {
             law,
+            logarithmic: first.layers.logarithmic,
             at: first.layers.at.clone(),
             edges: from_fn(|i| lanes(|lane| at(lane).drilling.stiffness * at(lane).drilling.edges[i])),
             stiffness: lanes(|lane| at(lane).drilling.stiffness),
@@ -213,15 +245,15 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
         let all = self.layers.at.len() * self.layers.variables;
         for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
             let mut section = [[0.0; 3]; 2];
-            self.through(point, strain, old, |at, strain, old| {
+            let stretch = self.through(point, strain, old, |at, strain, old| {
                 accumulate(&mut section, at, &self.layers.law.stress(PlaneStress, strain, now.dt, old));
             });
-            Self::add(point, &section, &mut stress);
+            Self::add(point, &stretch, &section, &mut stress);
         }
         stress
     }
 
-    /// The derivative is the elastic one less what yielding layers lose.
+    /// The derivative is the elastic one less what yielding layers lose, and what stretching takes or gives.
     fn linearise<'a>(
         &'a self,
         strain: &InPlane<P, E>,
@@ -233,18 +265,18 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
             return (self.stress(strain, now), &self.elastic);
         }
         let mut stress = self.drilling(strain);
-        let mut yields = false;
+        let mut changed = false;
         let all = self.layers.at.len() * self.layers.variables;
         for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
             let mut section = [[0.0; 3]; 2];
             // The losses of N, NM and M are its moments with z⁰, z¹ and z².
             let mut loss = [[[0.0; 3]; 3]; 3];
-            let mut here = false;
-            self.through(point, strain, old, |[z, w], strain, old| {
+            let mut yields = false;
+            let stretch = self.through(point, strain, old, |[z, w], strain, old| {
                 let (sigma, C) = self.layers.law.linearise(PlaneStress, strain, now.dt, old);
                 accumulate(&mut section, [z, w], &sigma);
                 let Some(C) = C else { return };
-                here = true;
+                yields = true;
                 for i in 0..3 {
                     for j in 0..3 {
                         let lost = w * (self.layers.stiffness[i][j] - C[i][j]);
@@ -254,19 +286,23 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
                     }
                 }
             });
-            Self::add(point, &section, &mut stress);
-            if here {
-                if !yields {
+            Self::add(point, &stretch, &section, &mut stress);
+            if let Some(stretch) = &stretch {
+                self.stretched(stretch, &section[0], &mut loss);
+            }
+            if yields || stretch.is_some() {
+                if !changed {
                     tangent.clone_from(&self.elastic);
-                    (tangent.coupled, yields) = (true, true);
+                    changed = true;
                 }
+                tangent.coupled |= yields;
                 let PointStrains { membrane, bending, weight } = point;
                 subtract(*weight, (membrane, &loss[0], membrane), &mut tangent.N);
                 subtract(*weight, (membrane, &loss[1], bending), &mut tangent.NM);
                 subtract(*weight, (bending, &loss[2], bending), &mut tangent.M);
             }
         }
-        (stress, if yields { tangent } else { &self.elastic })
+        (stress, if changed { tangent } else { &self.elastic })
     }
 
     fn can_fail(&self) -> bool {
@@ -306,13 +342,13 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
         for ((point, old), new) in self.points.iter().zip(old).zip(new) {
             let mut section = [[0.0; 3]; 2];
             let mut new = new.chunks_exact_mut(self.layers.variables);
-            self.through(point, strain, old, |[z, w], strain, old| {
+            let stretch = self.through(point, strain, old, |[z, w], strain, old| {
                 let Some(new) = new.next() else { return };
                 let (sigma, spent) = self.layers.law.advance(PlaneStress, strain, (now.dt, 1.0), old, new);
                 accumulate(&mut section, [z, w], &sigma);
                 dissipation += spent * (w * point.weight);
             });
-            Self::add(point, &section, &mut stress);
+            Self::add(point, &stretch, &section, &mut stress);
         }
         (stress, dissipation)
     }

@@ -40,6 +40,7 @@ mod packing;
 mod plane_strains;
 mod results;
 mod section;
+mod stretch;
 mod surface;
 mod tangent;
 
