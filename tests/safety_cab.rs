@@ -47,3 +47,15 @@ fn the_tractor_may_be_rigid() {
     assert!((bends / rigid - 1.0).abs() < 0.04, "{rigid} {bends}");
     assert!(bends != rigid);
 }
+
+/// All of the approval on one cab: three blows, between which it comes to rest, the crushing test and the belts.
+#[test]
+fn the_approval_meets_its_values() {
+    let path = support::decks().join("safety_cab").join("approval.toml");
+    let text = fs::read_to_string(&path).expect("a deck");
+    let done = support::run_source(&Source::new(path.display().to_string(), text, &[]), &mut |_| Vec::new());
+    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+    for verdict in done.verdicts {
+        assert!(verdict.passed, "{}: {}", verdict.label, verdict.reason.unwrap_or_default());
+    }
+}

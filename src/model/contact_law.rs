@@ -15,6 +15,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Fraction of 1/√(k/m) that a step of an impact may reach ahead: an impact then takes nine steps or more.
 const RESOLUTION: f64 = 0.5;
+/// Gap, as a part of the size of the scene, that counts as closed in statics: the rounding of positions.
+const TOUCHING: f64 = 1e-12;
 /// Steps that an impact should last where nothing cuts them, by the chapter on contact stiffness.
 const STEPS: f64 = 10.0;
 
@@ -112,6 +114,7 @@ impl LawReader<'_, '_> {
             resolution: if resolved { RESOLUTION / frequency } else { f64::INFINITY },
             duration: TAU / frequency,
             near: 0.01 * extent,
+            touching: if dynamic { 0.0 } else { TOUCHING * extent },
             dynamic,
         }
     }

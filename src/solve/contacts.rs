@@ -6,6 +6,7 @@ use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::model::{Contact, Model, PartType};
 use crate::state::{Configuration, State};
+use std::ops::Range;
 
 /// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.
 ///
@@ -46,8 +47,9 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
     {
         ws.warnings.add(Warning::SideBySide { name: cx.model.parts[part].name().to_owned() });
     }
-    for (part, gap) in cx.system.last_gaps(state) {
-        let Some(contact) = Contact::of(&cx.model.parts[part]).filter(|contact| gap < -SEEN * contact.size) else {
+    for (group, gap) in cx.system.last_gaps(state) {
+        let Some(contact) = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size)
+        else {
             continue;
         };
         let limit = match contact.chosen {
@@ -57,6 +59,23 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
         };
         if -gap > limit * contact.size {
             ws.warnings.deepen(&contact.name, -gap, contact.size);
+        }
+    }
+}
+
+/// Warns of contacts that a dynamic stage begins with, `fresh` being the ranges of history of what was not there before, where something
+/// lies inside the surface already: it is thrown out by energy that nothing has brought.
+pub fn warn_of_closed(cx: &Context, ws: &mut Workspace, state: &State, fresh: &[Range<usize>]) {
+    /// Of the size of what touches: the depth by which stiffnesses are chosen.
+    const SEEN: f64 = 1e-3;
+    if !cx.is_dynamic() || !cx.system.has_contacts() {
+        return;
+    }
+    for (group, gap) in cx.system.last_gaps(state) {
+        let is_fresh = fresh.iter().any(|range| range.contains(&group.history.start));
+        let contact = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size);
+        if let Some(contact) = contact.filter(|contact| is_fresh && contact.law.is_some()) {
+            ws.warnings.add(Warning::BeginsClosed { name: contact.name.clone(), depth: -gap });
         }
     }
 }

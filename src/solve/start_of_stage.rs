@@ -1,5 +1,6 @@
 //! The state at the beginning of a stage: what the stage before has left, and accelerations and reactions of what acts now.
 
+use super::contacts;
 use super::context::Context;
 use super::failure::Failure;
 use super::handover::Handover;
@@ -44,6 +45,7 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
     give_rates(cx, ws, state);
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
     take_up_history(cx, ws, handover, state);
+    contacts::warn_of_closed(cx, ws, state, &handover.fresh);
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     if cx.is_dynamic() {
         let massless = factor_mass(cx, ws, &state.configuration())?;

@@ -54,6 +54,13 @@ pub enum Warning {
         /// The name of the contact.
         name: String,
     },
+    /// Something lies inside the surface of a contact when that begins to act.
+    BeginsClosed {
+        /// The name of the contact.
+        name: String,
+        /// How deep.
+        depth: f64,
+    },
 }
 
 keep_either!(Warning {
@@ -66,6 +73,7 @@ keep_either!(Warning {
     6 => Grows { modes, rate, fastest },
     7 => Modes(doubts),
     8 => SideBySide { name },
+    9 => BeginsClosed { name, depth },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -160,6 +168,12 @@ impl fmt::Display for Warning {
             ),
             Warning::Modes(doubts) => f.write_str(doubts),
             Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
+            Warning::BeginsClosed { name, depth } => write!(
+                f,
+                "contact `{name}` begins closed in this stage: something lies {} inside the surface where the stages before have left it, and \
+                 is thrown out by energy that nothing has brought. Place what strikes farther away, or let the contact act from earlier on",
+                short(*depth)
+            ),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);

@@ -112,12 +112,10 @@ impl System {
             .map(|(group, _)| group.part)
     }
 
-    /// Each block of contacts, by the index of its contact in [`Model::parts`], with the least gap of all that is near; from the
-    /// history alone, which costs next to nothing.
-    pub fn last_gaps<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let gap = |(group, block): (&Group, ContactBlock)| {
-            (group.part, block.last_gap(&state.history[group.history.clone()]))
-        };
+    /// Each block of contacts, with the least gap of all that is near; from the history alone, which costs next to nothing.
+    pub fn last_gaps<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (&'a Group, f64)> + 'a {
+        let gap =
+            |(group, block): (&'a Group, ContactBlock)| (group, block.last_gap(&state.history[group.history.clone()]));
         self.contact_groups().map(gap)
     }
 

@@ -68,6 +68,7 @@ fn heap(count: usize) -> (FacetContacts, Vec<Node>) {
         resolution: f64::INFINITY,
         duration: 0.0,
         near: 0.0,
+        touching: 0.0,
         dynamic: true,
     };
     let places = (0..count).flat_map(|i| (0..count).flat_map(move |j| (0..count).map(move |k| [i, j, k])));

@@ -39,10 +39,10 @@ fn the_gradient_is_the_derivative_of_the_depth() {
     let mut rng = StdRng::seed_from_u64(3);
     for _ in 0..40 {
         let pose = random_pose(&mut rng);
-        let found = depth(&pose).expect("they overlap");
+        let found = depth(&pose, 0.0).expect("they overlap");
         for k in 0..6 {
             let h = 1e-6;
-            let at = |step: f64| depth(&pose.moved(k, step)).expect("they overlap").D;
+            let at = |step: f64| depth(&pose.moved(k, step), 0.0).expect("they overlap").D;
             let slope = (at(h) - at(-h)) / (2.0 * h);
             // Third derivatives over depths of 5e-3 leave h²/D² = 4e-8, and rounding 1e-10.
             assert!((slope - found.g[k]).abs() < 1e-5, "{k}: {slope} {}", found.g[k]);
@@ -54,7 +54,8 @@ fn the_gradient_is_the_derivative_of_the_depth() {
 #[test]
 fn faces_and_edges_have_the_depth_they_should() {
     let half = Vec3::new(0.1, 0.2, 0.3);
-    let at = |y: Vec3, Q: Mat3| depth(&BoxPose { y, Q, own: half, other: Vec3::new(0.2, 0.2, 0.3) }).expect("in touch");
+    let at =
+        |y: Vec3, Q: Mat3| depth(&BoxPose { y, Q, own: half, other: Vec3::new(0.2, 0.2, 0.3) }, 0.0).expect("in touch");
     for (x, turn) in
         [(0.0, 0.0), (0.1, 0.0), (0.1 + 1e-16, 0.0), (0.1 - 1e-13, 0.0), (0.25, 0.0), (0.05, 0.3), (0.0, 1e-9)]
     {
@@ -79,6 +80,7 @@ fn law(friction: f64, loss: Loss) -> ContactLaw {
         resolution: f64::INFINITY,
         duration: 0.0,
         near: 1.0,
+        touching: 0.0,
         dynamic: true,
     }
 }
@@ -393,6 +395,59 @@ fn plates_do_not_jump_through_each_other() {
                 panic!("case {k} at {dt}: {:?}, down to {least}", done.outcome)
             };
             assert!(name == "hit" && least > -0.0025, "case {k} at {dt}: {least}");
+        }
+    }
+}
+
+/// Boxes drawn face to face, off the line and askew, stand in statics: each interface carries what lies on it, and nothing turns over for
+/// want of a contact that is closed. Positions have rounding in them, of either sign.
+#[test]
+fn boxes_drawn_face_to_face_hold_in_statics() {
+    for base in [0.0, 0.1, 0.3, 0.7, 1.1] {
+        let z = |k: usize| base + 0.1 + 0.2 * k as f64;
+        let of_box = |k: usize, name: &str| {
+            format!(
+                r#"{{ name = "{name}", center = [{}, 0.005, {:?}], mass = 10.0, shape = {{ kind = "box", size = [0.2, 0.2, 0.2] }} }},"#,
+                0.004 * k as f64,
+                z(k)
+            )
+        };
+        let deck = format!(
+            r#"
+            analysis = {{ kind = "static", end_time = 1.0, time_step = 0.5 }}
+            environment = {{ gravity = [0.0, 0.0, -9.81] }}
+            output = {{ contacts = true }}
+            bodies = [{}{}{}]
+            [[contacts]]
+            name = "ground"
+            surface = {{ shape = "box", center = [0.0, 0.0, {}], size = [1.0, 1.0, 0.2] }}
+            with = "a"
+            stiffness = 1e7
+            friction = 0.4
+            [[contacts]]
+            name = "first"
+            surface = {{ shape = "box", body = "a", size = [0.2, 0.2, 0.2] }}
+            with = "b"
+            stiffness = 1e9
+            friction = 0.4
+            [[contacts]]
+            name = "second"
+            surface = {{ shape = "box", body = "b", size = [0.2, 0.2, 0.2] }}
+            with = "c"
+            stiffness = 1e5
+            friction = 0.4
+            "#,
+            of_box(0, "a"),
+            of_box(1, "b"),
+            of_box(2, "c"),
+            base - 0.1
+        );
+        let done = go(&deck, &mut |frame: &Frame| frame.derived.contacts.iter().map(|contact| contact.f.z).collect());
+        assert!(matches!(done.outcome, Outcome::Done), "{base}: {:?}", done.outcome);
+        let last = done.rows.last().unwrap();
+        for (force, weight) in last.iter().zip([294.3, 196.2, 98.1]) {
+            // Statics are iterated to 1e-8 of the forces.
+            assert!((force.abs() - weight).abs() < 1e-6 * weight, "{base}: {last:?}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What is pressed in too far is said, with contact and depth; what has a stiffness that holds it is not.
 
-use crate::support::{doubts, read_deck};
+use crate::support::{doubts, read_deck, run_source};
 use rdsolve::diagnostic::Source;
 use rdsolve::model;
 use rdsolve::solve::Outcome;
@@ -87,4 +87,34 @@ fn a_stiffness_given_may_yield_to_the_middle() {
     let heavy = fast.replace("[[loads]]", "[environment]\ngravity = [0.0, 0.0, -9.81]\n[[loads]]");
     let (_, read) = model::read(&Source::new("deck.toml", heavy, &[]));
     assert!(read.is_empty(), "{read:?}");
+}
+
+/// A ball flies through a block whose contact acts in a later stage alone: it is inside when that begins, which is said; where the stage
+/// before ends earlier it is not, and nothing is.
+#[test]
+fn what_lies_inside_as_a_stage_begins_is_said() {
+    for (before, inside) in [(0.06, true), (0.03, false)] {
+        let text = format!(
+            r#"
+            stages = [
+                {{ name = "fly", kind = "dynamic", duration = {before}, time_step = 1e-3 }},
+                {{ name = "hit", kind = "dynamic", duration = 0.01, time_step = 1e-4 }},
+            ]
+            bodies = [{{ name = "ball", center = [0.0, 0.0, 0.15], mass = 1.0, shape = {{ kind = "sphere", radius = 0.1 }}, velocity = [0.0, 0.0, -1.0] }}]
+            [[contacts]]
+            name = "stop"
+            surface = {{ {FLOOR} }}
+            with = "ball"
+            stiffness = 1e6
+            stages = "hit"
+            "#
+        );
+        let done = run_source(&Source::new("deck.toml", text, &[]), &mut |_| Vec::new());
+        assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+        let said = done.doubts;
+        let found = said.iter().find(|said| said.contains("contact `stop` begins closed in this stage"));
+        assert_eq!(found.is_some(), inside, "{said:?}");
+        // 0.06 s at 1 m/s, 0.05 m above it: 0.01 inside.
+        assert!(found.is_none_or(|found| found.contains("lies 0.01 inside")), "{said:?}");
+    }
 }

@@ -36,6 +36,7 @@ fn touch(
         resolution: f64::INFINITY,
         duration: 0.0,
         near: 1.0,
+        touching: 0.0,
         dynamic: true,
     };
     let surface = Surface { center: vector(rng, 0.3), axes: matrix(&exp(&vector(rng, 2.0))), shape };

@@ -246,6 +246,49 @@ fn a_hairpin_touches_itself() {
     }
 }
 
+/// A thick strip that a hinge folds upon itself, more sharply than its thickness allows: what lies inside comes to facets that it may touch
+/// along the surface, and is not thrown out by energy that nothing has brought; only what goes deeper is pressed.
+#[test]
+fn what_slides_into_itself_along_a_fold_is_not_thrown_out() {
+    let deck = r#"
+        analysis = { kind = "dynamic", end_time = 0.02, time_step = "auto" }
+        integrator = { scheme = "central-difference" }
+        output = { interval = 2e-4, contacts = true }
+        materials.soft = { model = "elastic", youngs_modulus = 1e7, poisson_ratio = 0.0, density = 1000.0 }
+        points = { a = [0.07, 0.0, 0.0], b = [0.13, 0.0, 0.0], c = [0.13, 0.02, 0.0], d = [0.07, 0.02, 0.0] }
+        shells = [{ name = "fold", corners = ["a", "b", "c", "d"], elements = [12, 2], thickness = 0.01, material = "soft" }]
+        supports = [{ at = "fold.edge4", fix = "all" }]
+        bodies = [{ name = "leg", center = [0.15, 0.01, 0.0], mass = 1.0, inertia = [0.01, 0.01, 0.01] }]
+        attachments = [{ body = "leg", nodes = "fold.edge2" }]
+        amplitudes.turn = { kind = "table", points = [[0.0, 0.0], [0.04, 6.2]] }
+        [[joints]]
+        name = "pivot"
+        kind = "revolute"
+        axis = [0.0, -1.0, 0.0]
+        from = { ground = [0.1, 0.01, 0.006] }
+        to = { body = "leg" }
+        motion = { position = 1.0, amplitude = "turn" }
+        [[contacts]]
+        name = "itself"
+        surface = { part = "fold" }
+        with = "itself"
+        stiffness = 1e5
+        "#;
+    let done = go(deck, &mut |frame: &Frame| {
+        let e = frame.derived.energy.expect("energies");
+        let touching = frame.derived.contacts.first().map_or(0, |contact| contact.touching);
+        vec![e.numerical, e.contact, e.external, touching as f64]
+    });
+    assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
+    let most = |of: usize| done.rows.iter().map(|row| row[of]).fold(0.0, f64::max);
+    let least = done.rows.iter().map(|row| row[0]).fold(0.0, f64::min);
+    println!("pressed {:.2e} by {}, numerical {least:.1e} to {:.1e} of {:.2}", most(1), most(3), most(0), most(2));
+    assert!(most(3) > 2.0 && most(1) > 0.0, "the fold does not touch itself");
+    // Thrown out by half of its thickness a single node would bring ½ 1e5 0.005² = 1.25 J; points that leave what they have slid into
+    // take some of the work along.
+    assert!(least > -1e-3 * most(2) && most(0) < 0.05 * most(2), "{least} and {} of {}", most(0), most(2));
+}
+
 /// A ball on the middle of a sheet that is stretched either way alike stays there: friction holds it to the material under it, not to a corner
 /// of the face.
 #[test]

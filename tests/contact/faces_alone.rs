@@ -21,6 +21,7 @@ pub fn law(friction: f64, loss: Loss) -> ContactLaw {
         resolution: f64::INFINITY,
         duration: 0.0,
         near: 1.0,
+        touching: 0.0,
         dynamic: true,
     }
 }

@@ -1,6 +1,7 @@
 //! Beams and bars that touch each other by their radius: bars that cross, a beam that slides along another, what lands on a beam.
 
 use super::go;
+use crate::support::doubts;
 use rdsolve::solve::{Frame, Outcome};
 
 const SCHEMES: [&str; 3] = [
@@ -217,5 +218,21 @@ fn a_ball_lands_on_a_beam() {
             (last[1] / first[1] - 1.0).abs() < 1e-3 && pressed > 0.3 * first[1] && last[3] == 0.0,
             "{scheme}: {last:?}"
         );
+    }
+}
+
+/// Bars that fall on each other side by side are warned of, at 3 degrees; such as cross at 30 are not.
+#[test]
+fn bars_side_by_side_are_said() {
+    for (degrees, warned) in [(3.0f64, true), (30.0, false)] {
+        let (s, c) = degrees.to_radians().sin_cos();
+        let text = crossed("scheme = \"newmark\"", 1e-5, [0.0, 0.0], true, "stiffness = 1e6")
+            .replace("end_time = 0.02", "end_time = 0.01")
+            .replace("c = [0, -0.5, 0.03]", &format!("c = [{}, {}, 0.03]", -0.5 * c, -0.5 * s))
+            .replace("d = [0, 0.5, 0.03]", &format!("d = [{}, {}, 0.03]", 0.5 * c, 0.5 * s));
+        let (outcome, said) = doubts(&text);
+        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+        let found = said.iter().any(|said| said.contains("contact `hit`: beams or bars press each other side by side"));
+        assert_eq!(found, warned, "{degrees}: {said:?}");
     }
 }

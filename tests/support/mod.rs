@@ -130,8 +130,10 @@ pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) ->
         seconds += (began.elapsed() - run.observing()).as_secs_f64();
         unknowns = plan.dofs.unknowns().max(unknowns);
         let (counts, step_error) = (run.counts(), run.step_error());
+        let doubts = run.warnings().iter().map(ToString::to_string).collect();
         let is_done = matches!(outcome, Outcome::Done);
-        let mut done = Done { outcome, seconds, counts, step_error, unknowns, verdicts: Vec::new(), rows: Vec::new() };
+        let (verdicts, rows) = (Vec::new(), Vec::new());
+        let mut done = Done { outcome, seconds, counts, step_error, unknowns, doubts, verdicts, rows };
         ends.push(state.as_ref().map_or(0.0, |state| state.time));
         while let (true, Some(state), Some(next)) = (is_done, &state, models.get_mut(ends.len())) {
             if next.analysis.begin != state.time {
@@ -167,6 +169,8 @@ pub struct Done {
     pub counts: Counts,
     pub step_error: Option<StepError>,
     pub unknowns: usize,
+    /// What the run doubts of its own results; of stages, the last.
+    pub doubts: Vec<String>,
     /// Wall-clock seconds of the time stepping alone.
     pub seconds: f64,
 }
@@ -210,6 +214,7 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
         counts: run.counts(),
         step_error: run.step_error(),
         unknowns: plan.dofs.unknowns(),
+        doubts: run.warnings().iter().map(ToString::to_string).collect(),
         verdicts: watchers.expectations.verdicts(),
         rows: watchers.rows,
     }

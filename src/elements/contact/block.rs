@@ -79,7 +79,7 @@ impl ElementBlock for Contacts {
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
         now.history.is_empty()
             || now.dt < history::of(self, e, now.history).safe_time()
-            || self.kinematics(&self.points[e], now.nodes).gap > 0.0
+            || self.kinematics(&self.points[e], now.nodes).gap > self.law.touching
     }
 
     fn as_any(&self) -> Option<&dyn std::any::Any> {

@@ -19,6 +19,8 @@ pub struct ContactLaw {
     pub duration: f64,
     /// Distance below which points are looked at in every iteration.
     pub near: f64,
+    /// Gap up to which what lies still counts as touching: in statics what rounding leaves between parts drawn face to face, else 0.
+    pub touching: f64,
     /// True where the analysis has velocities, so that a far point stays far for a while.
     pub dynamic: bool,
 }

@@ -25,7 +25,7 @@ pub(super) fn update_point(
         return spent;
     }
     let at = contacts.kinematics(point, now.nodes);
-    let acting = (at.gap <= 0.0).then(|| contact_force(contacts, point, &at, old, now.nodes));
+    let acting = (at.gap <= law.touching).then(|| contact_force(contacts, point, &at, old, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let motion = NormalMotion { gap: at.gap, rate: at.rate(), force, speed };
     let mut spent = Dissipation { impact: update_normal(law, &motion, now, part, old, new), ..Dissipation::default() };

@@ -94,7 +94,7 @@ impl ElementBlock for BoxPairs {
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
         now.history.is_empty()
             || now.dt < self.history(e, now.history).safe_time()
-            || self.kinematics(e, now.nodes).pose.least_axis().gap > 0.0
+            || self.kinematics(e, now.nodes).pose.least_axis().gap > self.law.touching
     }
 
     fn as_any(&self) -> Option<&dyn std::any::Any> {

@@ -16,7 +16,7 @@ use crate::math::{Vec3, Vec6, frame_along, stack};
 
 /// Below this part of their size, boxes only begin to touch: forces are those along the way there, without the shape of an overlap
 /// that rounding has eaten.
-const SHALLOW: f64 = 1e-8;
+pub const SHALLOW: f64 = 1e-8;
 
 /// The depth of two boxes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,19 +31,19 @@ pub struct Depth {
     pub lever: f64,
 }
 
-/// The depth of boxes that overlap or touch; `None` where they are apart.
-pub fn depth(pose: &BoxPose) -> Option<Depth> {
+/// The depth of boxes that overlap or touch; `None` where they are further apart than `touching`.
+pub fn depth(pose: &BoxPose, touching: f64) -> Option<Depth> {
     let least = pose.least_axis();
-    if least.gap > 0.0 {
+    if least.gap > touching {
         return None;
     }
     let shallow = SHALLOW * pose.size();
     if -least.gap >= shallow {
         return within(pose, &least.axis).or_else(|| Some(slab(pose, &least.axis, -least.gap)));
     }
-    let shifted = BoxPose { y: pose.y - (shallow + least.gap) * least.axis, ..*pose };
+    let shifted = pose.pushed_in(&least, shallow);
     let mut found = within(&shifted, &least.axis).unwrap_or_else(|| slab(&shifted, &least.axis, shallow));
-    found.D *= -least.gap / shallow;
+    found.D *= (-least.gap).max(0.0) / shallow;
     Some(found)
 }
 

@@ -1,6 +1,6 @@
 //! Boxes on bodies against a box on another body or on the ground: where they lie, and the force between them.
 
-use super::depth::{Depth, depth};
+use super::depth::{Depth, SHALLOW, depth};
 use super::memory::Memory;
 use super::pose::BoxPose;
 use super::rubbing::{Rubbing, rubbing};
@@ -13,6 +13,9 @@ use crate::state::{Configuration, Node};
 
 /// A face that lies on another acts as the four corners it has.
 const POINTS: f64 = 4.0;
+
+/// Depth, as a part of their size, at which boxes are taken to rest on each other that were drawn face to face.
+const RESTING: f64 = 1e-6;
 
 /// A box that touches another.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -102,7 +105,7 @@ impl BoxPairs {
 
     /// The force of a pair; `None` where it is apart.
     pub(super) fn force(&self, at: &PairKinematics, old: PointHistory) -> Option<PairForce> {
-        let depth = depth(&at.pose)?;
+        let depth = depth(&at.pose, self.law.touching)?;
         let rate = depth.g.dot(&at.rates);
         let speed = match old.is_known() {
             true if old.gap() <= 0.0 => old.impact_speed().max(rate),
@@ -131,18 +134,24 @@ impl BoxPairs {
             by_rates += normal.by_rate * rubbing.by_N * g.transpose();
         }
         let size = at.pose.size();
-        let h = 1e-4 * acting.depth.D;
         // Boxes that only begin to touch, or are about to part, have the stiffness of the normal force alone.
         let stiffness = || -normal.by_depth * g * g.transpose();
-        if h < 1e-10 * size {
-            return [stiffness(), by_rates];
+        let (mut at, mut D) = (PairKinematics { ..*at }, acting.depth.D);
+        if D < 2.0 * SHALLOW * size {
+            if self.law.dynamic {
+                return [stiffness(), by_rates];
+            }
+            // In statics nothing else may hold a box that was put on another: it has the stiffness of one that rests there.
+            at.pose = at.pose.pushed_in(&at.pose.least_axis(), RESTING * size);
+            D = RESTING * size;
         }
+        let h = (1e-4 * D).max(1e-10 * size);
         let mut by_motion = Mat6::zeros();
         for k in 0..6 {
             let step = if k < 3 { h } else { h / size };
             let moved = |step: f64| {
                 let pose = at.pose.moved(k, step);
-                self.force(&PairKinematics { pose, ..*at }, old).map(|force| force.W)
+                self.force(&PairKinematics { pose, ..at }, old).map(|force| force.W)
             };
             let (Some(ahead), Some(behind)) = (moved(step), moved(-step)) else { return [stiffness(), by_rates] };
             by_motion.set_column(k, &((ahead - behind) / (2.0 * step)));

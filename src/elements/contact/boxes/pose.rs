@@ -59,6 +59,11 @@ impl BoxPose {
         best
     }
 
+    /// The one moved along an axis until the boxes overlap by a `depth` along it.
+    pub fn pushed_in(&self, least: &LeastAxis, depth: f64) -> BoxPose {
+        BoxPose { y: self.y - (depth + least.gap) * least.axis, ..*self }
+    }
+
     /// The one moved by a small step along an axis, or turned about it where `k` is 3 and more.
     pub fn moved(&self, k: usize, step: f64) -> BoxPose {
         let mut moved = *self;

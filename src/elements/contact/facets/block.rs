@@ -59,7 +59,7 @@ impl ElementBlock for FacetContacts {
         self.each_touch(now.nodes, now.history, |_, _, pair| {
             let place = pair.place(now.nodes);
             let T = pair.force(&place, now.nodes).friction.map_or(0.0, |friction| friction.T.norm_squared());
-            stored += 0.5 * k * place.gap().powi(2) + 0.5 * T / k;
+            stored += 0.5 * k * place.gap().min(0.0).powi(2) + 0.5 * T / k;
         });
         stored
     }

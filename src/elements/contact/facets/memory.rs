@@ -7,7 +7,8 @@ use nalgebra::Quaternion;
 
 const FACET: usize = FRICTION_FORCE + 1;
 const SIDE: usize = FACET + 1;
-const ANCHOR: usize = SIDE + 1;
+const INSET: usize = SIDE + 1;
+const ANCHOR: usize = INSET + 1;
 const ROTATIONS: usize = ANCHOR + 3;
 
 /// Number of history variables of a pair, `rotations` being those kept of the point's nodes.
@@ -38,6 +39,12 @@ impl<'a> PairMemory<'a> {
         self.0[SIDE]
     }
 
+    /// The depth at which the point was found where it came along the surface itself, as far as it has not come out since.
+    #[inline]
+    pub fn inset(self) -> f64 {
+        self.0[INSET]
+    }
+
     /// The anchor of the spring of friction in the base vectors of the facet, from its first node.
     #[inline]
     pub fn anchor(self) -> Vec3 {
@@ -64,6 +71,11 @@ impl PairMemoryMut<'_> {
     /// Sets the facet and the side.
     pub fn set_facet(&mut self, facet: usize, side: f64) {
         (self.0[FACET], self.0[SIDE]) = (facet as f64, side);
+    }
+
+    /// Sets the depth that does not push.
+    pub fn set_inset(&mut self, inset: f64) {
+        self.0[INSET] = inset;
     }
 
     /// Sets the anchor.

@@ -64,11 +64,6 @@ pub fn near_along(
     for (number, facet) in facets.iter().enumerate() {
         facet.nodes().iter().for_each(|&node| around.entry(node).or_default().push(number));
     }
-    let size = |facet: &Facet| {
-        let first = x(facet.nodes[0]);
-        facet.nodes().iter().map(|&node| (x(node) - first).norm()).fold(0.0, f64::max)
-    };
-    let most = |node: usize| around.get(&node).into_iter().flatten().map(|&f| size(&facets[f])).fold(0.0, f64::max);
     let found = nodes.iter().enumerate().map(|(k, &start)| {
         // The reach of Dijkstra's search along edges and diagonals; few nodes lie in it.
         let mut reached: BTreeMap<usize, f64> = BTreeMap::from([(start, 0.0)]);
@@ -77,7 +72,7 @@ pub fn near_along(
         while let Some(node) = ahead.pop() {
             let way = reached[&node];
             for &number in around.get(&node).into_iter().flatten() {
-                if way > distance(k, &facets[number]) + most(start) {
+                if way > distance(k, &facets[number]) {
                     continue;
                 }
                 near.push(number as u32);

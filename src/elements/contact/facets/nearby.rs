@@ -5,7 +5,7 @@ use super::facet::Facet;
 use super::grid::{BoxGrid, FacetBox};
 use super::scene::FacetScene;
 use super::span::FacetSpan;
-use super::touch::FacetTouch;
+use super::touch::{self, FacetTouch, TouchQuery};
 use crate::math::Vec3;
 use crate::state::Node;
 
@@ -17,6 +17,10 @@ pub(super) struct NearbyFacets {
     /// The start of the list of each point, and the end of the last.
     starts: Vec<usize>,
     lists: Vec<u32>,
+    /// For each point a lower bound of its gap when the lists were made, from the facets that it can come to touch.
+    gaps: Vec<f64>,
+    /// By how much gaps may have become smaller since.
+    closed: f64,
     grid: BoxGrid,
     /// What touches a point: room for one after the other.
     pub touches: Vec<FacetTouch>,
@@ -29,9 +33,17 @@ pub(super) struct NearbyFacets {
 impl NearbyFacets {
     /// Makes the lists anew where something has moved too far.
     pub fn update(&mut self, of: &FacetScene, nodes: &[Node]) {
-        if self.places.is_empty() || 2.0 * farthest(of, nodes, |k, _| self.places[k]) > of.margin {
+        if !self.places.is_empty() {
+            self.closed = 2.0 * farthest(of, nodes, |k, _| self.places[k]);
+        }
+        if self.places.is_empty() || self.closed > of.margin {
             self.rebuild(of, nodes);
         }
+    }
+
+    /// True where a point is surely farther than this from all that it can come to touch.
+    pub fn is_clear(&self, point: usize, limit: f64) -> bool {
+        self.gaps[point] - self.closed > limit
     }
 
     /// The facets near a point.
@@ -63,6 +75,16 @@ impl NearbyFacets {
             self.lists.truncate(kept);
             self.starts.push(kept);
         }
+        self.closed = 0.0;
+        self.gaps.clear();
+        let mut found = std::mem::take(&mut self.touches);
+        for e in 0..of.points.len() {
+            touch::find_within(of, self.of(e), TouchQuery { e, limit: f64::INFINITY, stays: false }, nodes, &mut found);
+            let can_touch = found.iter().filter(|touch| !of.is_near_along(e, touch.facet as u32));
+            // Beyond the lists everything is farther than this.
+            self.gaps.push(can_touch.map(|touch| touch.gap).fold(apart, f64::min));
+        }
+        self.touches = found;
     }
 
     /// The facets that a point may meet in a step in which nothing moves farther than `way` against the mean.

@@ -21,6 +21,8 @@ pub(super) struct FacetPair<'a> {
     pub point: Cow<'a, ContactPoint>,
     pub facet: &'a Facet,
     pub memory: Option<PairMemory<'a>>,
+    /// The depth at which the point was found where it came along the surface itself: only what is deeper pushes.
+    pub inset: f64,
     /// The facet in whose frame friction remembers: that on which the point was, its neighbour where it has gone on.
     pub kept: &'a Facet,
 }
@@ -37,6 +39,8 @@ pub(super) struct PairPlace {
     pub d: f64,
     /// The distance at which they touch.
     pub reach: f64,
+    /// The depth that does not push.
+    pub inset: f64,
     /// The side: 1 where `n` goes with the normal of the facet.
     pub side: f64,
     /// The point relative to its first node.
@@ -48,7 +52,12 @@ pub(super) struct PairPlace {
 impl PairPlace {
     /// The gap, negative where they touch.
     pub fn gap(&self) -> f64 {
-        self.d - self.reach
+        self.d - self.reach + self.inset
+    }
+
+    /// The depth that does not push, once the point has come out so far.
+    pub fn inset_left(&self) -> f64 {
+        self.inset.min(self.reach - self.d).max(0.0)
     }
 
     /// Approach speed.
@@ -67,6 +76,14 @@ pub(super) struct PairForceOnPoint {
     pub M: Vec3,
     /// Moment on the facet, whose force is opposite to that on the point.
     pub C: Vec3,
+}
+
+impl PairForceOnPoint {
+    const NONE: PairForceOnPoint = {
+        let zero = Vec3::new(0.0, 0.0, 0.0);
+        let normal = NormalForce { force: 0.0, by_depth: 0.0, by_rate: 0.0 };
+        PairForceOnPoint { normal, friction: None, F: zero, M: zero, C: zero }
+    };
 }
 
 impl<'a> FacetPair<'a> {
@@ -100,7 +117,7 @@ impl<'a> FacetPair<'a> {
         let n = if distance > 1e-12 * (self.facet.half + self.point.radius) { sign / distance * at.g } else { outward };
         let w = self.parts(&W).map(|(node, share)| share * nodes[node].v).sum();
         let reach = self.facet.half + self.point.radius;
-        PairPlace { at, W, n, d: sign * distance, reach, side, x, w }
+        PairPlace { at, W, n, d: sign * distance, reach, inset: self.inset, side, x, w }
     }
 
     /// The point from the first node of a facet, global components.
@@ -118,13 +135,16 @@ impl<'a> FacetPair<'a> {
     /// What acts where they touch.
     pub fn force(&self, place: &PairPlace, nodes: &[Node]) -> PairForceOnPoint {
         let law = self.law;
+        if place.inset > 0.0 && place.gap() > 0.0 {
+            return PairForceOnPoint::NONE;
+        }
         let rate = place.rate();
         let speed = match self.memory.map(PairMemory::motion) {
             Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
             Some(old) => old.rate().max(rate),
             None => rate,
         };
-        let normal = normal_force(law.stiffness, &law.loss, -place.gap(), rate, speed);
+        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed);
         let n = &place.n;
         let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
         let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };

@@ -23,8 +23,18 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
     let is_missed = (0..of.points.len()).any(|e| {
         let old = of.of_point(e, now.history);
         let near = nearby.of(e);
+        if 2.0 * way <= of.margin && nearby.is_clear(e, 2.0 * way) {
+            return false;
+        }
         if !near.is_empty() {
-            touch::find(of, near, touch::TouchQuery { e, limit: 0.0, stays: true }, now.nodes, old, &mut found);
+            touch::find(
+                of,
+                near,
+                touch::TouchQuery { e, limit: of.law.touching, stays: true },
+                now.nodes,
+                old,
+                &mut found,
+            );
             let too_far = |touch: &touch::FacetTouch| {
                 let pair = of.pair(e, touch, old);
                 let place = pair.place(now.nodes);

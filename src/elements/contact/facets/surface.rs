@@ -1,6 +1,7 @@
 //! Points against a surface of facets, with the lists of what is near.
 
 use super::facet::Facet;
+use super::memory::PairMemory;
 use super::nearby::NearbyFacets;
 use super::pair::FacetPair;
 use super::scene::{FacetScene, FacetTouchers};
@@ -50,14 +51,16 @@ impl FacetContacts {
         let memory = touch.slot.map(|slot| self.memory(history, slot));
         let facet = &self.facets[touch.facet];
         let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
-        FacetPair { law: &self.law, point: self.point_at(e, touch.share), facet, memory, kept }
+        let inset = memory.map_or(if touch.slides_in { -touch.gap } else { 0.0 }, PairMemory::inset);
+        FacetPair { law: &self.law, point: self.point_at(e, touch.share), facet, memory, inset, kept }
     }
 
     /// A point and the facet that it remembers in this slot.
     pub(super) fn pair_of<'a>(&'a self, e: usize, slot: usize, history: &'a [f64]) -> FacetPair<'a> {
         let memory = self.memory(history, slot);
         let facet = &self.facets[memory.facet()];
-        FacetPair { law: &self.law, point: self.point_at(e, None), facet, memory: Some(memory), kept: facet }
+        let point = self.point_at(e, None);
+        FacetPair { law: &self.law, point, facet, memory: Some(memory), inset: memory.inset(), kept: facet }
     }
 
     /// True where two lines touch that are parallel within some degrees, and not end to end.
@@ -93,11 +96,11 @@ impl FacetContacts {
         let mut found = std::mem::take(&mut nearby.touches);
         for e in 0..self.points.len() {
             let near = nearby.of(e);
-            if near.is_empty() {
+            if near.is_empty() || nearby.is_clear(e, self.law.touching) {
                 continue;
             }
             let own = self.of_point(e, history);
-            touch::find(self, near, TouchQuery { e, limit: 0.0, stays: true }, nodes, own, &mut found);
+            touch::find(self, near, TouchQuery { e, limit: self.law.touching, stays: true }, nodes, own, &mut found);
             for touch in &found {
                 act(e, touch, self.pair(e, touch, own));
             }

@@ -29,6 +29,8 @@ pub(super) struct FacetTouch {
     pub normal: Vec3,
     /// False for facets that only tell that others are not the nearest.
     pub counts: bool,
+    /// True where the point lies in the facet already as it comes there along the surface, from facets that it cannot touch.
+    pub slides_in: bool,
     /// The place where what is remembered of it stands.
     pub slot: Option<usize>,
     /// Of a line that touches, the share of its second end in its nearest point.
@@ -56,12 +58,12 @@ pub(super) fn find(
     history: &[f64],
     found: &mut Vec<FacetTouch>,
 ) {
-    let point = &of.points[query.e];
-    let origin = &nodes[point.nodes[0]];
-    let x = point.relative_position(origin, nodes);
-    find_within(of, near, query, (&x, origin), nodes, found);
+    find_within(of, near, query, nodes, found);
     let stand_alone = of.is_of_balls || of.is_of_lines;
     if !stand_alone {
+        if of.is_inner {
+            mark_slides(&of.facets, found);
+        }
         keep_minima(&of.facets, found);
     }
     found.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then(a.facet.cmp(&b.facet)));
@@ -79,26 +81,37 @@ pub(super) fn find(
         }
     }
     found.truncate(kept);
-    match_memory(of, query.e, (&x, origin), nodes, history, found);
+    match_memory(of, query.e, nodes, history, found);
+    let memories = || (0..of.slots).map(|slot| of.memory(history, slot).motion());
+    if found.iter().any(|touch| touch.slides_in) && memories().any(|motion| motion.is_known() && motion.gap() <= 0.0) {
+        // What goes on from one facet to the next in contact stays in contact.
+        found.iter_mut().for_each(|touch| touch.slides_in = false);
+    }
 }
 
-/// All facets within the gap asked for, of a point that lies at `x` from the node `origin`.
-fn find_within(
+/// Where a point lies from its first node.
+fn seen<'a>(of: &FacetScene, e: usize, nodes: &'a [Node]) -> (Vec3, &'a Node) {
+    let point = &of.points[e];
+    let origin = &nodes[point.nodes[0]];
+    (point.relative_position(origin, nodes), origin)
+}
+
+/// All facets within the gap asked for.
+pub(super) fn find_within(
     of: &FacetScene,
     near: &[u32],
     TouchQuery { e, limit, .. }: TouchQuery,
-    (x, origin): (&Vec3, &Node),
     nodes: &[Node],
     found: &mut Vec<FacetTouch>,
 ) {
     found.clear();
+    let (x, origin) = seen(of, e, nodes);
     let radius = of.points[e].radius;
     for &number in near {
         let facet = &of.facets[number as usize];
         let share = of.share(e, facet, nodes);
         let nearest = share.map(|_| of.point_at(e, share).relative_position(origin, nodes));
-        let x = nearest.as_ref().unwrap_or(x);
-        let p = facet.seen_from(x, origin, nodes);
+        let p = facet.seen_from(nearest.as_ref().unwrap_or(&x), origin, nodes);
         let reach = facet.half + radius;
         // Most are too far: their corners alone tell.
         let least = (0..3).map(|i| {
@@ -128,6 +141,7 @@ fn find_within(
             rim,
             normal,
             counts,
+            slides_in: false,
             slot: None,
             share,
         });
@@ -155,6 +169,19 @@ fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
     }
 }
 
+/// Marks facets in which the point lies, beside one that it cannot touch and in which it lies too: where the surface folds more sharply
+/// than its thickness allows.
+fn mark_slides(facets: &[Facet], found: &mut [FacetTouch]) {
+    for k in 0..found.len() {
+        let touch = found[k];
+        let is_beside = |other: &FacetTouch| {
+            let names = &facets[other.facet].names;
+            !other.counts && other.gap < 0.0 && facets[touch.facet].names.iter().any(|name| names.contains(name))
+        };
+        found[k].slides_in = touch.counts && touch.gap < 0.0 && found.iter().any(is_beside);
+    }
+}
+
 /// Marks facets with a neighbour that is nearer at the same place of the rim.
 fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
     for k in 0..found.len() {
@@ -176,14 +203,7 @@ fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
 }
 
 /// Gives each facet found the place of what is remembered of it, or of the neighbour from which the point came.
-fn match_memory(
-    of: &FacetScene,
-    e: usize,
-    (x, origin): (&Vec3, &Node),
-    nodes: &[Node],
-    history: &[f64],
-    found: &mut [FacetTouch],
-) {
+fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
     for slot in 0..of.slots {
         let memory = of.memory(history, slot);
         if !memory.motion().is_known() {
@@ -196,6 +216,7 @@ fn match_memory(
     if of.is_of_balls || found.iter().all(|touch| touch.slot.is_some()) {
         return;
     }
+    let (x, origin) = seen(of, e, nodes);
     for slot in 0..of.slots {
         let memory = of.memory(history, slot);
         if !memory.motion().is_known() || found.iter().any(|touch| touch.slot == Some(slot)) {
@@ -204,7 +225,7 @@ fn match_memory(
         let facet = &of.facets[memory.facet()];
         let share = of.share(e, facet, nodes);
         let nearest = share.map(|_| of.point_at(e, share).relative_position(origin, nodes));
-        let p = facet.seen_from(nearest.as_ref().unwrap_or(x), origin, nodes);
+        let p = facet.seen_from(nearest.as_ref().unwrap_or(&x), origin, nodes);
         let at = facet.closest(&p);
         let normal = facet.facing(&at, &p);
         let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);

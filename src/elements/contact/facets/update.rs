@@ -21,7 +21,7 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
         let old = of.of_point(e, now.history);
         let near = nearby.of(e);
         found.clear();
-        if !near.is_empty() {
+        if !near.is_empty() && !nearby.is_clear(e, of.margin) {
             touch::find(of, near, TouchQuery { e, limit: of.margin, stays: false }, now.nodes, old, &mut found);
         }
         spent += let_go(of, now, part, &found, old);
@@ -66,7 +66,7 @@ fn update_pair(
     let place = pair.place(now.nodes);
     let nothing = [0.0; memory::width(false, 0)];
     let old = pair.memory.unwrap_or(PairMemory(&nothing));
-    let acting = (place.gap() <= 0.0).then(|| pair.force(&place, now.nodes));
+    let acting = (place.gap() <= of.law.touching).then(|| pair.force(&place, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let motion = NormalMotion { gap: place.gap(), rate: place.rate(), force, speed: place.w.norm() };
     let mut spent = Dissipation {
@@ -74,6 +74,7 @@ fn update_pair(
         ..Dissipation::default()
     };
     new.set_facet(touch.facet, place.side);
+    new.set_inset(place.inset_left());
     if of.law.friction > 0.0 {
         spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, way(old.motion(), part), new);
     }
