@@ -2,17 +2,13 @@
 
 use super::data::{Model, Part, PartType, Shell, ShellElement};
 use super::nodes::Topology;
-use crate::elements::shell::{Interpolation, Quadrilateral, Triangle};
+use crate::elements::shell::{FLAT, Interpolation, Quadrilateral, Triangle};
 use crate::math::Vec3;
 use std::collections::{HashMap, HashSet};
 
 /// Part of the normal of an edge in its surface, squared, that is free at a node taken to be held across the edge: that of an edge
 /// along the line of its support, up to the rounding of coordinates.
 const FREE: f64 = 1e-6;
-
-/// Part of the thickness by which an edge of a surface may rise over its chord, or its ends turn against each other over its length,
-/// and still be taken as flat.
-const FLAT: f64 = 0.05;
 
 /// [`ShellElement::bulge`] of each element of a shell.
 pub(super) type Bulges = Vec<[f64; 4]>;
@@ -78,7 +74,8 @@ pub(super) fn least_bulges(models: &[Model]) -> Option<Vec<Bulges>> {
     differ.then_some(least)
 }
 
-/// True for an edge along which the surface of an element is flat.
+/// True for an edge along which the surface of an element is flat: it rises over its chord, or its ends turn against each other over its
+/// length, by less than [`FLAT`] thicknesses.
 fn is_flat(topology: &Topology, element: &ShellElement, ends: [usize; 2], thickness: f64) -> bool {
     let along = topology.x(element.nodes[ends[1]]) - topology.x(element.nodes[ends[0]]);
     let [n, m] = ends.map(|a| element.normals[a]);

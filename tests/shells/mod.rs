@@ -17,3 +17,5 @@ mod pressure;
 mod results;
 mod stretched;
 mod symmetry;
+mod sze;
+mod sze_tables;

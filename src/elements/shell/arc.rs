@@ -2,7 +2,8 @@
 //!
 //! Interpolated directors lie on the chord: over an angle φ they differ by 2 sin ½φ, an error of φ²/24 in curvature and of
 //! φ²/6 in the moment of a given rotation. Slopes w of the director are therefore lengthened, w′ = w (1 + S wᵀw), where S wᵀw
-//! is the squared angle over the element in the direction in which it bends, over 24: the remaining error is of order φ⁴.
+//! is the squared angle over the element in the direction in which it bends, over 24: the remaining error is of order φ⁴. Where
+//! the positions too stand on chords of arcs, see [`super::camber`], it is that over 12.
 
 use crate::math::{Mat3, Vec3};
 

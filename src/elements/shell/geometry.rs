@@ -1,5 +1,6 @@
 //! Shells as the model describes them, and what is computed once from the undeformed geometry.
 
+use super::camber::Camber;
 use super::edge::EdgeTangents;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::kinematics::{NodalVectors, Shell, Shells, Strains};
@@ -19,6 +20,14 @@ pub(super) const SHEAR_FACTOR: f64 = 5.0 / 6.0;
 /// Part of the drilling stiffness that resists different drilling of the ends of a straight edge: where a surface is curved, bending
 /// alone makes some.
 const UNEVEN: f64 = 1e-2;
+
+/// Part of the thickness up to which the turn of a surface along an edge times its length is taken as that of a flat one: edges
+/// bulge there, and stretch is that of chords; beyond it edges are straight, and stretch is that of arcs.
+pub const FLAT: f64 = 0.5;
+
+/// Length over thickness beyond which stretch is that of chords on any surface. A side that is under pressure from a strain ε across
+/// buckles from ε (ℓ/h)² of some 5 on, and metals strain by 2e-3 before they yield.
+const SLENDER: f64 = 50.0;
 
 /// Thickness and elastic constants of a group of elements.
 #[derive(Debug, Clone, Copy)]
@@ -137,12 +146,16 @@ where
     let surface = ElementSurface::<N, V>::new::<K, P>(from_fn(|a| x[nodes[a]] - x[nodes[0]]));
     let X = surface.X;
     let T = D.map(|d| surface.tangents(&d));
+    let cambered = K::CAMBERED && is_curved(&X, &D, K::EDGES, plate.thickness);
+    // Positions and directors both fall short of an arc.
+    let (camber, arcs) = if cambered { (surface.camber, 2.0) } else { (Camber::NONE, 1.0) };
     let mut shell = Shell {
         nodes,
         D,
         T,
         slopes: surface.slopes,
-        arc: surface.arc,
+        arc: surface.arc.map(|row| row.map(|s| arcs * s)),
+        camber,
         edges: K::EDGES.map(|[a, b]| EdgeTangents::new(&(X[b] - X[a]), [&T[a], &T[b]])),
         start: Strains { plane: InPlane::ZERO, shear: [0.0; N] },
         shear: shear_stiffness::<K, N, V, P>(&surface, plate),
@@ -150,6 +163,14 @@ where
     };
     shell.start = shell.measure::<K, true>(&NodalVectors { x: X, turning: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
     shell
+}
+
+/// True for an element along an edge of which the surface turns, over the length of it, by more than half the thickness, and that is
+/// not so slender that tension bends it between its nodes, see [`super::camber`].
+fn is_curved<const N: usize>(X: &[Vec3; N], D: &[Vec3; N], edges: [[usize; 2]; N], thickness: f64) -> bool {
+    let lengths = edges.map(|[a, b]| (X[b] - X[a]).norm());
+    let turns = edges.into_iter().zip(lengths).any(|([a, b], L)| (D[b] - D[a]).norm() * L > FLAT * thickness);
+    turns && lengths.into_iter().all(|L| L <= SLENDER * thickness)
 }
 
 /// w Aᵀ C A by rows.
@@ -194,13 +215,17 @@ fn shear_stiffness<K: Interpolation<N, V, P>, const N: usize, const V: usize, co
 ) -> [[f64; N]; N] {
     let (h, G) = (plate.thickness, plate.shear_modulus());
     let mut shear = [[0.0; N]; N];
-    let span = K::EDGES.map(|[a, b]| (X[b] - X[a]).norm_squared()).into_iter().fold(0.0, f64::max);
-    let flexible = h * h / (h * h + K::FLEXIBILITY * span);
+    let area: f64 = points.iter().map(|point| point.weight).sum();
+    let flexible = K::EDGES.map(|[a, b]| {
+        let length = (X[b] - X[a]).norm_squared();
+        let span = if K::SPANS_WIDTH { length.min(area * area / length) } else { length };
+        h / (h * h + K::FLEXIBILITY * span).sqrt()
+    });
     for point in points {
         let edges = K::shear(point.at);
-        let w = SHEAR_FACTOR * G * h * flexible * point.weight;
+        let w = SHEAR_FACTOR * G * h * point.weight;
         for i in point.inverse {
-            let Z: [f64; N] = from_fn(|e| i[0] * edges[0][e] + i[1] * edges[1][e]);
+            let Z: [f64; N] = from_fn(|e| flexible[e] * (i[0] * edges[0][e] + i[1] * edges[1][e]));
             for a in 0..N {
                 for b in 0..N {
                     shear[a][b] += w * Z[a] * Z[b];

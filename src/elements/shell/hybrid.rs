@@ -7,10 +7,11 @@
 //! the quartic x⁴ − y⁴ that would resist the latter resists tapering elements in bending too.
 
 use super::interpolation::{Interpolation, Quadrilateral};
+use super::kinematics::NodalVectors;
 use super::plane_strains::{PlaneStrains, PointStrains};
 use super::surface::{ElementSurface, SurfacePoint};
 use crate::math::quadrature;
-use nalgebra::{Matrix3, SMatrix, SVector, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix3, RowVector6, SMatrix, SVector, Vector2, Vector3};
 use std::array::from_fn;
 
 /// Products of slopes.
@@ -82,6 +83,27 @@ fn work_of_bulge(coordinates: &Coordinates, [a, b]: [Vector2<f64>; 2], squared: 
     at.map(|(r, w)| -0.5 * w * r * (1.0 - r) * squared * coordinates.modes(&(a + r * (b - a))).tr_mul(&n)).sum()
 }
 
+/// Strain at an integration point from the products of slopes, where warping stretches edges alone. v₂ is split into
+/// d₁ v₀ + d₂ v₁ and a part along the normal of the centre, which stands normal to v₀ and v₁ at any time; so
+/// ½ |v₂|² = m + ½ (v₂·n)² with m = d₁ v₀·v₂ + d₂ v₁·v₂ − ½ |d₁ v₀ + d₂ v₁|². Strain along ξ is ½ |v₀ + η v₂|²; for the normal
+/// part η² is taken as one, its value at the edges, and for strain along η ξ². The membrane then asks no more of a surface that
+/// is bent than that its edges keep their lengths, which neighbours share (compare Y. Ko, P. S. Lee & K. J. Bathe 2017); with
+/// the values inside, coarse meshes that are not drawn along the lines of curvature lock. Flat elements have no normal part.
+fn of_products(surface: &ElementSurface<4, 3>, point: &SurfacePoint<3>) -> SMatrix<f64, 3, P> {
+    let [v0, v1, v2] = NodalVectors::slopes(&surface.slopes, &surface.X).map(|v| surface.flat(&v));
+    let mut strain = Quadrilateral::of_products(&point.slopes);
+    let Some(inverse) = Matrix2::from_columns(&[v0, v1]).try_inverse() else { return strain };
+    let d = inverse * v2;
+    let flat = RowVector6::new(-d.x * d.x, -d.y * d.y, -d.x * d.y, d.x, d.y, 0.0);
+    // v₂ is measured by the size of the element.
+    let size = Quadrilateral::SLOPES[2][0] / surface.slopes[2][0];
+    let [s, t] = point.inverse.map(|i| size * Vector2::from(i));
+    let edges = Vector3::new(s.norm_squared(), t.norm_squared(), 2.0 * s.dot(&t));
+    let inside = strain.column(P - 1).into_owned();
+    strain.set_column(P - 1, &edges);
+    strain + (inside - edges) * flat
+}
+
 /// Strain of the membrane at the integration points.
 fn membrane(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>, part: &[f64; 4]) -> [SMatrix<f64, 3, E>; 4] {
     let corners = surface.X.map(|x| surface.flat(&x));
@@ -92,7 +114,7 @@ fn membrane(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>, part: &[f64; 4]) -
     for (point, S) in surface.points.iter().zip(&S) {
         H += point.weight * S.transpose() * C * S;
         let mut products = work.fixed_columns_mut::<P>(0);
-        products += point.weight * S.transpose() * Quadrilateral::of_products(&point.slopes);
+        products += point.weight * S.transpose() * of_products(surface, point);
     }
     for (e, [a, b]) in Quadrilateral::EDGES.into_iter().enumerate() {
         let squared = (surface.X[b] - surface.X[a]).norm_squared();
@@ -117,6 +139,20 @@ fn bending_modes(point: &SurfacePoint<3>, from: [f64; 2], along: &[Vector2<f64>;
 
 /// Curvature at the integration points.
 fn bending(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>) -> [SMatrix<f64, 3, P>; 4] {
+    five_modes(surface, C, |point| Quadrilateral::of_products(&point.slopes))
+}
+
+/// Strain of the membrane of an element all of whose edges are straight.
+fn straight(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>) -> [SMatrix<f64, 3, P>; 4] {
+    five_modes(surface, C, |point| of_products(surface, point))
+}
+
+/// Strain at the integration points with the stress modes of bending, from compatible strain by products of slopes.
+fn five_modes(
+    surface: &ElementSurface<4, 3>,
+    C: &Matrix3<f64>,
+    of_products: impl Fn(&SurfacePoint<3>) -> SMatrix<f64, 3, P>,
+) -> [SMatrix<f64, 3, P>; 4] {
     let points = &surface.points;
     let from = [0, 1].map(|i| points.iter().map(|p| p.weight * p.at[i]).sum::<f64>() / surface.area);
     let corners = surface.X.map(|x| surface.flat(&x));
@@ -127,7 +163,7 @@ fn bending(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>) -> [SMatrix<f64, 3,
     let (mut H, mut work) = (SMatrix::<f64, 5, 5>::zeros(), SMatrix::<f64, 5, P>::zeros());
     for (point, S) in points.iter().zip(&S) {
         H += point.weight * S.transpose() * C * S;
-        work += point.weight * S.transpose() * Quadrilateral::of_products(&point.slopes);
+        work += point.weight * S.transpose() * of_products(point);
     }
     let beta = amplitudes(H, work);
     S.map(|S| C * S * beta)
@@ -138,7 +174,7 @@ impl PlaneStrains<4, 3, P, E> for Quadrilateral {
         let C = compliance(nu);
         let bending = bending(surface, &C);
         let membrane = if bulge == &[0.0; 4] {
-            bending.map(|products| {
+            straight(surface, &C).map(|products| {
                 let mut membrane = SMatrix::<f64, 3, E>::zeros();
                 membrane.fixed_columns_mut::<P>(0).copy_from(&products);
                 membrane

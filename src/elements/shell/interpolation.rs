@@ -15,9 +15,13 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const VALUES: [[f64; N]; N];
     /// Area of the domain of (ξ, η).
     const AREA: f64;
-    /// The factor α by which bending within the element adds to its shear flexibility: κGh → κGh h²/(h² + α ℓ²), ℓ the longest
-    /// edge (Lyly, Stenberg & Vihinen 1993; MacNeal 1978 for beams).
+    /// The factor α by which bending within the element adds to its shear flexibility: of the strain at an edge the part
+    /// h/√(h² + α ℓ²) counts, ℓ the length of this edge (Lyly, Stenberg & Vihinen 1993, who take one length for the element, with
+    /// which slender triangles are far too soft; MacNeal 1978 for beams). Without it thin quadrilaterals lock where they are
+    /// distorted and coarse.
     const FLEXIBILITY: f64;
+    /// ℓ is at most the width of the element across the edge: long sides of a strip one element wide resist its twist.
+    const SPANS_WIDTH: bool;
     /// The part of the bulge of an edge that stress works on: all of it, or what a triangle that bends is best with. Elements that
     /// share an edge take the same.
     const BULGE: f64;
@@ -25,6 +29,13 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const CENTRE: [f64; 2];
     /// S of [`super::arc`]: a 24th of the squared spans of the element in (ξ, η).
     const ARC: [[f64; 2]; 2];
+    /// Where the surface is curved, stretch of the membrane is measured along arcs, see [`super::camber`].
+    const CAMBERED: bool;
+    /// What ½ x,ξ·x,ξ, ½ x,η·x,η and ½ x,ξ·x,η lack to the metric of the surface, by its curvatures b_ξξ, b_ηη and b_ξη (x,α·d,β);
+    /// nothing unless `CAMBERED`.
+    fn camber(_: [f64; 3]) -> [f64; 3] {
+        [0.0; 3]
+    }
     /// The sign of θ_a − θ_b along an edge a → b that is taken the other way round the element.
     #[inline(always)]
     fn sense(edge: usize) -> f64 {
@@ -58,10 +69,12 @@ impl Interpolation<4, 3, 6> for Quadrilateral {
     const VALUES: [[f64; 4]; 4] =
         [[NEAR, SIDE, FAR, SIDE], [SIDE, NEAR, SIDE, FAR], [FAR, SIDE, NEAR, SIDE], [SIDE, FAR, SIDE, NEAR]];
     const AREA: f64 = 4.0;
-    const FLEXIBILITY: f64 = 0.0;
+    const FLEXIBILITY: f64 = 0.05;
+    const SPANS_WIDTH: bool = true;
     const BULGE: f64 = 1.0;
     const CENTRE: [f64; 2] = [0.0, 0.0];
     const ARC: [[f64; 2]; 2] = [[1.0 / 6.0, 0.0], [0.0, 1.0 / 6.0]];
+    const CAMBERED: bool = false;
 
     fn slopes([xi, eta]: [f64; 2]) -> [[f64; 3]; 2] {
         [[1.0, 0.0, eta], [0.0, 1.0, xi]]
@@ -83,15 +96,23 @@ impl Interpolation<3, 2, 3> for Triangle {
     const POINTS: [[f64; 2]; 3] = [[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
     const VALUES: [[f64; 3]; 3] = [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
     const AREA: f64 = 0.5;
-    const FLEXIBILITY: f64 = 0.1;
+    const FLEXIBILITY: f64 = 0.2;
+    const SPANS_WIDTH: bool = false;
     /// The factor α of Felippa's template.
     const BULGE: f64 = 1.5;
     const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];
     /// The value is half the sum of e eᵀ/24 over the edges e, which prefers no corner.
     const ARC: [[f64; 2]; 2] = [[1.0 / 24.0, -1.0 / 48.0], [-1.0 / 48.0, 1.0 / 24.0]];
+    const CAMBERED: bool = true;
 
     fn slopes(_: [f64; 2]) -> [[f64; 2]; 2] {
         [[1.0, 0.0], [0.0, 1.0]]
+    }
+
+    fn camber([a, b, c]: [f64; 3]) -> [f64; 3] {
+        // An arc over the chord e has the squared length e² + b_ee²/12: of the three sides.
+        let [first, last, third] = [a, b, a + b - 2.0 * c].map(|b| b * b / 24.0);
+        [first, last, 0.5 * (first + last - third)]
     }
 
     fn shear([xi, eta]: [f64; 2]) -> [[f64; 3]; 2] {

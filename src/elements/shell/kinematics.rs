@@ -1,6 +1,7 @@
 //! Kinematics of a shell element: from the motion of its nodes to its strains, their rates and their derivatives.
 
 use super::arc::Arc;
+use super::camber::Camber;
 use super::edge::EdgeTangents;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::lanes::ShellPack;
@@ -25,6 +26,8 @@ pub(super) struct Shell<const N: usize, const V: usize, const P: usize, const E:
     pub slopes: [[f64; N]; V],
     /// S of [`super::arc`].
     pub arc: [[f64; 2]; 2],
+    /// Stretch by curvature.
+    pub camber: Camber<f64>,
     /// The edges.
     pub edges: [EdgeTangents; N],
     /// Strains at t = 0.
@@ -156,7 +159,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         }
     }
 
-    /// Strains from zero, those at t = 0 included; bending by angles with `ARC`, by chords without.
+    /// Strains from zero, those at t = 0 included; bending by angles and stretch along arcs with `ARC`, by chords without.
     #[inline(always)]
     pub fn measure<K: Interpolation<N, V, P>, const ARC: bool>(&self, motion: &NodalVectors<N>) -> Strains<N, P, E> {
         let NodalVectors { x, turning: [d, t1, t2] } = motion;
@@ -170,6 +173,10 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
             membrane[n] = if i == j { 0.5 * v[i].dot(&v[i]) } else { v[i].dot(&v[j]) };
             bending[n] = if i == j { v[i].dot(&w[i]) } else { v[i].dot(&w[j]) + v[j].dot(&w[i]) };
+        }
+        if ARC && K::CAMBERED {
+            let stretch = self.camber.stretch(0.5, &[bending[0], bending[1], bending[2]]);
+            (0..3).for_each(|m| membrane[m] += stretch[m]);
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             let along = x[b] - x[a];
@@ -216,7 +223,26 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         from_fn(|i| (0..N).map(|j| self.shear[i][j] * shear[j]).sum())
     }
 
-    /// The gradient Bᵀσ: forces, and the derivatives of energy by d, t₁ and t₂. Bending by angles with `ARC`, by chords without.
+    /// The derivative of energy by the numbers of bending: the stress of bending and, by [`super::camber`], of the membrane. `long`:
+    /// the lengthened slopes of the directors.
+    #[inline(always)]
+    pub fn bending_stress<K: Interpolation<N, V, P>>(
+        &self,
+        plane: &InPlane<P, E>,
+        v: &[Vec3; V],
+        long: &[Vec3; V],
+    ) -> [f64; P] {
+        if !K::CAMBERED {
+            return plane.bending;
+        }
+        let more = self.camber.moments(&plane.membrane, &first_bending(v, long));
+        let mut stress = plane.bending;
+        (0..3).for_each(|n| stress[n] += more[n]);
+        stress
+    }
+
+    /// The gradient Bᵀσ: forces, and the derivatives of energy by d, t₁ and t₂. Bending by angles and stretch along arcs with `ARC`,
+    /// by chords without.
     #[inline(always)]
     pub fn gradient<K: Interpolation<N, V, P>, const ARC: bool>(
         &self,
@@ -226,16 +252,16 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         let NodalVectors { x, turning: [d, t1, t2] } = motion;
         let (v, w) = (NodalVectors::slopes(&self.slopes, x), NodalVectors::slopes(&self.slopes, d));
         let N_ = by_pairs::<V, P>(&K::PAIRS, &stress.plane.membrane);
-        let M = by_pairs::<V, P>(&K::PAIRS, &stress.plane.bending);
         let mut along: [Vec3; V] = from_fn(|i| sum(&N_[i], &v));
-        let bent: [Vec3; V] = from_fn(|i| sum(&M[i], &v));
         let across = if ARC {
             let arc = Arc::new(&self.arc, w);
+            let M = by_pairs::<V, P>(&K::PAIRS, &self.bending_stress::<K>(&stress.plane, &v, &arc.long));
             (0..V).for_each(|i| along[i] += sum(&M[i], &arc.long));
-            arc.gradient(&bent)
+            arc.gradient(&from_fn(|i| sum(&M[i], &v)))
         } else {
+            let M = by_pairs::<V, P>(&K::PAIRS, &stress.plane.bending);
             (0..V).for_each(|i| along[i] += sum(&M[i], &w));
-            bent
+            from_fn(|i| sum(&M[i], &v))
         };
         let drill = stress.plane.membrane[E - 1] * 0.5 / N as f64;
         along[0] -= drill * total(t2);
@@ -305,6 +331,12 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
     }
 }
 
+/// The first three numbers of bending, by the slopes of positions and directors.
+#[inline(always)]
+pub(super) fn first_bending<const V: usize>(v: &[Vec3; V], w: &[Vec3; V]) -> [f64; 3] {
+    [v[0].dot(&w[0]), v[1].dot(&w[1]), v[0].dot(&w[1]) + v[1].dot(&w[0])]
+}
+
 /// The stress of bending with bending measured by angles.
 pub(super) struct Bending<const V: usize> {
     /// The lengthened slopes of the directors.
@@ -316,15 +348,16 @@ pub(super) struct Bending<const V: usize> {
 }
 
 impl<const V: usize> Bending<V> {
-    /// `Q`: see [`by_pairs`].
+    /// Of the element under a stress in its plane.
     #[inline(always)]
-    pub fn new<const N: usize, const P: usize, const E: usize, S>(
+    pub fn new<K: Interpolation<N, V, P>, const N: usize, const P: usize, const E: usize, S>(
         element: &Shell<N, V, P, E, S>,
-        Q: [[f64; V]; V],
+        plane: &InPlane<P, E>,
         motion: &NodalVectors<N>,
     ) -> Self {
         let v = NodalVectors::slopes(&element.slopes, &motion.x);
         let arc = Arc::new(&element.arc, NodalVectors::slopes(&element.slopes, &motion.turning[0]));
+        let Q = by_pairs(&K::PAIRS, &element.bending_stress::<K>(plane, &v, &arc.long));
         Bending { arc, p: from_fn(|k| sum(&Q[k], &v)), Q }
     }
 }

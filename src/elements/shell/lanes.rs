@@ -1,6 +1,7 @@
 //! Forces of eight shell elements side by side, each with the bits that it has by itself: the formulas are those of
 //! [`super::kinematics`], in the same order.
 
+use super::camber::Camber;
 use super::interpolation::Interpolation;
 use super::packed::InPlaneLanes;
 use crate::elements::block::Force;
@@ -19,6 +20,7 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
     /// Of [`super::kinematics::Shell`], like those that follow.
     pub slopes: [[Lanes; N]; V],
     pub arc: [[Lanes; 2]; 2],
+    pub camber: Camber<Lanes>,
     pub edges: [[[Lanes; 2]; 2]; N],
     pub start: InPlaneLanes<P, E>,
     pub start_shear: [Lanes; N],
@@ -132,6 +134,10 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
             plane.membrane[n] = if i == j { half * v[i].dot(&v[i]) } else { v[i].dot(&v[j]) };
             plane.bending[n] = if i == j { v[i].dot(&w[i]) } else { v[i].dot(&w[j]) + v[j].dot(&w[i]) };
         }
+        if K::CAMBERED {
+            let stretch = self.camber.stretch(half, &[plane.bending[0], plane.bending[1], plane.bending[2]]);
+            (0..3).for_each(|m| plane.membrane[m] += stretch[m]);
+        }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             let along = x[b] - x[a];
             plane.membrane[P + e] = along.dot(&self.bulging(e, [a, b], turning));
@@ -155,7 +161,13 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
     ) -> Motion<N> {
         let [d, t1, t2] = turning;
         let Slopes { v, long, .. } = slopes;
-        let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &plane.bending));
+        let mut bending = plane.bending;
+        if K::CAMBERED {
+            let bent = [v[0].dot(&long[0]), v[1].dot(&long[1]), v[0].dot(&long[1]) + v[1].dot(&long[0])];
+            let more = self.camber.moments(&plane.membrane, &bent);
+            (0..3).for_each(|n| bending[n] += more[n]);
+        }
+        let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &bending));
         let mut along: [LaneVec3; V] = from_fn(|i| sum(&Q[i], v));
         let bent: [LaneVec3; V] = from_fn(|i| sum(&M[i], v));
         (0..V).for_each(|i| along[i] += sum(&M[i], long));

@@ -1,5 +1,6 @@
 //! Shell elements laid out in packs of eight, where explicit schemes ask for forces alone.
 
+use super::camber::Camber;
 use super::kinematics::Shell;
 use super::lanes::ShellPack;
 use super::packed::{InPlaneLanes, PackedSections};
@@ -26,6 +27,7 @@ fn shell_pack<const N: usize, const V: usize, const P: usize, const E: usize, S,
         }),
         slopes: from_fn(|i| from_fn(|a| of(&|e| e.slopes[i][a]))),
         arc: from_fn(|i| from_fn(|j| of(&|e| e.arc[i][j]))),
+        camber: Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber.0[m][n][k]))))),
         edges: from_fn(|i| from_fn(|j| from_fn(|k| of(&|e| e.edges[i].0[j][k])))),
         start: InPlaneLanes {
             membrane: from_fn(|i| of(&|e| e.start.plane.membrane[i])),

@@ -1,5 +1,6 @@
 //! The undeformed surface of an element: axes, slopes, integration points.
 
+use super::camber::Camber;
 use super::interpolation::Interpolation;
 use super::kinematics::{NodalVectors, sum};
 use crate::math::Vec3;
@@ -31,6 +32,8 @@ pub struct ElementSurface<const N: usize, const V: usize> {
     pub slopes: [[f64; N]; V],
     /// S of [`super::arc`] by those slopes.
     pub arc: [[f64; 2]; 2],
+    /// By those slopes too.
+    pub camber: Camber<f64>,
     /// Integration points.
     pub points: [SurfacePoint<V>; N],
     /// Area.
@@ -75,6 +78,7 @@ impl<const N: usize, const V: usize> ElementSurface<N, V> {
             axes,
             slopes,
             arc,
+            camber: Camber::new::<K, N, V, P>(&J, &inverse),
             points: [SurfacePoint { weight: 0.0, slopes: [[0.0; V]; 2], inverse: [[0.0; 2]; 2], at: [0.0; 2] }; N],
             area: 0.0,
         };

@@ -2,7 +2,7 @@
 
 use super::arc::Arc;
 use super::interpolation::Interpolation;
-use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, by_pairs};
+use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, first_bending};
 use super::section::{ShellSection, ShellStiffness};
 use crate::elements::block::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
@@ -60,6 +60,11 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
                 let along = if i == j { s * bent[i] } else { s * bent[j] + t * bent[i] };
                 let across: Vec3 = (0..V).map(|i| self.slopes[i][a] * g[i]).sum();
                 set_entry(&mut rows.bending[n], a, &along, &moment(0, a, &across));
+            }
+        }
+        if ARC && K::CAMBERED {
+            for (m, slopes) in self.camber.slopes(&first_bending(&v, bent)).into_iter().enumerate() {
+                (0..3).for_each(|n| add(&mut rows.membrane[m], slopes[n], &rows.bending[n]));
             }
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
@@ -144,8 +149,8 @@ impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
         row: &mut Row<N>,
     ) {
         for m in 0..P {
-            // Products of slopes do not depend on rotations.
-            if k < 3 {
+            // Of products of slopes only the first depend on rotations, by the curvature.
+            if k < 3 || (K::CAMBERED && m < 3) {
                 add(row, self.membrane[m][a][k], &X.membrane[m]);
             }
             add(row, self.bending[m][a][k], &X.bending[m]);
@@ -185,8 +190,14 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const E
     let turning = &motion.turning;
     let mut B = Rows::<N, P, E>::ZERO;
     element.rows::<T, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-    set_product::<T, N, V, P, E>(&B, &element.times(C, &B), K);
-    let bending = Bending::new(element, by_pairs(&T::PAIRS, &stress.plane.bending), &motion);
+    let mut CB = element.times(C, &B);
+    if T::CAMBERED {
+        for (n, row) in element.camber.stiffness(&stress.plane.membrane).iter().enumerate() {
+            (0..3).for_each(|k| add(&mut CB.bending[n], row[k], &B.bending[k]));
+        }
+    }
+    set_product::<T, N, V, P, E>(&B, &CB, K);
+    let bending = Bending::new::<T, N, P, E, S>(element, &stress.plane, &motion);
     add_bending(&bending, &element.slopes, &turning[0], K);
     let hessian = element.strain_hessian::<T, true>(&stress);
     let gradient = element.gradient::<T, true>(&stress, &motion);
