@@ -2,6 +2,7 @@
 
 use super::contacts;
 use super::context::Context;
+use super::large_strains;
 use super::node_chunks::{NodeChunk, Nothing};
 use super::projection::ConstraintProjection;
 use super::work::WorkQuadrature;
@@ -75,6 +76,7 @@ pub fn commit(
     state.time = to;
     cx.system.remember_joint_loads(state, dt);
     contacts::note_depth(cx, ws, state);
+    large_strains::note(cx, ws, state, to - dt);
 }
 
 /// Updates the algorithmic accelerations of schemes that have them.

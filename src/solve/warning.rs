@@ -61,6 +61,13 @@ pub enum Warning {
         /// How deep.
         depth: f64,
     },
+    /// A shell that yields by a law of small strains is stretched far.
+    LargeStrain {
+        /// The name of the shell.
+        name: String,
+        /// The membrane strain of largest size, of Green.
+        strain: f64,
+    },
 }
 
 keep_either!(Warning {
@@ -74,6 +81,7 @@ keep_either!(Warning {
     7 => Modes(doubts),
     8 => SideBySide { name },
     9 => BeginsClosed { name, depth },
+    10 => LargeStrain { name, strain },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -109,6 +117,29 @@ fn step_error(asked: f64, estimate: Option<f64>) -> String {
              to its end. Compare with a run at a smaller `error_tolerance`"
         ),
     }
+}
+
+/// What is wrong where a shell is stretched far; stress conjugate to Green's strain makes forces wrong by the square of the stretch.
+fn large_strain(shell: &str, strain: f64) -> String {
+    let square = (1.0 + 2.0 * strain).max(0.0);
+    let wrong = 100.0 * (square - 1.0).abs();
+    format!(
+        "shell `{shell}` is {} to {} of its length somewhere: where it yields in its surface its forces are too {} there by some {} %, for \
+         strains are taken as small. Give it `strain = \"logarithmic\"`",
+        if strain > 0.0 { "stretched" } else { "pressed" },
+        to_digits(square.sqrt(), 3),
+        if strain > 0.0 { "large" } else { "small" },
+        to_digits(wrong, 2)
+    )
+}
+
+/// What is wrong where a contact begins to act with something inside.
+fn begins_closed(contact: &str, depth: f64) -> String {
+    format!(
+        "contact `{contact}` begins closed in this stage: something lies {} inside the surface where the stages before have left it, and is \
+         thrown out by energy that nothing has brought. Place what strikes farther away, or let the contact act from earlier on",
+        short(depth)
+    )
 }
 
 /// What is wrong where beams press each other side by side.
@@ -167,13 +198,9 @@ impl fmt::Display for Warning {
                 to_digits(*rate, 4)
             ),
             Warning::Modes(doubts) => f.write_str(doubts),
+            Warning::LargeStrain { name, strain } => f.write_str(&large_strain(name, *strain)),
             Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
-            Warning::BeginsClosed { name, depth } => write!(
-                f,
-                "contact `{name}` begins closed in this stage: something lies {} inside the surface where the stages before have left it, and \
-                 is thrown out by energy that nothing has brought. Place what strikes farther away, or let the contact act from earlier on",
-                short(*depth)
-            ),
+            Warning::BeginsClosed { name, depth } => f.write_str(&begins_closed(name, *depth)),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => {
                 let part = short(*change);
@@ -219,6 +246,22 @@ impl Warnings {
             Some((name, old, of)) if depth / size > *old / *of => {
                 contact.clone_into(name);
                 (*old, *of) = (depth, size);
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// Adds the strain of a shell, or keeps it where it is larger than the one known.
+    pub fn stretch(&mut self, shell: &str, strain: f64) {
+        let known = self.warnings.iter_mut().find_map(|known| match known {
+            Warning::LargeStrain { name, strain } => Some((name, strain)),
+            _ => None,
+        });
+        match known {
+            None => self.warnings.push(Warning::LargeStrain { name: shell.to_owned(), strain }),
+            Some((name, old)) if strain.abs() > old.abs() => {
+                shell.clone_into(name);
+                *old = strain;
             }
             Some(_) => {}
         }

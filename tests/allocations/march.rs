@@ -206,6 +206,8 @@ fn assert_none(m: &Model, kind: rdsolve::linear::Factorization) -> State {
     let made: Vec<usize> = kept.map(|pair| pair[1].0 - pair[0].0).collect();
     assert!(2 * made.len() > counts.len(), "most steps are taken at once");
     let Iteration { method, update, .. } = m.solution.iteration;
-    assert!(made.iter().all(|&n| n == 0), "{method:?}, {update:?}, {kind:?}, {:?}: {made:?}", m.output.cadence);
+    // A doubt is written down once: its words, and its place in the list.
+    let doubts = 2 * run.warnings().iter().count();
+    assert!(made.iter().sum::<usize>() <= doubts, "{method:?}, {update:?}, {kind:?}, {:?}: {made:?}", m.output.cadence);
     state.expect("a start")
 }

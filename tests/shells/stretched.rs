@@ -1,7 +1,8 @@
 //! Sheets that yield, stretched far: true stress over logarithmic strain, on the thickness and the width that plastic flow leaves.
 
 use super::benchmarks::{deck, fix, point, shell};
-use crate::support::{Row, read_deck, tables_of};
+use crate::support::{Row, doubts, read_deck, tables_of};
+use rdsolve::solve::Outcome;
 
 const E: f64 = 210e9;
 const NU: f64 = 0.3;
@@ -9,8 +10,8 @@ const YIELD: f64 = 355e6;
 const HARDENING: f64 = 1e9;
 const THICKNESS: f64 = 0.01;
 
-/// A sheet of 1 × 1 whose edge at x = 1 goes to `stretch`, and if `both` that at y = 1 too; its tables.
-fn run(kind: &str, stretch: f64, both: bool, steps: usize) -> [Vec<Row>; 2] {
+/// A sheet of 1 × 1 whose edge at x = 1 goes to `stretch`, and if `both` that at y = 1 too.
+fn stretched(kind: &str, stretch: f64, both: bool, steps: usize) -> String {
     let mut body = String::from("[points]\n");
     for (name, x, y) in [("a", 0.0, 0.0), ("b", 1.0, 0.0), ("c", 1.0, 1.0), ("d", 0.0, 1.0)] {
         body += &point(name, [x, y, 0.0]);
@@ -31,11 +32,48 @@ fn run(kind: &str, stretch: f64, both: bool, steps: usize) -> [Vec<Row>; 2] {
     }
     body += "[amplitudes.grow]\nkind = \"table\"\npoints = [[0.0, 0.0], [1.0, 1.0]]\n[output]\nreactions = true\n";
     let law = format!("model = \"elastic-plastic\"\nyield_stress = {YIELD:?}\nhardening_modulus = {HARDENING:?}");
-    let text = deck("stretched sheet", steps, [E, NU, THICKNESS], &body)
+    deck("stretched sheet", steps, [E, NU, THICKNESS], &body)
         .replace("model = \"elastic\"", &law)
-        .replace("thickness =", "strain = \"logarithmic\"\nthickness =");
-    let tables = tables_of(&read_deck(&text));
+        .replace("thickness =", "strain = \"logarithmic\"\nthickness =")
+}
+
+/// Its tables of reactions and energies.
+fn run(kind: &str, stretch: f64, both: bool, steps: usize) -> [Vec<Row>; 2] {
+    let tables = tables_of(&read_deck(&stretched(kind, stretch, both, steps)));
     [tables.rows("reactions.csv"), tables.rows("energy.csv")]
+}
+
+/// With Green's strain a sheet that stretches by 4 % is let be, and one by 8 % is warned of, pulled or pressed, with what its force is off by.
+#[test]
+fn far_stretches_are_said() {
+    for kind in ["quadrilateral", "triangle2"] {
+        for (stretch, green, said) in [
+            (1.04, true, None),
+            (
+                1.08,
+                true,
+                Some(
+                    "stretched to 1.08 of its length somewhere: where it yields in its surface its forces are too large there by some 17 %",
+                ),
+            ),
+            (
+                0.92,
+                true,
+                Some(
+                    "pressed to 0.92 of its length somewhere: where it yields in its surface its forces are too small there by some 15 %",
+                ),
+            ),
+            (1.08, false, None),
+        ] {
+            let text = stretched(kind, stretch, false, 10);
+            let text = if green { text.replace("strain = \"logarithmic\"", "strain = \"green\"") } else { text };
+            let (outcome, found) = doubts(&text);
+            assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
+            let found: Vec<_> = found.iter().filter(|found| found.contains("shell `sheet` is")).collect();
+            assert_eq!(found.len(), usize::from(said.is_some()), "{stretch}: {found:?}");
+            assert!(said.is_none_or(|said| found[0].contains(said)), "{found:?}");
+        }
+    }
 }
 
 /// The force on the edge at x = 1 in the last row.

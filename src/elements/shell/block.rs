@@ -204,6 +204,11 @@ where
         self.elements.first().is_some_and(|element| element.section.can_fail())
     }
 
+    fn surface_strain(&self, e: usize, now: &Configuration) -> f64 {
+        let element = &self.elements[e];
+        element.section.surface_strain(&element.strains::<K>(&element.gather(now.nodes)).plane)
+    }
+
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
         self.elements[e].section.has_failed(history)
     }

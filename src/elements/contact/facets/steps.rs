@@ -54,15 +54,7 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
             };
             (0..of.slots).any(is_same)
         };
-        let has_come_through = |slot: usize| {
-            let memory = of.memory(old, slot);
-            if !memory.motion().is_known() || memory.motion().gap() > 0.0 || !of.facets[memory.facet()].has_sides() {
-                return false;
-            }
-            let place = of.pair_of(e, slot, old).place(now.nodes);
-            place.at.region == Region::Interior && place.d < -THROUGH * place.reach
-        };
-        if (0..of.slots).any(has_come_through) {
+        if (0..of.slots).any(|slot| has_come_through(of, e, slot, now)) {
             return true;
         }
         let ahead = nearby.on_the_way(of, e, way);
@@ -79,6 +71,17 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
     });
     nearby.touches = found;
     is_missed
+}
+
+/// True where a point has come through the facet that it remembers, by nearly all of its reach.
+fn has_come_through(of: &FacetContacts, e: usize, slot: usize, now: &Configuration) -> bool {
+    let old = of.of_point(e, now.history);
+    let memory = of.memory(old, slot);
+    if !memory.motion().is_known() || memory.motion().gap() > 0.0 || !of.facets[memory.facet()].has_sides() {
+        return false;
+    }
+    let place = of.pair_of(e, slot, old).place(now.nodes);
+    place.at.region == Region::Interior && place.d < -THROUGH * place.reach
 }
 
 /// True for a landing that the step does not resolve: see [`crate::elements::contact::ContactLaw::resolution`].
