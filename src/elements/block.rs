@@ -89,9 +89,10 @@ pub trait ElementBlock: Send + Sync {
     fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<ShellResultants> {
         None
     }
-    /// The strain of largest size in the surface of element `e`, where its material yields by a law of small strains; 0 for all others.
-    fn surface_strain(&self, _e: usize, _now: &Configuration) -> f64 {
-        0.0
+    /// The strain of largest size in the surface of element `e`, of Green, where its material yields; 0 for all others. And whether its law
+    /// is for large strains.
+    fn surface_strain(&self, _e: usize, _now: &Configuration) -> (f64, bool) {
+        (0.0, false)
     }
     /// Largest accumulated plastic strain in element `e`, by the history variables of the group.
     fn plastic_strain(&self, _e: usize, _history: &[f64]) -> f64 {

@@ -1,4 +1,4 @@
-//! Watches shells that yield by a law of small strains: where they are stretched far their forces are wrong.
+//! Watches shells that yield: where they are stretched beyond what their measure of strain is for, their forces are wrong.
 
 use super::context::Context;
 use super::workspace::Workspace;
@@ -6,6 +6,8 @@ use crate::state::State;
 
 /// Strain from which forces are off by a tenth: stress conjugate to Green's strain makes them twice the strain too large.
 const LARGE: f64 = 0.05;
+/// The same with logarithmic strain, whose series ends: a stretch to 1.34 or to 0.75, where forces begin to be off by a hundredth.
+const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
 /// How often in a run strains are looked at: plastic ones do not go away.
 const LOOKS: f64 = 100.0;
 
@@ -20,9 +22,10 @@ pub fn note(cx: &Context, ws: &mut Workspace, state: &State, from: f64) {
     for group in &cx.system.groups {
         let own = group.configuration(&now);
         for e in 0..group.block.len() {
-            let strain = group.block.surface_strain(e, &own);
-            if strain.abs() > LARGE {
-                ws.warnings.stretch(group.part_of(e, cx.model).name(), strain);
+            let (strain, is_logarithmic) = group.block.surface_strain(e, &own);
+            let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
+            if !(least..=most).contains(&strain) {
+                ws.warnings.stretch(group.part_of(e, cx.model).name(), (strain, is_logarithmic));
             }
         }
     }

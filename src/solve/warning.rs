@@ -61,12 +61,14 @@ pub enum Warning {
         /// How deep.
         depth: f64,
     },
-    /// A shell that yields by a law of small strains is stretched far.
+    /// A shell that yields is stretched beyond what its measure of strain is for.
     LargeStrain {
         /// The name of the shell.
         name: String,
         /// The membrane strain of largest size, of Green.
         strain: f64,
+        /// True where the shell yields by logarithmic strain.
+        logarithmic: bool,
     },
 }
 
@@ -81,7 +83,7 @@ keep_either!(Warning {
     7 => Modes(doubts),
     8 => SideBySide { name },
     9 => BeginsClosed { name, depth },
-    10 => LargeStrain { name, strain },
+    10 => LargeStrain { name, strain, logarithmic },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -120,8 +122,15 @@ fn step_error(asked: f64, estimate: Option<f64>) -> String {
 }
 
 /// What is wrong where a shell is stretched far; stress conjugate to Green's strain makes forces wrong by the square of the stretch.
-fn large_strain(shell: &str, strain: f64) -> String {
+fn large_strain(shell: &str, strain: f64, logarithmic: bool) -> String {
     let square = (1.0 + 2.0 * strain).max(0.0);
+    if logarithmic {
+        return format!(
+            "shell `{shell}` is brought to {} of its length somewhere: the series for its logarithmic strain is for 0.75 to 1.34, and the \
+             forces of what yields there are off by more than a hundredth. Such strains are beyond what shells compute",
+            to_digits(square.sqrt(), 3)
+        );
+    }
     let wrong = 100.0 * (square - 1.0).abs();
     format!(
         "shell `{shell}` is {} to {} of its length somewhere: where it yields in its surface its forces are too {} there by some {} %, for \
@@ -131,6 +140,12 @@ fn large_strain(shell: &str, strain: f64) -> String {
         if strain > 0.0 { "large" } else { "small" },
         to_digits(wrong, 2)
     )
+}
+
+/// What was done to initial velocities, by this part of the largest.
+fn corrected(change: f64) -> String {
+    let part = short(change);
+    format!("initial velocities violate the joints: they were corrected by up to {part} of the largest velocity")
 }
 
 /// What is wrong where a contact begins to act with something inside.
@@ -198,17 +213,13 @@ impl fmt::Display for Warning {
                 to_digits(*rate, 4)
             ),
             Warning::Modes(doubts) => f.write_str(doubts),
-            Warning::LargeStrain { name, strain } => f.write_str(&large_strain(name, *strain)),
+            Warning::LargeStrain { name, strain, logarithmic } => {
+                f.write_str(&large_strain(name, *strain, *logarithmic))
+            }
             Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
             Warning::BeginsClosed { name, depth } => f.write_str(&begins_closed(name, *depth)),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
-            Warning::InitialVelocities { change } => {
-                let part = short(*change);
-                write!(
-                    f,
-                    "initial velocities violate the joints: they were corrected by up to {part} of the largest velocity"
-                )
-            }
+            Warning::InitialVelocities { change } => f.write_str(&corrected(*change)),
         }
     }
 }
@@ -251,17 +262,17 @@ impl Warnings {
         }
     }
 
-    /// Adds the strain of a shell, or keeps it where it is larger than the one known.
-    pub fn stretch(&mut self, shell: &str, strain: f64) {
+    /// Adds the strain of a shell, logarithmic or not, or keeps it where it is larger than the one known.
+    pub fn stretch(&mut self, shell: &str, (strain, logarithmic): (f64, bool)) {
         let known = self.warnings.iter_mut().find_map(|known| match known {
-            Warning::LargeStrain { name, strain } => Some((name, strain)),
+            Warning::LargeStrain { name, strain, logarithmic } => Some((name, strain, logarithmic)),
             _ => None,
         });
         match known {
-            None => self.warnings.push(Warning::LargeStrain { name: shell.to_owned(), strain }),
-            Some((name, old)) if strain.abs() > old.abs() => {
+            None => self.warnings.push(Warning::LargeStrain { name: shell.to_owned(), strain, logarithmic }),
+            Some((name, old, of)) if strain.abs() > old.abs() => {
                 shell.clone_into(name);
-                *old = strain;
+                (*old, *of) = (strain, logarithmic);
             }
             Some(_) => {}
         }

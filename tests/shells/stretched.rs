@@ -64,6 +64,8 @@ fn far_stretches_are_said() {
                 ),
             ),
             (1.08, false, None),
+            (1.3, false, None),
+            (1.6, false, Some("brought to 1.6 of its length somewhere: the series for its logarithmic strain")),
         ] {
             let text = stretched(kind, stretch, false, 10);
             let text = if green { text.replace("strain = \"logarithmic\"", "strain = \"green\"") } else { text };

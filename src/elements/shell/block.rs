@@ -204,7 +204,7 @@ where
         self.elements.first().is_some_and(|element| element.section.can_fail())
     }
 
-    fn surface_strain(&self, e: usize, now: &Configuration) -> f64 {
+    fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
         let element = &self.elements[e];
         element.section.surface_strain(&element.strains::<K>(&element.gather(now.nodes)).plane)
     }

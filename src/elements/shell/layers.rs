@@ -305,16 +305,14 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
         (stress, if changed { tangent } else { &self.elastic })
     }
 
-    fn surface_strain(&self, strain: &InPlane<P, E>) -> f64 {
-        if self.layers.logarithmic {
-            return 0.0;
-        }
+    fn surface_strain(&self, strain: &InPlane<P, E>) -> (f64, bool) {
         let largest = |point: &PointStrains<P, E>| {
             let [[a, b, shear], _] = Self::strain(point, strain);
             let (mean, radius) = (0.5 * (a + b), (0.5 * (a - b)).hypot(0.5 * shear));
             if mean < 0.0 { mean - radius } else { mean + radius }
         };
-        self.points.iter().map(largest).fold(0.0, |most, strain| if strain.abs() > most.abs() { strain } else { most })
+        let larger = |most: f64, strain: f64| if strain.abs() > most.abs() { strain } else { most };
+        (self.points.iter().map(largest).fold(0.0, larger), self.layers.logarithmic)
     }
 
     fn can_fail(&self) -> bool {

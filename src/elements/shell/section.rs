@@ -76,9 +76,9 @@ pub trait ShellSection<const P: usize, const E: usize>: Send + Sync + Sized {
     fn can_fail(&self) -> bool {
         false
     }
-    /// The membrane strain of largest size, of Green, where the material yields by it.
-    fn surface_strain(&self, _strain: &InPlane<P, E>) -> f64 {
-        0.0
+    /// The membrane strain of largest size, of Green, where the material yields, and whether it does so by logarithmic strain.
+    fn surface_strain(&self, _strain: &InPlane<P, E>) -> (f64, bool) {
+        (0.0, false)
     }
     /// True where the element has failed as a whole, by the history variables of the group: there is no stress then, nor damping.
     fn has_failed(&self, _history: &[f64]) -> bool {
