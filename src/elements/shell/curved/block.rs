@@ -162,6 +162,10 @@ where
 
     fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
         let element = &self.elements[e];
+        // What has failed carries nothing, however far it is stretched.
+        if element.section.has_failed(now.history) {
+            return (0.0, false);
+        }
         element.section.surface_strain(&element.strains(&element.gather(now.nodes)).plane)
     }
 
