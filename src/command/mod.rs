@@ -9,6 +9,7 @@ mod exit;
 mod folder;
 mod hint;
 mod init;
+mod instructions;
 mod load;
 mod mesh_error;
 mod processor;
@@ -58,6 +59,10 @@ pub struct Cli {
     /// Show diagnostics as JSON, one object a line, on standard error
     #[arg(long, global = true)]
     json: bool,
+    /// Use a lower level of instructions than the best that this processor has; there is a choice in a release alone, and
+    /// the same level gives the same bits on every processor [default: the best; environment: RDSOLVE_INSTRUCTIONS]
+    #[arg(long, global = true, value_name = "LEVEL")]
+    instructions: Option<processor::Level>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -89,8 +94,9 @@ enum Command {
 /// Reads the command line. Help, versions and most errors are shown by clap, which ends the process.
 ///
 /// # Errors
-/// [`Exit::Usage`] where the first word is no command, nor a deck; it has been said.
+/// [`Exit::Usage`] where the first word is no command, nor a deck, or a level of instructions cannot be had; it has been said.
 pub fn parse() -> Result<Cli, Exit> {
+    instructions::settle()?;
     let word = std::env::args().nth(1).unwrap_or_default();
     let parsed = Cli::try_parse();
     // Clap takes a word that is no command for a deck, and calls what follows it one argument too many.
@@ -108,14 +114,16 @@ pub fn parse() -> Result<Cli, Exit> {
 /// Does what the command line asks for.
 pub fn execute(cli: Cli) -> Exit {
     if let Some(missing) = processor::missing() {
-        let built = processor::BUILT_FOR;
+        let built = processor::built_for();
         complain(&format!(
-            "this program was built for {built}, and this processor has no {missing}\n  help: build it here, or anywhere with \
-             RUSTFLAGS=\"-C target-cpu=x86-64-v3\" or \"-C target-cpu=x86-64\""
+            "this program was built for {built}, and this processor has no {missing}\n  help: a release chooses by itself (scripts/release), \
+             or build it here, or anywhere with RUSTFLAGS=\"-C target-cpu=x86-64\""
         ));
         return Exit::Internal;
     }
     signals::survive_file_limits();
+    // The level of instructions is settled before anything is parsed; clap only tells words that are none.
+    let Cli { instructions: _, .. } = cli;
     if cli.json {
         console::show_json();
     }

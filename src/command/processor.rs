@@ -1,16 +1,75 @@
-//! The instructions that the program was built with, and whether the processor at hand has them: without them a program dies of an illegal
-//! instruction, wherever it first meets one.
+//! The levels of instructions of x86-64: the one that the program was built for, and the one that the processor at hand has. Without
+//! what it was built for a program dies of an illegal instruction, wherever it first meets one.
 
-/// The largest level of instructions of x86-64 that the build was free to use, by the names of the System V ABI.
-pub const BUILT_FOR: &str = if cfg!(target_feature = "avx512f") {
-    "x86-64-v4 (AVX-512)"
-} else if cfg!(all(target_feature = "avx2", target_feature = "fma")) {
-    "x86-64-v3 (AVX2, FMA)"
-} else if cfg!(target_arch = "x86_64") {
-    "x86-64"
-} else {
-    std::env::consts::ARCH
-};
+use clap::ValueEnum;
+
+/// A level of instructions, by its name in the System V ABI.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, ValueEnum)]
+pub enum Level {
+    /// Any processor.
+    #[value(name = "x86-64")]
+    Any,
+    /// Vectors of four numbers, multiply and add in one.
+    #[value(name = "x86-64-v3")]
+    V3,
+    /// Vectors of eight numbers.
+    #[value(name = "x86-64-v4")]
+    V4,
+}
+
+impl Level {
+    /// All levels, the lowest first.
+    pub const ALL: [Level; 3] = [Level::Any, Level::V3, Level::V4];
+
+    /// The level that the build was free to use; `None` on other processors than x86-64.
+    pub const BUILT_FOR: Option<Level> = if cfg!(target_feature = "avx512f") {
+        Some(Level::V4)
+    } else if cfg!(all(target_feature = "avx2", target_feature = "fma")) {
+        Some(Level::V3)
+    } else if cfg!(target_arch = "x86_64") {
+        Some(Level::Any)
+    } else {
+        None
+    };
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Level::Any => "x86-64",
+            Level::V3 => "x86-64-v3",
+            Level::V4 => "x86-64-v4",
+        }
+    }
+
+    /// The highest level that the processor and the system have.
+    #[cfg(target_arch = "x86_64")]
+    pub fn of_processor() -> Level {
+        use std::is_x86_feature_detected as has;
+        let third = has!("avx2") && has!("fma") && has!("bmi1") && has!("bmi2") && has!("f16c") && has!("lzcnt");
+        let fourth = has!("avx512f") && has!("avx512bw") && has!("avx512cd") && has!("avx512dq") && has!("avx512vl");
+        match (third && has!("movbe"), fourth) {
+            (true, true) => Level::V4,
+            (true, false) => Level::V3,
+            (false, _) => Level::Any,
+        }
+    }
+
+    /// Of other processors nothing is known.
+    #[cfg(not(target_arch = "x86_64"))]
+    pub fn of_processor() -> Level {
+        Level::Any
+    }
+}
+
+/// The instructions that the program was built for, in words.
+pub fn built_for() -> &'static str {
+    match Level::BUILT_FOR {
+        Some(Level::V4) => "x86-64-v4 (AVX-512)",
+        Some(Level::V3) => "x86-64-v3 (AVX2, FMA)",
+        Some(Level::Any) => "x86-64",
+        None => std::env::consts::ARCH,
+    }
+}
 
 /// What the program was built with and the processor has not; `None` where it has all that is asked about.
 #[cfg(target_arch = "x86_64")]

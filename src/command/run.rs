@@ -17,7 +17,7 @@ use super::resume::{Begins, checkpoint_origin, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::stages::{StageRunner, StagesTold};
 use super::verdict::{End, end, error_bars_in_words, line};
-use super::version::VERSION;
+use super::version::{VERSION, instructions};
 use super::watchers::{Watchers, stage_begins};
 use crate::diagnostic::{Diagnostic, Source};
 use crate::model::{Model, Part, StepLength};
@@ -209,6 +209,7 @@ impl Job<'_> {
         let Loaded { model, source, sets, hash, .. } = self.loaded;
         RunOrigin {
             version: VERSION.to_owned(),
+            instructions: instructions(),
             title: model.title.clone(),
             deck: source.path.clone(),
             sets: sets.clone(),

@@ -11,6 +11,7 @@ use super::console::{complain, counted, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, is_standard_input, load};
+use super::processor::Level;
 use super::recommend;
 use super::signals::{EndAtOnce, stop_on_signals};
 use crate::deck::Deck;
@@ -293,6 +294,7 @@ impl StudyArgs {
             budget: self.budget,
             axis: self.axis,
             quiet: self.quiet,
+            instructions: Level::BUILT_FOR.map_or("", Level::name),
         }
     }
 

@@ -1,6 +1,8 @@
 //! Vectors and matrices of fixed size, rotations, quadrature rules.
 
 pub mod curved_faces;
+#[cfg(feature = "portable")]
+mod elementary;
 pub mod lanes;
 pub mod quadrature;
 pub mod quintic;

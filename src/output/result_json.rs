@@ -85,6 +85,8 @@ pub struct RunResult {
 pub struct RunOrigin {
     /// The version of the program, with the commit it was built from where that was known.
     pub version: String,
+    /// The level of instructions that it used.
+    pub instructions: String,
     /// The title of the deck; empty where it has none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
@@ -101,6 +103,7 @@ impl RunOrigin {
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("rdsolve {}, deck {}", self.version, self.deck)];
         lines.extend(self.sets.iter().map(|set| format!("--set {set}")));
+        lines.push(format!("instructions {}", self.instructions));
         lines.push(format!("deck hash {}", self.deck_hash));
         lines
     }

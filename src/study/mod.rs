@@ -60,7 +60,7 @@ pub use options::{Options, StudyFault};
 pub use order::Order;
 pub use phase::Phase;
 pub use phase_fit::Split;
-pub use process::LIFELINE;
+pub use process::{INSTRUCTIONS, LIFELINE};
 pub use recommend::recommend;
 pub use reference::Reference;
 pub use rigidify::rigidify;

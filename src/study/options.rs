@@ -31,6 +31,8 @@ pub struct Options {
     pub axis: Cost,
     /// True where no progress is shown.
     pub quiet: bool,
+    /// The level of instructions that runs use, which is that of the study.
+    pub instructions: &'static str,
 }
 
 /// The reason why there is no study.

@@ -18,6 +18,9 @@ const STOPPED: i32 = 75;
 /// it ended.
 pub const LIFELINE: &str = "RDSOLVE_LIFELINE";
 
+/// The variable of the environment that asks for a level of instructions.
+pub const INSTRUCTIONS: &str = "RDSOLVE_INSTRUCTIONS";
+
 /// A process that has ended.
 pub struct Ended {
     /// The exit code; `None` where a signal has ended it.
@@ -36,6 +39,8 @@ pub struct Program {
     pub deck: PathBuf,
     /// The number of threads of each run.
     pub threads: usize,
+    /// The level of instructions of each run; empty where the program chooses.
+    pub instructions: &'static str,
 }
 
 impl Program {
@@ -50,6 +55,7 @@ impl Program {
         sets.iter().for_each(|set| {
             command.arg("--set").arg(set);
         });
+        command.env(INSTRUCTIONS, self.instructions);
         command.env(LIFELINE, "1").stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
         let began = Instant::now();
         let mut child = command.spawn().map_err(|error| at(&self.path, error))?;

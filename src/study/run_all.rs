@@ -90,5 +90,5 @@ pub fn run_all(
 /// The system does not tell the path of the program.
 pub fn program(options: &Options) -> io::Result<Program> {
     let path = std::env::current_exe()?;
-    Ok(Program { path, deck: options.deck.clone(), threads: options.threads })
+    Ok(Program { path, deck: options.deck.clone(), threads: options.threads, instructions: options.instructions })
 }
