@@ -133,4 +133,5 @@ def main():
                 print(f"| {name} | {pathlib.Path(program).name} | {threads} | {processor} | {loop} |", flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -22,6 +22,7 @@ mod extreme;
 mod folders;
 mod foreign_input;
 mod inside_steps;
+mod instructions;
 mod iterations;
 mod joint_coordinates;
 mod joint_forces;

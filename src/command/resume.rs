@@ -4,7 +4,7 @@ use super::console::{complain, say};
 use super::exit::Exit;
 use super::folder::require_free;
 use super::load::Loaded;
-use super::version::VERSION;
+use super::version::{VERSION, instructions};
 use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
 use crate::output::{holds_run, log, result_json};
 use sha2::{Digest, Sha256};
@@ -51,6 +51,7 @@ pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin 
         is_over: false,
         files: mesh.chain(records).collect(),
         mesh_error,
+        instructions: instructions(),
     }
 }
 
@@ -82,6 +83,11 @@ pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Be
             complain(&format!("the checkpoint in `{place}` is not of this run: {difference}"));
             say("  help: --overwrite in place of --resume runs the deck from the beginning; -o DIR writes elsewhere");
             return Err(Exit::Usage);
+        }
+        let (then, now) = (&checkpoint.origin.instructions, &origin.instructions);
+        if then != now {
+            say(&format!("note: the checkpoint is of a run with the instructions {then}, which goes on with {now}"));
+            say("  last digits will differ from those of a run that was never stopped");
         }
         // A run that is over may still have to write its result.
         let is_done = checkpoint.origin.is_over && checkpoint.origin.end_time == origin.end_time;

@@ -281,7 +281,7 @@ impl Job<'_> {
         if resumes {
             let lock = FolderLock::take(self.folder)?;
             let mut log = Log::open(self.folder, true)?;
-            log.say("the run goes on from its checkpoint")?;
+            log.say(&format!("the run goes on from its checkpoint, instructions {}", instructions()))?;
             return Ok((lock, log));
         }
         let lock = claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;

@@ -1,15 +1,18 @@
 //! The version of the program.
 
 use super::instructions::several;
-use super::processor::built_for;
+use super::processor::{Level, built_for};
 use std::sync::OnceLock;
 
 /// The version, with the commit that it was built from where that was known.
 pub const VERSION: &str = env!("RDSOLVE_VERSION");
 
-/// The instructions in use. A build that stands alone leaves products of matrices to what the processor has besides; a release does not.
+/// The instructions in use: the level, in a release; another build leaves products of matrices to what the processor has besides.
 pub fn instructions() -> String {
-    if cfg!(feature = "portable") { format!("{}, release", built_for()) } else { built_for().to_owned() }
+    match Level::BUILT_FOR {
+        Some(level) if cfg!(feature = "portable") => level.name().to_owned(),
+        _ => format!("built for {}", built_for()),
+    }
 }
 
 /// The version with the instructions in use, and what else there is.

@@ -32,9 +32,11 @@ pub struct CheckpointOrigin {
     pub files: Vec<(String, String)>,
     /// True with `--mesh-error`.
     pub mesh_error: bool,
+    /// The level of instructions that the run used, which may change: a scheduler sends it to another machine.
+    pub instructions: String,
 }
 
-keep!(CheckpointOrigin: Default { version, deck, sets, end_time, is_over, files, mesh_error });
+keep!(CheckpointOrigin: Default { version, deck, sets, end_time, is_over, files, mesh_error, instructions });
 
 impl CheckpointOrigin {
     /// What differs from the checkpoint in what is to be run now, in words; `None` where nothing does.
