@@ -1043,10 +1043,42 @@ fn contacts_of_faces() {
         "itself_of_a_body",
         faces("surface = { shape = \"sphere\", radius = 0.1, body = \"marble\" }\nwith = \"itself\"")
     );
-    assert_snapshot!("among_without_spheres", faces("among = [\"marble\", \"brick\"]"));
+    assert_eq!(faces("among = [\"marble\", \"brick\"]\nstiffness = 1e5"), "");
     assert_snapshot!("among_points_without_radius", faces("among = [\"marble\", \"s1\"]"));
     assert_snapshot!("among_parts", faces("among = [\"marble\", \"sheet\"]"));
     assert_snapshot!("among_one", faces("among = \"marble\""));
+    let cube = "[[bodies]]\nname = \"roll\"\ncenter = [10.5, 0.5, 6.0]\nmass = 1.0\n\
+                shape = { kind = \"cylinder\", radius = 0.1, length = 0.2, axis = [0.0, 0.0, 1.0] }\n\
+                [[bodies]]\nname = \"lump\"\ncenter = [10.5, 0.5, 8.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n";
+    let bodies = |contact: &str| said(&format!("{FACES}{cube}[[contacts]]\nname = \"touch\"\n{contact}\n"), &[]);
+    assert_eq!(
+        bodies("surface = { body = \"brick\" }\nwith = [\"marble\", \"roll\"]\npoints = 3\nstiffness = 1e5"),
+        ""
+    );
+    assert_snapshot!("among_cylinders", bodies("among = [\"brick\", \"roll\"]"));
+    assert_snapshot!("surface_of_a_cylinder", bodies("surface = { body = \"roll\" }\nwith = \"brick\""));
+    assert_snapshot!("surface_of_no_shape", bodies("surface = { body = \"lump\", radius = 0.1 }\nwith = \"brick\""));
+    let hull = |points: &str, more: &str| {
+        let body =
+            format!("[[bodies]]\nname = \"stone\"\nmass = 1.0\nshape = {{ kind = \"hull\", points = [{points}] }}\n");
+        said(&format!("{FACES}{body}{more}\n"), &[])
+    };
+    let corners = "[20.0, 0.0, 0.0], [21.0, 0.0, 0.0], [20.0, 1.0, 0.0], [20.0, 0.0, 1.0]";
+    assert_snapshot!("hull_of_three", hull("[20.0, 0.0, 0.0], [21.0, 0.0, 0.0], [20.0, 1.0, 0.0]", ""));
+    assert_snapshot!(
+        "hull_that_is_flat",
+        hull("[20.0, 0.0, 0.0], [21.0, 0.0, 0.0], [20.0, 1.0, 0.0], [21.0, 1.0, 0.0]", "")
+    );
+    let ring: Vec<String> = (0..40)
+        .map(|k| (0.157 * f64::from(k)).sin_cos())
+        .flat_map(|(s, c)| [format!("[{s:.3}, {c:.3}, 20.0]"), format!("[{s:.3}, {c:.3}, 21.0]")])
+        .collect();
+    assert_snapshot!("hull_of_many_corners", hull(&ring.join(", "), ""));
+    let fine = [&ring[..], &ring[..]].concat();
+    assert_snapshot!("hull_of_many_points", hull(&fine.join(", "), ""));
+    let touch = "[[contacts]]\nname = \"touch\"\namong = [\"stone\", \"brick\"]\nstiffness = 1e5\n";
+    assert_eq!(hull(corners, touch), "");
+    assert_snapshot!("hull_with_radius", hull(corners, &format!("{touch}radius = 0.1")));
     assert_snapshot!("among_and_with", faces("among = [\"marble\", \"brick\"]\nradius = 0.1\nwith = \"sheet\""));
 }
 

@@ -17,7 +17,8 @@ pub struct Body {
     /// Names of shells, beams and bars that are rigid and make up the body: they give its centre, mass and
     /// inertia, and their elements are omitted from the computation.
     pub parts: Maybe<Names>,
-    /// Centre of mass at t = 0, global coordinates. Left out where `parts` make up the body, like mass, inertia and shape.
+    /// Centre of mass at t = 0, global coordinates. Left out where `parts` make up the body, like mass, inertia and shape,
+    /// or where a hull is to stay where its points are.
     pub center: Maybe<Vector>,
     /// Mass, above 0. Left out where the shape has a density.
     pub mass: Maybe<f64>,

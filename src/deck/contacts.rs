@@ -21,12 +21,12 @@ pub struct Contact {
     pub name: Maybe<String>,
     /// The surface that is touched. Not with `among`.
     pub surface: Maybe<OneOf<Surface>>,
-    /// What touches it, by name: points, bodies (corners of a box, on a box its edges and faces too; rims of a
-    /// cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells; for faces of a part also
+    /// What touches it, by name: points, bodies (corners of a box or hull, on a box or hull its edges and faces too; rims
+    /// of a cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells; for faces of a part also
     /// "itself". Not with `among`.
     pub with: Maybe<Names>,
-    /// In place of `surface` and `with`: bodies that are spheres, and points with a `radius`, of which each may
-    /// touch each.
+    /// In place of `surface` and `with`: bodies that are spheres, boxes or hulls, and points with a `radius`, of which each
+    /// may touch each; boxes and hulls that a joint holds together do not.
     pub among: Maybe<Names>,
     /// Names of the stages in which it is there. Default: all.
     pub stages: Maybe<Names>,
@@ -60,11 +60,11 @@ impl PartTable for Contact {
     }
 }
 
-/// A surface on a body or on the ground, global coordinates at t = 0, or the faces of a shell.
+/// A surface on a body or on the ground, global coordinates at t = 0, or the surface of a body or a part.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Surface {
-    /// Name of the body that carries it. Default: the ground.
+    /// Name of the body that carries it; without a `shape` its own shape is the surface. Default: the ground.
     pub body: Maybe<String>,
     /// Name of a shell whose faces are the surface, in place of a shape: both sides, with its thickness, wherever it
     /// bends; or of a beam or bar, by its `radius`, which of a beam is half the depth of its section by default.

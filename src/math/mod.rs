@@ -4,6 +4,7 @@ pub mod curved_faces;
 #[cfg(feature = "portable")]
 mod elementary;
 pub mod lanes;
+pub mod polyhedron;
 pub mod quadrature;
 pub mod quintic;
 pub mod rotation;

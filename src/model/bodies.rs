@@ -39,9 +39,13 @@ pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<
         let label = body.name.as_ref().map_or_else(|| format!("bodies.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("body `{label}`"), &body.span);
         report.require(&owner, "name", &body.name);
-        let center = match &body.parts {
-            Some(_) => Vec3::zeros(),
-            None => report.require(&owner, "center", &body.center).map_or_else(Vec3::zeros, |center| vec3(center)),
+        let sound = if body.parts.is_some() { None } else { mass_properties(&owner, body, report) };
+        let center = match (&body.parts, &body.center, sound.as_ref().and_then(|sound| sound.center)) {
+            (Some(_), ..) => Vec3::zeros(),
+            (None, None, Some(center)) => center,
+            // Where a shape of points has errors, it would have told the centre.
+            (None, None, None) if is_of_points(body) => Vec3::zeros(),
+            (None, given, _) => report.require(&owner, "center", given).map_or_else(Vec3::zeros, |center| vec3(center)),
         };
         let index = bodies.add(label, center, nodes);
         let node = &mut nodes.list[bodies.list[index].node];
@@ -56,10 +60,11 @@ pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<
             report.reject_unused("a body with `parts`", &unused);
             bodies.take_parts(index, deck, list, report);
         } else {
-            let sound = mass_properties(&owner, body, report);
             let made = &mut bodies.list[index];
-            (made.mass, made.inertia, made.shape) =
-                sound.unwrap_or_else(|| (1.0, Mat3::identity(), Arc::new(ElementFaces::default())));
+            match sound {
+                Some(sound) => (made.mass, made.inertia, made.shape) = (sound.mass, sound.inertia, sound.shape),
+                None => (made.mass, made.inertia) = (1.0, Mat3::identity()),
+            }
         }
     }
     bodies.add_rigid_parts(deck, nodes);
@@ -124,11 +129,22 @@ pub(super) fn title(deck: &Deck, part: PartIndex) -> String {
     deck.part(part).map_or_else(String::new, |part| part.title())
 }
 
-fn mass_properties<'d>(
-    owner: &Owner<'d>,
-    body: &'d words::Body,
-    report: &mut Report<'d>,
-) -> Option<(f64, Mat3, Arc<dyn SolidShape>)> {
+/// True for a body whose shape tells where it is.
+fn is_of_points(body: &words::Body) -> bool {
+    let kind = body.shape.as_ref().and_then(|shape| shape.kind.as_ref());
+    kind.is_some_and(|kind| kind.value.takes("points"))
+}
+
+/// What a body is made of.
+struct MassProperties {
+    mass: f64,
+    inertia: Mat3,
+    shape: Arc<dyn SolidShape>,
+    /// The centre of mass, where the shape says where it is.
+    center: Option<Vec3>,
+}
+
+fn mass_properties<'d>(owner: &Owner<'d>, body: &'d words::Body, report: &mut Report<'d>) -> Option<MassProperties> {
     let solid = match &body.shape {
         Some(shape) => Some(read_solid(shape, &owner.what, report)?),
         None => None,
@@ -153,13 +169,14 @@ fn mass_properties<'d>(
         }
         _ => report.require_positive(owner, "mass", &body.mass)?,
     };
+    let center = solid.as_ref().and_then(|solid| solid.center);
     if let Some(values) = &body.inertia {
         let inertia = read_inertia(values, report)?;
         let shape = solid.map_or_else(|| drawn_by_inertia(mass, &inertia), |solid| solid.shape);
-        return Some((mass, inertia, shape));
+        return Some(MassProperties { mass, inertia, shape, center });
     }
     match solid {
-        Some(solid) => Some((mass, solid.inertia * mass, solid.shape)),
+        Some(solid) => Some(MassProperties { mass, inertia: solid.inertia * mass, shape: solid.shape, center }),
         None if report.is_spoiled(owner.span, "inertia") || report.is_spoiled(owner.span, "shape") => None,
         None => {
             let message = format!("{} needs `inertia` or `shape`", owner.what);

@@ -228,7 +228,7 @@ fn model<'d>(
     let fields = environment(deck, stage, report);
     let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
     set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.course.bulges));
-    let contacts = contacts(&scene, &masses, fields.gravity, &mut topology, report);
+    let contacts = contacts(&scene, &masses, &joints, fields.gravity, &mut topology, report);
     let loads = loads(&scene, [efforts, std::mem::take(&mut links.pulls)].concat(), &topology, &mut actors, report);
     let damping = damping(&scene, &topology, report);
     initial(&scene, &amplitudes, &mut topology, report);

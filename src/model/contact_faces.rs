@@ -10,7 +10,7 @@ use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, Facet, FacetTouchers, Surface, SurfaceShape};
+use crate::elements::contact::{ContactPoint, Facet, FacetTouchers, Surface, SurfaceShape, TouchingPolyhedron};
 use crate::math::{Mat3, Vec3, curved_faces};
 use crate::solids::Touching;
 
@@ -40,8 +40,8 @@ pub(super) fn read_facets<'d>(
     };
     let touchers = std::mem::take(&mut finder.sight.touchers);
     let surface = TouchedSurface::Facets(surface);
-    let (law, chosen, boxes) = (None, None, Vec::new());
-    Some(Contact { name: name.to_owned(), surface, points, boxes, touchers, law, size: 0.0, chosen })
+    let (law, chosen, joined, polyhedra) = (None, None, Vec::new(), std::mem::take(&mut finder.polyhedra));
+    Some(Contact { name: name.to_owned(), surface, points, polyhedra, joined, touchers, law, size: 0.0, chosen })
 }
 
 /// The faces of a part and the points that touch them.
@@ -66,8 +66,8 @@ fn faces<'d>(
         return None;
     }
     let names = finder.report.require_nodes(owner, "with", &contact.with)?;
-    let (touchers, boxes, back) = (FacetTouchers::Others, Vec::new(), Vec::new());
-    let mut faces = FacetSurface { part: part.value.clone(), facets, touchers, boxes, back };
+    let (touchers, solids, back) = (FacetTouchers::Others, Vec::new(), Vec::new());
+    let mut faces = FacetSurface { part: part.value.clone(), facets, touchers, solids, back };
     if names.values.iter().any(|at| at.value == ITSELF) {
         if let [_, _, ..] = names.values[..] {
             let hint = "give what else touches it a contact of its own";
@@ -92,8 +92,8 @@ fn faces<'d>(
     let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
     finder.on_lines = is_line;
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
-    faces.boxes = boxes_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
-    if !faces.boxes.is_empty() {
+    faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
+    if !faces.solids.is_empty() {
         faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
     }
     Some((faces, points))
@@ -181,12 +181,12 @@ fn sides<'d>(
     Some(Sides { place, surface, half })
 }
 
-/// The surfaces of all bodies in a list that are boxes.
-fn boxes_of(scene: &Scene, names: &[At<String>], inflated: f64) -> Vec<CarriedSurface> {
+/// The surfaces of all bodies in a list that are boxes or hulls.
+fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64) -> Vec<CarriedSurface> {
     let places = names.iter().filter_map(|at| scene.names.place(&at.value));
     let leaves = places.flat_map(|place| scene.names.leaves(place));
     let bodies = leaves.filter_map(|place| if let Place::Body(body) = place { Some(body) } else { None });
-    bodies.filter_map(|body| box_of(scene, body, inflated)).collect()
+    bodies.filter_map(|body| solid_of(scene, body, inflated)).collect()
 }
 
 /// All nodes of facets, each once.
@@ -197,63 +197,113 @@ fn own_nodes(facets: &[Facet]) -> Vec<usize> {
     nodes
 }
 
-/// The surface of a body that is drawn as a box.
-fn box_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface> {
+/// The surface of a body that is drawn as a box or a hull.
+fn solid_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface> {
     scene.deck.bodies.get(body)?.shape.as_ref()?;
     let body = &scene.bodies[body];
-    let half = (Vec3::from(body.shape.as_box()?) * 0.5).add_scalar(inflated);
-    let surface = Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape: SurfaceShape::of_box(half) };
+    let shape = SurfaceShape::of_polyhedron(body.shape.as_polyhedron()?, inflated);
+    let surface = Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape };
     Some(CarriedSurface { node: body.node, surface })
 }
 
-/// Balls among themselves.
+/// Balls, boxes and hulls among themselves.
 fn balls<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
     contact: &'d words::Contact,
     among: &'d At<crate::deck::words::Names>,
 ) -> Option<(FacetSurface, Vec<ContactPoint>)> {
-    let what = "a contact of balls `among` themselves";
+    let what = "a contact of bodies `among` themselves";
     let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
     finder.report.reject_unused(what, &keys);
     let given = contact.radius.as_ref().map(|_| finder.report.not_negative("radius", &contact.radius, 0.0));
-    let (mut found, mut sound) = (Vec::new(), true);
+    let Members { mut balls, mut polyhedra } = members(finder, among, given)?;
+    balls.sort_unstable_by_key(|(node, _)| *node);
+    balls.dedup_by_key(|(node, _)| *node);
+    polyhedra.sort_unstable_by_key(|one| one.node);
+    polyhedra.dedup_by_key(|one| one.node);
+    if balls.len() + polyhedra.len() < 2 {
+        let message = format!("{} has fewer than two bodies or balls `among` which anything could touch", owner.what);
+        return finder.report.error(&among.span, message);
+    }
+    finder.polyhedra = polyhedra;
+    finder.inflate(given.unwrap_or(0.0), contact)?;
+    let mut points = Vec::new();
+    for &(node, radius) in &balls {
+        points.extend(finder.points_at(&[node], radius, contact));
+    }
+    let facet = |point: &ContactPoint| Facet::ball(point.nodes[0], point.radius, point.rolling_radius);
+    let facets = points.iter().map(facet).collect();
+    let touchers = FacetTouchers::Among;
+    let carried = |one: &TouchingPolyhedron| {
+        let shape = SurfaceShape::of_polyhedron(one.shape.clone(), 0.0);
+        CarriedSurface { node: one.node, surface: Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape } }
+    };
+    let solids = if points.is_empty() { Vec::new() } else { finder.polyhedra.iter().map(carried).collect() };
+    let back = if solids.is_empty() { Vec::new() } else { points.clone() };
+    Some((FacetSurface { part: String::new(), facets, touchers, solids, back }, points))
+}
+
+/// What is to touch among itself.
+#[derive(Default)]
+struct Members {
+    /// Nodes and radii of balls.
+    balls: Vec<(usize, f64)>,
+    /// Boxes and hulls.
+    polyhedra: Vec<TouchingPolyhedron>,
+}
+
+/// True for a body of the deck whose shape could not be read, which has been said.
+fn is_unread(scene: &Scene, place: Place) -> bool {
+    let Place::Body(body) = place else { return false };
+    let has_shape = scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+    has_shape && matches!(scene.bodies[body].shape.touching(0), Touching::Nodes)
+}
+
+/// The bodies and points that a list names; `None` where one of them is neither.
+fn members<'d>(
+    finder: &mut Finder<'_, 'd>,
+    among: &'d At<crate::deck::words::Names>,
+    given: Option<f64>,
+) -> Option<Members> {
+    let (scene, report) = (finder.scene, &mut *finder.report);
+    let (mut members, mut sound) = (Members::default(), true);
     for at in &among.values {
-        let place = finder.scene.names.find(at, finder.report)?;
-        for leaf in finder.scene.names.leaves(place) {
-            let radius = given.or_else(|| radius_of(finder.scene, leaf)).filter(|radius| *radius > 0.0);
+        let place = scene.names.find(at, report)?;
+        for leaf in scene.names.leaves(place) {
+            if let Some(one) = polyhedron_of(scene, leaf) {
+                members.polyhedra.push(one);
+                continue;
+            }
+            let radius = given.or_else(|| radius_of(scene, leaf)).filter(|radius| *radius > 0.0);
             let nodes = match leaf {
-                Place::Body(body) => vec![finder.scene.bodies.get(body)?.node],
+                Place::Body(body) => vec![scene.bodies.get(body)?.node],
                 Place::Part(_) | Place::Edge(..) | Place::Joint(_) => Vec::new(),
-                _ => finder.scene.nodes_of(leaf),
+                _ => scene.nodes_of(leaf),
             };
             match radius {
-                Some(radius) if !nodes.is_empty() => found.extend(nodes.into_iter().map(|node| (node, radius))),
+                Some(radius) if !nodes.is_empty() => members.balls.extend(nodes.into_iter().map(|node| (node, radius))),
+                _ if is_unread(scene, leaf) => {
+                    sound = false;
+                    break;
+                }
                 _ => {
-                    refuse_ball(finder.report, at, leaf, nodes.is_empty());
+                    refuse_ball(report, at, leaf, nodes.is_empty());
                     sound = false;
                     break;
                 }
             }
         }
     }
-    if !sound {
-        return None;
-    }
-    found.sort_unstable_by_key(|(node, _)| *node);
-    found.dedup_by_key(|(node, _)| *node);
-    if found.len() < 2 {
-        let message = format!("{} has fewer than two balls `among` which anything could touch", owner.what);
-        return finder.report.error(&among.span, message);
-    }
-    let mut points = Vec::new();
-    for &(node, radius) in &found {
-        points.extend(finder.points_at(&[node], radius, contact));
-    }
-    let facet = |point: &ContactPoint| Facet::ball(point.nodes[0], point.radius, point.rolling_radius);
-    let facets = points.iter().map(facet).collect();
-    let touchers = FacetTouchers::Among;
-    Some((FacetSurface { part: String::new(), facets, touchers, boxes: Vec::new(), back: Vec::new() }, points))
+    sound.then_some(members)
+}
+
+/// A body that is drawn as a box or a hull.
+fn polyhedron_of(scene: &Scene, place: Place) -> Option<TouchingPolyhedron> {
+    let Place::Body(body) = place else { return None };
+    scene.deck.bodies.get(body)?.shape.as_ref()?;
+    let body = &scene.bodies[body];
+    Some(TouchingPolyhedron { node: body.node, shape: body.shape.as_polyhedron()? })
 }
 
 /// The radius of a body that is drawn as a sphere.
@@ -276,7 +326,7 @@ fn refuse_ball(report: &mut Report, at: &At<String>, leaf: Place, has_no_nodes: 
         }
         false => {
             let message = format!("`{name}` is or holds {} without a radius", leaf.kind());
-            report.error_with::<()>(&at.span, message, "draw bodies as spheres, or give `radius`");
+            report.error_with::<()>(&at.span, message, "draw bodies as spheres, boxes or hulls, or give `radius`");
         }
     }
 }

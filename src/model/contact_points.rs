@@ -9,10 +9,12 @@ use super::sight::{Opening, Sight};
 use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, MOST_NODES, Toucher, TouchingBox};
+use crate::elements::contact::{ContactPoint, MOST_NODES, Toucher, TouchingPolyhedron};
+use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
 use crate::solids::Touching;
 use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
 
 /// Largest number of points between two nodes; more are taken for a typing error.
 const MOST_POINTS: usize = 100;
@@ -50,7 +52,7 @@ pub(super) fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
     }
 }
 
-/// Finds the points and boxes of one contact.
+/// Finds the points, boxes and hulls of one contact.
 pub(super) struct Finder<'a, 'd> {
     /// The scene so far.
     pub scene: &'a Scene<'d>,
@@ -58,18 +60,24 @@ pub(super) struct Finder<'a, 'd> {
     pub topology: &'a mut Topology,
     /// The report, to which errors go.
     pub report: &'a mut Report<'d>,
-    /// The node that carries the surface, where that is a box: bodies that are boxes touch it with their edges and faces too.
-    pub on_box: Option<usize>,
+    /// The node that carries the surface, where that is a box or a hull: bodies that are such touch it with their edges and faces too.
+    pub on_polyhedron: Option<usize>,
     /// True where the surface is made of lines: beams and bars touch it with theirs.
     pub on_lines: bool,
-    /// The boxes found.
-    pub boxes: Vec<TouchingBox>,
+    /// The boxes and hulls found.
+    pub polyhedra: Vec<TouchingPolyhedron>,
     /// What is seen of all that was found.
     pub sight: Sight,
 }
 
-impl<'d> Finder<'_, 'd> {
-    /// All points that may touch, each once; boxes are left in `boxes`.
+impl<'a, 'd> Finder<'a, 'd> {
+    /// Finds what touches anything but boxes, hulls and lines.
+    pub fn new(scene: &'a Scene<'d>, topology: &'a mut Topology, report: &'a mut Report<'d>) -> Self {
+        let (polyhedra, sight) = (Vec::new(), Sight::default());
+        Finder { scene, topology, report, on_polyhedron: None, on_lines: false, polyhedra, sight }
+    }
+
+    /// All points that may touch, each once; boxes and hulls are left in `polyhedra`.
     pub fn touching(
         &mut self,
         owner: &Owner<'d>,
@@ -114,10 +122,25 @@ impl<'d> Finder<'_, 'd> {
         if !sound {
             return None;
         }
-        let inflated = given.unwrap_or(0.0);
-        self.boxes.iter_mut().for_each(|one| one.half.add_scalar_mut(inflated));
+        self.inflate(given.unwrap_or(0.0), contact)?;
         let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
+    }
+
+    /// Makes boxes larger by a contact radius, which hulls do not take.
+    pub fn inflate(&mut self, radius: f64, contact: &'d words::Contact) -> Option<()> {
+        if radius == 0.0 {
+            return Some(());
+        }
+        for one in &mut self.polyhedra {
+            let Some(half) = one.shape.half() else {
+                let at = contact.radius.as_ref()?;
+                let message = "hulls take no `radius` against boxes and hulls";
+                return self.report.error_with(&at.span, message, "move their points outward");
+            };
+            one.shape = Arc::new(Polyhedron::cuboid(half.add_scalar(radius)));
+        }
+        Some(())
     }
 
     /// True where a name covers bodies or parts.
@@ -141,11 +164,11 @@ impl<'d> Finder<'_, 'd> {
             let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
             return self.report.error(&at.span, message);
         }
-        let (mut found, boxes) = (Vec::new(), self.boxes.len());
+        let (mut found, polyhedra) = (Vec::new(), self.polyhedra.len());
         for place in self.scene.names.leaves(place) {
             self.touches_of(place, name, between, at, &mut found);
         }
-        if found.is_empty() && self.boxes.len() > boxes {
+        if found.is_empty() && self.polyhedra.len() > polyhedra {
             return Some(found);
         }
         if found.is_empty() {
@@ -158,7 +181,7 @@ impl<'d> Finder<'_, 'd> {
         if let Some(body) = carrier.map(|carrier| self.topology.root(carrier)) {
             found.retain(|touch| touch.nodes.iter().any(|&(node, _)| self.topology.root(node) != body));
         }
-        if found.is_empty() && self.boxes.len() == boxes {
+        if found.is_empty() && self.polyhedra.len() == polyhedra {
             let message = format!("`{}` belongs to the body whose surface it would touch", at.value);
             return self.report.error_with(&at.span, message, "a body does not touch itself");
         }
@@ -213,7 +236,12 @@ impl<'d> Finder<'_, 'd> {
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
         match shape.touching(0) {
             Touching::Nodes => Toucher::Nodes,
-            Touching::Points(_) if is_drawn && shape.as_box().is_some() => Toucher::Box,
+            Touching::Points(_) if is_drawn && let Some(polyhedron) = shape.as_polyhedron() => {
+                match polyhedron.half() {
+                    Some(_) => Toucher::Box,
+                    None => Toucher::Hull,
+                }
+            }
             Touching::Points(_) if is_drawn => Toucher::Rims,
             Touching::Points(_) | Touching::Ball(_) => Toucher::Ball,
         }
@@ -258,11 +286,11 @@ impl<'d> Finder<'_, 'd> {
     fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
-        if let (Some(carrier), Some(size), true) = (self.on_box, shape.as_box(), is_drawn)
+        if let (Some(carrier), Some(shape), true) = (self.on_polyhedron, shape.as_polyhedron(), is_drawn)
             && self.topology.root(carrier) != self.topology.root(node)
         {
-            if self.boxes.iter().all(|one| one.node != node) {
-                self.boxes.push(TouchingBox { node, half: Vec3::from(size) * 0.5 });
+            if self.polyhedra.iter().all(|one| one.node != node) {
+                self.polyhedra.push(TouchingPolyhedron { node, shape });
             }
             return;
         }

@@ -6,7 +6,10 @@ use super::scene::Scene;
 use crate::deck::contacts as words;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
-use crate::elements::contact::Surface;
+use crate::elements::contact::surfaces::Sphere;
+use crate::elements::contact::{Surface, SurfaceShape};
+use crate::math::{Mat3, Vec3};
+use crate::solids::Touching;
 
 /// The node that carries a surface, and the surface in its frame.
 pub(super) fn read_surface<'d>(
@@ -17,6 +20,9 @@ pub(super) fn read_surface<'d>(
     report: &mut Report<'d>,
 ) -> Option<(usize, Surface)> {
     let owner = Owner::new(format!("the surface of contact `{name}`"), &table.span);
+    if let (None, Some(body), false) = (&table.kind, &table.body, report.is_spoiled(owner.span, "shape")) {
+        return shape_of_body(body, table, scene, report);
+    }
     let kind = report.require(&owner, "shape", &table.kind)?.value;
     let body = match &table.body {
         Some(name) => scene.names.body(name, report).map(|body| Some(scene.bodies[body].node)),
@@ -33,4 +39,34 @@ pub(super) fn read_surface<'d>(
         node
     });
     Some((node, Surface { center: placed.center - topology.x(node), axes: placed.axes, shape: placed.shape }))
+}
+
+/// The surface of a body by the shape that it has itself.
+fn shape_of_body<'d>(
+    name: &'d At<String>,
+    table: &'d At<OneOf<words::Surface>>,
+    scene: &Scene<'d>,
+    report: &mut Report<'d>,
+) -> Option<(usize, Surface)> {
+    let index = scene.names.body(name, report)?;
+    let body = &scene.bodies[index];
+    for place in table.values.places() {
+        report.error::<()>(
+            place,
+            "this is a dimension of shapes: give `shape`, or leave it out for the shape of the body",
+        );
+    }
+    let is_drawn = scene.deck.bodies.get(index).is_some_and(|body| body.shape.is_some());
+    let shape = match body.shape.touching(0) {
+        _ if !is_drawn => None,
+        Touching::Ball(radius) => Some(SurfaceShape::Sphere(Sphere { radius })),
+        Touching::Points(_) | Touching::Nodes => {
+            body.shape.as_polyhedron().map(|shape| SurfaceShape::of_polyhedron(shape, 0.0))
+        }
+    };
+    let Some(shape) = shape else {
+        let message = format!("body `{}` is no box, hull or sphere whose surface others could touch", name.value);
+        return report.error_with(&name.span, message, "give the surface a `shape`");
+    };
+    Some((body.node, Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape }))
 }

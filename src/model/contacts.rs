@@ -5,24 +5,27 @@ use super::contact_law::LawReader;
 use super::contact_opposite::Opposite;
 use super::contact_points::Finder;
 use super::contact_surface::read_surface;
-use super::data::{CarriedSurface, Contact, Mass, TouchedSurface};
+use super::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use super::sight::Sight;
 use super::values::span;
 use crate::deck::contacts as words;
-use crate::elements::contact::boxes::BoxPose;
 use crate::elements::contact::restitution;
-use crate::elements::contact::{ContactPoint, FacetTouchers, Surface, TouchingBox};
+use crate::elements::contact::{
+    ContactPoint, Facet, FacetTouchers, Surface, TouchingPolyhedron, least_gap, pair_gap, polyhedra,
+};
 use crate::math::Vec3;
 use crate::names::short;
+use crate::state::Node;
+use std::collections::{BTreeSet, HashMap};
 
 /// Reads `[[contacts]]`, after all constraints: nodes that depend on the surface's own body do not touch it, and
 /// restrained nodes have no mass.
 pub(super) fn contacts<'d>(
     scene: &Scene<'d>,
     masses: &[Mass],
+    joints: &[Joint],
     gravity: Vec3,
     topology: &mut Topology,
     report: &mut Report<'d>,
@@ -31,43 +34,14 @@ pub(super) fn contacts<'d>(
         return Vec::new();
     }
     let at_nodes = masses_at_nodes(scene, masses, topology);
+    let setting = LawSetting { scene, masses, joints, at_nodes: &at_nodes, gravity };
     let mut contacts = Vec::new();
     for (index, contact) in scene.deck.contacts.iter().enumerate() {
         let name = contact.name.as_ref().map_or_else(|| format!("contacts.{index}"), |name| name.value.clone());
         let owner = Owner::new(format!("contact `{name}`"), &contact.span);
         report.require(&owner, "name", &contact.name);
-        if is_of_facets(contact) {
-            let setting = LawSetting { scene, masses, at_nodes: &at_nodes, gravity };
-            contacts.extend(of_facets(&setting, &owner, &name, contact, topology, report));
-            continue;
-        }
-        let surface = report.require(&owner, "surface", &contact.surface);
-        let surface = surface.and_then(|table| read_surface(&name, table, scene, topology, report));
-        let carrier = surface.as_ref().map(|(node, _)| *node);
-        let on_box = surface.as_ref().and_then(|(node, surface)| surface.as_box().map(|_| *node));
-        let mut finder =
-            Finder { scene, topology, report, on_box, on_lines: false, boxes: Vec::new(), sight: Sight::default() };
-        let points = finder.touching(&owner, &name, contact, carrier);
-        let (boxes, sight) = (finder.boxes, finder.sight);
-        let is_zone = is_zone(&owner, contact, report);
-        let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { continue };
-        sight.check(&owner, contact.points.as_ref().map(|at| at.value), &surface, report);
-        let (mut law, mut chosen) = (None, None);
-        let chooser = LawReader { scene, masses, at_nodes: &at_nodes, gravity, topology: &*topology };
-        let opposite = Opposite::Shape(node, &surface);
-        let size = chooser.size(opposite, (&points, &boxes));
-        if !is_zone {
-            let found = chooser.contact_law(&owner, contact, opposite, (&points, &boxes), report);
-            let Some((found, reason)) = found else { continue };
-            let at_rest = chooser.depth_at_rest(opposite, (&points, &boxes), found.stiffness);
-            topology.connect(node, true);
-            points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
-            boxes.iter().for_each(|one| topology.connect(one.node, true));
-            check_start(&owner, (node, &surface), (&points, &boxes), at_rest, topology, report);
-            (law, chosen) = (Some(found), reason);
-        }
-        let surface = TouchedSurface::Shape(CarriedSurface { node, surface });
-        contacts.push(Contact { name, surface, points, boxes, touchers: sight.touchers, law, size, chosen });
+        let of = if is_of_facets(contact) { of_facets } else { of_shape };
+        contacts.extend(of(&setting, &owner, &name, contact, topology, report));
     }
     contacts
 }
@@ -76,11 +50,59 @@ pub(super) fn contacts<'d>(
 struct LawSetting<'a, 'd> {
     scene: &'a Scene<'d>,
     masses: &'a [Mass],
+    joints: &'a [Joint],
     at_nodes: &'a [f64],
     gravity: Vec3,
 }
 
-/// A contact of faces, or of balls among themselves.
+/// A contact with a shape.
+fn of_shape<'d>(
+    setting: &LawSetting<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) -> Option<Contact> {
+    let &LawSetting { scene, masses, at_nodes, gravity, .. } = setting;
+    let surface = report.require(owner, "surface", &contact.surface);
+    let surface = surface.and_then(|table| read_surface(name, table, scene, topology, report));
+    let carrier = surface.as_ref().map(|(node, _)| *node);
+    let on_polyhedron = surface.as_ref().and_then(|(node, surface)| surface.as_polyhedron().map(|_| *node));
+    let mut finder = Finder { on_polyhedron, ..Finder::new(scene, topology, report) };
+    let points = finder.touching(owner, name, contact, carrier);
+    let (solids, sight) = (finder.polyhedra, finder.sight);
+    let is_zone = is_zone(owner, contact, report);
+    let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { return None };
+    sight.check(owner, contact.points.as_ref().map(|at| at.value), &surface, report);
+    let (mut law, mut chosen) = (None, None);
+    let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
+    let opposite = Opposite::Shape(node, &surface);
+    let size = chooser.size(opposite, (&points, &solids));
+    if !is_zone {
+        let (found, reason) = chooser.contact_law(owner, contact, opposite, (&points, &solids), report)?;
+        let at_rest = chooser.depth_at_rest(opposite, (&points, &solids), found.stiffness);
+        topology.connect(node, true);
+        points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
+        solids.iter().for_each(|one| topology.connect(one.node, true));
+        check_start(owner, (node, &surface), (&points, &solids), at_rest, topology, report);
+        (law, chosen) = (Some(found), reason);
+    }
+    let surface = TouchedSurface::Shape(CarriedSurface { node, surface });
+    Some(Contact {
+        name: name.to_owned(),
+        surface,
+        points,
+        polyhedra: solids,
+        joined: Vec::new(),
+        touchers: sight.touchers,
+        law,
+        size,
+        chosen,
+    })
+}
+
+/// A contact of faces, or of bodies among themselves.
 fn of_facets<'d>(
     setting: &LawSetting<'_, 'd>,
     owner: &Owner<'d>,
@@ -89,32 +111,59 @@ fn of_facets<'d>(
     topology: &mut Topology,
     report: &mut Report<'d>,
 ) -> Option<Contact> {
-    let &LawSetting { scene, masses, at_nodes, gravity } = setting;
-    let mut finder =
-        Finder { scene, topology, report, on_box: None, on_lines: false, boxes: Vec::new(), sight: Sight::default() };
+    let &LawSetting { scene, masses, joints, at_nodes, gravity } = setting;
+    let mut finder = Finder::new(scene, topology, report);
     let found = read_facets(&mut finder, owner, name, contact);
     let is_zone = is_zone(owner, contact, report);
     let (mut found, is_zone) = (found?, is_zone?);
+    found.joined = joined(&found.polyhedra, joints, topology);
     let TouchedSurface::Facets(faces) = &found.surface else { return None };
-    let least = faces.facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
-    let radius = found.points.iter().map(|point| point.radius).fold(f64::INFINITY, f64::min);
+    // Boxes and hulls among others are as stiff and as heavy as the balls within.
+    let within = found.polyhedra.iter().map(|one| Facet::ball(one.node, 0.5 * one.shape.least(), 0.0));
+    let facets: Vec<Facet> = faces.facets.iter().cloned().chain(within).collect();
+    let least = facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
+    let radii = found.points.iter().map(|point| point.radius);
+    let radius = radii.chain(found.polyhedra.iter().map(|one| 0.5 * one.shape.least())).fold(f64::INFINITY, f64::min);
     // What is pressed in by so much is in the middle.
     found.size = least + radius;
     if is_zone {
         return Some(found);
     }
     let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
-    let (opposite, touching) = (Opposite::Facets(&faces.facets), (&found.points[..], &found.boxes[..]));
+    let (opposite, touching) = (Opposite::Facets(&facets), (&found.points[..], &found.polyhedra[..]));
     let (law, reason) = chooser.contact_law(owner, contact, opposite, touching, report)?;
     let at_rest = chooser.depth_at_rest(opposite, touching, law.stiffness);
     if faces.touchers != FacetTouchers::Itself {
-        warn_closed(owner, opposite.gap(&found.points, topology), topology.x(opposite.node()).norm(), at_rest, report);
+        let size = topology.x(opposite.node()).norm();
+        warn_closed(owner, gap_at_start(&found, faces, topology), size, at_rest, report);
     }
     opposite.nodes().into_iter().for_each(|node| topology.connect(node, true));
     found.points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
-    faces.boxes.iter().for_each(|carried| topology.connect(carried.node, true));
+    faces.solids.iter().for_each(|carried| topology.connect(carried.node, true));
     (found.law, found.chosen) = (Some(law), reason);
     Some(found)
+}
+
+/// The pairs of boxes and hulls, by number, that joints hold together or that are one body.
+fn joined(polyhedra: &[TouchingPolyhedron], joints: &[Joint], topology: &Topology) -> Vec<[usize; 2]> {
+    let place: HashMap<usize, usize> =
+        polyhedra.iter().enumerate().map(|(k, one)| (topology.root(one.node), k)).collect();
+    let of_root = |node: usize| place.get(&topology.root(node)).copied();
+    let by_joints = joints.iter().filter_map(|joint| Some([of_root(joint.ends[0])?, of_root(joint.ends[1])?]));
+    let same = polyhedra.iter().enumerate().filter_map(|(k, one)| Some([k, of_root(one.node)?]));
+    let pairs = by_joints.chain(same).filter(|[a, b]| a != b).map(|[a, b]| [a.min(b), a.max(b)]);
+    pairs.collect::<BTreeSet<_>>().into_iter().collect()
+}
+
+/// The least gap of points from facets, or of balls, boxes and hulls among themselves, at t = 0.
+fn gap_at_start(found: &Contact, faces: &FacetSurface, topology: &Topology) -> f64 {
+    let nodes: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
+    let of_points = Opposite::Facets(&faces.facets).gap(&found.points, topology);
+    let of_polyhedra =
+        polyhedra::heap_gap(if faces.part.is_empty() { &found.polyhedra } else { &[] }, &found.joined, &nodes);
+    let balls = if faces.part.is_empty() { &faces.back[..] } else { &[] };
+    let on_solids = faces.solids.iter().map(|carried| least_gap(&carried.surface, carried.node, balls, &nodes));
+    on_solids.fold(of_points.min(of_polyhedra), f64::min)
 }
 
 /// The mass at each node, and at what it depends on.
@@ -170,7 +219,7 @@ fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Opti
 fn check_start(
     owner: &Owner,
     (node, surface): (usize, &Surface),
-    (points, boxes): (&[ContactPoint], &[TouchingBox]),
+    (points, solids): (&[ContactPoint], &[TouchingPolyhedron]),
     at_rest: f64,
     topology: &Topology,
     report: &mut Report,
@@ -180,9 +229,10 @@ fn check_start(
         let x: Vec3 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w * topology.x(node)).sum();
         surface.distance(&(x - center)) - point.radius
     };
-    let of_box = |one: &TouchingBox| pose_at_start(one, center, surface, topology).distance();
-    let least = points.iter().map(gap).chain(boxes.iter().map(of_box)).fold(f64::INFINITY, f64::min);
-    let nodes = points.iter().map(|point| point.nodes[0]).chain(boxes.iter().map(|one| one.node));
+    let at_rest_there: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
+    let of_polyhedra = pair_gap(surface, node, solids, &at_rest_there);
+    let least = points.iter().map(gap).fold(of_polyhedra, f64::min);
+    let nodes = points.iter().map(|point| point.nodes[0]).chain(solids.iter().map(|one| one.node));
     let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);
     warn_closed(owner, least, size, at_rest, report);
 }
@@ -200,10 +250,4 @@ fn warn_closed(owner: &Owner, least: f64, size: f64, at_rest: f64, report: &mut 
         };
         report.warn(owner.span, message, hint);
     }
-}
-
-/// A box against the surface of a contact at t = 0, when bodies are not yet turned.
-fn pose_at_start(one: &TouchingBox, center: Vec3, surface: &Surface, topology: &Topology) -> BoxPose {
-    let y = surface.axes.tr_mul(&(topology.x(one.node) - center - surface.center));
-    BoxPose { y, Q: surface.axes.transpose(), own: one.half, other: surface.as_box().unwrap_or_else(Vec3::zeros) }
 }

@@ -2,6 +2,7 @@
 
 use super::kind::{Solid, SolidKind, SolidShape, Touching};
 use super::outline::{Outline, OutlineCell};
+use crate::math::polyhedron::Polyhedron;
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key};
 use std::sync::Arc;
@@ -24,7 +25,7 @@ fn read(given: &mut Given) -> Option<Solid> {
     }
     let inertia = Vec3::new(b * b + c * c, c * c + a * a, a * a + b * b) / 12.0;
     let shape = Arc::new(SolidCuboid { size: [a, b, c], axes: Mat3::identity() });
-    Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c })
+    Some(Solid { shape, inertia: Mat3::from_diagonal(&inertia), volume: a * b * c, center: None })
 }
 
 /// A cuboid about the centre of mass.
@@ -67,8 +68,8 @@ impl SolidShape for SolidCuboid {
         Outline { points, cells: vec![OutlineCell::Hexahedron] }
     }
 
-    fn as_box(&self) -> Option<[f64; 3]> {
-        (self.axes == Mat3::identity()).then_some(self.size)
+    fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
+        (self.axes == Mat3::identity()).then(|| Arc::new(Polyhedron::cuboid(Vec3::from(self.size) * 0.5)))
     }
 
     /// Corners, and as many points as asked for between them, on edges and faces.

@@ -31,7 +31,12 @@ pub fn read(given: &mut Given, hole: fn(&mut Given, f64) -> Option<(f64, &'stati
     let (along, across) = (squares / 2.0, squares / 4.0 + length * length / 12.0);
     let inertia = Mat3::identity() * across + axis * axis.transpose() * (along - across);
     let volume = PI * (radius - inner_radius) * (radius + inner_radius) * length;
-    Some(Solid { shape: Arc::new(HollowCylinder { radius, inner_radius, length, axis }), inertia, volume })
+    Some(Solid {
+        shape: Arc::new(HollowCylinder { radius, inner_radius, length, axis }),
+        inertia,
+        volume,
+        center: None,
+    })
 }
 
 /// A cylinder about the centre of mass, with a hole along its axis or without.

@@ -1,6 +1,7 @@
 //! What a solid says of itself.
 
 use super::outline::Outline;
+use crate::math::polyhedron::Polyhedron;
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Given, Kind};
 use std::fmt;
@@ -18,6 +19,8 @@ pub struct Solid {
     pub inertia: Mat3,
     /// Volume.
     pub volume: f64,
+    /// Its centre, where the keys tell where it is: global coordinates at t = 0.
+    pub center: Option<Vec3>,
 }
 
 /// What is drawn of a body and where it touches others: points about the centre of mass in body axes.
@@ -33,8 +36,8 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
         None
     }
 
-    /// Full edge lengths of a box along the axes of its body, where it is one.
-    fn as_box(&self) -> Option<[f64; 3]> {
+    /// The polyhedron that it is, in the axes of its body, where it is one.
+    fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
         None
     }
 }

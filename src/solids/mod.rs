@@ -7,6 +7,8 @@ pub mod cuboid;
 pub mod cylinder;
 pub mod element_faces;
 pub mod hollow;
+pub mod hull;
+pub mod hull_points;
 pub mod kind;
 pub mod outline;
 pub mod sphere;
@@ -18,7 +20,7 @@ use crate::math::Mat3;
 use std::sync::Arc;
 
 /// All solids, in the order of the reference.
-pub static SOLIDS: &[&SolidKind] = &[&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND];
+pub static SOLIDS: &[&SolidKind] = &[&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND, &hull::KIND];
 
 /// The shape in which a body is drawn whose deck gives none: the homogeneous cuboid of its mass and inertia.
 pub fn drawn_by_inertia(mass: f64, inertia: &Mat3) -> Arc<dyn SolidShape> {

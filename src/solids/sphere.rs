@@ -20,7 +20,12 @@ pub static KIND: SolidKind = SolidKind {
 fn read(given: &mut Given) -> Option<Solid> {
     let r = given.require_positive("radius")?;
     let inertia = Mat3::identity() * (0.4 * r * r);
-    Some(Solid { shape: Arc::new(SolidSphere { radius: r }), inertia, volume: 4.0 / 3.0 * PI * r * r * r })
+    Some(Solid {
+        shape: Arc::new(SolidSphere { radius: r }),
+        inertia,
+        volume: 4.0 / 3.0 * PI * r * r * r,
+        center: None,
+    })
 }
 
 /// A ball about the centre of mass.

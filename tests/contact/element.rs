@@ -8,16 +8,23 @@ use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::surfaces::{Capsule, Cuboid, Cylinder, Plane, Sphere};
 use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Surface, SurfaceShape};
 use rdsolve::math::Vec3;
+use rdsolve::math::polyhedron::Polyhedron;
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::state::{Configuration, Node};
+use std::sync::Arc;
 
-const SHAPES: [SurfaceShape; 5] = [
-    SurfaceShape::Plane(Plane),
-    SurfaceShape::Cuboid(Cuboid { half: [0.3, 0.5, 0.8] }),
-    SurfaceShape::Sphere(Sphere { radius: 0.6 }),
-    SurfaceShape::Cylinder(Cylinder { radius: 0.5, half: 0.7 }),
-    SurfaceShape::Capsule(Capsule { radius: 0.4, half: 0.6 }),
-];
+fn shapes() -> [SurfaceShape; 6] {
+    let corners = [[-0.5, -0.4, -0.3], [0.6, -0.3, -0.3], [0.1, 0.5, -0.3], [-0.2, -0.4, 0.5], [0.3, 0.1, 0.6]];
+    let hull = Polyhedron::hull(&corners.map(Vec3::from)).expect("a solid").0;
+    [
+        SurfaceShape::Plane(Plane),
+        SurfaceShape::Cuboid(Cuboid { half: [0.3, 0.5, 0.8] }),
+        SurfaceShape::Sphere(Sphere { radius: 0.6 }),
+        SurfaceShape::Cylinder(Cylinder { radius: 0.5, half: 0.7 }),
+        SurfaceShape::Capsule(Capsule { radius: 0.4, half: 0.6 }),
+        SurfaceShape::of_polyhedron(Arc::new(hull), 0.0),
+    ]
+}
 
 /// A point and a surface in touch. `count` nodes carry the point; `slide` is the way along the surface since the past.
 fn touch(
@@ -94,11 +101,11 @@ fn touch(
 /// Calls with every combination, and with what it is called.
 fn each(mut check: impl FnMut(&mut StdRng, Touch<Contacts>, &str)) {
     let mut rng = StdRng::seed_from_u64(7);
-    for shape in SHAPES {
+    for shape in shapes() {
         for (count, radius) in [(1, 0.0), (1, 0.15), (3, 0.0), (2, 0.1)] {
             for (friction, slide) in [(0.0, 1e-3), (0.8, 3e-4), (0.3, 5e-2)] {
                 for _ in 0..8 {
-                    let touch = touch(&mut rng, shape, count, radius, friction, slide);
+                    let touch = touch(&mut rng, shape.clone(), count, radius, friction, slide);
                     check(&mut rng, touch, &format!("{shape:?}, {count} nodes, radius {radius}, friction {friction}"));
                 }
             }

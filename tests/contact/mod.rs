@@ -10,6 +10,7 @@ mod faces_alone;
 mod impact;
 mod lines;
 mod lines_alone;
+mod polyhedra;
 mod rubbing;
 mod sight;
 mod stiffness;

@@ -31,11 +31,16 @@ impl<B: ElementBlock> Touch<B> {
     /// the force has no derivative and second differences do not vanish: between sticking and slipping, at the edge between two
     /// faces, and where a corner comes into the plane of a face.
     pub fn check_tangent(&self, tolerance: f64, what: &str) -> bool {
+        self.check_tangent_by(1e-7, tolerance, what)
+    }
+
+    /// The same with differences over this way.
+    pub fn check_tangent_by(&self, h: f64, tolerance: f64, what: &str) -> bool {
         let base = self.force(&self.nodes);
         if base.iter().all(|f| *f == 0.0) {
             return false;
         }
-        let (width, rate, h) = (6 * self.nodes.len(), 3.0, 1e-7);
+        let (width, rate) = (6 * self.nodes.len(), 3.0);
         let mut K = vec![f64::NAN; width * width];
         let now = Configuration { nodes: &self.nodes, history: &self.past, dt: 0.0, lead: None };
         self.block.tangent(0, &now, rate, Moduli::Algorithmic, &mut K);

@@ -2,7 +2,9 @@
 
 use super::surfaces::SurfaceShape;
 use super::surfaces::kind::{ClosestPoint, Touched};
+use crate::math::polyhedron::Polyhedron;
 use crate::math::{Mat3, Vec3};
+use std::sync::Arc;
 
 /// A surface in the frame of the node that carries it.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,9 +46,9 @@ impl Surface {
         self.shape.least()
     }
 
-    /// Half the edges, where it is a box.
-    pub fn as_box(&self) -> Option<Vec3> {
-        self.shape.as_box()
+    /// The polyhedron in the axes of the shape, where it is one.
+    pub fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
+        self.shape.as_polyhedron()
     }
 
     /// True when a point in the plane through the shape's origin normal to a global axis feels no force out of that plane.
@@ -62,14 +64,30 @@ mod tests {
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
 
-    fn shapes() -> [SurfaceShape; 5] {
+    fn shapes() -> [SurfaceShape; 6] {
         [
             SurfaceShape::Plane(Plane),
             SurfaceShape::Cuboid(Cuboid { half: [0.3, 0.5, 0.8] }),
             SurfaceShape::Sphere(Sphere { radius: 0.6 }),
             SurfaceShape::Cylinder(Cylinder { radius: 0.5, half: 0.7 }),
             SurfaceShape::Capsule(Capsule { radius: 0.4, half: 0.6 }),
+            wedge(),
         ]
+    }
+
+    /// A wedge with a blunt edge, of faces of three, four and five corners.
+    fn wedge() -> SurfaceShape {
+        let corners = [
+            [-0.5, -0.4, -0.3],
+            [0.5, -0.4, -0.3],
+            [0.5, 0.4, -0.3],
+            [-0.5, 0.4, -0.3],
+            [-0.2, -0.4, 0.5],
+            [0.3, -0.4, 0.5],
+            [0.0, 0.2, 0.6],
+        ];
+        let hull = Polyhedron::hull(&corners.map(Vec3::from)).expect("a solid").0;
+        SurfaceShape::of_polyhedron(Arc::new(hull), 0.0)
     }
 
     /// Points on the surface of a shape, dense; each lies on it by its own formula, not by the distance.
@@ -84,7 +102,15 @@ mod tests {
             .map(|_| {
                 let v = unit();
                 let n = v.normalize();
-                match *shape {
+                match shape.clone() {
+                    SurfaceShape::Hull(hull) => {
+                        let faces = hull.polyhedron.faces();
+                        let face = &faces[(((v.x + 1.0) * 0.5 * faces.len() as f64) as usize).min(faces.len() - 1)];
+                        let corners: Vec<Vec3> = face.corners.iter().map(|&k| hull.polyhedron.corners()[k]).collect();
+                        // Any point of a convex face is a mean of its corners.
+                        let weights: Vec<f64> = corners.iter().map(|_| unit().x.powi(4)).collect();
+                        corners.iter().zip(&weights).map(|(x, w)| *w * x).sum::<Vec3>() / weights.iter().sum::<f64>()
+                    }
                     SurfaceShape::Plane(Plane) => Vec3::new(2.0 * v.x, 2.0 * v.y, 0.0),
                     SurfaceShape::Sphere(Sphere { radius }) => radius * n,
                     SurfaceShape::Cuboid(Cuboid { half }) => {
@@ -135,7 +161,7 @@ mod tests {
         let mut rng = StdRng::seed_from_u64(2);
         let turn = crate::math::rotation::matrix(&crate::math::rotation::exp(&Vec3::new(0.4, -0.7, 1.1)));
         for shape in shapes() {
-            let surface = Surface { center: Vec3::new(0.1, 0.2, -0.3), axes: turn, shape };
+            let surface = Surface { center: Vec3::new(0.1, 0.2, -0.3), axes: turn, shape: shape.clone() };
             for _ in 0..100 {
                 let p = Vec3::from_fn(|_, _| rng.random_range(-1.5..1.5));
                 let near = surface.closest_point(&p);

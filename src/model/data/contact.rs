@@ -1,7 +1,7 @@
 //! Contacts: points against a surface.
 
 use super::part_answers::PartAnswers;
-use crate::elements::contact::{ContactLaw, ContactPoint, Facet, FacetTouchers, Surface, Toucher, TouchingBox};
+use crate::elements::contact::{ContactLaw, ContactPoint, Facet, FacetTouchers, Surface, Toucher, TouchingPolyhedron};
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column};
 use std::collections::BTreeSet;
 
@@ -14,8 +14,10 @@ pub struct Contact {
     pub surface: TouchedSurface,
     /// The points.
     pub points: Vec<ContactPoint>,
-    /// Boxes that touch the surface, which is a box then, with their corners, edges and faces.
-    pub boxes: Vec<TouchingBox>,
+    /// Boxes and hulls that touch the surface, which is one then, or each other, with their corners, edges and faces.
+    pub polyhedra: Vec<TouchingPolyhedron>,
+    /// The pairs of these, by number in ascending order, that do not touch each other: a joint holds them together.
+    pub joined: Vec<[usize; 2]>,
     /// The shapes of all that touches, by which `check` says what is not seen.
     pub touchers: BTreeSet<Toucher>,
     /// The contact law; `None` for a clearance monitor, which exerts no force.
@@ -54,8 +56,8 @@ pub struct FacetSurface {
     pub facets: Vec<Facet>,
     /// What touches them.
     pub touchers: FacetTouchers,
-    /// The bodies that are boxes, whose surface the nodes of the facets touch.
-    pub boxes: Vec<CarriedSurface>,
+    /// The bodies that are boxes or hulls, whose surface the nodes of the facets touch.
+    pub solids: Vec<CarriedSurface>,
     /// The nodes of the facets, where there are such bodies.
     pub back: Vec<ContactPoint>,
 }
@@ -84,12 +86,12 @@ impl PartAnswers for Contact {
     }
 
     fn elements(&self) -> usize {
-        self.points.len() + self.boxes.len()
+        self.points.len() + self.polyhedra.len()
     }
 
     fn nodes(&self, element: usize) -> &[usize] {
         match element.checked_sub(self.points.len()) {
-            Some(of_boxes) => std::slice::from_ref(&self.boxes[of_boxes].node),
+            Some(of_polyhedra) => std::slice::from_ref(&self.polyhedra[of_polyhedra].node),
             None => self.points[element].nodes(),
         }
     }
@@ -99,12 +101,12 @@ impl PartAnswers for Contact {
             TouchedSurface::Shape(carried) => visit(&mut carried.node),
             TouchedSurface::Facets(faces) => {
                 faces.facets.iter_mut().flat_map(|facet| &mut facet.nodes).for_each(&mut *visit);
-                faces.boxes.iter_mut().for_each(|carried| visit(&mut carried.node));
+                faces.solids.iter_mut().for_each(|carried| visit(&mut carried.node));
                 faces.back.iter_mut().for_each(|point| visit(&mut point.nodes[0]));
             }
         }
         self.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(&mut *visit);
-        self.boxes.iter_mut().for_each(|one| visit(&mut one.node));
+        self.polyhedra.iter_mut().for_each(|one| visit(&mut one.node));
     }
 
     fn may_stiffen(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::explanation::Explanation;
 
-use crate::elements::contact::{Facet, FacetTouchers};
+use crate::elements::contact::{Facet, FacetTouchers, TouchingPolyhedron};
 use crate::model::{CarriedSurface, Contact, Model, TouchedSurface};
 use crate::names::short;
 use crate::system::System;
@@ -48,30 +48,51 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
         }
     };
     let (count, part) = (faces.facets.len(), &faces.part);
-    let back = match faces.boxes.len() {
+    let back = match faces.solids.len() {
         0 => String::new(),
+        1 if faces.solids[0].surface.as_polyhedron().is_some_and(|of| of.half().is_none()) => {
+            ", and its nodes against a hull".to_owned()
+        }
         1 => ", and its nodes against a box".to_owned(),
-        boxes => format!(", and its nodes against {boxes} boxes"),
+        solids => format!(", and its nodes against {solids} boxes or hulls"),
     };
     let kind = if faces.facets.iter().any(Facet::is_line) { "lines" } else { "faces" };
     match faces.touchers {
         FacetTouchers::Others => format!("{touching} against {count} {kind} of `{part}`{back}"),
         FacetTouchers::Itself => format!("{touching} of `{part}` against its own {count} {kind}"),
-        FacetTouchers::Among => format!("{count} balls among themselves"),
+        FacetTouchers::Among => {
+            let balls = counted(count, "ball", "balls");
+            let all = balls.into_iter().chain(solids_in_words(contact)).collect::<Vec<_>>().join(" and ");
+            let joined = counted(contact.joined.len(), "pair that is joined does", "pairs that are joined do");
+            let joined = joined.map_or(String::new(), |joined| format!("; {joined} not touch"));
+            format!("{all} among themselves{joined}")
+        }
     }
 }
 
 /// The points, and the boxes with all that they are.
 fn touching_in_words(contact: &Contact) -> String {
-    let counted = |count: usize, one: &str, many: &str| match count {
-        0 => None,
-        1 => Some(format!("1 {one}")),
-        _ => Some(format!("{count} {many}")),
-    };
     let radius = contact.points.iter().map(|point| point.radius).fold(0.0, f64::max);
     let radius = if radius > 0.0 { format!(" of contact radius {}", short(radius)) } else { String::new() };
     let words = if contact.points.iter().any(|point| point.is_line) { ["line", "lines"] } else { ["point", "points"] };
     let points = counted(contact.points.len(), words[0], words[1]).map(|points| points + &radius);
-    let boxes = counted(contact.boxes.len(), "box", "boxes").map(|boxes| boxes + " with corners, edges and faces");
-    points.into_iter().chain(boxes).collect::<Vec<_>>().join(" and ")
+    let solids = solids_in_words(contact).map(|solids| solids + " with corners, edges and faces");
+    points.into_iter().chain(solids).collect::<Vec<_>>().join(" and ")
+}
+
+/// The boxes and hulls, each kind that there is.
+fn solids_in_words(contact: &Contact) -> impl Iterator<Item = String> {
+    let is_box = |one: &&TouchingPolyhedron| one.shape.half().is_some();
+    let boxes = contact.polyhedra.iter().filter(is_box).count();
+    let kinds = [(boxes, "box", "boxes"), (contact.polyhedra.len() - boxes, "hull", "hulls")];
+    kinds.into_iter().filter_map(|(count, one, many)| counted(count, one, many))
+}
+
+/// So many of a kind; nothing where there are none.
+fn counted(count: usize, one: &str, many: &str) -> Option<String> {
+    match count {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        _ => Some(format!("{count} {many}")),
+    }
 }

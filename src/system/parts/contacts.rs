@@ -1,7 +1,9 @@
 //! Contacts in the equation of motion: their blocks.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
-use crate::elements::contact::{BoxPairs, ContactLaw, ContactPoint, Contacts, FacetContacts, MOST_NODES};
+use crate::elements::contact::{
+    ContactLaw, ContactPoint, Contacts, FacetContacts, MOST_NODES, PolyhedronHeap, PolyhedronPairs, SurfaceShape,
+};
 use crate::model::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::sections::Stiffness;
 use crate::system::plane::{MotionPlane, SMALL};
@@ -13,7 +15,16 @@ impl Assembled for Contact {
         let Some(law) = self.law else { return Vec::new() };
         let carried = match &self.surface {
             TouchedSurface::Shape(carried) => carried,
-            TouchedSurface::Facets(faces) => return facet_blocks(law, faces, &self.points, setting),
+            TouchedSurface::Facets(faces) => {
+                let mut blocks = facet_blocks(law, faces, &self.points, setting);
+                if !self.polyhedra.is_empty() {
+                    blocks.push((
+                        Box::new(PolyhedronHeap::new(law, self.polyhedra.clone(), self.joined.clone())),
+                        self.points.len(),
+                    ));
+                }
+                return blocks;
+            }
         };
         let mut blocks: Vec<NumberedBlock> = Vec::new();
         for count in 1..=MOST_NODES {
@@ -23,9 +34,9 @@ impl Assembled for Contact {
                 blocks.push((Box::new(block), piece.start));
             }
         }
-        for piece in pieces(self.boxes.len()) {
-            let boxes = self.boxes[piece.clone()].to_vec();
-            let pairs = BoxPairs::new(law, &carried.surface, carried.node, boxes);
+        for piece in pieces(self.polyhedra.len()) {
+            let polyhedra = self.polyhedra[piece.clone()].to_vec();
+            let pairs = PolyhedronPairs::new(law, &carried.surface, carried.node, polyhedra);
             blocks.extend(pairs.map(|pairs| (Box::new(pairs) as _, self.points.len() + piece.start)));
         }
         blocks
@@ -35,14 +46,18 @@ impl Assembled for Contact {
         let TouchedSurface::Shape(CarriedSurface { surface, .. }) = &self.surface else { return false };
         let center = surface.center[plane.normal].abs();
         // Two boxes of which each is the same on both sides of the plane push each other along it.
-        let keeps = !self.points.is_empty() || self.boxes.is_empty();
+        if self.polyhedra.iter().any(|one| one.shape.half().is_none()) || matches!(surface.shape, SurfaceShape::Hull(_))
+        {
+            return false;
+        }
+        let keeps = !self.points.is_empty() || self.polyhedra.is_empty();
         let along = surface.axes.row(plane.normal).iter().any(|x| x.abs() > 1.0 - 1e-12);
-        center <= SMALL * plane.size && (!keeps || surface.keeps(plane.normal)) && (self.boxes.is_empty() || along)
+        center <= SMALL * plane.size && (!keeps || surface.keeps(plane.normal)) && (self.polyhedra.is_empty() || along)
     }
 }
 
 /// The blocks of points with equally many nodes against facets; each looks for what is near by itself, so they are not cut in pieces.
-/// Nodes of the facets against boxes come after them.
+/// Nodes of the facets against boxes and hulls come after them.
 fn facet_blocks(
     law: ContactLaw,
     faces: &FacetSurface,
@@ -58,7 +73,7 @@ fn facet_blocks(
             blocks.push((Box::new(block), 0));
         }
     }
-    for carried in &faces.boxes {
+    for carried in &faces.solids {
         for piece in pieces(faces.back.len()) {
             let points = faces.back[piece.clone()].to_vec();
             let block = Contacts::new(law, carried.surface.clone(), carried.node, points);

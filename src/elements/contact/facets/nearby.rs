@@ -2,10 +2,10 @@
 //! they leave out is farther than anything that is asked for, so results do not depend on when they were made.
 
 use super::facet::Facet;
-use super::grid::{BoxGrid, FacetBox};
 use super::scene::FacetScene;
 use super::span::FacetSpan;
 use super::touch::{self, FacetTouch, TouchQuery};
+use crate::elements::contact::grid::{BoxGrid, GridBox};
 use crate::math::Vec3;
 use crate::state::Node;
 
@@ -101,8 +101,8 @@ impl NearbyFacets {
     }
 }
 
-fn extent(facet: &Facet, nodes: &[Node], apart: f64) -> FacetBox {
-    FacetBox::around(facet.nodes().iter().map(|&node| nodes[node].x)).wider(facet.half + apart)
+fn extent(facet: &Facet, nodes: &[Node], apart: f64) -> GridBox {
+    GridBox::around(facet.nodes().iter().map(|&node| nodes[node].x)).wider(facet.half + apart)
 }
 
 /// The farthest way of a node from `from` to its place among `nodes`, apart from the mean of all ways.

@@ -1,10 +1,10 @@
 //! The results of contacts of facets for output.
 
 use super::facet::Facet;
-use super::grid::FacetBox;
 use super::lines;
 use super::span::FacetSpan;
 use super::surface::FacetContacts;
+use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::point::ContactPoint;
 use crate::elements::contact::resultant::Resultant;
 use crate::state::{Configuration, Node};
@@ -36,7 +36,7 @@ pub fn facet_gap(
     sorted: &mut Vec<FacetSpan>,
 ) -> f64 {
     let places = |facet: &Facet| facet.nodes.map(|node| nodes[node].x);
-    let all = FacetBox::around(facets.iter().flat_map(places));
+    let all = GridBox::around(facets.iter().flat_map(places));
     let axis = (all.high - all.low).imax();
     let span = |facet: &Facet| {
         let at = places(facet).map(|x| x[axis]);

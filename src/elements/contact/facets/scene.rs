@@ -1,10 +1,10 @@
 //! Points and facets that may touch, without what changes.
 
 use super::facet::{Facet, Region};
-use super::grid::FacetBox;
 use super::lines;
 use super::memory::{self, PairMemory};
 use super::mesh;
+use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::ContactPoint;
 use crate::math::Vec3;
@@ -125,12 +125,12 @@ impl FacetScene {
     }
 
     /// What of a point may touch, by the places of nodes: itself, or the ends of a line.
-    pub(super) fn extent(&self, e: usize, x: impl Fn(usize) -> Vec3) -> FacetBox {
+    pub(super) fn extent(&self, e: usize, x: impl Fn(usize) -> Vec3) -> GridBox {
         if self.is_of_lines {
-            return FacetBox::around(self.points[e].nodes().iter().map(|&node| x(node)));
+            return GridBox::around(self.points[e].nodes().iter().map(|&node| x(node)));
         }
         let at = self.points[e].parts().map(|(node, w)| w * x(node)).sum();
-        FacetBox { low: at, high: at }
+        GridBox { low: at, high: at }
     }
 
     /// A point, or that of a line at which the share of its second end is this; its middle where none is told.

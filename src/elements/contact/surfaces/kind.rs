@@ -43,7 +43,7 @@ pub type SurfaceKind<S> = Kind<MakeSurface<S>>;
 pub type MakeSurface<S> = fn(&mut Given, Option<Vec3>) -> Option<Placed<S>>;
 
 /// A shape with its origin and axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Placed<S> {
     /// Origin of the shape, global at t = 0.
     pub center: Vec3,

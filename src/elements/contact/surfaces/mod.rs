@@ -4,13 +4,16 @@
 pub mod capsule;
 pub mod cuboid;
 pub mod cylinder;
+pub mod hull;
 pub mod kind;
 pub mod plane;
 pub mod sight;
 pub mod sphere;
 
 use crate::math::Vec3;
+use crate::math::polyhedron::Polyhedron;
 use kind::{ClosestPoint, Placed, SurfaceKind, Touched};
+use std::sync::Arc;
 
 /// Makes the one type that holds any of the shapes, so that none is called through a pointer, and the list of words.
 macro_rules! surfaces {
@@ -18,7 +21,7 @@ macro_rules! surfaces {
         $(pub use $file::$Shape;)+
 
         /// Any of the shapes.
-        #[derive(Debug, Clone, Copy, PartialEq)]
+        #[derive(Debug, Clone, PartialEq)]
         pub enum SurfaceShape {
             $(
                 #[doc = concat!("A shape of surfaces/", stringify!($file), ".rs.")]
@@ -33,14 +36,21 @@ macro_rules! surfaces {
         })),+];
 
         impl SurfaceShape {
-            /// Half the edges, where it is a box.
-            pub fn as_box(&self) -> Option<Vec3> {
-                if let SurfaceShape::Cuboid(cuboid) = self { Some(cuboid.half.into()) } else { None }
+            /// The polyhedron that it is, where it is one.
+            pub fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
+                match self {
+                    SurfaceShape::Cuboid(cuboid) => Some(Arc::new(Polyhedron::cuboid(cuboid.half.into()))),
+                    SurfaceShape::Hull(hull) => Some(hull.polyhedron.clone()),
+                    _ => None,
+                }
             }
 
-            /// A box with half these edges.
-            pub fn of_box(half: Vec3) -> SurfaceShape {
-                SurfaceShape::Cuboid(Cuboid { half: half.into() })
+            /// A polyhedron, and what is no farther from it than a distance; a box becomes larger by that.
+            pub fn of_polyhedron(shape: Arc<Polyhedron>, rounding: f64) -> SurfaceShape {
+                match shape.half() {
+                    Some(half) => SurfaceShape::Cuboid(Cuboid { half: half.add_scalar(rounding).into() }),
+                    None => SurfaceShape::Hull(Hull { polyhedron: shape, rounding }),
+                }
             }
 
             /// The deck's word for it.
@@ -93,4 +103,5 @@ surfaces! {
     sphere::Sphere,
     cylinder::Cylinder,
     capsule::Capsule,
+    hull::Hull,
 }

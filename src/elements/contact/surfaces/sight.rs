@@ -10,6 +10,8 @@ pub enum Toucher {
     Ball,
     /// A body that is a box.
     Box,
+    /// A body that is the hull of points.
+    Hull,
     /// A body that is a cylinder or a tube: points of its rims.
     Rims,
     /// Nodes of a part or of a body of rigid parts, and places between them that are asked for.
@@ -18,21 +20,28 @@ pub enum Toucher {
 
 impl Toucher {
     /// All of them.
-    pub const ALL: [Toucher; 4] = [Toucher::Ball, Toucher::Box, Toucher::Rims, Toucher::Nodes];
+    pub const ALL: [Toucher; 5] = [Toucher::Ball, Toucher::Box, Toucher::Hull, Toucher::Rims, Toucher::Nodes];
 
     /// What of the one and of the surface is not seen; `None` where they see each other in full.
     pub fn unseen(self, surface: &SurfaceShape) -> Option<&'static str> {
         match (self, surface) {
             (Toucher::Ball, _) => None,
-            // A box touches a plane with its corners, whatever else lies on it, and a box with all of both.
-            (Toucher::Box, SurfaceShape::Plane(_) | SurfaceShape::Cuboid(_)) => None,
+            // They touch a plane with their corners, whatever else lies on it, and each other with all of both.
+            (
+                Toucher::Box | Toucher::Hull,
+                SurfaceShape::Plane(_) | SurfaceShape::Cuboid(_) | SurfaceShape::Hull(_),
+            ) => None,
             (Toucher::Box, SurfaceShape::Sphere(_) | SurfaceShape::Cylinder(_) | SurfaceShape::Capsule(_)) => {
                 Some("edges and faces of the box between its points")
+            }
+            (Toucher::Hull, SurfaceShape::Sphere(_) | SurfaceShape::Cylinder(_) | SurfaceShape::Capsule(_)) => {
+                Some("edges and faces of the hull between its points")
             }
             (Toucher::Rims, SurfaceShape::Plane(_)) => Some("the rim between its points"),
             (
                 Toucher::Rims,
                 SurfaceShape::Cuboid(_)
+                | SurfaceShape::Hull(_)
                 | SurfaceShape::Sphere(_)
                 | SurfaceShape::Cylinder(_)
                 | SurfaceShape::Capsule(_),
@@ -41,6 +50,7 @@ impl Toucher {
             (
                 Toucher::Nodes,
                 SurfaceShape::Cuboid(_)
+                | SurfaceShape::Hull(_)
                 | SurfaceShape::Sphere(_)
                 | SurfaceShape::Cylinder(_)
                 | SurfaceShape::Capsule(_),
@@ -54,6 +64,7 @@ impl Toucher {
             Toucher::Ball => None,
             // The nodes of the shell see the faces of the box.
             Toucher::Box => Some("edges of the box that cross edges of the faces"),
+            Toucher::Hull => Some("edges of the hull that cross edges of the faces"),
             Toucher::Rims => Some("ends and side of the cylinder between its points"),
             Toucher::Nodes => Some("edges that cross edges"),
         }
@@ -65,6 +76,7 @@ impl Toucher {
             Toucher::Ball => None,
             // The nodes of the beams see the faces of the box.
             Toucher::Box => Some("edges of the box that cross lines"),
+            Toucher::Hull => Some("edges of the hull that cross lines"),
             Toucher::Rims => Some("ends and side of the cylinder between its points"),
             Toucher::Nodes => Some("what lies between nodes"),
         }
@@ -72,7 +84,7 @@ impl Toucher {
 
     /// True where a body as a whole may pass the surface unseen, and not only sink in a little further than it should.
     pub fn may_pass(self, surface: &SurfaceShape) -> bool {
-        matches!(self, Toucher::Box | Toucher::Rims)
+        matches!(self, Toucher::Box | Toucher::Hull | Toucher::Rims)
             && self.unseen(surface).is_some()
             && !matches!(surface, SurfaceShape::Plane(_))
     }
@@ -88,6 +100,8 @@ pub fn passing_width(surface: &SurfaceShape) -> f64 {
             2.0 * half[1]
         }
         SurfaceShape::Cylinder(cylinder) => 2.0 * cylinder.radius,
-        SurfaceShape::Plane(_) | SurfaceShape::Sphere(_) | SurfaceShape::Capsule(_) => surface.least(),
+        SurfaceShape::Plane(_) | SurfaceShape::Sphere(_) | SurfaceShape::Capsule(_) | SurfaceShape::Hull(_) => {
+            surface.least()
+        }
     }
 }

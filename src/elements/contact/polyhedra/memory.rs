@@ -1,4 +1,4 @@
-//! What friction between boxes remembers: the stretch of its spring and the place of the boxes that it was found at.
+//! What friction between polyhedra remembers: the stretch of its spring and the place of the two that it was found at.
 
 use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
 use crate::math::{Mat3, Vec3};
@@ -11,16 +11,16 @@ const AXES: usize = PLACE + 3;
 /// Number of history variables of a pair with friction.
 pub const WIDTH: usize = AXES + 9;
 
-/// The memory of friction, in the frame of the box that is touched.
+/// The memory of friction, in the frame of the one that is touched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Memory {
     /// Stretch of the spring along the faces.
     pub stretch: Vec3,
     /// Angle of the spring about their normal.
     pub twist: f64,
-    /// Centre of the one box.
+    /// Centre of the one.
     pub y: Vec3,
-    /// Axes of the one box.
+    /// Axes of the one.
     pub Q: Mat3,
 }
 

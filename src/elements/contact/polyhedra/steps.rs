@@ -1,31 +1,37 @@
-//! Limits on the step length: no box passes through another, and impacts are resolved.
+//! Limits on the step length: no polyhedron passes through another, and impacts are resolved.
 
-use super::pair::BoxPairs;
-use super::pose::{BoxPose, LeastAxis};
+use super::pair::PolyhedronPair;
+use super::pairs::PolyhedronPairs;
+use super::pose::{LeastAxis, PolyhedronPose};
+use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::law::ContactLaw;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
-/// True where a step from `start` to `now` must be shorter: a box would pass through the other, or be more than half way through, or
+/// True where a step from `start` to `now` must be shorter: one would pass through the other, or be more than half way through, or
 /// come into an impact that the step does not resolve.
-pub fn misses_pair(pairs: &BoxPairs, start: &[Node], now: &Configuration) -> bool {
-    (0..pairs.boxes.len()).any(|e| is_missed(pairs, e, start, now))
+pub fn misses_pair(pairs: &PolyhedronPairs, start: &[Node], now: &Configuration) -> bool {
+    (0..pairs.count()).any(|e| is_missed(&pairs.pair(e), pairs.history(e, now.history), start, now))
 }
 
 /// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_pair_step(pairs: &BoxPairs, history: &[f64]) -> f64 {
-    let law = &pairs.law;
-    let in_impact = |e: usize| {
-        let old = pairs.history(e, history);
-        old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration
-    };
-    let any = law.resolution < f64::INFINITY && (0..pairs.boxes.len()).any(in_impact);
+pub fn longest_pair_step(pairs: &PolyhedronPairs, history: &[f64]) -> f64 {
+    longest_step(&pairs.law, (0..pairs.count()).map(|e| pairs.history(e, history)))
+}
+
+/// The same of any pairs.
+pub(super) fn longest_step<'a>(law: &ContactLaw, mut pairs: impl Iterator<Item = PointHistory<'a>>) -> f64 {
+    let in_impact =
+        |old: PointHistory| old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
+    let any = law.resolution < f64::INFINITY && pairs.any(in_impact);
     if any { law.resolution } else { f64::INFINITY }
 }
 
-fn is_missed(pairs: &BoxPairs, e: usize, start: &[Node], now: &Configuration) -> bool {
-    let (law, old) = (&pairs.law, pairs.history(e, now.history));
-    let [from, to] = [start, now.nodes].map(|nodes| pairs.kinematics(e, nodes).pose);
-    let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.norm();
+/// The same of one pair.
+pub(super) fn is_missed(pair: &PolyhedronPair, old: PointHistory, start: &[Node], now: &Configuration) -> bool {
+    let law = pair.law;
+    let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);
+    let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.reach();
     if from.y.norm() - from.size() > length {
         return false;
     }
@@ -38,11 +44,11 @@ fn is_missed(pairs: &BoxPairs, e: usize, start: &[Node], now: &Configuration) ->
         return through || first.gap > 0.0 && passes(&from, &to, length);
     }
     let depth = -last.gap;
-    let half = from.own.min().min(from.other.min());
+    let half = 0.5 * from.own.least().min(from.other.least());
     if now.dt < old.safe_time() || depth > half && depth > -first.gap {
         return true;
     }
-    // Thin boxes may overlap already where the one is about to leave by the other side.
+    // Thin ones may overlap already where the one is about to leave by the other side.
     let entry = if first.gap > 0.0 {
         Way { from: &from, to: &to }.entry(length).map(|(_, axis)| axis)
     } else {
@@ -56,25 +62,25 @@ fn is_missed(pairs: &BoxPairs, e: usize, start: &[Node], now: &Configuration) ->
     landing && now.dt > law.resolution
 }
 
-/// True where the side on which boxes lie has changed for the other: the axes of neighbouring sides are at right angles.
+/// True where the side on which the one lies has changed for the other: the axes of neighbouring sides are at right angles.
 fn is_opposite(a: &Vec3, b: &Vec3) -> bool {
     a.dot(b) < -0.5
 }
 
 /// The motion of a pair in a step, from 0 to 1.
 struct Way<'a> {
-    from: &'a BoxPose,
-    to: &'a BoxPose,
+    from: &'a PolyhedronPose<'a>,
+    to: &'a PolyhedronPose<'a>,
 }
 
 impl Way<'_> {
     fn least_axis(&self, t: f64) -> LeastAxis {
         let Way { from, to } = self;
         let (y, Q) = (from.y + t * (to.y - from.y), from.Q + t * (to.Q - from.Q));
-        BoxPose { y, Q, ..**from }.least_axis()
+        PolyhedronPose { y, Q, ..**from }.least_axis()
     }
 
-    /// Where the boxes meet first on a way of this `length`, and the axis that held them apart until then. No way is shorter than
+    /// Where the two meet first on a way of this `length`, and the axis that held them apart until then. No way is shorter than
     /// the gap, so the search goes on by that.
     fn entry(&self, length: f64) -> Option<(f64, Vec3)> {
         let mut t = 0.0;
@@ -89,8 +95,8 @@ impl Way<'_> {
     }
 }
 
-/// True where boxes that are apart before and after have met on the way.
-fn passes(from: &BoxPose, to: &BoxPose, length: f64) -> bool {
+/// True where two that are apart before and after have met on the way.
+fn passes(from: &PolyhedronPose, to: &PolyhedronPose, length: f64) -> bool {
     let (Some((t0, _)), Some((back, _))) = (Way { from, to }.entry(length), Way { from: to, to: from }.entry(length))
     else {
         return false;

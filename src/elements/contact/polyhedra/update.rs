@@ -1,7 +1,8 @@
 //! The history of a pair at the end of a step, and what was dissipated on the way.
 
+use super::depth::approaching;
 use super::memory::Memory;
-use super::pair::{BoxPairs, PairForce, PairKinematics};
+use super::pair::{PairForce, PairKinematics, PolyhedronPair};
 use crate::elements::contact::history::{PointHistory, PointHistoryMut};
 use crate::elements::contact::normal_motion::{NormalMotion, pass_over, update_normal, way};
 use crate::materials::Dissipation;
@@ -9,22 +10,22 @@ use crate::math::rotation::{exp, matrix};
 use crate::math::{Vec3, angular, linear};
 use crate::state::Configuration;
 
-/// Writes the history of pair `e` after `part` of the way from the last state to `now`; returns what was dissipated.
+/// Writes the history of a pair after `part` of the way from the last state to `now`; returns what was dissipated.
 pub(super) fn update_pair(
-    pairs: &BoxPairs,
-    e: usize,
+    pair: &PolyhedronPair,
+    old: PointHistory,
     now: &Configuration,
     part: f64,
     numbers: &mut [f64],
 ) -> Dissipation {
-    let (law, old) = (&pairs.law, pairs.history(e, now.history));
-    let at = pairs.kinematics(e, now.nodes);
-    let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.norm();
+    let law = pair.law;
+    let at = pair.kinematics(now.nodes);
+    let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.reach();
     let mut new = PointHistoryMut::new(numbers);
     if let Some(spent) = pass_over(law, (at.pose.y.norm() - at.pose.size(), speed), now, old, &mut new) {
         return spent;
     }
-    let acting = pairs.force(&at, old);
+    let acting = pair.force(&at, old);
     let (gap, rate) = acting.as_ref().map_or_else(|| approach(&at), |acting| (-acting.depth.D, acting.rate));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let motion = NormalMotion { gap, rate, force, speed };
@@ -36,11 +37,11 @@ pub(super) fn update_pair(
     spent
 }
 
-/// Gap and approach speed of boxes that are apart.
+/// Gap and approach speed of what is apart, in the measure of the depth that it will have: where an edge or a corner comes first, a depth is
+/// less than the way along the axis, and so is its rate, by which an impact is judged.
 fn approach(at: &PairKinematics) -> (f64, f64) {
-    let least = at.pose.least_axis();
-    let arm = at.pose.deepest(&least.axis) - at.pose.y;
-    (least.gap, -least.axis.dot(&(linear(&at.rates) + angular(&at.rates).cross(&arm))))
+    let ahead = approaching(&at.pose);
+    (-ahead.D, ahead.g.dot(&at.rates))
 }
 
 /// Writes what friction remembers; returns what slip dissipated.
@@ -60,8 +61,11 @@ fn update_friction(
             new.set_friction_force(end);
             (rubbing.stretch, rubbing.twist, 0.5 * part * rubbing.slip * (pull + end))
         }
-        // The boxes are apart: what was stretched lets go.
-        None => (Vec3::zeros(), 0.0, 0.5 * pull * pull / stiffness),
+        // The two are apart: what was stretched lets go.
+        None => {
+            new.set_friction_force(0.0);
+            (Vec3::zeros(), 0.0, 0.5 * pull * pull / stiffness)
+        }
     };
     let mut kept = Memory { stretch, twist, y: at.pose.y, Q: at.pose.Q };
     if old.is_known() && rubbing.is_some() {

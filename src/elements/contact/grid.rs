@@ -7,26 +7,26 @@ const MOST_CELLS: f64 = 512.0;
 
 /// A box along the global axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct FacetBox {
+pub(super) struct GridBox {
     /// Least coordinates.
     pub low: Vec3,
     /// Largest coordinates.
     pub high: Vec3,
 }
 
-impl FacetBox {
+impl GridBox {
     /// The box around some points.
-    pub fn around(points: impl Iterator<Item = Vec3>) -> FacetBox {
-        let nothing = FacetBox { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
-        points.fold(nothing, |all, x| FacetBox { low: all.low.inf(&x), high: all.high.sup(&x) })
+    pub fn around(points: impl Iterator<Item = Vec3>) -> GridBox {
+        let nothing = GridBox { low: Vec3::repeat(f64::INFINITY), high: Vec3::repeat(f64::NEG_INFINITY) };
+        points.fold(nothing, |all, x| GridBox { low: all.low.inf(&x), high: all.high.sup(&x) })
     }
 
     /// The box with a margin.
-    pub fn wider(&self, by: f64) -> FacetBox {
-        FacetBox { low: self.low.add_scalar(-by), high: self.high.add_scalar(by) }
+    pub fn wider(&self, by: f64) -> GridBox {
+        GridBox { low: self.low.add_scalar(-by), high: self.high.add_scalar(by) }
     }
 
-    fn meets(&self, other: &FacetBox) -> bool {
+    fn meets(&self, other: &GridBox) -> bool {
         (0..3).all(|i| self.low[i] <= other.high[i] && other.low[i] <= self.high[i])
     }
 }
@@ -35,7 +35,7 @@ impl FacetBox {
 #[derive(Debug, Default)]
 pub(super) struct BoxGrid {
     size: f64,
-    boxes: Vec<FacetBox>,
+    boxes: Vec<GridBox>,
     /// The start of each bucket in `entries`, and the end of the last.
     starts: Vec<u32>,
     entries: Vec<u32>,
@@ -45,7 +45,7 @@ pub(super) struct BoxGrid {
 
 impl BoxGrid {
     /// Sorts these boxes anew into cells of this size. Allocates where they have become more alone.
-    pub fn rebuild(&mut self, size: f64, boxes: impl Iterator<Item = FacetBox>) {
+    pub fn rebuild(&mut self, size: f64, boxes: impl Iterator<Item = GridBox>) {
         self.size = size;
         self.boxes.clear();
         self.boxes.extend(boxes);
@@ -78,7 +78,7 @@ impl BoxGrid {
     }
 
     /// Adds the numbers of all boxes that meet a box to a list, in ascending order, each once.
-    pub fn query(&self, extent: &FacetBox, found: &mut Vec<u32>) {
+    pub fn query(&self, extent: &GridBox, found: &mut Vec<u32>) {
         let from = found.len();
         let meets = |id: &u32| self.boxes[*id as usize].meets(extent);
         match cells(self.size, extent) {
@@ -106,7 +106,7 @@ impl BoxGrid {
 }
 
 /// The cells that a box meets; `None` where they are too many.
-fn cells(size: f64, extent: &FacetBox) -> Option<impl Iterator<Item = [i64; 3]>> {
+fn cells(size: f64, extent: &GridBox) -> Option<impl Iterator<Item = [i64; 3]>> {
     let low = extent.low.map(|x| (x / size).floor());
     let high = extent.high.map(|x| (x / size).floor());
     let count: f64 = (high - low).add_scalar(1.0).product();
@@ -143,7 +143,7 @@ mod tests {
                 let x = Vec3::from_fn(|_, _| rng.random_range(-5.0..5.0));
                 let most = if rng.random_range(0..20) == 0 { 6.0 } else { 0.4 };
                 let half = Vec3::from_fn(|_, _| rng.random_range(0.0..most));
-                boxes.push(FacetBox { low: x - half, high: x + half });
+                boxes.push(GridBox { low: x - half, high: x + half });
             }
             grid.rebuild(0.5, boxes.iter().copied());
             for k in 0..boxes.len() {

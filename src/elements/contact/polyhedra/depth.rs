@@ -1,24 +1,24 @@
-//! How deep two boxes are in each other: one number that depends smoothly on where they are, from the solid they have in common.
+//! How deep two polyhedra are in each other: one number that depends smoothly on where they are, from the solid they have in common.
 //!
 //! With S the variance of the positions in that solid, V⁻¹∫(x − c)(x − c)ᵀ dV, the depth is D = √(12/tr S⁻¹). A plate of thickness δ,
 //! which two faces have in common, has S = diag(δ², a², b²)/12 and D = δ, as δ is small beside its edges a, b: neither the size of the
 //! plate nor where it lies on the faces matters, so that flush edges and hanging over are nothing special, and nothing pushes
 //! sideways. A prism, where an edge stands in a face or crosses one, or the tip of a corner gives a multiple of the penetration.
 //! Where one side is thicker D² grows by 3 θ² I/A, as for springs at the corners. D and its gradient are continuous wherever the
-//! boxes overlap, whichever faces and edges bound what they have in common, and no feature has to be chosen or remembered.
+//! two overlap, whichever faces and edges bound what they have in common, and no feature has to be chosen or remembered.
 //!
-//! What the solid gains at x as a face of the one box moves changes S by ((x − c)(x − c)ᵀ − S)/V, and D by
+//! What the solid gains at x as a face of the one moves changes S by ((x − c)(x − c)ᵀ − S)/V, and D by
 //! q(x) = 6/(D V (tr S⁻¹)²) (|S⁻¹(x − c)|² − tr S⁻¹), so that ∂D is a sum of q over the faces that move.
 
-use super::overlap::faces;
-use super::pose::BoxPose;
-use crate::math::{Vec3, Vec6, frame_along, stack};
+use super::overlap::{Faces, faces};
+use super::pose::{LeastAxis, PolyhedronPose};
+use crate::math::{Mat3, Vec3, Vec6, frame_along, stack};
 
-/// Below this part of their size, boxes only begin to touch: forces are those along the way there, without the shape of an overlap
+/// Below this part of their size, two only begin to touch: forces are those along the way there, without the shape of an overlap
 /// that rounding has eaten.
 pub const SHALLOW: f64 = 1e-8;
 
-/// The depth of two boxes.
+/// The depth of two polyhedra.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Depth {
     /// The depth.
@@ -31,8 +31,17 @@ pub struct Depth {
     pub lever: f64,
 }
 
-/// The depth of boxes that overlap or touch; `None` where they are further apart than `touching`.
-pub fn depth(pose: &BoxPose, touching: f64) -> Option<Depth> {
+/// Corners of the faces of what two boxes have in common, and of most hulls.
+const FEW_CORNERS: usize = 12;
+/// Faces of that, and room for some triangles.
+const FEW_FACES: usize = 24;
+/// Corners of the faces of others: what needs more is pushed along the axis of the least overlap alone.
+const MANY_CORNERS: usize = 32;
+/// Faces of others.
+const MANY_FACES: usize = 128;
+
+/// The depth of polyhedra that overlap or touch; `None` where they are further apart than `touching`.
+pub fn depth(pose: &PolyhedronPose, touching: f64) -> Option<Depth> {
     let least = pose.least_axis();
     if least.gap > touching {
         return None;
@@ -41,16 +50,44 @@ pub fn depth(pose: &BoxPose, touching: f64) -> Option<Depth> {
     if -least.gap >= shallow {
         return within(pose, &least.axis).or_else(|| Some(slab(pose, &least.axis, -least.gap)));
     }
-    let shifted = pose.pushed_in(&least, shallow);
-    let mut found = within(&shifted, &least.axis).unwrap_or_else(|| slab(&shifted, &least.axis, shallow));
+    let mut found = first_touch(pose, &least);
     found.D *= (-least.gap).max(0.0) / shallow;
     Some(found)
 }
 
-/// The depth by the moments of what boxes have in common; `None` where rounding leaves nothing of them.
-fn within(pose: &BoxPose, axis: &Vec3) -> Option<Depth> {
+/// The depth of polyhedra that are apart, negative, as it goes on from where they would first touch along the axis that separates them.
+pub(super) fn approaching(pose: &PolyhedronPose) -> Depth {
+    let least = pose.least_axis();
+    let mut found = first_touch(pose, &least);
+    found.D *= -least.gap / (SHALLOW * pose.size());
+    found
+}
+
+/// The depth of two that are pushed into each other as little as the shape of their overlap allows.
+fn first_touch(pose: &PolyhedronPose, least: &LeastAxis) -> Depth {
+    let shallow = SHALLOW * pose.size();
+    let shifted = pose.pushed_in(least, shallow);
+    within(&shifted, &least.axis).unwrap_or_else(|| slab(&shifted, &least.axis, shallow))
+}
+
+/// The depth by the moments of what the two have in common; `None` where rounding leaves nothing of them.
+fn within(pose: &PolyhedronPose, axis: &Vec3) -> Option<Depth> {
+    let few = by_moments::<FEW_CORNERS, FEW_FACES>(pose, axis);
+    few.or_else(|| by_moments::<MANY_CORNERS, MANY_FACES>(pose, axis)).flatten()
+}
+
+/// The same with room for so many faces; `None` where that is too little.
+fn by_moments<const CORNERS: usize, const FACES: usize>(pose: &PolyhedronPose, axis: &Vec3) -> Option<Option<Depth>> {
     let (T, origin) = (frame_along(axis), pose.deepest(axis));
-    let faces = faces(pose, &T, &origin);
+    Some(of_faces(pose, &T, &origin, &faces::<CORNERS, FACES>(pose, &T, &origin)?))
+}
+
+fn of_faces<const CORNERS: usize, const FACES: usize>(
+    pose: &PolyhedronPose,
+    T: &Mat3,
+    origin: &Vec3,
+    faces: &Faces<CORNERS, FACES>,
+) -> Option<Depth> {
     let moments = faces.moments()?;
     let S = moments.variance;
     let inverse = S.try_inverse()?;
@@ -75,7 +112,7 @@ fn within(pose: &BoxPose, axis: &Vec3) -> Option<Depth> {
 }
 
 /// What is left where rounding has eaten the shape of the overlap: the axis, at the corner that is deepest.
-fn slab(pose: &BoxPose, axis: &Vec3, depth: f64) -> Depth {
+fn slab(pose: &PolyhedronPose, axis: &Vec3, depth: f64) -> Depth {
     let c = pose.deepest(axis);
     Depth { D: depth, g: -stack(axis, &(c - pose.y).cross(axis)), c, lever: 0.0 }
 }

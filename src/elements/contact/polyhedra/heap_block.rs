@@ -1,0 +1,162 @@
+//! Polyhedra among themselves as a block of elements, one for each, and as pairs for the matrix.
+
+use super::heap::{PolyhedronHeap, SLOTS};
+use super::pair::{PairForce, PairKinematics, PolyhedronPair};
+use super::tangent::{spread, tangent};
+use super::update::update_pair;
+use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::contact::history::PointHistory;
+use crate::elements::wandering::{Partners, Wandering};
+use crate::materials::Dissipation;
+use crate::state::{Configuration, Node};
+
+/// A pair that touches: the two by number, the pair, and what it remembers.
+pub(super) struct HeapTouch<'a> {
+    pub pair: PolyhedronPair<'a>,
+    pub at: PairKinematics<'a>,
+    pub acting: PairForce,
+    old: PointHistory<'a>,
+    numbers: [usize; 2],
+}
+
+impl PolyhedronHeap {
+    /// Calls with each pair that touches.
+    pub(super) fn each_touch<'a>(&'a self, now: &Configuration<'a>, mut act: impl FnMut(HeapTouch<'a>)) {
+        if now.history.is_empty() {
+            return;
+        }
+        self.each_near(now.nodes, self.law.touching, |e, other| {
+            let (pair, old) = (self.pair(e, other), self.memory(now.history, e, other));
+            if let Some((at, acting)) = pair.touch(old, now) {
+                act(HeapTouch { pair, at, acting, old, numbers: [e, other] });
+            }
+        });
+    }
+}
+
+impl ElementBlock for PolyhedronHeap {
+    fn len(&self) -> usize {
+        self.solids.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        std::slice::from_ref(&self.solids[e].node)
+    }
+
+    fn dofs(&self) -> usize {
+        6
+    }
+
+    fn further_nodes(&self) -> (&[usize], bool) {
+        (&self.involved, true)
+    }
+
+    fn history(&self) -> usize {
+        SLOTS * self.width * self.solids.len()
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        self.each_touch(now, |touch| spread(&touch.pair, &touch.at, &touch.acting, F));
+    }
+
+    /// Pairs have tangents, and not solids: see [`Wandering::pair_tangents`].
+    fn tangent(&self, _: usize, _: &Configuration, _: f64, _: Moduli, K: &mut [f64]) {
+        K.fill(0.0);
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
+        let mut spent = Dissipation::default();
+        history.fill(0.0);
+        let width = SLOTS * self.width;
+        let mut kept: usize = 0;
+        let mut last = usize::MAX;
+        self.each_near(now.nodes, self.margin, |e, other| {
+            let pair = self.pair(e, other);
+            if pair.kinematics(now.nodes).pose.least_axis().gap > self.margin {
+                return;
+            }
+            if e != last {
+                (kept, last) = (0, e);
+            }
+            if kept == SLOTS {
+                return;
+            }
+            let new = &mut history[e * width + kept * self.width..e * width + (kept + 1) * self.width];
+            new[0] = (other + 1) as f64;
+            spent += update_pair(&pair, self.memory(now.history, e, other), now, part, &mut new[1..]);
+            kept += 1;
+        });
+        spent += self.let_go(now, part, history);
+        spent
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let mut stored = 0.0;
+        self.each_touch(now, |touch| stored += touch.pair.energy(&touch.acting));
+        stored
+    }
+
+    fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
+        true
+    }
+
+    fn wandering(&self) -> Option<&dyn Wandering> {
+        Some(self)
+    }
+
+    fn as_any(&self) -> Option<&dyn std::any::Any> {
+        Some(self)
+    }
+}
+
+impl PolyhedronHeap {
+    /// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
+    fn let_go(&self, now: &Configuration, part: f64, new: &[f64]) -> Dissipation {
+        let mut spent = Dissipation::default();
+        for e in 0..self.solids.len() {
+            let (old, new) = (self.of_solid(e, now.history), self.of_solid(e, new));
+            for slot in 0..SLOTS {
+                let (Some(other), motion) = self.slot(old, slot) else { continue };
+                if motion.is_known() && self.slot_of(new, other).is_none() {
+                    let pull = if self.law.friction > 0.0 { motion.friction_force() } else { 0.0 };
+                    spent.friction += 0.5 * pull * pull / self.law.stiffness;
+                    spent.impact += 0.5 * part * now.dt * motion.damping_power();
+                }
+            }
+        }
+        spent
+    }
+}
+
+impl Wandering for PolyhedronHeap {
+    fn partners(&self, nodes: &[Node]) -> Partners {
+        let mut partners = Partners::default();
+        self.each_near(nodes, 2.0 * self.margin, |e, other| {
+            partners.push([e, other], [e, other].into_iter().map(|k| self.solids[k].node));
+        });
+        partners
+    }
+
+    fn has_room(&self, partners: &Partners, now: &Configuration) -> bool {
+        let mut has = true;
+        self.each_touch(now, |touch| has &= partners.place(touch.numbers).is_some());
+        has
+    }
+
+    fn pair_tangents(
+        &self,
+        partners: &Partners,
+        now: &Configuration,
+        rate_weight: f64,
+        K: &mut [f64],
+        add: &mut dyn FnMut(usize, &mut [f64]),
+    ) {
+        self.each_touch(now, |touch| {
+            let Some(place) = partners.place(touch.numbers) else { return };
+            let K = &mut K[..144];
+            K.fill(0.0);
+            tangent(&touch.pair, touch.old, now, rate_weight, K);
+            add(place, K);
+        });
+    }
+}

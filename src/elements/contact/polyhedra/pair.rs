@@ -1,0 +1,202 @@
+//! Two polyhedra on two bodies, or on a body and the ground: where they lie, and the force between them.
+
+use super::depth::{Depth, SHALLOW, depth};
+use super::memory::Memory;
+use super::pose::PolyhedronPose;
+use super::rubbing::{Rubbing, rubbing};
+use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::restitution::{Loss, NormalForce, normal_force};
+use crate::elements::contact::surface::Surface;
+use crate::math::polyhedron::Polyhedron;
+use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, stack};
+use crate::state::{Configuration, Node};
+use std::sync::Arc;
+
+/// A face that lies on another acts as the four corners it has.
+const POINTS: f64 = 4.0;
+
+/// Depth, as a part of their size, at which those are taken to rest on each other that were drawn face to face.
+const RESTING: f64 = 1e-6;
+
+/// A polyhedron that touches others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TouchingPolyhedron {
+    /// The node of its body, at its centre.
+    pub node: usize,
+    /// The shape, in the axes of the body.
+    pub shape: Arc<Polyhedron>,
+}
+
+/// A polyhedron that is touched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CarriedPolyhedron {
+    /// The node that carries it.
+    pub node: usize,
+    /// Its centre from the node, in the frame of the node.
+    pub center: Vec3,
+    /// Its axes (columns), in the frame of the node.
+    pub axes: Mat3,
+    /// The shape, in these axes.
+    pub shape: Arc<Polyhedron>,
+}
+
+impl CarriedPolyhedron {
+    /// The polyhedron that a surface is; `None` where it is none.
+    pub fn of_surface(surface: &Surface, node: usize) -> Option<Self> {
+        let shape = surface.as_polyhedron()?;
+        Some(CarriedPolyhedron { node, center: surface.center, axes: surface.axes, shape })
+    }
+
+    /// The one that touches, where others touch it.
+    pub fn of_body(one: &TouchingPolyhedron) -> Self {
+        CarriedPolyhedron { node: one.node, center: Vec3::zeros(), axes: Mat3::identity(), shape: one.shape.clone() }
+    }
+}
+
+/// The law for the whole of a face, of that for a corner.
+pub(super) fn law_of_faces(law: ContactLaw) -> ContactLaw {
+    let loss = match law.loss {
+        Loss::Damping(c) => Loss::Damping(POINTS * c),
+        other => other,
+    };
+    ContactLaw { stiffness: POINTS * law.stiffness, loss, ..law }
+}
+
+/// The number of history variables of a pair.
+pub(super) fn width(law: &ContactLaw) -> usize {
+    if law.friction > 0.0 { super::memory::WIDTH } else { FRICTION_FORCE }
+}
+
+/// Two polyhedra and the law between them.
+#[derive(Clone, Copy)]
+pub(in crate::elements::contact) struct PolyhedronPair<'a> {
+    /// The law, for the whole of a face.
+    pub law: &'a ContactLaw,
+    /// The one that touches.
+    pub one: &'a TouchingPolyhedron,
+    /// The one that is touched.
+    pub other: &'a CarriedPolyhedron,
+}
+
+/// A pair at an instant. E is the frame of the one that is touched: its columns are its axes, global components.
+#[derive(Clone, Copy)]
+pub(in crate::elements::contact) struct PairKinematics<'a> {
+    /// The frame of the one that is touched.
+    pub E: Mat3,
+    /// Position of the one body less that of the carrier, global components.
+    pub d: Vec3,
+    /// The position of the one relative to the other, in E.
+    pub pose: PolyhedronPose<'a>,
+    /// Velocity of the one body relative to the frame E that moves with the carrier, and relative angular velocity, in E.
+    pub rates: Vec6,
+}
+
+impl PairKinematics<'_> {
+    /// Force and moment on the one body, global components.
+    pub fn global(&self, W: &Vec6) -> (Vec3, Vec3) {
+        (self.E * linear(W), self.E * angular(W))
+    }
+}
+
+/// The force of a pair at an instant.
+pub(in crate::elements::contact) struct PairForce {
+    /// The depth D with its derivatives.
+    pub depth: Depth,
+    /// Ḋ, per time.
+    pub rate: f64,
+    /// The normal force.
+    pub normal: NormalForce,
+    /// The friction; `None` where there is none.
+    pub rubbing: Option<Rubbing>,
+    /// Force and moment on the one body at its node, in E.
+    pub W: Vec6,
+}
+
+impl<'a> PolyhedronPair<'a> {
+    /// Where the two are to each other, and how they move.
+    pub fn kinematics(&self, nodes: &[Node]) -> PairKinematics<'a> {
+        let (one, carrier) = (&nodes[self.one.node], &nodes[self.other.node]);
+        let d = one.relative_position(carrier);
+        let R = carrier.R();
+        let E = R * self.other.axes;
+        let w = one.v - carrier.v - carrier.omega.cross(&d);
+        let rates = stack(&E.tr_mul(&w), &E.tr_mul(&(one.omega - carrier.omega)));
+        let y = self.other.axes.tr_mul(&(R.tr_mul(&d) - self.other.center));
+        let pose = PolyhedronPose { y, Q: E.tr_mul(&one.R()), own: &self.one.shape, other: &self.other.shape };
+        PairKinematics { E, d, pose, rates }
+    }
+
+    /// The force; `None` where the two are apart.
+    pub fn force(&self, at: &PairKinematics, old: PointHistory) -> Option<PairForce> {
+        let depth = depth(&at.pose, self.law.touching)?;
+        let rate = depth.g.dot(&at.rates);
+        let speed = match old.is_known() {
+            true if old.gap() <= 0.0 => old.impact_speed().max(rate),
+            true => old.rate().max(rate),
+            false => rate,
+        };
+        let law = self.law;
+        let normal = normal_force(law.stiffness, &law.loss, depth.D, rate, speed);
+        let mut W = -normal.force * depth.g;
+        let rubs = law.friction > 0.0 && old.is_known();
+        let rubbing = rubs.then(|| rubbing(law, &at.pose, &depth, normal.force, &Memory::read(old))).flatten();
+        if let Some(rubbing) = &rubbing {
+            W += rubbing.W;
+        }
+        Some(PairForce { depth, rate, normal, rubbing, W })
+    }
+
+    /// Derivatives of the force W by the motion (u, ψ) at fixed rates, and by the rates.
+    ///
+    /// The first are central differences: the solid that the two have in common has exact moments and first derivatives, and
+    /// differences over a small part of its thickness are exact to some 1e-8, which no formula in closed form would better by much.
+    pub fn derivatives(&self, at: &PairKinematics, acting: &PairForce, old: PointHistory) -> [Mat6; 2] {
+        let (g, normal) = (&acting.depth.g, &acting.normal);
+        let mut by_rates = -normal.by_rate * g * g.transpose();
+        if let Some(rubbing) = &acting.rubbing {
+            by_rates += normal.by_rate * rubbing.by_N * g.transpose();
+        }
+        let size = at.pose.size();
+        // What only begins to touch, or is about to part, has the stiffness of the normal force alone.
+        let stiffness = || -normal.by_depth * g * g.transpose();
+        let (mut at, mut D) = (*at, acting.depth.D);
+        if D < 2.0 * SHALLOW * size {
+            if self.law.dynamic {
+                return [stiffness(), by_rates];
+            }
+            // In statics nothing else may hold what was put on another: it has the stiffness of one that rests there.
+            at.pose = at.pose.pushed_in(&at.pose.least_axis(), RESTING * size);
+            D = RESTING * size;
+        }
+        let h = (1e-4 * D).max(1e-10 * size);
+        let mut by_motion = Mat6::zeros();
+        for k in 0..6 {
+            let step = if k < 3 { h } else { h / size };
+            let moved = |step: f64| {
+                let pose = at.pose.moved(k, step);
+                self.force(&PairKinematics { pose, ..at }, old).map(|force| force.W)
+            };
+            let (Some(ahead), Some(behind)) = (moved(step), moved(-step)) else { return [stiffness(), by_rates] };
+            by_motion.set_column(k, &((ahead - behind) / (2.0 * step)));
+        }
+        [by_motion, by_rates]
+    }
+
+    /// The kinematics and the force; `None` where the two are apart or known to be far.
+    pub fn touch(&self, old: PointHistory, now: &Configuration) -> Option<(PairKinematics<'a>, PairForce)> {
+        if now.dt < old.safe_time() {
+            return None;
+        }
+        let at = self.kinematics(now.nodes);
+        let force = self.force(&at, old)?;
+        Some((at, force))
+    }
+
+    /// The energy of the springs of the normal force and of friction.
+    pub fn energy(&self, acting: &PairForce) -> f64 {
+        let k = self.law.stiffness;
+        let pull = acting.rubbing.as_ref().map_or(0.0, |rubbing| rubbing.pull);
+        0.5 * k * acting.depth.D * acting.depth.D + 0.5 * pull * pull / k
+    }
+}
