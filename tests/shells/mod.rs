@@ -19,3 +19,4 @@ mod stretched;
 mod symmetry;
 mod sze;
 mod sze_tables;
+mod torsion;

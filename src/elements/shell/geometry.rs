@@ -158,7 +158,7 @@ where
         camber,
         edges: K::EDGES.map(|[a, b]| EdgeTangents::new(&(X[b] - X[a]), [&T[a], &T[b]])),
         start: Strains { plane: InPlane::ZERO, shear: [0.0; N] },
-        shear: shear_stiffness::<K, N, V, P>(&surface, plate),
+        shear: shear_stiffness::<K, N, V, P>(&surface, &D, plate),
         section: section(in_plane::<K, N, V, P, E>(&surface, plate, &from_fn(|a| e.bulge[a]))),
     };
     shell.start = shell.measure::<K, true>(&NodalVectors { x: X, turning: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
@@ -168,9 +168,13 @@ where
 /// True for an element along an edge of which the surface turns, over the length of it, by more than half the thickness, and that is
 /// not so slender that tension bends it between its nodes, see [`super::camber`].
 fn is_curved<const N: usize>(X: &[Vec3; N], D: &[Vec3; N], edges: [[usize; 2]; N], thickness: f64) -> bool {
-    let lengths = edges.map(|[a, b]| (X[b] - X[a]).norm());
-    let turns = edges.into_iter().zip(lengths).any(|([a, b], L)| (D[b] - D[a]).norm() * L > FLAT * thickness);
-    turns && lengths.into_iter().all(|L| L <= SLENDER * thickness)
+    let mut lengths = edges.into_iter().map(|[a, b]| (X[b] - X[a]).norm());
+    most_turn(X, D, edges) > FLAT * thickness && lengths.all(|L| L <= SLENDER * thickness)
+}
+
+/// The largest turn of the surface along an edge times its length.
+fn most_turn<const N: usize>(X: &[Vec3; N], D: &[Vec3; N], edges: [[usize; 2]; N]) -> f64 {
+    edges.into_iter().map(|[a, b]| (D[b] - D[a]).norm() * (X[b] - X[a]).norm()).fold(0.0, f64::max)
 }
 
 /// w Aᵀ C A by rows.
@@ -211,15 +215,20 @@ where
 /// Stiffness of the shear strains at the edges.
 fn shear_stiffness<K: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize>(
     ElementSurface { X, points, .. }: &ElementSurface<N, V>,
+    D: &[Vec3; N],
     plate: &Plate,
 ) -> [[f64; N]; N] {
     let (h, G) = (plate.thickness, plate.shear_modulus());
     let mut shear = [[0.0; N]; N];
     let area: f64 = points.iter().map(|point| point.weight).sum();
+    let turn = most_turn(X, D, K::EDGES) / h;
     let flexible = K::EDGES.map(|[a, b]| {
         let length = (X[b] - X[a]).norm_squared();
-        let span = if K::SPANS_WIDTH { length.min(area * area / length) } else { length };
-        h / (h * h + K::FLEXIBILITY * span).sqrt()
+        let alpha_span = match K::BENDS_WHERE_CURVED {
+            true => K::FLEXIBILITY * turn * turn / (1.0 + turn * turn) * length.min(area * area / length),
+            false => K::FLEXIBILITY * length,
+        };
+        h / (h * h + alpha_span).sqrt()
     });
     for point in points {
         let edges = K::shear(point.at);
