@@ -582,3 +582,45 @@ fn edges_and_corners_give_back_what_they_should() {
         assert!((on_block - on_plane).abs() < 0.02 * 5.0, "{on_block} {on_plane} for {e}");
     }
 }
+
+/// Many small boxes close to each other on a floor thousands of times as large, which stands last in the deck: each rubs on the floor, though within
+/// a tenth of the mean size it has more neighbours than it can remember.
+#[test]
+fn many_that_are_close_still_rub() {
+    let (mut bodies, mut names) = (String::new(), Vec::new());
+    for k in 0..64 {
+        let [x, y] = [k % 8, k / 8].map(|i| 0.11 * f64::from(i));
+        bodies += &format!(
+            "[[bodies]]\nname = \"b{k}\"\ncenter = [{x:?}, {y:?}, 0.05]\nmass = 1.0\nshape = {{ kind = \"box\", size = [0.1, 0.1, 0.1] }}\n"
+        );
+        names.push(format!("b{k}"));
+    }
+    names.push("floor".to_owned());
+    let text = format!(
+        r#"
+        analysis = {{ kind = "dynamic", end_time = 0.1, time_step = 5e-4 }}
+        integrator = {{ scheme = "central-difference" }}
+        environment = {{ gravity = [2.0, 0.0, -10.0] }}
+        supports = [{{ at = "floor", fix = "all" }}]
+        {bodies}
+        [[bodies]]
+        name = "floor"
+        center = [0.0, 0.0, -1.0]
+        mass = 1e3
+        shape = {{ kind = "box", size = [400.0, 400.0, 2.0] }}
+        [[contacts]]
+        name = "heap"
+        among = {names:?}
+        stiffness = 1e5
+        damping = 200.0
+        friction = 0.4
+        "#
+    );
+    let done = go(&text, &mut |frame| frame.state.nodes[..64].iter().map(|node| node.x.x).collect());
+    let (first, last) = (&done.rows[0], done.rows.last().expect("a row"));
+    let way = first.iter().zip(last).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    println!("{way}");
+    // Free they would slide by ½ 2 · 0.1² = 0.01; what sticks stretches its spring by 2 m/4k = 5e-6, and while the weight, which comes at
+    // once, bounces, slips some times as much.
+    assert!(way < 2e-4, "{way}");
+}

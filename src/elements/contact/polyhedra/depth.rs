@@ -23,7 +23,7 @@ pub const SHALLOW: f64 = 1e-8;
 pub struct Depth {
     /// The depth.
     pub D: f64,
-    /// Its derivative by a displacement of the one box and a rotation about its centre, in the axes of the other.
+    /// Its derivative by a displacement of the one and a rotation about its centre, in the axes of the other.
     pub g: Vec6,
     /// Centre of what they have in common.
     pub c: Vec3,

@@ -23,8 +23,9 @@ pub struct PolyhedronHeap {
     joined: Vec<[usize; 2]>,
     /// Their nodes.
     pub(super) involved: Vec<usize>,
-    /// Pairs nearer than this are remembered; lists hold while nothing has moved by more than twice as much.
+    /// No pair farther apart than this is remembered; lists hold while nothing has moved by more.
     pub(super) margin: f64,
+    /// The size of the cells in which neighbours are looked for.
     cell: f64,
     /// Number of history variables of a pair: the number of the other plus one, 0 for none, then those of the pair.
     pub(super) width: usize,
@@ -49,10 +50,13 @@ impl PolyhedronHeap {
     pub fn new(law: ContactLaw, solids: Vec<TouchingPolyhedron>, joined: Vec<[usize; 2]>) -> Self {
         let law = ContactLaw { near: f64::INFINITY, ..law_of_faces(law) };
         let others = solids.iter().map(CarriedPolyhedron::of_body).collect();
-        let mean = solids.iter().map(|one| one.shape.reach()).sum::<f64>() / solids.len().max(1) as f64;
+        // The usual size: a floor among many stones does not count.
+        let mut sizes: Vec<f64> = solids.iter().map(|one| one.shape.reach()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
         let mut involved: Vec<usize> = solids.iter().map(|one| one.node).collect();
         involved.sort_unstable();
-        let (margin, cell, width) = (0.1 * mean, 3.0 * mean, 1 + width(&law));
+        let (margin, cell, width) = (0.1 * usual, 3.0 * usual, 1 + width(&law));
         PolyhedronHeap { law, solids, others, joined, involved, margin, cell, width, nearby: Mutex::default() }
     }
 
@@ -120,7 +124,12 @@ impl PolyhedronHeap {
         d.norm() - one.shape.reach() - other.shape.reach()
     }
 
-    /// Calls with each pair whose balls are nearer than a limit, which is no larger than twice the margin, and the slot that it has.
+    /// The gap below which a pair is remembered, of which this is the smaller: however large the others, few are so near.
+    pub(super) fn memorable(&self, e: usize) -> f64 {
+        self.margin.min(0.1 * self.solids[e].shape.reach())
+    }
+
+    /// Calls with each pair whose balls are nearer than a limit, which is no larger than twice the margin.
     pub(super) fn each_near(&self, nodes: &[Node], limit: f64, mut act: impl FnMut(usize, usize)) {
         let nearby = self.nearby(nodes);
         for e in 0..self.solids.len() {

@@ -72,16 +72,19 @@ impl ElementBlock for PolyhedronHeap {
         let mut last = usize::MAX;
         self.each_near(now.nodes, self.margin, |e, other| {
             let pair = self.pair(e, other);
-            if pair.kinematics(now.nodes).pose.least_axis().gap > self.margin {
+            let gap = pair.kinematics(now.nodes).pose.least_axis().gap;
+            if gap > self.memorable(e) {
                 return;
             }
             if e != last {
                 (kept, last) = (0, e);
             }
-            if kept == SLOTS {
-                return;
-            }
-            let new = &mut history[e * width + kept * self.width..e * width + (kept + 1) * self.width];
+            let own = &mut history[e * width..(e + 1) * width];
+            // Where there is no room, what touches takes that of what does not.
+            let free = || (0..SLOTS).find(|&slot| self.slot(own, slot).1.gap() > 0.0).filter(|_| gap <= 0.0);
+            let Some(slot) = Some(kept).filter(|&kept| kept < SLOTS).or_else(free) else { return };
+            let new = &mut own[slot * self.width..(slot + 1) * self.width];
+            new.fill(0.0);
             new[0] = (other + 1) as f64;
             spent += update_pair(&pair, self.memory(now.history, e, other), now, part, &mut new[1..]);
             kept += 1;
