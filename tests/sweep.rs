@@ -223,6 +223,168 @@ fn a_killed_case_goes_on_from_its_checkpoint() {
     }
 }
 
+/// A case that a signal stops goes on from there, whether the deck asks for checkpoints or not, by the same command.
+#[test]
+#[cfg(unix)]
+fn a_stopped_case_goes_on() {
+    let folder = files(&SWEEP.replace("steps = 5", "steps = 1").replace("[1.0, 2.0, 4.0]", "[1.0, 2.0]"));
+    let folder = folder.path();
+    let long = DECK.replace("end_time = 1.0", "end_time = 400.0").replace("[output]", "[output]\nevery = 500");
+    fs::write(folder.join("deck.toml"), long).unwrap();
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "alone"]).status.success());
+    let cases = rows(folder, "alone/cases.csv");
+    let case = |out: &str, number: usize| folder.join(out).join(&cases[number][1]);
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
+    command.current_dir(folder).args(["sweep", "s.toml", "-o", "stopped", "--jobs", "1"]).stdout(Stdio::null());
+    let mut process = command.stderr(Stdio::piped()).spawn().unwrap();
+    // The first row of results is written when the steps have begun.
+    while !fs::read_to_string(case("stopped", 1).join("bodies.csv")).is_ok_and(|rows| rows.lines().count() > 2) {
+        assert!(process.try_wait().unwrap().is_none(), "it came to its end before it was stopped");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    std::process::Command::new("kill").args(["-TERM", &process.id().to_string()]).status().unwrap();
+    let output = process.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(75), "{}", text(&output.stderr));
+    assert!(text(&output.stderr).contains("the same command goes on"));
+    assert!(case("stopped", 1).join("run.checkpoint").exists() && !case("stopped", 2).exists());
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "stopped", "--jobs", "1"]).status.success());
+    let log = fs::read_to_string(case("stopped", 1).join("run.log")).unwrap();
+    assert!(log.contains("the run goes on from its checkpoint"), "{log}");
+    for number in [1, 2] {
+        let [alone, stopped] = ["alone", "stopped"].map(|out| {
+            let files = fs::read_dir(case(out, number)).unwrap().map(|entry| entry.unwrap().file_name());
+            let mut names: Vec<_> = files.collect();
+            names.sort();
+            (names, fs::read(case(out, number).join("bodies.csv")).unwrap())
+        });
+        assert!(alone == stopped, "case {number}");
+    }
+    let summary = |out: &str| fs::read(folder.join(out).join("summary.csv")).unwrap();
+    assert!(summary("alone") == summary("stopped"));
+}
+
+/// A signal that comes while a case reads its mesh ends the sweep before anything of the case is written.
+#[test]
+#[cfg(unix)]
+fn a_signal_is_heard_while_a_mesh_is_read() {
+    let folder = files("deck = \"deck.toml\"\n[vary]\n\"shells.plate.thickness\" = [0.002, 0.003]\n");
+    let folder = folder.path();
+    let side = 150;
+    let node = |i: usize, j: usize| j * (side + 1) + i + 1;
+    let mut mesh = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 1 \"plate\"\n$EndPhysicalNames\n$Nodes\n{}\n",
+        node(side, side)
+    );
+    for (j, i) in (0..=side).flat_map(|j| (0..=side).map(move |i| (j, i))) {
+        mesh += &format!("{} {i}.0 {j}.0 0.0\n", node(i, j));
+    }
+    mesh += &format!("$EndNodes\n$Elements\n{}\n", side * side);
+    for (j, i) in (0..side).flat_map(|j| (0..side).map(move |i| (j, i))) {
+        let corners = [node(i, j), node(i + 1, j), node(i + 1, j + 1), node(i, j + 1)];
+        let [a, b, c, d] = corners;
+        mesh += &format!("{} 3 2 1 1 {a} {b} {c} {d}\n", j * side + i + 1);
+    }
+    mesh += "$EndElements\n";
+    fs::write(folder.join("plate.msh"), mesh).unwrap();
+    fs::write(
+        folder.join("deck.toml"),
+        "[mesh]\nfile = \"plate.msh\"\n[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.1\n[materials.steel]\n\
+         model = \"elastic\"\nyoungs_modulus = 210e9\npoisson_ratio = 0.3\ndensity = 7850.0\n[[shells]]\nname = \"plate\"\ngroup = \"plate\"\n\
+         material = \"steel\"\nthickness = 0.002\n[environment]\ngravity = [0.0, 0.0, -9.81]\n",
+    )
+    .unwrap();
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
+    command.current_dir(folder).args(["sweep", "s.toml", "--jobs", "1"]).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut process = command.spawn().unwrap();
+    let cases = || fs::read_dir(folder.join("s.out")).into_iter().flatten().flatten().filter(|e| e.path().is_dir());
+    while cases().count() == 0 {
+        assert!(process.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    std::process::Command::new("kill").args(["-TERM", &process.id().to_string()]).status().unwrap();
+    let output = process.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(75), "{}", text(&output.stderr));
+    assert_eq!(cases().count(), 1);
+    let left: Vec<_> = cases().flat_map(|case| fs::read_dir(case.path()).unwrap()).flatten().collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+/// The deck with a load that follows a record.
+fn with_record(folder: &Path, record: &str, end_time: &str) {
+    let load = "[amplitudes.pull]\nkind = \"table\"\nfile = \"pull.csv\"\n[[loads]]\nat = \"block\"\nforce = [0.0, 0.0, 1.0]\namplitude = \"pull\"\n";
+    let deck = format!("{}{load}", DECK.replace("end_time = 1.0", &format!("end_time = {end_time}\n")));
+    fs::write(folder.join("deck.toml"), deck).unwrap();
+    fs::write(folder.join("pull.csv"), record).unwrap();
+}
+
+/// A record that is edited is another one, though its length and its time stay: by what it holds the cases are known.
+#[test]
+fn an_edited_record_is_noticed() {
+    let folder = files(&SWEEP.replace("steps = 5", "steps = 1"));
+    let folder = folder.path();
+    let record = |last: &str| format!("t,f\n0.0,0.0\n1.0,{last}\n");
+    let mut ends = Vec::new();
+    let mut stamp = None;
+    for last in ["1.0", "9.0"] {
+        with_record(folder, &record(last), "1.0");
+        let file = fs::OpenOptions::new().write(true).open(folder.join("pull.csv")).unwrap();
+        file.set_modified(*stamp.get_or_insert_with(std::time::SystemTime::now)).unwrap();
+        assert!(rdsolve(folder, &["sweep", "s.toml"]).status.success());
+        ends.push(rows(folder, "s.out/summary.csv")[1][5].parse::<f64>().unwrap());
+        let resumed = rdsolve(folder, &["run", "deck.toml", "--resume", "--quiet"]);
+        assert_eq!(resumed.status.code(), Some(if last == "1.0" { 0 } else { 2 }), "{}", text(&resumed.stderr));
+    }
+    assert!((ends[0] - ends[1]).abs() > 1e-4, "{ends:?}");
+}
+
+/// A record that changes while the sweep is under way is not taken for the one by which the folders of its cases are named.
+#[test]
+fn a_record_that_changes_on_the_way_is_said() {
+    let folder = files(&SWEEP.replace("steps = 5", "steps = 1"));
+    let folder = folder.path();
+    with_record(folder, "t,f\n0.0,0.0\n1.0,1.0\n", "200.0");
+    let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
+    command.current_dir(folder).args(["sweep", "s.toml", "--jobs", "1"]).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut process = command.spawn().unwrap();
+    let has_begun = || {
+        let mut entries = fs::read_dir(folder.join("s.out")).into_iter().flatten().flatten();
+        entries.any(|entry| entry.path().join("bodies.csv").exists())
+    };
+    while !has_begun() {
+        assert!(process.try_wait().unwrap().is_none());
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    fs::write(folder.join("pull.csv"), "t,f\n0.0,0.0\n1.0,2.0\n").unwrap();
+    let output = process.wait_with_output().unwrap();
+    let said = text(&output.stderr);
+    assert!(output.status.code() == Some(4) && said.contains("`pull.csv` has changed since the sweep began"), "{said}");
+    assert!(rdsolve(folder, &["sweep", "s.toml"]).status.success());
+}
+
+/// Nothing but results is left in the folders of a sweep, also where processes were killed.
+#[test]
+fn no_lock_is_left() {
+    let folder = files(&SWEEP.replace("steps = 5", "steps = 60"));
+    let folder = folder.path();
+    let program = assert_cmd::cargo::cargo_bin("rdsolve");
+    for wait in [20, 60] {
+        let mut command = std::process::Command::new(&program);
+        command.current_dir(folder).args(["sweep", "s.toml", "--jobs", "2"]).stdout(Stdio::null());
+        let mut process = command.spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(wait));
+        process.kill().unwrap();
+        process.wait().unwrap();
+    }
+    assert!(rdsolve(folder, &["sweep", "s.toml"]).status.success());
+    let within = |path: &Path| -> Vec<std::path::PathBuf> {
+        fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()).collect()
+    };
+    let top = within(&folder.join("s.out"));
+    let files = top.iter().filter(|path| path.is_dir()).flat_map(|path| within(path)).chain(top.iter().cloned());
+    let left: Vec<_> = files.filter(|path| path.to_string_lossy().ends_with(".lock")).collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
 /// Cases that fail are told with their reasons and leave the others alone; they can be run again by themselves.
 #[test]
 fn failures_are_listed_and_run_again() {

@@ -31,9 +31,17 @@ impl Begins {
     }
 }
 
-/// What checkpoints of this deck belong to.
-pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin {
-    let hex = |digest: &[u8]| digest.iter().map(|byte| format!("{byte:02x}")).collect::<String>();
+/// The digest of what the text of a deck says that a checkpoint depends on.
+pub fn deck_digest(text: &str) -> String {
+    hex(&Sha256::digest(what_must_stay(text)))
+}
+
+fn hex(digest: &[u8]) -> String {
+    digest.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+/// What checkpoints of this deck belong to; `deck` is its [`deck_digest`].
+pub fn checkpoint_origin(loaded: &Loaded, deck: String, mesh_error: bool) -> CheckpointOrigin {
     let origin = &loaded.model.origin;
     // As the deck names them, wherever it is run from.
     let folder = Path::new(&loaded.source.path).parent().unwrap_or(Path::new(""));
@@ -45,7 +53,7 @@ pub fn checkpoint_origin(loaded: &Loaded, mesh_error: bool) -> CheckpointOrigin 
     };
     CheckpointOrigin {
         version: VERSION.to_owned(),
-        deck: hex(&Sha256::digest(what_must_stay(&loaded.source.text))),
+        deck,
         sets: loaded.sets.iter().filter(|set| !is_free(set)).cloned().collect(),
         end_time: loaded.models().last().map_or(0.0, |model| model.analysis.end_time),
         is_over: false,

@@ -1,9 +1,10 @@
 //! `rdsolve run deck.toml`: reads a deck, plans the computation, steps through it and writes the results.
 
+use std::collections::HashMap;
 use std::io::{self, ErrorKind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use super::arguments::{MAX_THREADS, RunArgs};
@@ -13,7 +14,7 @@ use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
-use super::resume::{Begins, checkpoint_origin, resume};
+use super::resume::{Begins, checkpoint_origin, deck_digest, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
 use super::stages::{StageRunner, StagesTold};
 use super::verdict::{End, end, error_bars_in_words, line};
@@ -47,7 +48,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     }
     let mut loaded = load(&args.deck, &args.sets, Vec::new())?;
     let folder = args.output.clone().unwrap_or_else(|| named_after(&args.deck, "out"));
-    let origin = checkpoint_origin(&loaded, args.mesh_error);
+    let origin = checkpoint_origin(&loaded, deck_digest(&loaded.source.text), args.mesh_error);
     let begins = match args.resume {
         true => resume(&folder, &origin, &loaded.hash)?,
         false => require_free(&folder, args.overwrite).map(|()| Begins::Anew)?,
@@ -76,6 +77,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         folder: &folder,
         overwrite: args.overwrite || args.resume,
         checkpoints: Some(checkpoints),
+        marks: true,
         quiet: args.quiet,
         mesh_error: args.mesh_error,
         threads,
@@ -87,6 +89,7 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     };
     let computed = stop_on_signals(&stop).and_then(|()| {
         drop(reading);
+        let _lock = FolderLock::make(&folder)?;
         job.compute(&mut run, begins.checkpoint())
     });
     let (end, result, energy) = computed.map_err(|error| {
@@ -96,24 +99,40 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     job.conclude(&end, &result, energy)
 }
 
-/// Runs a variant of a deck on one thread, without a word, into a folder of its own. Where the deck asks for checkpoints, it goes on from the
-/// one that a run which was stopped or killed has left.
+/// A variant of a deck that is one case of a sweep.
+pub struct Case<'a> {
+    /// Its overrides.
+    pub sets: &'a [String],
+    /// Its folder, whose lock is held.
+    pub folder: &'a Path,
+    /// The [`deck_digest`] of its deck.
+    pub deck: &'a str,
+    /// The digests of the files that the sweep has found when it began.
+    pub files: &'a HashMap<PathBuf, Vec<u8>>,
+}
+
+/// Runs a variant of a deck on one thread, without a word, into a folder of its own, and leaves its result unmarked. It goes on from the
+/// checkpoint that a run which was stopped, or killed where the deck asks for checkpoints, has left.
 ///
 /// # Errors
 /// What has kept it from running: errors of the deck as text, or one of input/output.
-pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBool) -> Result<Status, CaseFault> {
+pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status, CaseFault> {
+    let Case { sets, folder, deck, files } = *case;
     let began = Instant::now();
     let faults = |problems: &[Diagnostic], source: &Source| {
         let errors = problems.iter().filter(|problem| problem.is_error());
         CaseFault::Deck(errors.map(|problem| problem.draw(source, false)).collect::<Vec<_>>().join("\n"))
     };
     let mut loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
+    go_on_unless(stop)?;
+    refuse_changed(&loaded, files)?;
     let read_s = began.elapsed().as_secs_f64();
     let planning = Instant::now();
     let (system, plan, warnings) = prepare(&mut loaded, 1).map_err(|unfit| match unfit {
         Unfit::System(error) => CaseFault::Deck(error),
         Unfit::Deck(problems) => faults(&problems, &loaded.source),
     })?;
+    go_on_unless(stop)?;
     loaded.warnings.extend(warnings);
     let made = || Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), stop);
     let made = || made().map_err(|error| CaseFault::Deck(error.to_string()));
@@ -121,11 +140,12 @@ pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBoo
         loaded: &loaded,
         folder,
         overwrite: true,
-        checkpoints: loaded.model.output.checkpoint.map(|apart| CheckpointsWanted {
-            origin: checkpoint_origin(&loaded, false),
-            apart: Some(apart),
+        checkpoints: Some(CheckpointsWanted {
+            origin: checkpoint_origin(&loaded, deck.to_owned(), false),
+            apart: loaded.model.output.checkpoint,
             keeps_last: false,
         }),
+        marks: false,
         quiet: true,
         mesh_error: false,
         threads: 1,
@@ -147,6 +167,27 @@ pub fn run_case(source: Source, sets: &[String], folder: &Path, stop: &AtomicBoo
     Ok(end.status)
 }
 
+/// Ends a case before anything of it is written where a signal has come while it was read or planned, which may take long.
+fn go_on_unless(stop: &AtomicBool) -> Result<(), CaseFault> {
+    if stop.load(Ordering::Relaxed) { Err(CaseFault::Stopped) } else { Ok(()) }
+}
+
+/// Refuses a case that has read other files than those by which its folder is named.
+fn refuse_changed(loaded: &Loaded, files: &HashMap<PathBuf, Vec<u8>>) -> Result<(), CaseFault> {
+    let origin = &loaded.model.origin;
+    let mesh = origin.mesh.iter().map(|mesh| (&mesh.path, mesh.digest));
+    let records = origin.records.iter().map(|record| (&record.path, record.digest));
+    let is_other = |(path, digest): &(&String, [u8; 32])| {
+        files.get(Path::new(path.as_str())).is_some_and(|found| found[..] != digest[..])
+    };
+    match mesh.chain(records).find(is_other) {
+        Some((path, _)) => Err(CaseFault::Deck(format!(
+            "`{path}` has changed since the sweep began: the same command runs the cases with what it holds now"
+        ))),
+        None => Ok(()),
+    }
+}
+
 /// The checkpoint of this origin in the folder of a case, if there is a whole one.
 fn left_over(folder: &Path, origin: &CheckpointOrigin) -> Option<Checkpoint> {
     Checkpoint::read(folder).ok().flatten().filter(|found| found.origin.difference(origin).is_none())
@@ -158,6 +199,8 @@ pub enum CaseFault {
     Deck(String),
     /// A file cannot be read or written.
     Io(io::Error),
+    /// A signal has come before its first step.
+    Stopped,
 }
 
 /// The plan in the lines that `check` prints.
@@ -192,6 +235,8 @@ struct Job<'a> {
     overwrite: bool,
     /// The checkpoints; `None` where none are written.
     checkpoints: Option<CheckpointsWanted>,
+    /// True where the result stands as soon as it is written; otherwise somebody else marks it, and removes the checkpoint.
+    marks: bool,
     quiet: bool,
     mesh_error: bool,
     threads: usize,
@@ -220,7 +265,7 @@ impl Job<'_> {
     /// Runs the scene, or what is left of it after a checkpoint, and writes its files; an error is one of input/output.
     fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Option<String>)> {
         let resumes = checkpoint.is_some();
-        let (_lock, log) = self.begin(resumes)?;
+        let log = self.begin(resumes)?;
         let mut watchers = self.watchers(log, resumes)?;
         let looping = Instant::now();
         let mut told = StagesTold::default();
@@ -268,27 +313,35 @@ impl Job<'_> {
             warnings,
             expectations,
         };
-        result.write(self.folder)?;
         let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
-        if self.checkpoints.is_some() && !serves {
-            Checkpoint::remove(self.folder)?;
-        }
+        self.leave(&result, serves)?;
         Ok((end, result, energy))
     }
 
-    /// Takes the folder, and says in the log what is run, or that it goes on.
-    fn begin(&self, resumes: bool) -> io::Result<(FolderLock, Log)> {
+    /// Writes the result, and takes away a checkpoint that no longer serves; whoever marks a case does both when its files are safe.
+    fn leave(&self, result: &RunResult, checkpoint_serves: bool) -> io::Result<()> {
+        if !self.marks {
+            return result.write_unmarked(self.folder);
+        }
+        result.write(self.folder)?;
+        match self.checkpoints {
+            Some(_) if !checkpoint_serves => Checkpoint::remove(self.folder),
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes the folder ready, and says in the log what is run, or that it goes on.
+    fn begin(&self, resumes: bool) -> io::Result<Log> {
         if resumes {
-            let lock = FolderLock::take(self.folder)?;
             let mut log = Log::open(self.folder, true)?;
             log.say(&format!("the run goes on from its checkpoint, instructions {}", instructions()))?;
-            return Ok((lock, log));
+            return Ok(log);
         }
-        let lock = claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;
+        claim(self.folder, self.overwrite, &self.loaded.models(), &self.loaded.files())?;
         let mut log = Log::open(self.folder, false)?;
         log.say(&[&self.origin().lines()[..], &self.plan].concat().join("\n"))?;
         self.warnings_of_deck().try_for_each(|warning| log.warn(warning))?;
-        Ok((lock, log))
+        Ok(log)
     }
 
     /// Who watches the run.

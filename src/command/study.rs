@@ -184,7 +184,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     stop_on_signals(&stop).map_err(|error| exit(error.into(), &loaded.source))?;
     drop(reading);
     let (model, options) = (&loaded.model, args.options(&folder));
-    let _lock = lock(&folder).map_err(|error| exit(error.into(), &loaded.source))?;
+    let _lock = FolderLock::make(&folder).map_err(|error| exit(error.into(), &loaded.source))?;
     let outcome = if args.rigidify {
         rigidify(model, &deck, &options, &stop).map(Outcome::of_advice)
     } else {
@@ -238,12 +238,6 @@ impl Outcome {
         };
         Outcome { text, stopped, any, lacking }
     }
-}
-
-/// Makes the folder of a study and locks it, for two studies in one folder would take each other's runs.
-fn lock(folder: &Path) -> std::io::Result<FolderLock> {
-    std::fs::create_dir_all(folder)?;
-    FolderLock::take(folder)
 }
 
 /// Says why there is no study, and gives the exit code.

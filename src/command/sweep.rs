@@ -5,13 +5,17 @@ use super::console::{complain, counted, print, say, show};
 use super::exit::Exit;
 use super::folder::named_after;
 use super::load::text;
-use super::run::{CaseFault, run_case};
-use super::signals::stop_on_signals;
+use super::resume::deck_digest;
+use super::run::{Case, CaseFault, run_case};
+use super::signals::{EndAtOnce, stop_on_signals};
 use super::version::VERSION;
 use crate::diagnostic::Source;
+use crate::output::result_json::Status;
+use crate::output::{SharedLock, replace};
 use crate::sweep::cases::Cases;
 use crate::sweep::file::{self, SweepFile};
 use crate::sweep::folder::{CaseState, FAILURE, SweepFolder};
+use crate::sweep::marks::{Computed, mark_all};
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use std::fs;
@@ -19,8 +23,9 @@ use std::io::{self, IsTerminal};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex};
 
 #[derive(Debug, Args)]
 #[command(
@@ -83,6 +88,7 @@ impl FromStr for Choice {
 /// # Errors
 /// The exit code of a sweep in which not all chosen cases stand; the reason has been shown.
 pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
+    let reading = EndAtOnce::on_signals();
     let (file, sweep_folder) = read(&args.sweep)?;
     let deck = sweep_folder.join(&file.deck);
     let deck_text = text(&deck)?;
@@ -103,8 +109,10 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     folder.write_cases(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
     let stop = Arc::new(AtomicBool::new(false));
     let sweep = Sweep { deck: &deck, text: &deck_text, cases: &cases, folder: &folder, stop: &stop, quiet: args.quiet };
+    // To write the summary is short and moves whole files in: it is brought to its end.
+    stop_on_signals(&stop).map_err(|error| cannot_write(&folder.path, &error))?;
+    drop(reading);
     if !args.collect {
-        stop_on_signals(&stop).map_err(|error| cannot_write(&folder.path, &error))?;
         sweep.run(&chosen, args.case == Some(Choice::Failed), jobs)?;
     }
     let states = folder.write_summary(&cases, &file.collect).map_err(|error| cannot_write(&folder.path, &error))?;
@@ -158,6 +166,16 @@ fn list(folder: &SweepFolder, cases: &Cases, chosen: &[usize]) -> Result<(), Exi
     print(&chosen.iter().map(line).collect::<String>())
 }
 
+/// What all threads of a sweep share.
+struct Pool<'p> {
+    /// True for a case that is still to be run.
+    is_open: &'p (dyn Fn(usize) -> bool + Sync),
+    /// The locks of the folders.
+    locks: &'p SharedLock,
+    /// The digest of what the deck says.
+    deck: &'p str,
+}
+
 /// A sweep that is under way.
 struct Sweep<'s> {
     deck: &'s Path,
@@ -177,52 +195,75 @@ impl Sweep<'_> {
             CaseState::Done | CaseState::Missed(_) => false,
         };
         let open: Vec<usize> = chosen.iter().copied().filter(|&case| is_open(case)).collect();
+        if open.is_empty() {
+            return Ok(());
+        }
+        let failed = |error: io::Error| cannot_write(&self.folder.path, &error);
+        let (locks, deck) = (SharedLock::new(&self.folder.path).map_err(&failed)?, deck_digest(self.text));
+        let pool = Pool { is_open: &is_open, locks: &locks, deck: &deck };
         let bar = self.bar(open.len());
-        let (next, fault) = (AtomicUsize::new(0), std::sync::Mutex::new(None));
-        let work = || {
+        // One disk that is full keeps all from running.
+        let (next, fault) = (AtomicUsize::new(0), Mutex::new(None));
+        let work = |done: &Sender<Computed>| {
             while let Some(&case) = open.get(next.fetch_add(1, Ordering::Relaxed)) {
                 if self.stop.load(Ordering::Relaxed) {
-                    return;
+                    return Ok(());
                 }
-                // Another process may have run it meanwhile.
-                if is_open(case)
-                    && let Err(error) = self.run_one(case)
-                {
-                    // One disk that is full keeps all from running.
-                    if let Ok(mut first) = fault.lock() {
-                        first.get_or_insert(error);
-                    }
-                    return;
+                match self.run_one(case, &pool)?.map(|computed| done.send(computed)) {
+                    // Whoever marks has failed, and says so.
+                    Some(Err(_)) => return Ok(()),
+                    Some(Ok(())) | None => bar.inc(1),
                 }
-                bar.inc(1);
+            }
+            Ok(())
+        };
+        let note = |ended: io::Result<()>| {
+            if let (Err(error), Ok(mut first)) = (ended, fault.lock()) {
+                first.get_or_insert(error);
             }
         };
-        std::thread::scope(|scope| (0..jobs.min(open.len())).for_each(|_| drop(scope.spawn(work))));
+        std::thread::scope(|scope| {
+            let (done, computed) = channel();
+            for _ in 0..jobs.min(open.len()) {
+                let (done, work, note) = (done.clone(), &work, &note);
+                scope.spawn(move || note(work(&done)));
+            }
+            drop(done);
+            note(mark_all(&self.folder.path, &computed));
+        });
         bar.finish_and_clear();
-        match fault.into_inner().ok().flatten() {
-            Some(error) => Err(cannot_write(&self.folder.path, &error)),
-            None => Ok(()),
-        }
+        fault.into_inner().ok().flatten().map_or(Ok(()), |error| Err(failed(error)))
     }
 
-    /// Runs one case. Its own errors are noted in its folder.
-    fn run_one(&self, case: usize) -> io::Result<()> {
+    /// Runs one case, unless another process does or has done it. Its own errors are noted in its folder.
+    fn run_one(&self, case: usize, pool: &Pool) -> io::Result<Option<Computed>> {
         let (folder, sets) = (self.folder.case(case), self.cases.sets(case));
         fs::create_dir_all(&folder)?;
+        let lock = match pool.locks.take(&folder) {
+            Err(error) if error.kind() == io::ErrorKind::ResourceBusy => return Ok(None),
+            taken => taken?,
+        };
+        if !(pool.is_open)(case) {
+            return Ok(None);
+        }
         let failure = folder.join(FAILURE);
         if failure.exists() {
             fs::remove_file(&failure)?;
         }
         let source = Source::new(self.deck.display().to_string(), self.text, &sets);
-        let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &sets, &folder, self.stop)));
-        match ran {
-            Ok(Ok(_)) => Ok(()),
-            Ok(Err(CaseFault::Deck(text))) => fs::write(&failure, text),
-            // Another process runs it.
-            Ok(Err(CaseFault::Io(error))) if error.kind() == io::ErrorKind::ResourceBusy => Ok(()),
-            Ok(Err(CaseFault::Io(error))) => Err(error),
-            Err(_) => fs::write(&failure, "the program itself has a fault: the run of this case has panicked"),
-        }
+        let what = Case { sets: &sets, folder: &folder, deck: pool.deck, files: &self.folder.files };
+        let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &what, self.stop)));
+        let why = match ran {
+            Ok(Ok(status)) => {
+                let is_stopped = status == Status::Stopped;
+                return Ok(Some(Computed { folder, lock, is_stopped }));
+            }
+            Ok(Err(CaseFault::Stopped)) => return Ok(None),
+            Ok(Err(CaseFault::Io(error))) => return Err(error),
+            Ok(Err(CaseFault::Deck(text))) => text,
+            Err(_) => "the program itself has a fault: the run of this case has panicked".to_owned(),
+        };
+        replace(&failure, why.as_bytes()).map(|()| None)
     }
 
     fn bar(&self, count: usize) -> ProgressBar {

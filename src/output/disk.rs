@@ -3,7 +3,7 @@
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Adds the file that an error is about to its message, and the remedy where the file cannot grow.
 pub fn at(path: &Path, error: io::Error) -> io::Error {
@@ -68,4 +68,37 @@ pub fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
         let _ = fs::remove_file(name);
         at(path, error)
     })
+}
+
+/// Has all files of these folders, which stand in the folder `within`, safe on the disk, and their names.
+///
+/// # Errors
+/// The disk does not take them.
+#[cfg(target_os = "linux")]
+pub fn make_safe(within: &Path, _folders: &[PathBuf]) -> io::Result<()> {
+    // One call for the whole file system: to wait for each file of a case by itself takes several milliseconds.
+    rustix::fs::syncfs(File::open(within)?).map_err(|error| at(within, error.into()))
+}
+
+/// Has all files of these folders, which stand in the folder `within`, safe on the disk, and their names.
+///
+/// # Errors
+/// The disk does not take them.
+#[cfg(not(target_os = "linux"))]
+pub fn make_safe(within: &Path, folders: &[PathBuf]) -> io::Result<()> {
+    for folder in folders.iter().map(PathBuf::as_path) {
+        for entry in fs::read_dir(folder).map_err(|error| at(folder, error))? {
+            let path = entry.map_err(|error| at(folder, error))?.path();
+            // Who only reads a file may not have it written on some systems.
+            let opened = OpenOptions::new().append(true).open(&path);
+            opened.and_then(|file| file.sync_all()).map_err(|error| at(&path, error))?;
+        }
+    }
+    // Where folders cannot be opened, names are safe with their files.
+    for folder in folders.iter().map(PathBuf::as_path).chain([within]) {
+        if cfg!(unix) {
+            File::open(folder).and_then(|file| file.sync_all()).map_err(|error| at(folder, error))?;
+        }
+    }
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::disk::{UNFINISHED, at};
 use super::files::names;
-use super::lock::{self, FolderLock};
+use super::lock;
 use super::run_list::{self, RunList, foreign};
 use super::{checkpoint, fields, log, result_json, tables};
 use crate::model::Model;
@@ -11,16 +11,14 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Makes a folder ready for a run: it is made where there is none and locked, and what an older run has written there is removed,
-/// so that nothing of it is taken for a result of this one. Anything else stays: other files, what links lead to, and the files
+/// Makes a folder, which is locked, ready for a run: what an older run has written there is removed, so that nothing of it is taken for a
+/// result of this one. Anything else stays: other files, what links lead to, and the files
 /// `read` by the run, such as its deck.
 ///
 /// # Errors
-/// Another run writes there; without `overwrite`, the folder holds files; a file that no run has written, or that this run reads,
+/// Without `overwrite`, the folder holds files; a file that no run has written, or that this run reads,
 /// is in the way. Then nothing has been removed.
-pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -> io::Result<FolderLock> {
-    fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
-    let lock = FolderLock::take(dir)?;
+pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -> io::Result<()> {
     let files = entries(dir)?;
     if !overwrite && files.iter().any(|name| name != lock::NAME) {
         return Err(at(dir, io::Error::new(io::ErrorKind::AlreadyExists, "the folder holds files already")));
@@ -44,8 +42,7 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     }
     take_away(dir, &files, &older)?;
     let mut list = RunList::open(dir)?;
-    list.note(written)?;
-    Ok(lock)
+    list.note(written)
 }
 
 /// The names of all that is in a folder.

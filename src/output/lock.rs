@@ -19,20 +19,20 @@ const RENEWED: Duration = Duration::from_secs(30);
 /// The time without one after which a lock of another host is taken over.
 const GIVEN_UP: Duration = Duration::from_secs(300);
 /// The time after which a lock that was taken over must still be ours: another host may have taken it over in the same moment.
-const SETTLED: Duration = Duration::from_secs(1);
+pub(super) const SETTLED: Duration = Duration::from_secs(1);
 
 /// The right to write into a folder. It is held until it is dropped, which removes the file.
 #[derive(Debug)]
 pub struct FolderLock {
-    path: PathBuf,
-    held: Arc<Held>,
+    pub(super) path: PathBuf,
+    pub(super) held: Arc<Held>,
 }
 
 /// An open lock with its text.
 #[derive(Debug)]
-struct Held {
-    file: File,
-    text: String,
+pub(super) struct Held {
+    pub(super) file: File,
+    pub(super) text: String,
 }
 
 impl Held {
@@ -55,7 +55,7 @@ impl Held {
 static ALL_HELD: Mutex<Vec<Weak<Held>>> = Mutex::new(Vec::new());
 
 /// Has a lock renewed as long as it is held.
-fn keep_alive(held: &Arc<Held>) {
+pub(super) fn keep_alive(held: &Arc<Held>) {
     static BEGUN: Once = Once::new();
     let Ok(mut all) = ALL_HELD.lock() else { return };
     all.retain(|one| one.strong_count() > 0);
@@ -76,8 +76,8 @@ fn keep_alive(held: &Arc<Held>) {
 /// The process that writes into a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Holder {
-    host: String,
-    process: u32,
+    pub(super) host: String,
+    pub(super) process: u32,
     /// Seconds since 1970, UTC.
     began: u64,
     /// The identifier of the boot of the host; empty where the system does not tell.
@@ -88,7 +88,7 @@ pub struct Holder {
 
 impl Holder {
     /// This process.
-    fn this() -> Holder {
+    pub(super) fn this() -> Holder {
         // A sweep takes thousands of locks.
         static HOST_AND_BOOT: OnceLock<(String, String)> = OnceLock::new();
         let (host, boot) = HOST_AND_BOOT.get_or_init(|| {
@@ -107,7 +107,7 @@ impl Holder {
     }
 
     /// The text of the lock.
-    fn text(&self) -> String {
+    pub(super) fn text(&self) -> String {
         let Holder { host, process, began, boot, renews } = self;
         let renewed = if *renews { format!("renewed every {} s\n", RENEWED.as_secs()) } else { String::new() };
         format!("host {host}\nprocess {process}\nbegan {began} ({})\nboot {boot}\n{renewed}", date(*began))
@@ -127,7 +127,7 @@ impl Holder {
     }
 
     /// Whether the process may still run, as far as the text of its lock can tell.
-    fn may_live(&self, this: &Holder) -> bool {
+    pub(super) fn may_live(&self, this: &Holder) -> bool {
         if self.host != this.host {
             return true;
         }
@@ -144,6 +144,15 @@ impl fmt::Display for Holder {
 }
 
 impl FolderLock {
+    /// Takes the lock of a folder, which is made where there is none.
+    ///
+    /// # Errors
+    /// As for [`FolderLock::take`], or the folder cannot be made.
+    pub fn make(dir: &Path) -> io::Result<FolderLock> {
+        fs::create_dir_all(dir).map_err(|error| at(dir, error))?;
+        FolderLock::take(dir)
+    }
+
     /// Takes the lock of a folder, which must exist.
     ///
     /// # Errors
@@ -193,7 +202,7 @@ impl FolderLock {
 
 /// Whether the process of another host that holds a lock has died with its host: it has not renewed it for so long. Both times are those
 /// of the file system, for hosts may have clocks of their own.
-fn is_given_up(holder: &Holder, this: &Holder, file: &File, dir: &Path) -> bool {
+pub(super) fn is_given_up(holder: &Holder, this: &Holder, file: &File, dir: &Path) -> bool {
     if !holder.renews || holder.host == this.host {
         return false;
     }
@@ -218,14 +227,14 @@ impl Drop for FolderLock {
 }
 
 /// The holder that an open lock names.
-fn holder(file: &mut File) -> Option<Holder> {
+pub(super) fn holder(file: &mut File) -> Option<Holder> {
     let mut text = String::new();
     file.rewind().and_then(|()| file.read_to_string(&mut text)).ok()?;
     Holder::read(&text)
 }
 
 /// The error that another process writes into the folder.
-fn busy(dir: &Path, path: &Path, holder: Option<&Holder>) -> io::Error {
+pub(super) fn busy(dir: &Path, path: &Path, holder: Option<&Holder>) -> io::Error {
     let who = holder.map_or_else(|| "another process".to_owned(), Holder::to_string);
     let elsewhere = holder.is_some_and(|holder| holder.renews && holder.host != Holder::this().host);
     let gone = match elsewhere {

@@ -1,11 +1,11 @@
 //! result.json: the outcome of a run in one object that a script can read.
 
-use super::disk::{at, replace};
+use super::disk::{UNFINISHED, at, create, replace};
 use super::error_bars::ErrorBar;
 use super::expect::Verdict;
 use serde::Serialize;
-use std::io;
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 /// The name of the file in the output folder.
 pub const NAME: &str = "result.json";
@@ -218,6 +218,31 @@ impl RunResult {
         text.push(b'\n');
         replace(&path, &text)
     }
+
+    /// Writes the same under another name, until [`mark`] gives it its own.
+    ///
+    /// # Errors
+    /// The file cannot be written; the error names it.
+    pub fn write_unmarked(&self, dir: &Path) -> io::Result<()> {
+        let path = unmarked(dir);
+        let mut text = serde_json::to_vec_pretty(self).map_err(|e| at(&path, e.into()))?;
+        text.push(b'\n');
+        create(&path).and_then(|mut file| file.write_all(&text)).map_err(|error| at(&path, error))
+    }
+}
+
+/// The path of a result that is not marked yet.
+fn unmarked(dir: &Path) -> PathBuf {
+    dir.join(format!("{NAME}{UNFINISHED}"))
+}
+
+/// Marks a run as one that has come to its end: gives its result the name by which it is known.
+///
+/// # Errors
+/// There is no result, or the system refuses.
+pub fn mark(dir: &Path) -> io::Result<()> {
+    let path = unmarked(dir);
+    std::fs::rename(&path, dir.join(NAME)).map_err(|error| at(&path, error))
 }
 
 /// The largest resident memory of this process so far, which Linux tells; `None` elsewhere.

@@ -60,13 +60,16 @@ pub struct SweepFolder {
     pub path: PathBuf,
     /// The names of the folders of all cases, in their order.
     pub names: Vec<String>,
+    /// The digests of the files that decks name, by which the folders are named.
+    pub files: HashMap<PathBuf, Vec<u8>>,
 }
 
 impl SweepFolder {
     /// Finds the names of all cases: hashes of the version, the deck, the overrides and the files that the deck names.
     pub fn new(path: PathBuf, deck: (&str, &str), cases: &Cases, version: &str) -> SweepFolder {
         let mut names = CaseNames::new(deck, &cases.keys, version);
-        SweepFolder { path, names: (0..cases.values.len()).map(|case| names.of(&cases.sets(case))).collect() }
+        let all = (0..cases.values.len()).map(|case| names.of(&cases.sets(case))).collect();
+        SweepFolder { path, names: all, files: names.digests }
     }
 
     /// The folder of a case, counted from 0.
@@ -77,7 +80,8 @@ impl SweepFolder {
     /// What has become of a case.
     pub fn state(&self, case: usize) -> CaseState {
         let folder = self.case(case);
-        if let Ok(reason) = fs::read_to_string(folder.join(FAILURE)) {
+        // A power cut may leave an empty one.
+        if let Some(reason) = fs::read_to_string(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
             return CaseState::Failed(one_line(&reason));
         }
         let Ok(bytes) = fs::read(folder.join(result_json::NAME)) else { return CaseState::Pending };

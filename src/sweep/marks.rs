@@ -1,0 +1,75 @@
+//! The marks of cases that have come to their ends: a case is marked once all of its files are safe on the disk, so that a power cut leaves
+//! none that seems to stand and does not. Cases that end while others are being made safe are made safe together.
+
+use crate::output::checkpoint::Checkpoint;
+use crate::output::{FolderLock, make_safe, result_json};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::Receiver;
+use std::time::{Duration, Instant};
+
+/// The time between two calls that make files safe: a case waits no longer than this for others.
+const APART: Duration = Duration::from_millis(200);
+
+/// A case that has come to its end and is not marked yet.
+#[derive(Debug)]
+pub struct Computed {
+    /// Its folder.
+    pub folder: PathBuf,
+    /// The lock, which is let go when the case is marked.
+    pub lock: FolderLock,
+    /// True where a signal has stopped it: it then keeps the checkpoint from which it goes on.
+    pub is_stopped: bool,
+}
+
+/// Marks cases in the folder of a sweep as they come, until no more do.
+///
+/// # Errors
+/// The disk does not take what was written; cases that are not marked are run again.
+pub fn mark_all(within: &Path, computed: &Receiver<Computed>) -> io::Result<()> {
+    let mut next = Instant::now();
+    while let Ok(first) = computed.recv() {
+        let mut cases = vec![first];
+        while let Ok(case) = computed.recv_timeout(next.saturating_duration_since(Instant::now())) {
+            cases.push(case);
+        }
+        next = Instant::now() + APART;
+        let folders: Vec<PathBuf> = cases.iter().map(|case| case.folder.clone()).collect();
+        make_safe(within, &folders)?;
+        for Computed { folder, lock, is_stopped } in cases {
+            result_json::mark(&folder)?;
+            if !is_stopped {
+                Checkpoint::remove(&folder)?;
+            }
+            drop(lock);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn cases_are_marked_and_let_go() {
+        let root = tempfile::tempdir().unwrap();
+        let (done, computed) = channel();
+        let folders = ["ended", "stopped"].map(|name| root.path().join(name));
+        for (folder, is_stopped) in folders.iter().zip([false, true]) {
+            let lock = FolderLock::make(folder).unwrap();
+            fs::write(folder.join("result.json.tmp"), "{}").unwrap();
+            fs::write(Checkpoint::path(folder), "state").unwrap();
+            done.send(Computed { folder: folder.clone(), lock, is_stopped }).unwrap();
+        }
+        assert!(folders.iter().all(|folder| !folder.join("result.json").exists()));
+        drop(done);
+        mark_all(root.path(), &computed).unwrap();
+        for (folder, keeps) in folders.iter().zip([false, true]) {
+            assert!(folder.join("result.json").exists() && FolderLock::take(folder).is_ok());
+            assert_eq!(Checkpoint::path(folder).exists(), keeps);
+        }
+    }
+}
