@@ -23,6 +23,14 @@ pub struct ResponseRow {
     pub motions: Vec<[Complex; 6]>,
 }
 
+impl ResponseRow {
+    /// The largest component of any motion.
+    pub(super) fn largest(&self) -> f64 {
+        let sizes = self.motions.iter().flatten().map(|[real, imaginary]| real.hypot(*imaginary));
+        sizes.fold(0.0, f64::max)
+    }
+}
+
 impl Response {
     /// No motion yet of the nodes that tables or `[[expect]]` name.
     pub(super) fn of(model: &Model) -> Response {

@@ -277,6 +277,36 @@ fn undamped_resonance() {
     assert!(!all[1].1.re.is_finite() && found.doubts[0].contains("frequency 0.5"), "{all:?} {:?}", found.doubts);
 }
 
+/// The same where rounding leaves a little of the stiffness, by the equations themselves and by modes, which are told; a resonance with the
+/// least damping that anything has is none, nor is one that nothing drives.
+#[test]
+fn undamped_resonance_of_a_beam() {
+    let beam = |keys: &str, force: &str| {
+        let head = head(&format!("kind = \"frequency-response\"\n{keys}"), 0.03, 0.02);
+        shaken(format!(
+            "{head}[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"b\"]\nelements = 4\n\
+             material = \"steel\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n\
+             [[loads]]\nat = \"b\"\nforce = {force}\namplitude = \"shake\"\n"
+        ))
+    };
+    let asked = |method: &str, more: &str| {
+        let range = "{ from = 1.0, to = 200.0, steps = 5, around_resonances = 1 }";
+        format!("method = \"{method}\"\nfrequencies = {range}\n{more}")
+    };
+    let of = |keys: &str, force: &str| modes(&beam(keys, force));
+    for (method, more) in [("direct", ""), ("modal", "modes = 6\n")] {
+        let found = of(&asked(method, more), "[0.0, 1.0, 0.0]");
+        let said = found.doubts.join("\n");
+        assert!(said.contains("nothing limits the motion") && said.contains("that of mode "), "{method}: {said}");
+        let motion = motion(&found, 1, 1);
+        let infinite = motion.iter().filter(|(_, y)| !y.re.is_finite()).count();
+        let largest = motion.iter().map(|(_, y)| y.norm()).filter(|y| y.is_finite()).fold(0.0, f64::max);
+        assert!((1..=3).contains(&infinite) && largest < 1.0, "{method}: {infinite} {largest:e}");
+    }
+    let damped = of(&asked("modal", "modes = 6\ndamping_ratio = 1e-6\n"), "[0.0, 1.0, 0.0]");
+    assert!(motion(&damped, 1, 1).iter().all(|(_, y)| y.re.is_finite()), "{:?}", damped.doubts);
+}
+
 /// A stage of a response is about the state that stages before it have reached: a column under an axial load is softer, as it is under the
 /// same load held in `[analysis]`. Joints and supports with harmonic motion rest in the stages before. The equilibria are found to 1e-8.
 #[test]

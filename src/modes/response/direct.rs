@@ -6,11 +6,12 @@ use super::super::linearized::Linearized;
 use super::super::modal::natural_frequencies;
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
-use super::super::steady::Response;
+use super::super::steady::{Response, ResponseRow};
 use super::dynamic_stiffness::DynamicStiffness;
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
 use super::matrices::Matrices;
+use super::resonance::{Resonance, resonances_in_words};
 use crate::linear::{Factorization, Solver};
 use crate::math::Vec6;
 use crate::model::{ModeKind, ResponseAsked};
@@ -66,12 +67,13 @@ pub fn response(
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
     let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
-    let mut direct = Direct { pencil, excitation, stiffness, worst: (0.0, 0.0), resonances: Vec::new() };
+    let mut direct = Direct { pencil, excitation, stiffness, worst: (0.0, 0.0), resonances: Vec::new(), natural };
     let mut response = Response::of(at.model);
     for frequency in &all {
         at.check_stop()?;
         direct.solve(*frequency, &mut response);
     }
+    direct.find_resonances(&mut response);
     found.factorizations += all.len();
     found.solves += all.len();
     found.doubts.extend(gyroscopic.doubts);
@@ -100,7 +102,9 @@ struct Direct<'a> {
     /// What has been left of the equations at most, and the frequency.
     worst: (f64, f64),
     /// Frequencies at which there is no steady motion.
-    resonances: Vec<f64>,
+    resonances: Vec<Resonance>,
+    /// Natural frequencies, where they are known.
+    natural: Vec<f64>,
 }
 
 impl Direct<'_> {
@@ -116,9 +120,42 @@ impl Direct<'_> {
         match found {
             Some([real, imaginary]) => response.keep(frequency, [&real, &imaginary]),
             None => {
-                self.resonances.push(frequency);
+                self.note(frequency);
                 let infinite = vec![Vec6::repeat(f64::INFINITY); self.pencil.nodes.len()];
                 response.keep(frequency, [&infinite, &infinite]);
+            }
+        }
+    }
+
+    /// Notes a frequency at which nothing limits the motion.
+    fn note(&mut self, frequency: f64) {
+        /// Part of a frequency by which a natural one may differ to be the same.
+        const SAME: f64 = 1e-6;
+        let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME * frequency);
+        self.resonances.push(Resonance { frequency, mode });
+    }
+
+    /// Looks for resonances that rounding makes very large, not infinite: such a motion falls off within a part of its frequency in which no
+    /// damping that anything has would let it.
+    fn find_resonances(&mut self, response: &mut Response) {
+        /// The ratio to the least motion from which one is looked at.
+        const LARGE: f64 = 1e6;
+        /// Part of a frequency by which it is left, and the part of the motion that remains there at a resonance without damping.
+        const ASIDE: [f64; 2] = [1e-6, 0.02];
+        let motions: Vec<f64> = response.rows.iter().map(ResponseRow::largest).collect();
+        let least = motions.iter().copied().filter(|motion| *motion > 0.0).fold(f64::INFINITY, f64::min);
+        for (place, motion) in motions.into_iter().enumerate() {
+            let frequency = response.rows[place].frequency;
+            if !motion.is_finite() || motion <= LARGE * least {
+                continue;
+            }
+            let Some([real, imaginary]) = self.motions(frequency * (1.0 + ASIDE[0])) else { continue };
+            let mut beside = Response { nodes: response.nodes.clone(), rows: Vec::new() };
+            beside.keep(frequency, [&real, &imaginary]);
+            if beside.rows[0].largest() < ASIDE[1] * motion {
+                self.note(frequency);
+                let infinite = [[f64::INFINITY; 2]; 6];
+                response.rows[place].motions.fill(infinite);
             }
         }
     }
@@ -181,13 +218,7 @@ impl Direct<'_> {
     /// What is doubtful about the response, in words.
     fn doubts(&self) -> Vec<String> {
         let mut doubts = Vec::new();
-        if let (Some(first), count) = (self.resonances.first(), self.resonances.len()) {
-            let more = if count > 1 { format!(" and {} others", count - 1) } else { String::new() };
-            doubts.push(format!(
-                "at frequency {}{more} nothing limits the motion (undamped resonance, or a motion without stiffness): amplitudes stay empty",
-                short(*first)
-            ));
-        }
+        doubts.extend(resonances_in_words(&self.resonances));
         if self.worst.0 > DOUBTFUL {
             let (left, frequency) = self.worst;
             doubts.push(format!(

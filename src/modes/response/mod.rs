@@ -9,6 +9,7 @@ mod excitation;
 mod frequencies;
 mod matrices;
 mod modal;
+mod resonance;
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;

@@ -17,6 +17,7 @@ use super::super::steady::Response;
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
 use super::matrices::Matrices;
+use super::resonance::{Resonance, resonances_in_words};
 use crate::linear::{Solver, Sparse};
 use crate::math::Vec6;
 use crate::model::{ModeExtent, ModeKind, ResponseAsked};
@@ -64,12 +65,15 @@ pub fn response(
     let parts = space.parts(&mut pencil, &excitation, &matrices);
     let mut response = Response::of(at.model);
     let motion = Motion::new(&pencil, &space, &parts, &excitation, &response.nodes);
+    let mut resonances = Vec::new();
     for frequency in all {
-        let row = motion.at(&space, &parts, &excitation, frequency);
+        let (row, mode) = motion.at(&space, &parts, &excitation, frequency);
         response.add(frequency, row);
+        resonances.extend(mode.map(|mode| Resonance { frequency, mode: Some(mode) }));
     }
     let truncated = truncation(&pencil, &natural, highest, gyroscopic.acts());
     let mut doubts = gyroscopic.doubts;
+    doubts.extend(resonances_in_words(&resonances));
     doubts.extend(truncated);
     doubts.extend(left_out(at).into_iter().filter(|_| !at.loads_have_potential()));
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
@@ -209,6 +213,21 @@ impl<'p> Space<'p> {
         let none = forces.map(|_| C64::new(f64::INFINITY, 0.0));
         DMatrix::from_fn(m, m, entry).lu().solve(&forces).unwrap_or(none)
     }
+
+    /// The mode, from 0, that these forces drive at its own frequency with nothing to limit it, if there is one.
+    fn resonance(&self, omega: f64, forces: &DVector<C64>) -> Option<usize> {
+        /// Part of the stiffness of a mode below which inertia and damping leave none of it: natural frequencies are known to this.
+        const NOTHING_LEFT: f64 = 1e-8;
+        /// Part of all forces below which rounding alone drives a mode.
+        const UNDRIVEN: f64 = 1e-9;
+        let square = omega * omega;
+        let largest = forces.camax();
+        let is_free = |i: usize| {
+            let left = C64::new(self.pairs[i].0 - square, omega * self.damping[(i, i)]).norm();
+            square > 0.0 && left < NOTHING_LEFT * square && forces[i].norm() > UNDRIVEN * largest
+        };
+        (0..forces.len()).find(|&i| is_free(i))
+    }
 }
 
 /// The motions of the nodes wanted that the two parts of [`Part::rest`] are.
@@ -242,8 +261,14 @@ impl Motion {
         }
     }
 
-    /// The motions at a frequency, complex.
-    fn at(&self, space: &Space, parts: &Parts, excitation: &HarmonicExcitation, frequency: f64) -> Vec<[C64; 6]> {
+    /// The motions at a frequency, complex. Where nothing limits them they are not finite, and the mode is told, from 0.
+    fn at(
+        &self,
+        space: &Space,
+        parts: &Parts,
+        excitation: &HarmonicExcitation,
+        frequency: f64,
+    ) -> (Vec<[C64; 6]>, Option<usize>) {
         let omega = TAU * frequency;
         let beyond = omega * omega - space.shift;
         let mut forces = DVector::from_element(space.pairs.len(), C64::new(0.0, 0.0));
@@ -271,9 +296,13 @@ impl Motion {
             act(factor * beyond, inertia, &rest[0], &mut add);
             act(factor * C64::new(0.0, -omega), damping, &rest[1], &mut add);
         }
+        if let Some(mode) = space.resonance(omega, &forces) {
+            sum.iter_mut().for_each(|sum| sum.fill(C64::new(f64::INFINITY, f64::INFINITY)));
+            return (sum, Some(mode));
+        }
         let q = space.coordinates(omega, forces);
         self.modes.iter().zip(q.iter()).for_each(|(mode, q)| add(*q, mode));
-        sum
+        (sum, None)
     }
 }
 
