@@ -5,7 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use super::load::{Loaded, model_stage};
-use super::verdict::{energy_line, energy_warning, short_of_stop, work_warning};
+use super::verdict::{energy_line, energy_warning, overshoot_warning, ringing_warning, short_of_stop, work_warning};
 use super::watchers::{Watchers, stage_begins};
 use crate::model::{self, AnalysisKind, Model};
 use crate::names::{instant, to_digits};
@@ -116,11 +116,13 @@ impl StagesTold {
             (self.counts, self.observing) = (run.counts(), self.observing + run.observing());
             return;
         }
+        let effort = run.counts().since(&self.counts);
         let of_run = energy_warning(run.balance(), model).into_iter().chain(work_warning(run));
         let of_stage = stop_missed(run, model)
             .into_iter()
             .chain(left_held(run, model, end_time))
             .chain(weight_left(run, model, end_time));
+        let of_run = of_run.chain(ringing_warning(effort, model)).chain(overshoot_warning(run));
         self.warnings.extend(of_run.chain(of_stage).map(|text| format!("{stage}{text}")));
         self.energy.extend(energy_line(run.balance(), model).map(|line| format!("{stage}{line}")));
         self.counts = run.counts();

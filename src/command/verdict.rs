@@ -1,11 +1,12 @@
 //! The end of a run in words: its status, its warnings about energy, its expectations.
 
+use crate::integrators::spectrum::spectrum;
 use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
 use crate::names::{instant, short, to_digits};
 use crate::output::error_bars::ErrorBar;
 use crate::output::expect::Verdict;
 use crate::output::result_json::Status;
-use crate::solve::{Outcome, Run, settling_energy};
+use crate::solve::{Counts, Outcome, Run, settling_energy};
 use crate::system::energy::Balance;
 use std::io;
 
@@ -121,6 +122,20 @@ pub fn work_warning(run: &Run) -> Option<String> {
     ))
 }
 
+/// The warning about automatic steps of central differences that are stable and no more: where the motion itself lies in the fastest modes
+/// they do not resolve it.
+pub fn overshoot_warning(run: &Run) -> Option<String> {
+    /// A larger part is no error of ordinary steps.
+    const SEEN: f64 = 0.1;
+    run.overshoot().filter(|part| *part > SEEN).map(|part| {
+        format!(
+            "the motion lies in the fastest modes of the scene, which steps that are stable alone do not resolve: displacements overshoot by some \
+             {} %. Give a `time_step` of a tenth of the period of interest, or take an implicit scheme with `error_tolerance`",
+            to_digits(100.0 * part, 2)
+        )
+    })
+}
+
 /// The warning about an energy balance that no one should take on trust; `None` where it is sound.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     /// A larger part of the energy of the motion at the end is seen in the results.
@@ -158,6 +173,33 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     } else {
         None
     }
+}
+
+/// The warning about a scheme that damps nothing where material yields and steps are hard to take, from the effort of the steps.
+pub fn ringing_warning(effort: Counts, model: &Model) -> Option<String> {
+    /// The ratio of step to period, times 2π, of modes that no step resolves.
+    const UNRESOLVED: f64 = 30.0;
+    /// Damping ratio below which there is none.
+    const NONE: f64 = 1e-6;
+    /// Parts of the steps that are cut, and factorizations a step: dissipating schemes stay at a tenth of these.
+    const HARD: (f64, f64) = (0.02, 4.0);
+    let scheme = &*model.solution.scheme;
+    let is_implicit = model.analysis.kind == AnalysisKind::Dynamic && !scheme.is_explicit();
+    if !is_implicit || !model.yields() || effort.steps < 100 || spectrum(scheme, UNRESOLVED).damping.abs() > NONE {
+        return None;
+    }
+    let per_step = |count: usize| count as f64 / effort.steps as f64;
+    (per_step(effort.cuts) > HARD.0 || per_step(effort.factorizations) > HARD.1).then(|| {
+        format!(
+            "steps are hard to take: {} factorizations and {} cutbacks in {} steps. {} damps nothing, so that modes which no step resolves ring \
+             on, and material that yields loads and unloads with them. A scheme that damps these alone takes a part of the time: \
+             `scheme = \"generalized-alpha\"` with `spectral_radius = 0.8`",
+            effort.factorizations,
+            effort.cuts,
+            effort.steps,
+            scheme.word()
+        )
+    })
 }
 
 /// The errors of a value, as they stand behind it.

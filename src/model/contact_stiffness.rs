@@ -4,7 +4,8 @@
 use super::contact_opposite::Opposite;
 use super::nodes::Topology;
 use super::scene::Scene;
-use super::values::vec3;
+use super::values::{vec3, vec3_or_zero};
+use crate::deck::Deck;
 use crate::elements::contact::ContactPoint;
 use crate::math::Vec3;
 use crate::names::short;
@@ -58,7 +59,7 @@ impl Meets<'_, '_> {
         }
         let rests_on_time = choices.is_empty();
         if rests_on_time {
-            let pace = self.extent() / self.scene.analysis.duration();
+            let pace = self.extent() / self.duration();
             let reason = format!(
                 "nothing moves at t = 0; at {}, the scene in the run, {} deep",
                 short(pace),
@@ -126,12 +127,38 @@ impl Meets<'_, '_> {
         if extent > 0.0 { extent } else { 1.0 }
     }
 
+    /// The time that the run lasts, all of its stages together: a stage by itself does not choose.
+    fn duration(&self) -> f64 {
+        match self.scene.stage {
+            Some(stage) => stage.course.end(),
+            None => self.scene.analysis.duration(),
+        }
+    }
+
+    /// The deck with what begins in any stage.
+    fn whole_deck(&self) -> &Deck {
+        self.scene.stage.map_or(self.scene.deck, |stage| stage.course.whole)
+    }
+
+    /// The velocity and the angular velocity with which the deck lets a node begin, in whatever stage that is.
+    fn begins_with(&self, node: usize) -> [Vec3; 2] {
+        let of_body = self.scene.bodies.iter().position(|body| body.node == node);
+        match of_body.and_then(|index| self.whole_deck().bodies.get(index)) {
+            Some(body) if self.scene.stage.is_some() => [&body.velocity, &body.angular_velocity].map(vec3_or_zero),
+            _ => {
+                let node = &self.topology.list[node];
+                [node.v, node.omega]
+            }
+        }
+    }
+
     /// The speed of the impact to come, as far as the deck says: velocities at t = 0, and the fall through the gap.
     fn speed(&self) -> f64 {
         let carrier = self.opposite.node();
         let velocity = |x: &Vec3, node: usize| {
-            let root = &self.topology.list[self.topology.root(node)];
-            root.v + root.omega.cross(&(x - root.x))
+            let root = self.topology.root(node);
+            let [v, omega] = self.begins_with(root);
+            v + omega.cross(&(x - self.topology.list[root].x))
         };
         let mut fastest = 0.0f64;
         for point in self.points {
@@ -153,6 +180,6 @@ impl Meets<'_, '_> {
             let turning = table.angular_velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
             v + table.normal_velocity.as_ref().map_or(0.0, |at| at.value.abs()) + turning * self.size()
         };
-        self.scene.deck.initial.iter().map(|table| of(table)).fold(0.0, f64::max)
+        self.whole_deck().initial.iter().map(|table| of(table)).fold(0.0, f64::max)
     }
 }

@@ -36,6 +36,10 @@ pub struct Handover {
     /// The forces that the end of the stage before leaves out of balance on each node, where nothing but loads differs in a motion that
     /// goes on; schemes that fulfil the equation of motion elsewhere than at the ends of steps leave some.
     pub(super) out_of_balance: Option<Vec<Force>>,
+    /// What the scheme leaves out of balance on each node at the end of the stage before, where a motion goes on by the same scheme and
+    /// something holds, joins or touches it otherwise; empty elsewhere. A scheme that fulfils the equation of motion elsewhere than at the
+    /// ends of steps would ring where it began anew from an equilibrium there.
+    pub(super) left_by_scheme: Vec<Force>,
     /// What load steps leave to those after them; `None` unless both stages are static.
     pub(super) load_steps: Option<LoadSteps>,
 }
@@ -83,6 +87,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
     }
     let handover = Handover {
         out_of_balance: model.analysis.loads_alone_change().then(|| from.out_of_balance(cx, state)).flatten(),
+        left_by_scheme: from.left_by_scheme(cx, state, model),
         state: next,
         fresh,
         counts: before.counts,
@@ -202,13 +207,34 @@ impl NodeMap {
         Ok((next, fresh))
     }
 
+    /// The forces that the scheme leaves on the nodes where they were free to move, and none on nodes that are new.
+    fn left_by_scheme(&self, cx: &Context, state: &State, model: &Model) -> Vec<Force> {
+        let is_same = cx.is_dynamic()
+            && model.analysis.kind == AnalysisKind::Dynamic
+            && cx.model.solution.scheme.in_words() == model.solution.scheme.in_words();
+        if !is_same || model.analysis.goes_on() || model.analysis.loads_alone_change() {
+            return Vec::new();
+        }
+        let mut forces = self.forces_left(cx, state);
+        for restraint in &cx.model.constraints.restraints {
+            forces.on_nodes[restraint.node][restraint.dof] = 0.0;
+        }
+        self.old.iter().map(|old| old.map_or([0.0; 6], |old| forces.on_nodes[old])).collect()
+    }
+
     /// The forces out of balance on the nodes; `None` where the new scene has other nodes.
     fn out_of_balance(&self, cx: &Context, state: &State) -> Option<Vec<Force>> {
+        let forces = self.forces_left(cx, state);
+        self.old.iter().map(|old| old.map(|old| forces.on_nodes[old])).collect()
+    }
+
+    /// The forces out of balance on the nodes of the scene before.
+    fn forces_left(&self, cx: &Context, state: &State) -> Forces {
         let (mut forces, mut loading) = (Forces::new(cx.system, state.nodes.len()), Loading::default());
         forces.multipliers.values.copy_from_slice(&state.multipliers);
         cx.excitation.loading(state.time, Side::Before, &mut loading);
         cx.system.residual(&state.configuration(), &loading, &mut forces);
-        self.old.iter().map(|old| old.map(|old| forces.on_nodes[old])).collect()
+        forces
     }
 
     /// The multipliers of the equations that both scenes have; zero for others.

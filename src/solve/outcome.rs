@@ -40,3 +40,18 @@ pub struct Counts {
 }
 
 keep!(Counts: Default { steps, iterations, factorizations, solves, cuts });
+
+impl Counts {
+    /// The effort since another time.
+    #[must_use]
+    pub fn since(&self, then: &Counts) -> Counts {
+        let Counts { steps, iterations, factorizations, solves, cuts } = *then;
+        Counts {
+            steps: self.steps.saturating_sub(steps),
+            iterations: self.iterations.saturating_sub(iterations),
+            factorizations: self.factorizations.saturating_sub(factorizations),
+            solves: self.solves.saturating_sub(solves),
+            cuts: self.cuts.saturating_sub(cuts),
+        }
+    }
+}

@@ -47,9 +47,16 @@ struct Search {
     /// The run before.
     before: Option<Kept>,
     judged: Judged,
+    /// The times between which runs are compared: those of the stage, or of the part of it in which it comes to its stop.
+    between: [f64; 2],
 }
 
-keep!(Search { under_way, error, pieces, compared, before, judged });
+keep!(Search { under_way, error, pieces, compared, before, judged, between });
+
+/// The part of the time between comparisons in which a stage must come to its stop for its error to be told.
+const EARLY: f64 = 0.4;
+/// The part of it in which a stage that has stopped too early is to stop in the next run.
+const IN_TIME: f64 = 0.8;
 
 /// The runs of a search.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -218,6 +225,7 @@ impl<'a> Run<'a> {
             error: StepError::new(asked),
             pieces: Pieces { now: 1, before: 1 },
             compared: Vec::new(),
+            between: [model.analysis.begin, model.analysis.end_time],
             before: None,
             judged: Judged {
                 run: Kept::default(),
@@ -242,9 +250,9 @@ impl<'a> Run<'a> {
     /// Makes a run that may be the last, or the rest of it. Returns what ends the search, if anything does.
     fn main_run(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
-        let times = comparison_times(&model.analysis).chain(search.compared.iter().copied());
+        let times = comparison_times(search.between).chain(search.compared.iter().copied());
         let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(search.pieces.now);
-        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1);
+        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, search.between);
         let (outcome, state) = self.once(&mut trace, &schedule, search);
         let run = trace.into_kept();
         // What fails with shorter steps did come to its end with those before.
@@ -255,6 +263,9 @@ impl<'a> Run<'a> {
             return begun.err().map(|error| (Outcome::Io(error), None));
         }
         let (Outcome::Done, Some(state)) = (&outcome, &state) else { return Some((outcome, state)) };
+        if let Some(end) = self.early_stop(search.between, state.time) {
+            return self.compare_until(end, search, observer).err().map(|error| (Outcome::Io(error), None));
+        }
         search.judged.run = run;
         search.judged.state.clone_from(state);
         match search.before.take().filter(|before| search.judged.run.is_told_by(before)) {
@@ -267,6 +278,27 @@ impl<'a> Run<'a> {
                 None
             }
         }
+    }
+
+    /// The end of the times at which a run is to be compared that has come to its stop so early that hardly any of them lie before; `None` for
+    /// any other. They limit steps as well, of which the first in a long stage may be too long for what it does until it stops.
+    fn early_stop(&self, [begin, end]: [f64; 2], stopped: f64) -> Option<f64> {
+        let is_early = self.has_stopped() == Some(true) && stopped - begin < EARLY * (end - begin);
+        (is_early && stopped > begin).then(|| begin + (stopped - begin) / IN_TIME)
+    }
+
+    /// Prepares for the same run again, to be compared up to this time.
+    ///
+    /// # Errors
+    /// As for [`Run::begin_again`].
+    fn compare_until(&mut self, end: f64, search: &mut Search, observer: &mut dyn Observer) -> std::io::Result<()> {
+        search.between[1] = end;
+        search.before = None;
+        let StepError { tolerance, longest, .. } = search.error;
+        self.begin_again(&mut search.error, (tolerance, longest), observer)?;
+        // It is no run that tells of an error.
+        search.error.others -= 1;
+        Ok(())
     }
 
     /// Judges the run that has come to its end by another one. Returns what ends the search, if it is good enough, and prepares for a
@@ -309,7 +341,7 @@ impl<'a> Run<'a> {
     /// Makes the run by the tolerance before once more, for the run after it fails or asks for far too many steps.
     fn settle(&mut self, search: &mut Search, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         let model = self.context.model;
-        let schedule = Schedule::new(model, comparison_times(&model.analysis), self.controller.looks_inside());
+        let schedule = Schedule::new(model, comparison_times(search.between), self.controller.looks_inside());
         let (outcome, state) = self.once(observer, &schedule.cut(search.pieces.before), search);
         self.workspace.warnings.extend(search.error.doubt());
         self.step_error = Some(search.error);
@@ -356,12 +388,12 @@ impl<'a> Run<'a> {
     /// anything does.
     fn trial(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
-        let times = comparison_times(&model.analysis).chain(search.compared.iter().copied());
+        let times = comparison_times(search.between).chain(search.compared.iter().copied());
         // A stage that has stopped is compared up to there.
         let until = if search.judged.stopped { search.judged.run.end() } else { f64::INFINITY };
         let schedule = Schedule::of_trial(model, times, self.controller.looks_inside()).until(until);
         let mut unseen = Unseen(observer);
-        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1);
+        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, search.between);
         let (outcome, _) = self.once(&mut trace, &schedule, search);
         let trial = trace.into_kept();
         let Search { error, judged, .. } = &mut *search;
@@ -470,6 +502,15 @@ impl<'a> Run<'a> {
     /// Doubts about the results.
     pub fn warnings(&self) -> &Warnings {
         &self.workspace.warnings
+    }
+
+    /// The part by which central differences with automatic steps overshoot displacements on the mean, where the steps that are stable are too
+    /// long for the motion itself: an oscillation comes out larger by 1/√(1 − (ω Δt/2)²). `None` for other steps.
+    pub fn overshoot(&self) -> Option<f64> {
+        let [resisted, all] = self.workspace.warnings.resisted;
+        let square = 0.25 * resisted / all;
+        let is_automatic = matches!(self.context.model.analysis.step_length, StepLength::StabilityLimited { .. });
+        (is_automatic && square > 0.0 && square < 1.0).then(|| 1.0 / (1.0 - square).sqrt() - 1.0)
     }
 
     /// What the work of the load steps of a static analysis has too much, or lacks, for what is stored and dissipated at the end, and the

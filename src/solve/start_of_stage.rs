@@ -10,7 +10,8 @@ use super::start::{
 };
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::math::{Vec3, stack};
+use crate::elements::Force;
+use crate::math::{Vec3, Vec6, stack};
 use crate::state::{Configuration, Node, State};
 use crate::system::Side;
 
@@ -62,7 +63,12 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
             ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
             cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         }
+        subtract(&mut ws.forces.on_nodes, &handover.left_by_scheme);
+        let algorithmic = state.algorithmic_accelerations.clone();
         add_accelerations(cx, ws, state, &massless);
+        if !handover.left_by_scheme.is_empty() {
+            go_on_algorithmic(state, (&before, &algorithmic));
+        }
         ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
@@ -71,6 +77,20 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
         *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
     }
     Ok(())
+}
+
+/// Takes forces from those on the nodes; nothing where there are none.
+fn subtract(from: &mut [Force], forces: &[Force]) {
+    for (from, force) in from.iter_mut().zip(forces) {
+        from.iter_mut().zip(force).for_each(|(from, force)| *from -= force);
+    }
+}
+
+/// Lets algorithmic accelerations jump by what accelerations do, from nodes `before`: they belong to another instant.
+fn go_on_algorithmic(state: &mut State, (before, algorithmic): (&[Node], &[Vec6])) {
+    let jumps = state.nodes.iter().zip(before).map(|(now, then)| stack(&(now.a - then.a), &(now.alpha - then.alpha)));
+    let all = state.algorithmic_accelerations.iter_mut().zip(algorithmic);
+    all.zip(jumps).for_each(|((now, then), jump)| *now = then + jump);
 }
 
 /// The impulse −M Δv on the unknowns of nodes, Δv what supports give to or take from the velocities `before`: it is what passes by mass that

@@ -229,9 +229,11 @@ impl fmt::Display for Warning {
 pub struct Warnings {
     warnings: Vec<Warning>,
     remarks: Vec<Remark>,
+    /// Of central differences, the sums over all steps of (ω Δt)² v² and of v² by modes: they tell whether steps resolve the motion.
+    pub(super) resisted: [f64; 2],
 }
 
-keep!(Warnings: Default { warnings, remarks });
+keep!(Warnings: Default { warnings, remarks, resisted });
 
 impl Warnings {
     /// Adds a warning, unless there is one of its kind already.

@@ -1,6 +1,6 @@
 //! The output times and events that steps must end at, and the intervals between them.
 
-use crate::model::{Analysis, Cadence, Model, When};
+use crate::model::{Cadence, Model, When};
 use crate::snapshot::Keep;
 use crate::solve::context::Context;
 use crate::solve::march::March;
@@ -127,9 +127,8 @@ pub fn comparison_time(k: usize, [begin, end]: [f64; 2]) -> f64 {
     begin + (end - begin) * ((k as f64 - 0.6 * (k as f64 * GOLDEN).fract()) / COMPARISONS as f64)
 }
 
-/// All times of comparison.
-pub fn comparison_times(analysis: &Analysis) -> impl Iterator<Item = f64> + use<> {
-    let ends = [analysis.begin, analysis.end_time];
+/// All times of comparison in a run between these times.
+pub fn comparison_times(ends: [f64; 2]) -> impl Iterator<Item = f64> + use<> {
     (1..=COMPARISONS).map(move |k| comparison_time(k, ends))
 }
 

@@ -208,10 +208,13 @@ impl CentralDifferenceStepper {
         let (accelerations, critical) = (&mut self.accelerations, &self.critical);
         if let (Some(sums), Some((masses, missing))) = (sums, accelerations.free()) {
             let resists = resistance_of_nodes(ws, (masses, missing), state, (sums, dt));
+            note_resistance(ws, sums.resistance, dt);
             let suspicious = resists > critical.known() || critical.is_struck(sums.aMa) || is_growing_by(sums);
             return (sums.aMa, suspicious);
         }
-        let stiffened = resistance(cx, ws, accelerations, state, dt) > critical.known();
+        let (resists, sums) = resistance(cx, ws, accelerations, state, dt);
+        note_resistance(ws, sums, dt);
+        let stiffened = resists > critical.known();
         let aMa = aMa_of_trial(cx, ws, accelerations);
         let suspicious = stiffened || critical.is_struck(aMa) || is_growing(cx, ws, accelerations, state, dt);
         (aMa, suspicious)
@@ -286,6 +289,13 @@ impl CentralDifferenceStepper {
         }
         account
     }
+}
+
+/// Adds what a step resists, −Δaᵀ M q, and qᵀ M q to sums over all steps, by the square of the velocity.
+fn note_resistance(ws: &mut Workspace, [force, size]: [f64; 2], dt: f64) {
+    let sums = &mut ws.warnings.resisted;
+    sums[0] += force;
+    sums[1] += size / (dt * dt);
 }
 
 /// Updates the offset of the energy. Central differences conserve energies that are ⅛ Δt² aᵀMa less than those at

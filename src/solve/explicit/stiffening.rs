@@ -21,8 +21,14 @@ const QUICK: f64 = 0.05;
 
 /// The Rayleigh quotient −Δaᵀ M q/qᵀ M q of the step's motion, a mean of ω² over its modes. More than ω² of the fastest
 /// known mode shows that the scene has stiffened, as in an impact. It is zero where the step is short enough in any
-/// case.
-pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> f64 {
+/// case. With it come numerator and denominator, by approximate inertias.
+pub fn resistance(
+    cx: &Context,
+    ws: &mut Workspace,
+    accelerations: &mut Accelerations,
+    state: &State,
+    dt: f64,
+) -> (f64, [f64; 2]) {
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let (trial, increments) = (&ws.trial, &ws.increments);
     let change = |node: usize| change(missing, trial, state, node);
@@ -30,7 +36,7 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
         apply_mass(cx, trial, operand, &mut ws.forces, |node| increments[node].q);
         let size = times_applied(cx, &ws.forces, |node| increments[node].q);
         let force = -times_applied(cx, &ws.forces, change);
-        return if size > 0.0 { force / size } else { 0.0 };
+        return (if size > 0.0 { force / size } else { 0.0 }, [force, size]);
     };
     let (mut force, mut size) = (0.0, 0.0);
     for block in &masses.blocks {
@@ -39,7 +45,8 @@ pub fn resistance(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
         force -= mass * linear(&da).dot(&linear(q)) + inertia * angular(&da).dot(&angular(q));
         size += mass * linear(q).norm_squared() + inertia * angular(q).norm_squared();
     }
-    if force <= QUICK * 4.0 / (dt * dt) * size { 0.0 } else { quotient(ws, (masses, missing), state) }
+    let is_slow = force <= QUICK * 4.0 / (dt * dt) * size;
+    (if is_slow { 0.0 } else { quotient(ws, (masses, missing), state) }, [force, size])
 }
 
 /// The same of nodes that move by themselves, of which the sums are at hand.

@@ -40,14 +40,17 @@ pub struct Kept {
     /// The error of a step goes with this power of its length.
     power: i32,
     longest: f64,
+    /// The times between which runs are compared.
+    between: [f64; 2],
 }
 
-keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest });
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between });
 
 impl<'o> Trace<'o> {
-    /// An empty trace in front of another observer; the error of a step goes with this power of its length.
-    pub fn new(observer: &'o mut dyn Observer, power: usize) -> Self {
-        Trace { observer, kept: Kept { power: power as i32, ..Kept::default() } }
+    /// An empty trace in front of another observer, to be compared between these times; the error of a step goes with this power of its
+    /// length.
+    pub fn new(observer: &'o mut dyn Observer, power: usize, between: [f64; 2]) -> Self {
+        Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() } }
     }
 
     /// What was kept.
@@ -96,7 +99,7 @@ impl Observer for Trace<'_> {
     }
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {
-        self.kept = Kept { power: self.kept.power, ..Kept::default() };
+        self.kept = Kept { power: self.kept.power, between: self.kept.between, ..Kept::default() };
         self.observer.restart(model)
     }
 }
@@ -112,7 +115,7 @@ impl Kept {
             self.rotations.reserve_exact(COMPARISONS * model.bodies.len());
             self.velocities.reserve_exact(COMPARISONS * model.bodies.len());
         }
-        let ends = [model.analysis.begin, model.analysis.end_time];
+        let ends = self.between;
         if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, ends) - 1e-9 * ends[1] {
             return;
         }
