@@ -8,7 +8,8 @@ use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::energy::{self, Energy, PartEnergy};
 use crate::system::{
-    ContactState, Excitation, JointState, LinkState, Loading, SectionPoint, ShellState, Side, System, results,
+    ContactState, Excitation, JointState, LinkState, Loading, SectionPoint, ShearBalance, ShellState, Side, System,
+    results,
 };
 use std::ops::BitOr;
 
@@ -111,6 +112,8 @@ pub struct Derived {
     /// Stress resultants of all shell elements in deck order. They are computed for fields too, when tables are not
     /// due.
     pub shells: Vec<ShellState>,
+    /// Room for their shear forces.
+    pub shear_balance: ShearBalance,
     /// N, V_y, V_z, T, M_y, M_z at each node of each element of all beams in deck order, for fields alone.
     pub nodal_resultants: Vec<[f64; 6]>,
     /// Stress resultants of all beams in deck order.
@@ -124,7 +127,7 @@ pub struct Derived {
 }
 
 keep!(Derived { effort } without {
-    energy, links, joints, contacts, plastic_strains, failed, broken, shells, nodal_resultants, sections, parts, loading,
+    energy, links, joints, contacts, plastic_strains, failed, broken, shells, shear_balance, nodal_resultants, sections, parts, loading,
 });
 
 /// The request for the derived quantities of one accepted step.
@@ -170,7 +173,7 @@ impl Derived {
             results::failed(system, now, &mut self.failed);
         }
         if is_drawn(Wanted::SHELLS) {
-            results::shell_states(system, model, now, &mut self.shells);
+            results::shell_states(system, model, now, &mut self.shear_balance, &mut self.shells);
         }
         if drawn && wanted.has(Wanted::NODAL_RESULTANTS) {
             results::nodal_resultants(system, model, now, &mut self.nodal_resultants);

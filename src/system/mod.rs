@@ -44,6 +44,7 @@ pub use loads::Loading;
 pub use multipliers::Multipliers;
 pub use parts::beam_sections::{SectionPlace, SectionPoint};
 pub use parts::links::LinkState;
+pub use parts::shell_shear::ShearBalance;
 pub use parts::shells::ShellState;
 pub use scale::Scale;
 pub use tangent_weights::TangentWeights;

@@ -5,6 +5,7 @@ use super::loads::Loading;
 use super::parts::beam_sections::{self, EndForces, SectionPoint};
 use super::parts::beams;
 use super::parts::links::{self, LinkState};
+use super::parts::shell_shear::ShearBalance;
 use super::parts::shells::{self, ShellState};
 use crate::model::Model;
 use crate::state::{Configuration, Node};
@@ -48,8 +49,15 @@ pub fn failed(system: &System, now: &Configuration, out: &mut Vec<bool>) {
 }
 
 /// Writes the stress resultants of all elements of all shells into `out`, in deck order.
-pub fn shell_states(system: &System, model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
+pub fn shell_states(
+    system: &System,
+    model: &Model,
+    now: &Configuration,
+    balance: &mut ShearBalance,
+    out: &mut Vec<ShellState>,
+) {
     shells::shell_states(&system.groups, model, now, out);
+    balance.apply(model, out);
 }
 
 /// Writes the stress resultants at each node of each element of all beams into `out`, in deck order.

@@ -303,7 +303,7 @@ fn patches_strain_evenly() {
         let K = stiffness(&*mesh.block(&plate), &at_rest(&mesh.x));
         for (name, field, energy) in fields {
             if name == "shear" && triangles {
-                continue; // what edges feel of it is that of elements that bend
+                continue; // their edges bend instead
             }
             let given = |n: usize| {
                 let (u, r) = field(mesh.x[n].x, mesh.x[n].y);

@@ -13,6 +13,7 @@ use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::model::{Model, Shell};
 use rdsolve::solve::ShellState;
 use rdsolve::state::{Configuration, Node};
+use std::f64::consts::PI;
 
 const E: f64 = 1e3;
 const NU: f64 = 0.3;
@@ -190,7 +191,9 @@ fn a_cantilever_obeys_statics() {
                 // A force up bends the top into compression.
                 let moment = -fz * (4.0 - x) - m;
                 assert!((mean(&|at| at.M[0]) - moment).abs() < 1e-5 * size, "{kind} M {moment}: {:?}", pair[0].at);
-                assert!((mean(&|at| at.Q[0]) - fz).abs() < 1e-5 * size, "{kind} Q: {:?}", pair[0].at);
+                // Of triangles by the balance of moments at nodes: at the clamp, which takes moments, those of one side are left.
+                let part = if kind == "triangle" && k == 0 { 0.04 * fz } else { 0.0 };
+                assert!((mean(&|at| at.Q[0]) - fz).abs() < 1e-5 * size + part, "{kind} Q: {:?}", pair[0].at);
                 // Diagonals that lean lead some shear across; elements without do not.
                 let across = mean(&|at| at.N[1].abs() + at.M[1].abs() + at.Q[1].abs());
                 assert!(kind == "triangle" || across < 1e-5 * size, "{:?}", pair[0].at);
@@ -202,6 +205,56 @@ fn a_cantilever_obeys_statics() {
             assert!((low.stress[0] - (at.N[0] / 0.1 - 600.0 * at.M[0])).abs() < 1e-12 && low.z == -0.05);
             assert_eq!(model.each::<Shell>().next().unwrap().axis, Vec3::x());
         }
+    }
+}
+
+/// A hinged plate of triangles under even load: errors of Q over all elements, against Navier's double series
+/// Q₁ = 16 p/π³ ∑ cos(mπx) sin(nπy)/(n K), K = m² + n², m and n odd (Timoshenko & Woinowsky-Krieger, 28). With moved nodes too. A gradient of
+/// moments that are constant in each element, it is of an order between 1 and 2.
+#[test]
+fn shear_forces_of_triangles_converge() {
+    let odd = || (0..40).map(|k| f64::from(2 * k + 1));
+    let series = |x: f64, y: f64| -> f64 {
+        let term = |m: f64, n: f64| (m * PI * x).cos() * (n * PI * y).sin() / (n * (m * m + n * n));
+        16e-6 / PI.powi(3) * odd().map(|m| odd().map(|n| term(m, n)).sum::<f64>()).sum::<f64>()
+    };
+    for (h, moved) in [(0.1, 0.0), (0.1, 0.2), (1e-3, 0.0), (1e-3, 0.2)] {
+        let error = |count: usize| -> f64 {
+            let load = "[[loads]]\nat = \"plate\"\nforce_per_area = [0.0, 0.0, 1e-6]\n";
+            let hinges = "[[supports]]\nat = [\"plate.edge1\", \"plate.edge3\"]\nfix = [\"uz\", \"ry\"]\n\
+                          [[supports]]\nat = [\"plate.edge2\", \"plate.edge4\"]\nfix = [\"uz\", \"rx\"]\n\
+                          [[supports]]\nat = \"plate\"\nfix = [\"ux\", \"uy\", \"rz\"]\n";
+            let stiff = 1e-6 / (h * h * h);
+            let mut model = read(&format!(
+                "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[materials.m]\nmodel = \"elastic\"\n\
+                 youngs_modulus = {:?}\npoisson_ratio = 0.3\n[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n\
+                 c = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]\n[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\n\
+                 elements = [{count}, {count}]\nkind = \"triangle\"\nthickness = {h:?}\nmaterial = \"m\"\n{hinges}{load}",
+                1e4 * stiff,
+            ));
+            let mut rng = StdRng::seed_from_u64(5);
+            for node in &mut model.nodes {
+                let shift = [0, 1].map(|_| moved * rng.random_range(-1.0..1.0) / count as f64);
+                if [node.x.x, node.x.y].iter().all(|x| (x - 0.5).abs() < 0.49) {
+                    node.x += Vec3::new(shift[0], shift[1], 0.0);
+                }
+            }
+            let [mut off, mut all] = [0.0; 2];
+            for state in last(&model) {
+                let x: Vec<Vec3> =
+                    model.parts[state.part].nodes(state.element).iter().map(|&n| model.nodes[n].x).collect();
+                let (area, c) = ((x[1] - x[0]).cross(&(x[2] - x[0])).norm(), x.iter().sum::<Vec3>() / 3.0);
+                for (found, wanted) in state.at.Q.into_iter().zip([series(c.x, c.y), series(c.y, c.x)]) {
+                    off += area * (found - wanted).powi(2);
+                    all += area * wanted.powi(2);
+                }
+            }
+            (off / all).sqrt()
+        };
+        let errors = [8, 16, 32].map(|count| (1.0 / count as f64, error(count)));
+        let slope = support::slope(&errors);
+        println!("Q, h {h}, moved {moved}: {errors:.4?}, order {slope:.2}");
+        assert!(slope > 1.0 && errors[2].1 < 0.06, "h {h}, moved {moved}: {errors:?}, order {slope}");
     }
 }
 

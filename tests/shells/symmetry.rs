@@ -79,9 +79,10 @@ impl Panel {
         self.answer(&self.deck(analysis))
     }
 
-    /// Thrown as well as pulled.
+    /// Thrown as well as pulled, against the clamp at once. With steps of 1e-3, in which waves run through four elements, the time integration adds energy
+    /// to some of such throws, to quadrilaterals and to triangles alike, and their answers hang on the last digit.
     fn shaken(&self) -> Vec<Vec3> {
-        let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.04\ntime_step = 1e-3\n\
+        let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.04\ntime_step = 5e-4\n\
                         [amplitudes.f]\nkind = \"sine-squared\"\nangular_frequency = 60.0\n";
         let thrown = format!("[[initial]]\nat = \"p\"\nvelocity = {}\n", self.vector(-4.0, -6.0, 3.0));
         self.answer(&(self.deck(analysis) + &thrown))
@@ -163,13 +164,13 @@ fn order_in_the_time_step() {
             );
             panel.answer(&panel.deck(&analysis)).iter().map(|u| vec![u.x, u.y, u.z]).collect::<Vec<_>>()
         };
-        let finest = run(6.25e-5);
-        let steps = [2e-3, 1e-3, 5e-4];
+        let finest = run(3.125e-5);
+        let steps = [1e-3, 5e-4, 2.5e-4];
         let points = steps.map(|step| (step, support::error(&run(step), &finest, 0)));
         let slope = support::slope(&points);
         println!("{kind}: {points:?}, slope {slope:.2}");
         // The reference is eight times as fine as the last, which takes 1/64 off its error: 0.01 of the slope; the longest step
-        // is a tenth of the shortest period that matters.
+        // is a twentieth of the shortest period that matters.
         assert!((slope - 2.0).abs() < 0.08, "{kind}: slope {slope}");
     }
 }

@@ -28,7 +28,7 @@ where
         nodes: &[Node],
         F: &mut [Force],
     ) {
-        let stress = Strains { plane, shear: element.shear_stress(shear) };
+        let stress = Strains { plane, shear: element.edge_stress::<K>(shear, &plane) };
         let mut gradient = element.gradient::<K, true>(&stress, motion);
         if self.damping > 0.0 {
             let viscous = self.viscous_stress(element, motion, nodes);

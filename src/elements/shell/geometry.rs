@@ -2,6 +2,8 @@
 
 use super::camber::Camber;
 use super::edge::EdgeTangents;
+use super::edge_bending::EdgeBending;
+use super::edge_bubbles::edge_bubbles;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::kinematics::{NodalVectors, Shell, Shells, Strains};
 use super::layers::{InPlaneStiffness, LayerModel, LayeredSection};
@@ -149,6 +151,7 @@ where
     let cambered = K::CAMBERED && is_curved(&X, &D, K::EDGES, plate.thickness);
     // Positions and directors both fall short of an arc.
     let (camber, arcs) = if cambered { (surface.camber, 2.0) } else { (Camber::NONE, 1.0) };
+    let (shear, bent) = shear_stiffness::<K, N, V, P>(&surface, &D, plate);
     let mut shell = Shell {
         nodes,
         D,
@@ -158,7 +161,8 @@ where
         camber,
         edges: K::EDGES.map(|[a, b]| EdgeTangents::new(&(X[b] - X[a]), [&T[a], &T[b]])),
         start: Strains { plane: InPlane::ZERO, shear: [0.0; N] },
-        shear: shear_stiffness::<K, N, V, P>(&surface, &D, plate),
+        shear,
+        bent,
         section: section(in_plane::<K, N, V, P, E>(&surface, plate, &from_fn(|a| e.bulge[a]))),
     };
     shell.start = shell.measure::<K, true>(&NodalVectors { x: X, turning: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
@@ -212,29 +216,31 @@ where
     InPlaneStiffness { elastic, drilling, points }
 }
 
-/// Stiffness of the shear strains at the edges.
+/// Stiffness of the shear strains at the edges, and the bending of the edges.
 fn shear_stiffness<K: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize>(
-    ElementSurface { X, points, .. }: &ElementSurface<N, V>,
+    surface: &ElementSurface<N, V>,
     D: &[Vec3; N],
     plate: &Plate,
-) -> [[f64; N]; N] {
+) -> ([[f64; N]; N], EdgeBending<f64, N>) {
     let (h, G) = (plate.thickness, plate.shear_modulus());
-    let mut shear = [[0.0; N]; N];
-    let area: f64 = points.iter().map(|point| point.weight).sum();
-    let turn = most_turn(X, D, K::EDGES) / h;
-    let flexible = K::EDGES.map(|[a, b]| {
-        let length = (X[b] - X[a]).norm_squared();
-        let alpha_span = match K::BENDS_WHERE_CURVED {
-            true => K::FLEXIBILITY * turn * turn / (1.0 + turn * turn) * length.min(area * area / length),
-            false => K::FLEXIBILITY * length,
-        };
-        h / (h * h + alpha_span).sqrt()
-    });
-    for point in points {
+    let (bent, left, mut shear) = if K::EDGES_BEND {
+        let squared = 2.0 / (SHEAR_FACTOR * (1.0 - plate.nu)) * h * h;
+        edge_bubbles::<K, N, V, P>(surface, &(plate.plane_stress() * h.powi(3) / 12.0), squared)
+    } else {
+        let turn = most_turn(&surface.X, D, K::EDGES) / h;
+        let flexibility = K::FLEXIBILITY * turn * turn / (1.0 + turn * turn);
+        let left = K::EDGES.map(|[a, b]| {
+            let length = (surface.X[b] - surface.X[a]).norm_squared();
+            let span = length.min(surface.area * surface.area / length);
+            h / (h * h + flexibility * span).sqrt()
+        });
+        (EdgeBending::NONE, left, [[0.0; N]; N])
+    };
+    for point in &surface.points {
         let edges = K::shear(point.at);
         let w = SHEAR_FACTOR * G * h * point.weight;
         for i in point.inverse {
-            let Z: [f64; N] = from_fn(|e| flexible[e] * (i[0] * edges[0][e] + i[1] * edges[1][e]));
+            let Z: [f64; N] = from_fn(|e| left[e] * (i[0] * edges[0][e] + i[1] * edges[1][e]));
             for a in 0..N {
                 for b in 0..N {
                     shear[a][b] += w * Z[a] * Z[b];
@@ -242,5 +248,5 @@ fn shear_stiffness<K: Interpolation<N, V, P>, const N: usize, const V: usize, co
             }
         }
     }
-    shear
+    (shear, bent)
 }

@@ -15,13 +15,14 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const VALUES: [[f64; N]; N];
     /// Area of the domain of (ξ, η).
     const AREA: f64;
-    /// The factor α by which bending within the element adds to its shear flexibility: of the strain at an edge the part
-    /// h/√(h² + α ℓ²) counts, ℓ the length of this edge (Lyly, Stenberg & Vihinen 1993, who take one length for the element, with
-    /// which slender triangles are far too soft; MacNeal 1978 for beams).
+    /// The factor α by which bending within an element of a curved surface adds to its shear flexibility: of the strain at an edge the
+    /// part h/√(h² + α ℓ²) counts, ℓ the length of this edge, but at most the width of the element across it (Lyly, Stenberg & Vihinen
+    /// 1993; MacNeal 1978 for beams). Without it thin quadrilaterals lock where they are distorted and coarse; on flat surfaces, where
+    /// they do not, there is none of it, and constant shear is exact: it goes with x²/(1 + x²), x the turn of the surface
+    /// along an edge times its length over the thickness.
     const FLEXIBILITY: f64;
-    /// True where elements of flat surfaces do not lock without it, so that constant shear is exact in them: α is then that times
-    /// x²/(1 + x²), x the turn of the surface along an edge times its length over the thickness, and ℓ at most the width of the element across the edge.
-    const BENDS_WHERE_CURVED: bool;
+    /// Edges bend between their nodes instead, see [`super::edge_bubbles`].
+    const EDGES_BEND: bool;
     /// The part of the bulge of an edge that stress works on: all of it, or what a triangle that bends is best with. Elements that
     /// share an edge take the same.
     const BULGE: f64;
@@ -70,7 +71,7 @@ impl Interpolation<4, 3, 6> for Quadrilateral {
         [[NEAR, SIDE, FAR, SIDE], [SIDE, NEAR, SIDE, FAR], [FAR, SIDE, NEAR, SIDE], [SIDE, FAR, SIDE, NEAR]];
     const AREA: f64 = 4.0;
     const FLEXIBILITY: f64 = 0.1;
-    const BENDS_WHERE_CURVED: bool = true;
+    const EDGES_BEND: bool = false;
     const BULGE: f64 = 1.0;
     const CENTRE: [f64; 2] = [0.0, 0.0];
     const ARC: [[f64; 2]; 2] = [[1.0 / 6.0, 0.0], [0.0, 1.0 / 6.0]];
@@ -96,8 +97,8 @@ impl Interpolation<3, 2, 3> for Triangle {
     const POINTS: [[f64; 2]; 3] = [[0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
     const VALUES: [[f64; 3]; 3] = [[0.5, 0.5, 0.0], [0.0, 0.5, 0.5], [0.5, 0.0, 0.5]];
     const AREA: f64 = 0.5;
-    const FLEXIBILITY: f64 = 0.2;
-    const BENDS_WHERE_CURVED: bool = false;
+    const FLEXIBILITY: f64 = 0.0;
+    const EDGES_BEND: bool = true;
     /// The factor α of Felippa's template.
     const BULGE: f64 = 1.5;
     const CENTRE: [f64; 2] = [1.0 / 3.0, 1.0 / 3.0];

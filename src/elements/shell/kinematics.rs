@@ -3,6 +3,7 @@
 use super::arc::Arc;
 use super::camber::Camber;
 use super::edge::EdgeTangents;
+use super::edge_bending::EdgeBending;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::lanes::ShellPack;
 use super::section::{InPlane, ShellSection, ShellStiffness};
@@ -34,6 +35,8 @@ pub(super) struct Shell<const N: usize, const V: usize, const P: usize, const E:
     pub start: Strains<N, P, E>,
     /// Stiffness of the shear strains at the edges.
     pub shear: [[f64; N]; N],
+    /// Curvature by those strains.
+    pub bent: EdgeBending<f64, N>,
     /// The sections at its integration points.
     pub section: S,
 }
@@ -181,11 +184,16 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             let along = x[b] - x[a];
             let edge = &self.edges[e];
-            membrane[P + e] = along.dot(&(edge.vector(0, &t1[a], &t2[a]) + edge.vector(1, &t1[b], &t2[b])));
+            strains.plane.membrane[P + e] =
+                along.dot(&(edge.vector(0, &t1[a], &t2[a]) + edge.vector(1, &t1[b], &t2[b])));
             strains.shear[e] = 0.5 * along.dot(&(d[a] + d[b]));
         }
+        if K::EDGES_BEND {
+            let more = self.bent.curvature(&strains.shear);
+            (0..3).for_each(|n| strains.plane.bending[n] += more[n]);
+        }
         let mean = 0.5 / N as f64;
-        membrane[E - 1] = mean * (total(t1).dot(&v[1]) - total(t2).dot(&v[0]));
+        strains.plane.membrane[E - 1] = mean * (total(t1).dot(&v[1]) - total(t2).dot(&v[0]));
         strains
     }
 
@@ -221,6 +229,17 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
     #[inline(always)]
     pub fn shear_stress(&self, shear: &[f64; N]) -> [f64; N] {
         from_fn(|i| (0..N).map(|j| self.shear[i][j] * shear[j]).sum())
+    }
+
+    /// The derivative of energy by the numbers of shear: the stress of shear and, by [`super::edge_bubbles`], of bending.
+    #[inline(always)]
+    pub fn edge_stress<K: Interpolation<N, V, P>>(&self, shear: &[f64; N], plane: &InPlane<P, E>) -> [f64; N] {
+        let mut stress = self.shear_stress(shear);
+        if K::EDGES_BEND {
+            let more = self.bent.stress(&plane.bending);
+            (0..N).for_each(|e| stress[e] += more[e]);
+        }
+        stress
     }
 
     /// The derivative of energy by the numbers of bending: the stress of bending and, by [`super::camber`], of the membrane. `long`:
@@ -376,7 +395,8 @@ where
         nodes: &[Node],
     ) -> Strains<N, P, E> {
         let rates = element.strain_rates::<K>(motion, &element.rates(motion, nodes));
-        let mut stress = element.elastic_stress(&rates);
+        let plane = element.section.elastic().stress(&rates.plane);
+        let mut stress = Strains { shear: element.edge_stress::<K>(&rates.shear, &plane), plane };
         let times = |a: &mut [f64]| a.iter_mut().for_each(|a| *a *= self.damping);
         times(&mut stress.plane.membrane);
         times(&mut stress.plane.bending);

@@ -2,6 +2,7 @@
 //! [`super::kinematics`], in the same order.
 
 use super::camber::Camber;
+use super::edge_bending::EdgeBending;
 use super::interpolation::Interpolation;
 use super::packed::InPlaneLanes;
 use crate::elements::block::Force;
@@ -25,6 +26,7 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
     pub start: InPlaneLanes<P, E>,
     pub start_shear: [Lanes; N],
     pub shear: [[Lanes; N]; N],
+    pub bent: EdgeBending<Lanes, N>,
     /// The sections side by side.
     pub sections: B,
 }
@@ -143,6 +145,10 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
             plane.membrane[P + e] = along.dot(&self.bulging(e, [a, b], turning));
             shear[e] = half * along.dot(&(turning[0][a] + turning[0][b]));
         }
+        if K::EDGES_BEND {
+            let more = self.bent.curvature(&shear);
+            (0..3).for_each(|n| plane.bending[n] += more[n]);
+        }
         let mean = Lanes::splat(0.5 / N as f64);
         plane.membrane[E - 1] = mean * (total(&turning[1]).dot(&v[1]) - total(&turning[2]).dot(&v[0]));
         (0..E).for_each(|i| plane.membrane[i] -= self.start.membrane[i]);
@@ -210,11 +216,15 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
         let slopes = self.slopes(&motion);
         let (plane, shear) = self.strains::<K>(&motion, &slopes);
         let plane = stress(&self.sections, &plane, self.count);
-        let shear = from_fn(|i| {
+        let mut shear: [Lanes; N] = from_fn(|i| {
             let mut sum = self.shear[i][0] * shear[0];
             (1..N).for_each(|j| sum += self.shear[i][j] * shear[j]);
             sum
         });
+        if K::EDGES_BEND {
+            let more = self.bent.stress(&plane.bending);
+            (0..N).for_each(|e| shear[e] += more[e]);
+        }
         let g = self.gradient::<K>((&plane, &shear), &motion, &slopes);
         let f: [[[f64; LANES]; 6]; N] = from_fn(|a| {
             let mut moment = LaneVec3::ZERO;

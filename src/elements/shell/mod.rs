@@ -28,6 +28,8 @@ mod camber;
 mod curved;
 mod deviatoric;
 mod edge;
+mod edge_bending;
+mod edge_bubbles;
 mod geometry;
 mod hybrid;
 mod integrals;
@@ -55,6 +57,7 @@ pub use interpolation::{Interpolation, Quadrilateral, Triangle};
 pub use kinematics::{Quadrilaterals, Shells, Triangles};
 pub use layers::LayerModel;
 pub use plane_strains::PlaneStrains;
+pub use results::result_axes;
 pub use section::ShellStiffness;
 
 /// Stiffness of drilling that strains do not feel, as a part of shear modulus times thickness: of the mean over an element, and of

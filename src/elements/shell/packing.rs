@@ -1,6 +1,7 @@
 //! Shell elements laid out in packs of eight, where explicit schemes ask for forces alone.
 
 use super::camber::Camber;
+use super::edge_bending::EdgeBending;
 use super::kinematics::Shell;
 use super::lanes::ShellPack;
 use super::packed::{InPlaneLanes, PackedSections};
@@ -35,6 +36,7 @@ fn shell_pack<const N: usize, const V: usize, const P: usize, const E: usize, S,
         },
         start_shear: from_fn(|i| of(&|e| e.start.shear[i])),
         shear: from_fn(|i| from_fn(|j| of(&|e| e.shear[i][j]))),
+        bent: EdgeBending(from_fn(|i| from_fn(|j| of(&|e| e.bent.0[i][j])))),
         sections,
     }
 }

@@ -25,6 +25,12 @@ fn project(axis: &Vec3, normal: &Vec3) -> Vec3 {
     if laid.norm() > STEEP { laid.normalize() } else { across(&Vec3::ith(axis.iamin(), 1.0)).normalize() }
 }
 
+/// Axes 1 and 2 of results in the plane normal to `normal`: the first is `axis` projected on it.
+pub fn result_axes(axis: &Vec3, normal: &Vec3) -> [Vec3; 2] {
+    let first = project(axis, normal);
+    [first, normal.cross(&first)]
+}
+
 /// Σ stress · strain.
 fn work<const N: usize, const P: usize, const E: usize>(stress: &Strains<N, P, E>, strain: &Strains<N, P, E>) -> f64 {
     stress.plane.dot(&strain.plane) + stress.shear.iter().zip(&strain.shear).map(|(a, b)| a * b).sum::<f64>()
@@ -52,7 +58,13 @@ where
         false => Strains { plane: element.section.stress(&strains.plane, now), shear },
     };
     let start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
-    let at = |way: &NodalVectors<N>, s: f64| work(&stress, &element.measure::<K, false>(&start.plus(s, way)));
+    let at = |way: &NodalVectors<N>, s: f64| {
+        let mut strains = element.measure::<K, false>(&start.plus(s, way));
+        // Twisting moments on edges that bend cancel between elements, and are no shear forces; Q is told by all elements at a node.
+        let bent = element.bent.curvature(&strains.shear);
+        (0..3).for_each(|n| strains.plane.bending[n] -= bent[n]);
+        work(&stress, &strains)
+    };
     let mean = MeanStress { X: &X, axis, motion: &motion, first: sum(&element.slopes[0], &X) };
     mean.resultants(&at, |layers| element.section.layers(&strains.plane, now, layers))
 }
@@ -80,8 +92,7 @@ impl<const N: usize> MeanStress<'_, N> {
         let MeanStress { X, axis, motion, first: own } = self;
         let area: Vec3 = Face::of(&from_fn::<_, N, _>(|a| a))?.areas(|a| X[a]).iter().sum();
         let normal = area.normalize();
-        let first = project(axis, &normal);
-        let t = [first, normal.cross(&first)];
+        let t = result_axes(axis, &normal);
         // This mean stress is conjugate to the strain of a change of positions and directors.
         let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
             let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };

@@ -92,8 +92,14 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
 
     /// C B, with the in-plane stiffness `plane`.
     #[inline(always)]
-    fn times(&self, plane: &ShellStiffness<P, E>, B: &Rows<N, P, E>) -> Rows<N, P, E> {
+    fn times<K: Interpolation<N, V, P>>(&self, plane: &ShellStiffness<P, E>, B: &Rows<N, P, E>) -> Rows<N, P, E> {
         let mut CB = Rows::ZERO;
+        let mut bending = B.bending;
+        if K::EDGES_BEND {
+            for (row, by) in bending.iter_mut().zip(&self.bent.0) {
+                (0..N).for_each(|e| add(row, by[e], &B.shear[e]));
+            }
+        }
         for i in 0..E {
             for j in 0..E {
                 add(&mut CB.membrane[i], plane.N[i][j], &B.membrane[j]);
@@ -101,13 +107,13 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         }
         for i in 0..P {
             for j in 0..P {
-                add(&mut CB.bending[i], plane.M[i][j], &B.bending[j]);
+                add(&mut CB.bending[i], plane.M[i][j], &bending[j]);
             }
         }
         if plane.coupled {
             for i in 0..E {
                 for j in 0..P {
-                    add(&mut CB.membrane[i], plane.NM[i][j], &B.bending[j]);
+                    add(&mut CB.membrane[i], plane.NM[i][j], &bending[j]);
                     add(&mut CB.bending[j], plane.NM[i][j], &B.membrane[i]);
                 }
             }
@@ -115,6 +121,11 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         for i in 0..N {
             for j in 0..N {
                 add(&mut CB.shear[i], self.shear[i][j], &B.shear[j]);
+            }
+        }
+        if K::EDGES_BEND {
+            for (row, by) in CB.bending.iter().zip(&self.bent.0) {
+                (0..N).for_each(|e| add(&mut CB.shear[e], by[e], row));
             }
         }
         CB
@@ -186,11 +197,11 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const E
     };
     let mut place = ShellStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
-    let stress = Strains { plane, shear: element.shear_stress(&strains.shear) };
+    let stress = Strains { plane, shear: element.edge_stress::<T>(&strains.shear, &plane) };
     let turning = &motion.turning;
     let mut B = Rows::<N, P, E>::ZERO;
     element.rows::<T, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-    let mut CB = element.times(C, &B);
+    let mut CB = element.times::<T>(C, &B);
     if T::CAMBERED {
         for (n, row) in element.camber.stiffness(&stress.plane.membrane).iter().enumerate() {
             (0..3).for_each(|k| add(&mut CB.bending[n], row[k], &B.bending[k]));
@@ -242,7 +253,7 @@ fn add_damping<T, const N: usize, const V: usize, const P: usize, const E: usize
     let mut viscous = [[[[0.0; 6]; N]; 6]; N];
     set_product::<T, N, V, P, E>(
         B,
-        &element.times(element.section.elastic(), &D),
+        &element.times::<T>(element.section.elastic(), &D),
         viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
     );
     K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);

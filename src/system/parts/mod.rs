@@ -9,6 +9,7 @@ mod contacts;
 pub mod coordinate_springs;
 pub mod links;
 mod masses;
+pub mod shell_shear;
 pub mod shells;
 
 pub use assembled::{Assembled, Setting};
