@@ -18,7 +18,7 @@ pub struct Body {
     /// inertia, and their elements are omitted from the computation.
     pub parts: Maybe<Names>,
     /// Centre of mass at t = 0, global coordinates. Left out where `parts` make up the body, like mass, inertia and shape,
-    /// or where a hull is to stay where its points are.
+    /// or where a hull or a capsule is to stay where its points are.
     pub center: Maybe<Vector>,
     /// Mass, above 0. Left out where the shape has a density.
     pub mass: Maybe<f64>,

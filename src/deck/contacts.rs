@@ -21,17 +21,17 @@ pub struct Contact {
     pub name: Maybe<String>,
     /// The surface that is touched. Not with `among`.
     pub surface: Maybe<OneOf<Surface>>,
-    /// What touches it, by name: points, bodies (corners of a box or hull, on a box or hull its edges and faces too; rims
-    /// of a cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells; for faces of a part also
+    /// What touches it, by name: points, bodies (corners of a box or hull, ends of a capsule, on a box, hull, capsule or sphere all of
+    /// them; rims of a cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells; for faces of a part also
     /// "itself". Not with `among`.
     pub with: Maybe<Names>,
-    /// In place of `surface` and `with`: bodies that are spheres, boxes or hulls, and points with a `radius`, of which each
-    /// may touch each; boxes and hulls that a joint holds together do not.
+    /// In place of `surface` and `with`: bodies that are spheres, boxes, hulls or capsules, and points with a `radius`, of which each
+    /// may touch each; boxes, hulls and capsules that a joint holds together do not.
     pub among: Maybe<Names>,
     /// Names of the stages in which it is there. Default: all.
     pub stages: Maybe<Names>,
     /// Contact radius: the distance from a point at which it touches, 0 or more. Default: half the thickness of
-    /// shells, half the smaller side of a beam's section, the radius of a sphere; else 0.
+    /// shells, half the smaller side of a beam's section, the radius of a sphere or a capsule; else 0.
     pub radius: Maybe<f64>,
     /// Penalty stiffness, force per penetration of each point, also for friction. 0: a clearance monitor,
     /// nothing acts. Default in dynamics: by material, size, weight and speed of what touches; `check` says it.
@@ -44,7 +44,7 @@ pub struct Contact {
     /// Coulomb's coefficient of friction, 0 or more. Default: 0.
     pub friction: Maybe<f64>,
     /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
-    /// boxes and rims of cylinders, at most 100. Default: 0.
+    /// boxes, ends of capsules and rims of cylinders, at most 100. Default: 0.
     pub points: Maybe<u64>,
 }
 

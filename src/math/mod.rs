@@ -1,5 +1,6 @@
 //! Vectors and matrices of fixed size, rotations, quadrature rules.
 
+pub mod convex;
 pub mod curved_faces;
 #[cfg(feature = "portable")]
 mod elementary;

@@ -197,6 +197,26 @@ impl Polyhedron {
         if nearest.free == Freedom::Face { nearest.along } else { nearest.g.norm() }
     }
 
+    /// The distance of a point, negative inside, and its gradient.
+    pub fn distance_and_gradient(&self, y: &Vec3) -> (f64, Vec3) {
+        let Some(half) = &self.half else {
+            let nearest = self.nearest(y);
+            let d = nearest.g.norm();
+            return match nearest.free {
+                Freedom::Face => (nearest.along, nearest.normal),
+                _ => (d, nearest.g / d),
+            };
+        };
+        let q = y.abs() - half;
+        let out = q.sup(&Vec3::zeros());
+        let d = out.norm();
+        if d > 0.0 {
+            return (d, out.zip_map(y, |out, y| out.copysign(y)) / d);
+        }
+        let side = q.imax();
+        (q[side], Vec3::ith(side, 1f64.copysign(y[side])))
+    }
+
     /// The part of the surface that is nearest to a point.
     pub fn nearest(&self, y: &Vec3) -> NearestPart {
         let plane = |face: &PolyhedronFace| face.normal.dot(y) - face.offset;
@@ -231,6 +251,36 @@ impl Polyhedron {
             }
         }
         best
+    }
+
+    /// Calls with each s at which another part of the surface becomes the nearest to `from` + s `way`, outside; in no order.
+    ///
+    /// What is nearest to an edge is bounded by the planes through it along the normals of its two faces, and what is nearest to a
+    /// corner by the planes through it across its edges, each as far as between these normals.
+    pub fn region_changes(&self, from: &Vec3, way: &Vec3, found: &mut dyn FnMut(f64)) {
+        let crossing = |at: &Vec3, normal: &Vec3| {
+            let s = normal.dot(&(at - from)) / normal.dot(way);
+            s.is_finite().then(|| (s, from + s * way - at))
+        };
+        for edge in &self.edges {
+            let [a, b] = edge.ends.map(|k| self.corners[k]);
+            let along = b - a;
+            let normals = edge.faces.map(|k| self.faces[k].normal);
+            for normal in &normals {
+                let Some((s, out)) = crossing(&a, &normal.cross(&along)) else { continue };
+                let part = out.dot(&along);
+                if out.dot(normal) >= 0.0 && (0.0..=along.norm_squared()).contains(&part) {
+                    found(s);
+                }
+            }
+            let between = normals[0].cross(&normals[1]);
+            for corner in [a, b] {
+                let Some((s, out)) = crossing(&corner, &along) else { continue };
+                if normals[0].cross(&out).dot(&between) >= 0.0 && out.cross(&normals[1]).dot(&between) >= 0.0 {
+                    found(s);
+                }
+            }
+        }
     }
 
     /// True where the foot of a point lies within a face.

@@ -10,8 +10,8 @@ use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, Facet, FacetTouchers, Surface, SurfaceShape, TouchingPolyhedron};
-use crate::math::{Mat3, Vec3, curved_faces};
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface};
+use crate::math::curved_faces;
 use crate::solids::Touching;
 
 /// The word for a shell that touches itself.
@@ -40,8 +40,8 @@ pub(super) fn read_facets<'d>(
     };
     let touchers = std::mem::take(&mut finder.sight.touchers);
     let surface = TouchedSurface::Facets(surface);
-    let (law, chosen, joined, polyhedra) = (None, None, Vec::new(), std::mem::take(&mut finder.polyhedra));
-    Some(Contact { name: name.to_owned(), surface, points, polyhedra, joined, touchers, law, size: 0.0, chosen })
+    let (law, chosen, joined, convex) = (None, None, Vec::new(), std::mem::take(&mut finder.convex));
+    Some(Contact { name: name.to_owned(), surface, points, convex, joined, touchers, law, size: 0.0, chosen })
 }
 
 /// The faces of a part and the points that touch them.
@@ -181,7 +181,7 @@ fn sides<'d>(
     Some(Sides { place, surface, half })
 }
 
-/// The surfaces of all bodies in a list that are boxes or hulls.
+/// The surfaces of all bodies in a list that are boxes, hulls or capsules.
 fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64) -> Vec<CarriedSurface> {
     let places = names.iter().filter_map(|at| scene.names.place(&at.value));
     let leaves = places.flat_map(|place| scene.names.leaves(place));
@@ -197,16 +197,15 @@ fn own_nodes(facets: &[Facet]) -> Vec<usize> {
     nodes
 }
 
-/// The surface of a body that is drawn as a box or a hull.
+/// The surface of a body that is drawn as a box, a hull or a capsule.
 fn solid_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface> {
     scene.deck.bodies.get(body)?.shape.as_ref()?;
     let body = &scene.bodies[body];
-    let shape = SurfaceShape::of_polyhedron(body.shape.as_polyhedron()?, inflated);
-    let surface = Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape };
+    let surface = Surface::of_convex(&body.shape.as_convex()?, inflated);
     Some(CarriedSurface { node: body.node, surface })
 }
 
-/// Balls, boxes and hulls among themselves.
+/// Balls, boxes, hulls and capsules among themselves.
 fn balls<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
@@ -217,16 +216,16 @@ fn balls<'d>(
     let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
     finder.report.reject_unused(what, &keys);
     let given = contact.radius.as_ref().map(|_| finder.report.not_negative("radius", &contact.radius, 0.0));
-    let Members { mut balls, mut polyhedra } = members(finder, among, given)?;
+    let Members { mut balls, mut convex } = members(finder, among, given)?;
     balls.sort_unstable_by_key(|(node, _)| *node);
     balls.dedup_by_key(|(node, _)| *node);
-    polyhedra.sort_unstable_by_key(|one| one.node);
-    polyhedra.dedup_by_key(|one| one.node);
-    if balls.len() + polyhedra.len() < 2 {
+    convex.sort_unstable_by_key(|one| one.node);
+    convex.dedup_by_key(|one| one.node);
+    if balls.len() + convex.len() < 2 {
         let message = format!("{} has fewer than two bodies or balls `among` which anything could touch", owner.what);
         return finder.report.error(&among.span, message);
     }
-    finder.polyhedra = polyhedra;
+    finder.convex = convex;
     finder.inflate(given.unwrap_or(0.0), contact)?;
     let mut points = Vec::new();
     for &(node, radius) in &balls {
@@ -235,11 +234,8 @@ fn balls<'d>(
     let facet = |point: &ContactPoint| Facet::ball(point.nodes[0], point.radius, point.rolling_radius);
     let facets = points.iter().map(facet).collect();
     let touchers = FacetTouchers::Among;
-    let carried = |one: &TouchingPolyhedron| {
-        let shape = SurfaceShape::of_polyhedron(one.shape.clone(), 0.0);
-        CarriedSurface { node: one.node, surface: Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape } }
-    };
-    let solids = if points.is_empty() { Vec::new() } else { finder.polyhedra.iter().map(carried).collect() };
+    let carried = |one: &ConvexBody| CarriedSurface { node: one.node, surface: Surface::of_convex(&one.shape, 0.0) };
+    let solids = if points.is_empty() { Vec::new() } else { finder.convex.iter().map(carried).collect() };
     let back = if solids.is_empty() { Vec::new() } else { points.clone() };
     Some((FacetSurface { part: String::new(), facets, touchers, solids, back }, points))
 }
@@ -249,8 +245,8 @@ fn balls<'d>(
 struct Members {
     /// Nodes and radii of balls.
     balls: Vec<(usize, f64)>,
-    /// Boxes and hulls.
-    polyhedra: Vec<TouchingPolyhedron>,
+    /// Boxes, hulls and capsules.
+    convex: Vec<ConvexBody>,
 }
 
 /// True for a body of the deck whose shape could not be read, which has been said.
@@ -271,8 +267,8 @@ fn members<'d>(
     for at in &among.values {
         let place = scene.names.find(at, report)?;
         for leaf in scene.names.leaves(place) {
-            if let Some(one) = polyhedron_of(scene, leaf) {
-                members.polyhedra.push(one);
+            if let Some(one) = convex_of(scene, leaf) {
+                members.convex.push(one);
                 continue;
             }
             let radius = given.or_else(|| radius_of(scene, leaf)).filter(|radius| *radius > 0.0);
@@ -298,12 +294,12 @@ fn members<'d>(
     sound.then_some(members)
 }
 
-/// A body that is drawn as a box or a hull.
-fn polyhedron_of(scene: &Scene, place: Place) -> Option<TouchingPolyhedron> {
+/// A body that is drawn as a box, a hull or a capsule.
+fn convex_of(scene: &Scene, place: Place) -> Option<ConvexBody> {
     let Place::Body(body) = place else { return None };
     scene.deck.bodies.get(body)?.shape.as_ref()?;
     let body = &scene.bodies[body];
-    Some(TouchingPolyhedron { node: body.node, shape: body.shape.as_polyhedron()? })
+    Some(ConvexBody { node: body.node, shape: body.shape.as_convex()? })
 }
 
 /// The radius of a body that is drawn as a sphere.
@@ -312,7 +308,7 @@ fn radius_of(scene: &Scene, place: Place) -> Option<f64> {
     scene.deck.bodies.get(body)?.shape.as_ref()?;
     match scene.bodies[body].shape.touching(0) {
         Touching::Ball(radius) => Some(radius),
-        Touching::Nodes | Touching::Points(_) => None,
+        Touching::Nodes | Touching::Points { .. } => None,
     }
 }
 
@@ -326,7 +322,11 @@ fn refuse_ball(report: &mut Report, at: &At<String>, leaf: Place, has_no_nodes: 
         }
         false => {
             let message = format!("`{name}` is or holds {} without a radius", leaf.kind());
-            report.error_with::<()>(&at.span, message, "draw bodies as spheres, boxes or hulls, or give `radius`");
+            report.error_with::<()>(
+                &at.span,
+                message,
+                "draw bodies as spheres, boxes, hulls or capsules, or give `radius`",
+            );
         }
     }
 }

@@ -8,7 +8,7 @@ use super::report::{Owner, Report};
 use super::scene::Scene;
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution::{self, Loss};
-use crate::elements::contact::{ContactLaw, ContactPoint, MOST_NODES, TouchingPolyhedron};
+use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES};
 use crate::math::Vec3;
 use crate::names::short;
 use std::f64::consts::{PI, TAU};
@@ -61,13 +61,13 @@ impl LawReader<'_, '_> {
         owner: &Owner,
         contact: &words::Contact,
         opposite: Opposite,
-        touching: (&[ContactPoint], &[TouchingPolyhedron]),
+        touching: (&[ContactPoint], &[ConvexBody]),
         report: &mut Report,
     ) -> Option<(ContactLaw, Option<String>)> {
         if report.is_spoiled(owner.span, "stiffness") {
             return None;
         }
-        let (points, levers) = with_polyhedra(touching);
+        let (points, levers) = with_convex(touching);
         let meeting = self.meeting(opposite, &points, &levers);
         let chosen = match &contact.stiffness {
             Some(_) => None,
@@ -141,8 +141,8 @@ impl LawReader<'_, '_> {
     }
 
     /// The smallest dimension of bodies that touch and of what is touched.
-    pub fn size(&self, opposite: Opposite, touching: (&[ContactPoint], &[TouchingPolyhedron])) -> f64 {
-        let (points, _) = with_polyhedra(touching);
+    pub fn size(&self, opposite: Opposite, touching: (&[ContactPoint], &[ConvexBody])) -> f64 {
+        let (points, _) = with_convex(touching);
         self.meets(opposite, &points).size_of_bodies()
     }
 
@@ -151,13 +151,8 @@ impl LawReader<'_, '_> {
     }
 
     /// The penetration under gravity, where the largest mass in contact rests on one point.
-    pub fn depth_at_rest(
-        &self,
-        opposite: Opposite,
-        touching: (&[ContactPoint], &[TouchingPolyhedron]),
-        stiffness: f64,
-    ) -> f64 {
-        let (points, levers) = with_polyhedra(touching);
+    pub fn depth_at_rest(&self, opposite: Opposite, touching: (&[ContactPoint], &[ConvexBody]), stiffness: f64) -> f64 {
+        let (points, levers) = with_convex(touching);
         self.gravity.norm() * self.meeting(opposite, &points, &levers).mean / stiffness
     }
 
@@ -244,12 +239,12 @@ impl LawReader<'_, '_> {
 }
 
 /// Points, with a ball within each box or hull for that itself, and how far beyond the point it may be touched.
-fn with_polyhedra((points, polyhedra): (&[ContactPoint], &[TouchingPolyhedron])) -> (Vec<ContactPoint>, Vec<f64>) {
-    let ball = |one: &TouchingPolyhedron| {
+fn with_convex((points, convex): (&[ContactPoint], &[ConvexBody])) -> (Vec<ContactPoint>, Vec<f64>) {
+    let ball = |one: &ConvexBody| {
         let (nodes, mut weights) = ([one.node; MOST_NODES], [0.0; MOST_NODES]);
         weights[0] = 1.0;
         ContactPoint { nodes, weights, count: 1, radius: 0.5 * one.shape.least(), rolling_radius: 0.0, is_line: false }
     };
-    let levers = points.iter().map(|_| 0.0).chain(polyhedra.iter().map(|one| one.shape.reach())).collect();
-    (points.iter().cloned().chain(polyhedra.iter().map(ball)).collect(), levers)
+    let levers = points.iter().map(|_| 0.0).chain(convex.iter().map(|one| one.shape.reach())).collect();
+    (points.iter().cloned().chain(convex.iter().map(ball)).collect(), levers)
 }

@@ -9,7 +9,8 @@ use super::sight::{Opening, Sight};
 use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, MOST_NODES, Toucher, TouchingPolyhedron};
+use crate::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, Toucher};
+use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
 use crate::solids::Touching;
@@ -52,7 +53,7 @@ pub(super) fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
     }
 }
 
-/// Finds the points, boxes and hulls of one contact.
+/// Finds the points and the convex solids of one contact.
 pub(super) struct Finder<'a, 'd> {
     /// The scene so far.
     pub scene: &'a Scene<'d>,
@@ -60,24 +61,24 @@ pub(super) struct Finder<'a, 'd> {
     pub topology: &'a mut Topology,
     /// The report, to which errors go.
     pub report: &'a mut Report<'d>,
-    /// The node that carries the surface, where that is a box or a hull: bodies that are such touch it with their edges and faces too.
-    pub on_polyhedron: Option<usize>,
+    /// The node that carries the surface, where that is a convex shape that convex solids touch with all that they are.
+    pub on_convex: Option<usize>,
     /// True where the surface is made of lines: beams and bars touch it with theirs.
     pub on_lines: bool,
-    /// The boxes and hulls found.
-    pub polyhedra: Vec<TouchingPolyhedron>,
+    /// The boxes, hulls and capsules found.
+    pub convex: Vec<ConvexBody>,
     /// What is seen of all that was found.
     pub sight: Sight,
 }
 
 impl<'a, 'd> Finder<'a, 'd> {
-    /// Finds what touches anything but boxes, hulls and lines.
+    /// Finds what touches anything but convex shapes and lines.
     pub fn new(scene: &'a Scene<'d>, topology: &'a mut Topology, report: &'a mut Report<'d>) -> Self {
-        let (polyhedra, sight) = (Vec::new(), Sight::default());
-        Finder { scene, topology, report, on_polyhedron: None, on_lines: false, polyhedra, sight }
+        let (convex, sight) = (Vec::new(), Sight::default());
+        Finder { scene, topology, report, on_convex: None, on_lines: false, convex, sight }
     }
 
-    /// All points that may touch, each once; boxes and hulls are left in `polyhedra`.
+    /// All points that may touch, each once; convex solids are left in `convex`.
     pub fn touching(
         &mut self,
         owner: &Owner<'d>,
@@ -127,18 +128,23 @@ impl<'a, 'd> Finder<'a, 'd> {
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
     }
 
-    /// Makes boxes larger by a contact radius, which hulls do not take.
+    /// Makes convex solids larger by a contact radius, which hulls do not take.
     pub fn inflate(&mut self, radius: f64, contact: &'d words::Contact) -> Option<()> {
         if radius == 0.0 {
             return Some(());
         }
-        for one in &mut self.polyhedra {
-            let Some(half) = one.shape.half() else {
-                let at = contact.radius.as_ref()?;
-                let message = "hulls take no `radius` against boxes and hulls";
-                return self.report.error_with(&at.span, message, "move their points outward");
+        for one in &mut self.convex {
+            one.shape = match (&one.shape, one.shape.half_edges()) {
+                (_, Some(half)) => ConvexShape::Polyhedron(Arc::new(Polyhedron::cuboid(half.add_scalar(radius)))),
+                (ConvexShape::Spherocylinder(of), _) => {
+                    ConvexShape::Spherocylinder(Spherocylinder { radius: of.radius + radius, ..*of })
+                }
+                (ConvexShape::Polyhedron(_), None) => {
+                    let at = contact.radius.as_ref()?;
+                    let message = "hulls take no `radius` against boxes, hulls, capsules and spheres";
+                    return self.report.error_with(&at.span, message, "move their points outward");
+                }
             };
-            one.shape = Arc::new(Polyhedron::cuboid(half.add_scalar(radius)));
         }
         Some(())
     }
@@ -164,11 +170,11 @@ impl<'a, 'd> Finder<'a, 'd> {
             let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
             return self.report.error(&at.span, message);
         }
-        let (mut found, polyhedra) = (Vec::new(), self.polyhedra.len());
+        let (mut found, convex) = (Vec::new(), self.convex.len());
         for place in self.scene.names.leaves(place) {
             self.touches_of(place, name, between, at, &mut found);
         }
-        if found.is_empty() && self.polyhedra.len() > polyhedra {
+        if found.is_empty() && self.convex.len() > convex {
             return Some(found);
         }
         if found.is_empty() {
@@ -181,7 +187,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         if let Some(body) = carrier.map(|carrier| self.topology.root(carrier)) {
             found.retain(|touch| touch.nodes.iter().any(|&(node, _)| self.topology.root(node) != body));
         }
-        if found.is_empty() && self.polyhedra.len() == polyhedra {
+        if found.is_empty() && self.convex.len() == convex {
             let message = format!("`{}` belongs to the body whose surface it would touch", at.value);
             return self.report.error_with(&at.span, message, "a body does not touch itself");
         }
@@ -236,14 +242,13 @@ impl<'a, 'd> Finder<'a, 'd> {
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
         match shape.touching(0) {
             Touching::Nodes => Toucher::Nodes,
-            Touching::Points(_) if is_drawn && let Some(polyhedron) = shape.as_polyhedron() => {
-                match polyhedron.half() {
-                    Some(_) => Toucher::Box,
-                    None => Toucher::Hull,
-                }
-            }
-            Touching::Points(_) if is_drawn => Toucher::Rims,
-            Touching::Points(_) | Touching::Ball(_) => Toucher::Ball,
+            Touching::Points { .. } if is_drawn => match shape.as_convex() {
+                Some(shape) if shape.half_edges().is_some() => Toucher::Box,
+                Some(ConvexShape::Polyhedron(_)) => Toucher::Hull,
+                Some(ConvexShape::Spherocylinder(_)) => Toucher::Capsule,
+                None => Toucher::Rims,
+            },
+            Touching::Points { .. } | Touching::Ball(_) => Toucher::Ball,
         }
     }
 
@@ -286,17 +291,16 @@ impl<'a, 'd> Finder<'a, 'd> {
     fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
-        if let (Some(carrier), Some(shape), true) = (self.on_polyhedron, shape.as_polyhedron(), is_drawn)
+        if let (Some(carrier), Some(shape), true) = (self.on_convex, shape.as_convex(), is_drawn)
             && self.topology.root(carrier) != self.topology.root(node)
         {
-            if self.polyhedra.iter().all(|one| one.node != node) {
-                self.polyhedra.push(TouchingPolyhedron { node, shape });
+            if self.convex.iter().all(|one| one.node != node) {
+                self.convex.push(ConvexBody { node, shape });
             }
             return;
         }
         let width = shape.opening(between).filter(|_| is_drawn);
-        self.sight.openings.extend(width.map(|width| Opening { width, radius: 0.0, divides: true }));
-        let corners = match shape.touching(between) {
+        let (points, radius) = match shape.touching(between) {
             Touching::Nodes => {
                 let scene = self.scene;
                 for (part, _) in scene.parts.entries().filter(|(_, entry)| entry.rigid_elements.is_some()) {
@@ -311,14 +315,14 @@ impl<'a, 'd> Finder<'a, 'd> {
                 return found.extend(nodes.into_iter().map(|node| Touch::node(node, 0.0)));
             }
             Touching::Ball(radius) if is_drawn => return found.push(Touch::node(node, radius)),
-            Touching::Points(corners) if is_drawn => corners,
-            Touching::Ball(_) | Touching::Points(_) => return found.push(Touch::node(node, 0.0)),
+            Touching::Points { points, radius } if is_drawn => (points, radius),
+            Touching::Ball(_) | Touching::Points { .. } => return found.push(Touch::node(node, 0.0)),
         };
+        self.sight.openings.extend(width.map(|width| Opening { width, radius, divides: true }));
         let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
-        for (k, corner) in corners.into_iter().enumerate() {
-            let dependent =
-                self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + corner, node, &at.span);
-            found.push(Touch::node(dependent, 0.0));
+        for (k, point) in points.into_iter().enumerate() {
+            let dependent = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + point, node, &at.span);
+            found.push(Touch::node(dependent, radius));
         }
     }
 }

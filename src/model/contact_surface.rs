@@ -6,9 +6,9 @@ use super::scene::Scene;
 use crate::deck::contacts as words;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
-use crate::elements::contact::surfaces::Sphere;
-use crate::elements::contact::{Surface, SurfaceShape};
-use crate::math::{Mat3, Vec3};
+use crate::elements::contact::Surface;
+use crate::math::Vec3;
+use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::solids::Touching;
 
 /// The node that carries a surface, and the surface in its frame.
@@ -57,16 +57,20 @@ fn shape_of_body<'d>(
         );
     }
     let is_drawn = scene.deck.bodies.get(index).is_some_and(|body| body.shape.is_some());
-    let shape = match body.shape.touching(0) {
+    let surface = match body.shape.touching(0) {
         _ if !is_drawn => None,
-        Touching::Ball(radius) => Some(SurfaceShape::Sphere(Sphere { radius })),
-        Touching::Points(_) | Touching::Nodes => {
-            body.shape.as_polyhedron().map(|shape| SurfaceShape::of_polyhedron(shape, 0.0))
+        Touching::Ball(radius) => {
+            let sphere = ConvexShape::Spherocylinder(Spherocylinder { half: Vec3::zeros(), radius });
+            Some(Surface::of_convex(&sphere, 0.0))
+        }
+        Touching::Points { .. } | Touching::Nodes => {
+            body.shape.as_convex().map(|shape| Surface::of_convex(&shape, 0.0))
         }
     };
-    let Some(shape) = shape else {
-        let message = format!("body `{}` is no box, hull or sphere whose surface others could touch", name.value);
+    let Some(surface) = surface else {
+        let message =
+            format!("body `{}` is no box, hull, capsule or sphere whose surface others could touch", name.value);
         return report.error_with(&name.span, message, "give the surface a `shape`");
     };
-    Some((body.node, Surface { center: Vec3::zeros(), axes: Mat3::identity(), shape }))
+    Some((body.node, surface))
 }

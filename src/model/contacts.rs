@@ -12,9 +12,7 @@ use super::scene::Scene;
 use super::values::span;
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution;
-use crate::elements::contact::{
-    ContactPoint, Facet, FacetTouchers, Surface, TouchingPolyhedron, least_gap, pair_gap, polyhedra,
-};
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, convex, least_gap, pair_gap};
 use crate::math::Vec3;
 use crate::names::short;
 use crate::state::Node;
@@ -68,10 +66,10 @@ fn of_shape<'d>(
     let surface = report.require(owner, "surface", &contact.surface);
     let surface = surface.and_then(|table| read_surface(name, table, scene, topology, report));
     let carrier = surface.as_ref().map(|(node, _)| *node);
-    let on_polyhedron = surface.as_ref().and_then(|(node, surface)| surface.as_polyhedron().map(|_| *node));
-    let mut finder = Finder { on_polyhedron, ..Finder::new(scene, topology, report) };
+    let on_convex = surface.as_ref().and_then(|(node, surface)| surface.as_convex().map(|_| *node));
+    let mut finder = Finder { on_convex, ..Finder::new(scene, topology, report) };
     let points = finder.touching(owner, name, contact, carrier);
-    let (solids, sight) = (finder.polyhedra, finder.sight);
+    let (solids, sight) = (finder.convex, finder.sight);
     let is_zone = is_zone(owner, contact, report);
     let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { return None };
     sight.check(owner, contact.points.as_ref().map(|at| at.value), &surface, report);
@@ -93,7 +91,7 @@ fn of_shape<'d>(
         name: name.to_owned(),
         surface,
         points,
-        polyhedra: solids,
+        convex: solids,
         joined: Vec::new(),
         touchers: sight.touchers,
         law,
@@ -116,21 +114,21 @@ fn of_facets<'d>(
     let found = read_facets(&mut finder, owner, name, contact);
     let is_zone = is_zone(owner, contact, report);
     let (mut found, is_zone) = (found?, is_zone?);
-    found.joined = joined(&found.polyhedra, joints, topology);
+    found.joined = joined(&found.convex, joints, topology);
     let TouchedSurface::Facets(faces) = &found.surface else { return None };
     // Boxes and hulls among others are as stiff and as heavy as the balls within.
-    let within = found.polyhedra.iter().map(|one| Facet::ball(one.node, 0.5 * one.shape.least(), 0.0));
+    let within = found.convex.iter().map(|one| Facet::ball(one.node, 0.5 * one.shape.least(), 0.0));
     let facets: Vec<Facet> = faces.facets.iter().cloned().chain(within).collect();
     let least = facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
     let radii = found.points.iter().map(|point| point.radius);
-    let radius = radii.chain(found.polyhedra.iter().map(|one| 0.5 * one.shape.least())).fold(f64::INFINITY, f64::min);
+    let radius = radii.chain(found.convex.iter().map(|one| 0.5 * one.shape.least())).fold(f64::INFINITY, f64::min);
     // What is pressed in by so much is in the middle.
     found.size = least + radius;
     if is_zone {
         return Some(found);
     }
     let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
-    let (opposite, touching) = (Opposite::Facets(&facets), (&found.points[..], &found.polyhedra[..]));
+    let (opposite, touching) = (Opposite::Facets(&facets), (&found.points[..], &found.convex[..]));
     let (law, reason) = chooser.contact_law(owner, contact, opposite, touching, report)?;
     let at_rest = chooser.depth_at_rest(opposite, touching, law.stiffness);
     if faces.touchers != FacetTouchers::Itself {
@@ -145,12 +143,11 @@ fn of_facets<'d>(
 }
 
 /// The pairs of boxes and hulls, by number, that joints hold together or that are one body.
-fn joined(polyhedra: &[TouchingPolyhedron], joints: &[Joint], topology: &Topology) -> Vec<[usize; 2]> {
-    let place: HashMap<usize, usize> =
-        polyhedra.iter().enumerate().map(|(k, one)| (topology.root(one.node), k)).collect();
+fn joined(convex: &[ConvexBody], joints: &[Joint], topology: &Topology) -> Vec<[usize; 2]> {
+    let place: HashMap<usize, usize> = convex.iter().enumerate().map(|(k, one)| (topology.root(one.node), k)).collect();
     let of_root = |node: usize| place.get(&topology.root(node)).copied();
     let by_joints = joints.iter().filter_map(|joint| Some([of_root(joint.ends[0])?, of_root(joint.ends[1])?]));
-    let same = polyhedra.iter().enumerate().filter_map(|(k, one)| Some([k, of_root(one.node)?]));
+    let same = convex.iter().enumerate().filter_map(|(k, one)| Some([k, of_root(one.node)?]));
     let pairs = by_joints.chain(same).filter(|[a, b]| a != b).map(|[a, b]| [a.min(b), a.max(b)]);
     pairs.collect::<BTreeSet<_>>().into_iter().collect()
 }
@@ -159,11 +156,10 @@ fn joined(polyhedra: &[TouchingPolyhedron], joints: &[Joint], topology: &Topolog
 fn gap_at_start(found: &Contact, faces: &FacetSurface, topology: &Topology) -> f64 {
     let nodes: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
     let of_points = Opposite::Facets(&faces.facets).gap(&found.points, topology);
-    let of_polyhedra =
-        polyhedra::heap_gap(if faces.part.is_empty() { &found.polyhedra } else { &[] }, &found.joined, &nodes);
+    let of_convex = convex::heap_gap(if faces.part.is_empty() { &found.convex } else { &[] }, &found.joined, &nodes);
     let balls = if faces.part.is_empty() { &faces.back[..] } else { &[] };
     let on_solids = faces.solids.iter().map(|carried| least_gap(&carried.surface, carried.node, balls, &nodes));
-    on_solids.fold(of_points.min(of_polyhedra), f64::min)
+    on_solids.fold(of_points.min(of_convex), f64::min)
 }
 
 /// The mass at each node, and at what it depends on.
@@ -219,7 +215,7 @@ fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Opti
 fn check_start(
     owner: &Owner,
     (node, surface): (usize, &Surface),
-    (points, solids): (&[ContactPoint], &[TouchingPolyhedron]),
+    (points, solids): (&[ContactPoint], &[ConvexBody]),
     at_rest: f64,
     topology: &Topology,
     report: &mut Report,
@@ -230,8 +226,8 @@ fn check_start(
         surface.distance(&(x - center)) - point.radius
     };
     let at_rest_there: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
-    let of_polyhedra = pair_gap(surface, node, solids, &at_rest_there);
-    let least = points.iter().map(gap).fold(of_polyhedra, f64::min);
+    let of_convex = pair_gap(surface, node, solids, &at_rest_there);
+    let least = points.iter().map(gap).fold(of_convex, f64::min);
     let nodes = points.iter().map(|point| point.nodes[0]).chain(solids.iter().map(|one| one.node));
     let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);
     warn_closed(owner, least, size, at_rest, report);

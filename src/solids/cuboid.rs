@@ -2,6 +2,7 @@
 
 use super::kind::{Solid, SolidKind, SolidShape, Touching};
 use super::outline::{Outline, OutlineCell};
+use crate::math::convex::ConvexShape;
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Form, Given, Key};
@@ -68,8 +69,9 @@ impl SolidShape for SolidCuboid {
         Outline { points, cells: vec![OutlineCell::Hexahedron] }
     }
 
-    fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
-        (self.axes == Mat3::identity()).then(|| Arc::new(Polyhedron::cuboid(Vec3::from(self.size) * 0.5)))
+    fn as_convex(&self) -> Option<ConvexShape> {
+        let cuboid = || ConvexShape::Polyhedron(Arc::new(Polyhedron::cuboid(Vec3::from(self.size) * 0.5)));
+        (self.axes == Mat3::identity()).then(cuboid)
     }
 
     /// Corners, and as many points as asked for between them, on edges and faces.
@@ -83,7 +85,7 @@ impl SolidShape for SolidCuboid {
                 points.push(self.axes * Vec3::new(side(0, at[0]), side(1, at[1]), side(2, at[2])));
             }
         }
-        Touching::Points(points)
+        Touching::Points { points, radius: 0.0 }
     }
 
     /// The diagonal of a mesh of the largest face.

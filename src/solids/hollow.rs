@@ -83,7 +83,7 @@ impl SolidShape for HollowCylinder {
                 points.push(axes * Vec3::new(self.radius * cos, self.radius * sin, end));
             }
         }
-        Touching::Points(points)
+        Touching::Points { points, radius: 0.0 }
     }
 
     /// The diagonal of a mesh of its side. Its ends stay open, whatever is asked for.

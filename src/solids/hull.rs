@@ -4,6 +4,7 @@ use super::hull_points::{POINTS, hull_of};
 use super::kind::{Solid, SolidKind, SolidShape, Touching};
 use super::outline::{Outline, OutlineCell};
 use crate::math::Mat3;
+use crate::math::convex::ConvexShape;
 use crate::math::polyhedron::Polyhedron;
 use crate::words::kinds::Given;
 use std::sync::Arc;
@@ -39,8 +40,8 @@ impl SolidShape for SolidHull {
         Outline { points: self.polyhedron.corners().to_vec(), cells }
     }
 
-    fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
-        Some(self.polyhedron.clone())
+    fn as_convex(&self) -> Option<ConvexShape> {
+        Some(ConvexShape::Polyhedron(self.polyhedron.clone()))
     }
 
     /// Corners, and as many points as asked for on edges between them.
@@ -50,7 +51,7 @@ impl SolidShape for SolidHull {
             let [a, b] = edge.ends.map(|k| self.polyhedron.corners()[k]);
             points.extend((1..=between).map(|k| a + k as f64 / (between + 1) as f64 * (b - a)));
         }
-        Touching::Points(points)
+        Touching::Points { points, radius: 0.0 }
     }
 
     /// The longest edge; faces stay open, whatever is asked for.

@@ -27,7 +27,11 @@ pub fn hull_of(given: &mut Given) -> Option<(Polyhedron, Vec3)> {
         }
         Err(NoHull::TooManyCorners(count)) => {
             let message = format!("the hull has {count} corners: at most {MOST_CORNERS} are allowed");
-            given.error_with("points", message, "leave out corners of blunt edges, or take a sphere or a cylinder")
+            given.error_with(
+                "points",
+                message,
+                "leave out corners of blunt edges, or take a sphere, a capsule or a cylinder",
+            )
         }
         Err(NoHull::Ragged) => {
             let message = "some points lie on an edge or a face to some six digits only";

@@ -1,7 +1,7 @@
 //! What a solid says of itself.
 
 use super::outline::Outline;
-use crate::math::polyhedron::Polyhedron;
+use crate::math::convex::ConvexShape;
 use crate::math::{Mat3, Vec3};
 use crate::words::kinds::{Given, Kind};
 use std::fmt;
@@ -36,8 +36,8 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
         None
     }
 
-    /// The polyhedron that it is, in the axes of its body, where it is one.
-    fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
+    /// The convex shape that it is, in the axes of its body, where it touches others of these in full; a ball does so as a point.
+    fn as_convex(&self) -> Option<ConvexShape> {
         None
     }
 }
@@ -47,8 +47,13 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
 pub enum Touching {
     /// The sphere of this radius about its centre.
     Ball(f64),
-    /// These points, from its centre in its axes.
-    Points(Vec<Vec3>),
+    /// Points with this radius.
+    Points {
+        /// Where they are, from its centre in its axes.
+        points: Vec<Vec3>,
+        /// Their radius.
+        radius: f64,
+    },
     /// The nodes of the elements that make it up.
     Nodes,
 }

@@ -42,10 +42,16 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
     if !cx.system.has_contacts() {
         return;
     }
-    if !ws.warnings.knows_side_by_side()
+    let name = |part: usize| cx.model.parts[part].name().to_owned();
+    if !ws.warnings.knows(|known| matches!(known, Warning::SideBySide { .. }))
         && let Some(part) = cx.system.side_by_side(state)
     {
-        ws.warnings.add(Warning::SideBySide { name: cx.model.parts[part].name().to_owned() });
+        ws.warnings.add(Warning::SideBySide { name: name(part) });
+    }
+    if !ws.warnings.knows(|known| matches!(known, Warning::Crowded { .. }))
+        && let Some(part) = cx.system.crowded(state)
+    {
+        ws.warnings.add(Warning::Crowded { name: name(part) });
     }
     for (group, gap) in cx.system.last_gaps(state) {
         let Some(contact) = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size)

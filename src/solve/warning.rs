@@ -54,6 +54,11 @@ pub enum Warning {
         /// The name of the contact.
         name: String,
     },
+    /// A body touches more others than it remembers.
+    Crowded {
+        /// The name of the contact.
+        name: String,
+    },
     /// Something lies inside the surface of a contact when that begins to act.
     BeginsClosed {
         /// The name of the contact.
@@ -84,6 +89,7 @@ keep_either!(Warning {
     8 => SideBySide { name },
     9 => BeginsClosed { name, depth },
     10 => LargeStrain { name, strain, logarithmic },
+    11 => Crowded { name },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -157,6 +163,15 @@ fn begins_closed(contact: &str, depth: f64) -> String {
     )
 }
 
+/// What is wrong where a body touches more others than it remembers.
+fn crowded(contact: &str) -> String {
+    format!(
+        "contact `{contact}`: a body touches more than 32 others at once that are as large as it is or larger. Those beyond press it all the \
+         same, but without friction, and what an impact gives back is not that of the deck. Give them contacts of two: \
+         surface = {{ body = ... }} with the others in `with`"
+    )
+}
+
 /// What is wrong where beams press each other side by side.
 fn side_by_side(contact: &str) -> String {
     format!(
@@ -217,6 +232,7 @@ impl fmt::Display for Warning {
                 f.write_str(&large_strain(name, *strain, *logarithmic))
             }
             Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
+            Warning::Crowded { name } => f.write_str(&crowded(name)),
             Warning::BeginsClosed { name, depth } => f.write_str(&begins_closed(name, *depth)),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => f.write_str(&corrected(*change)),
@@ -243,9 +259,9 @@ impl Warnings {
         }
     }
 
-    /// True where beams that press each other side by side are known.
-    pub fn knows_side_by_side(&self) -> bool {
-        self.warnings.iter().any(|known| matches!(known, Warning::SideBySide { .. }))
+    /// True where one of a kind is known.
+    pub fn knows(&self, is_of_kind: impl Fn(&Warning) -> bool) -> bool {
+        self.warnings.iter().any(is_of_kind)
     }
 
     /// Adds the depth of a contact, or keeps it where it is relatively deeper than the one known.

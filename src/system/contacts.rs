@@ -2,7 +2,7 @@
 
 use super::equations::System;
 use super::group::Group;
-use crate::elements::contact::{self, Contacts, FacetContacts, PolyhedronHeap, PolyhedronPairs, Resultant};
+use crate::elements::contact::{self, Contacts, ConvexHeap, ConvexPairs, FacetContacts, Resultant};
 use crate::elements::{Partners, Wandering};
 use crate::math::Vec3;
 use crate::model::{CarriedSurface, Contact, Model, PartType, TouchedSurface};
@@ -25,8 +25,8 @@ pub struct ContactState {
 /// What touches in a group of contacts.
 enum ContactBlock<'a> {
     Points(&'a Contacts),
-    Polyhedra(&'a PolyhedronPairs),
-    Heap(&'a PolyhedronHeap),
+    Pairs(&'a ConvexPairs),
+    Heap(&'a ConvexHeap),
     Facets(&'a FacetContacts),
 }
 
@@ -34,8 +34,8 @@ impl ContactBlock<'_> {
     fn longest_step(&self, history: &[f64]) -> f64 {
         match self {
             ContactBlock::Points(block) => contact::longest_step(block, history),
-            ContactBlock::Polyhedra(block) => contact::polyhedra::longest_pair_step(block, history),
-            ContactBlock::Heap(block) => contact::polyhedra::longest_heap_step(block, history),
+            ContactBlock::Pairs(block) => contact::convex::longest_pair_step(block, history),
+            ContactBlock::Heap(block) => contact::convex::longest_heap_step(block, history),
             ContactBlock::Facets(block) => contact::facets::longest_facet_step(block, history),
         }
     }
@@ -43,8 +43,8 @@ impl ContactBlock<'_> {
     fn misses(&self, start: &[Node], now: &Configuration) -> bool {
         match self {
             ContactBlock::Points(block) => contact::misses(block, start, now),
-            ContactBlock::Polyhedra(block) => contact::polyhedra::misses_pair(block, start, now),
-            ContactBlock::Heap(block) => contact::polyhedra::misses_heap(block, start, now),
+            ContactBlock::Pairs(block) => contact::convex::misses_pair(block, start, now),
+            ContactBlock::Heap(block) => contact::convex::misses_heap(block, start, now),
             ContactBlock::Facets(block) => contact::facets::misses_facet(block, start, now),
         }
     }
@@ -52,8 +52,8 @@ impl ContactBlock<'_> {
     fn last_gap(&self, history: &[f64]) -> f64 {
         match self {
             ContactBlock::Points(block) => contact::last_gap(block, history),
-            ContactBlock::Polyhedra(block) => contact::last_pair_gap(block, history),
-            ContactBlock::Heap(block) => contact::polyhedra::last_heap_gap(block, history),
+            ContactBlock::Pairs(block) => contact::last_pair_gap(block, history),
+            ContactBlock::Heap(block) => contact::convex::last_heap_gap(block, history),
             ContactBlock::Facets(block) => contact::facets::last_facet_gap(block, history),
         }
     }
@@ -61,8 +61,8 @@ impl ContactBlock<'_> {
     fn resultant(&self, now: &Configuration) -> Resultant {
         match self {
             ContactBlock::Points(block) => contact::resultant(block, now),
-            ContactBlock::Polyhedra(block) => contact::pair_resultant(block, now),
-            ContactBlock::Heap(block) => contact::polyhedra::heap_resultant(block, now),
+            ContactBlock::Pairs(block) => contact::pair_resultant(block, now),
+            ContactBlock::Heap(block) => contact::convex::heap_resultant(block, now),
             ContactBlock::Facets(block) => contact::facets::facet_resultant(block, now),
         }
     }
@@ -94,10 +94,10 @@ impl System {
         self.groups[self.contacts..].iter().filter_map(|group| {
             let any = group.block.as_any()?;
             let points = any.downcast_ref().map(ContactBlock::Points);
-            let polyhedra = || any.downcast_ref().map(ContactBlock::Polyhedra);
+            let convex = || any.downcast_ref().map(ContactBlock::Pairs);
             let heap = || any.downcast_ref().map(ContactBlock::Heap);
             let facets = || any.downcast_ref().map(ContactBlock::Facets);
-            Some((group, points.or_else(polyhedra).or_else(heap).or_else(facets)?))
+            Some((group, points.or_else(convex).or_else(heap).or_else(facets)?))
         })
     }
 
@@ -130,7 +130,17 @@ impl System {
         let now = state.configuration();
         let is_so = |(group, block): &(&Group, ContactBlock)| match block {
             ContactBlock::Facets(block) => block.is_side_by_side(&group.configuration(&now)),
-            ContactBlock::Points(_) | ContactBlock::Polyhedra(_) | ContactBlock::Heap(_) => false,
+            ContactBlock::Points(_) | ContactBlock::Pairs(_) | ContactBlock::Heap(_) => false,
+        };
+        self.contact_groups().find(is_so).map(|(group, _)| group.part)
+    }
+
+    /// The contact, by its index in [`Model::parts`], in which a body touches more others than it remembers.
+    pub fn crowded(&self, state: &State) -> Option<usize> {
+        let now = state.configuration();
+        let is_so = |(group, block): &(&Group, ContactBlock)| match block {
+            ContactBlock::Heap(block) => block.is_crowded(&group.configuration(&now)),
+            ContactBlock::Points(_) | ContactBlock::Pairs(_) | ContactBlock::Facets(_) => false,
         };
         self.contact_groups().find(is_so).map(|(group, _)| group.part)
     }
@@ -160,12 +170,12 @@ fn least_gap<'a>(contact: &Contact, blocks: impl Iterator<Item = ContactBlock<'a
     match &contact.surface {
         TouchedSurface::Shape(carried) => {
             let of_points = contact::least_gap(&carried.surface, carried.node, points, nodes);
-            of_points.min(contact::pair_gap(&carried.surface, carried.node, &contact.polyhedra, nodes))
+            of_points.min(contact::pair_gap(&carried.surface, carried.node, &contact.convex, nodes))
         }
         TouchedSurface::Facets(faces) => {
             let of = |block: ContactBlock| match block {
                 ContactBlock::Facets(block) => contact::facets::least_facet_gap(block, nodes),
-                ContactBlock::Points(_) | ContactBlock::Polyhedra(_) | ContactBlock::Heap(_) => f64::INFINITY,
+                ContactBlock::Points(_) | ContactBlock::Pairs(_) | ContactBlock::Heap(_) => f64::INFINITY,
             };
             let gap = match contact.law {
                 Some(_) => blocks.map(of).fold(f64::INFINITY, f64::min),
@@ -176,7 +186,7 @@ fn least_gap<'a>(contact: &Contact, blocks: impl Iterator<Item = ContactBlock<'a
             };
             let of_box =
                 |carried: &CarriedSurface| contact::least_gap(&carried.surface, carried.node, &faces.back, nodes);
-            let of_heap = contact::polyhedra::heap_gap(&contact.polyhedra, &contact.joined, nodes);
+            let of_heap = contact::convex::heap_gap(&contact.convex, &contact.joined, nodes);
             faces.solids.iter().map(of_box).fold(gap.min(of_heap), f64::min)
         }
     }

@@ -34,7 +34,7 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
     ("materials/models", &["kind"]),
     ("output/tables", &["shell_order"]),
     ("sections", &["dimensions", "fibres", "profile", "section", "section_shape", "wall"]),
-    ("solids", &["element_faces", "hollow", "hull_points", "kind", "outline"]),
+    ("solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
 ];
 
 /// Kinds that more than one file besides their own knows.

@@ -2,6 +2,7 @@
 
 mod balls;
 mod boxes;
+mod capsules;
 mod depth;
 mod edges;
 mod element;

@@ -7,9 +7,10 @@ use crate::support::read_deck;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::ElementBlock;
-use rdsolve::elements::contact::polyhedra::{PolyhedronPose, depth};
+use rdsolve::elements::contact::convex::{ConvexPose, depth};
 use rdsolve::elements::contact::restitution::{Loss, number};
-use rdsolve::elements::contact::{ContactLaw, PolyhedronPairs, Surface, SurfaceShape, TouchingPolyhedron};
+use rdsolve::elements::contact::{ContactLaw, ConvexBody, ConvexPairs, Surface};
+use rdsolve::math::convex::{ConvexShape, Spherocylinder};
 use rdsolve::math::polyhedron::{Polyhedron, PolyhedronFace};
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3, frame_along};
@@ -18,15 +19,48 @@ use rdsolve::solve::Frame;
 use rdsolve::state::{Configuration, Node};
 use std::sync::Arc;
 
-/// What meets in a test: boxes, or hulls of random points, or one of either.
+/// What may meet in a test: boxes, hulls of random points, capsules, spheres.
 #[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Boxes,
-    Hulls,
-    HullOnBox,
+enum Shape {
+    Box,
+    Hull,
+    Capsule,
+    Sphere,
 }
 
-const KINDS: [Kind; 3] = [Kind::Boxes, Kind::Hulls, Kind::HullOnBox];
+/// The one and the other, of polyhedra.
+const POLYHEDRA: [[Shape; 2]; 3] = [[Shape::Box, Shape::Box], [Shape::Hull, Shape::Hull], [Shape::Hull, Shape::Box]];
+
+/// The same, of all.
+const KINDS: [[Shape; 2]; 9] = [
+    POLYHEDRA[0],
+    POLYHEDRA[1],
+    POLYHEDRA[2],
+    [Shape::Capsule, Shape::Box],
+    [Shape::Box, Shape::Capsule],
+    [Shape::Capsule, Shape::Hull],
+    [Shape::Capsule, Shape::Capsule],
+    [Shape::Hull, Shape::Sphere],
+    [Shape::Capsule, Shape::Sphere],
+];
+
+impl Shape {
+    fn random(self, rng: &mut StdRng) -> ConvexShape {
+        let round = |half: Vec3, rng: &mut StdRng| {
+            ConvexShape::Spherocylinder(Spherocylinder { half, radius: rng.random_range(0.1..0.3) })
+        };
+        match self {
+            Shape::Box => ConvexShape::Polyhedron(Arc::new(cuboid(rng))),
+            Shape::Hull => ConvexShape::Polyhedron(Arc::new(hull(rng))),
+            Shape::Capsule => round(vector(rng, 1.0).normalize() * rng.random_range(0.05..0.5), rng),
+            Shape::Sphere => round(Vec3::zeros(), rng),
+        }
+    }
+}
+
+fn corners(of: &ConvexShape) -> &Polyhedron {
+    of.as_polyhedron().expect("a polyhedron")
+}
 
 fn cuboid(rng: &mut StdRng) -> Polyhedron {
     Polyhedron::cuboid(Vec3::from_fn(|_, _| rng.random_range(0.2..0.6)))
@@ -43,22 +77,21 @@ fn hull(rng: &mut StdRng) -> Polyhedron {
 
 /// Two shapes, and where the one lies against the other.
 struct RandomPair {
-    own: Arc<Polyhedron>,
-    other: Arc<Polyhedron>,
+    own: ConvexShape,
+    other: ConvexShape,
     y: Vec3,
     Q: Mat3,
 }
 
 impl RandomPair {
-    fn pose(&self) -> PolyhedronPose<'_> {
-        PolyhedronPose { y: self.y, Q: self.Q, own: &self.own, other: &self.other }
+    fn pose(&self) -> ConvexPose<'_> {
+        ConvexPose { y: self.y, Q: self.Q, own: &self.own, other: &self.other }
     }
 }
 
 /// One at any attitude, pushed a little into another.
-fn random_pair(rng: &mut StdRng, kind: Kind) -> RandomPair {
-    let own = Arc::new(if kind == Kind::Boxes { cuboid(rng) } else { hull(rng) });
-    let other = Arc::new(if kind == Kind::Hulls { hull(rng) } else { cuboid(rng) });
+fn random_pair(rng: &mut StdRng, kind: [Shape; 2]) -> RandomPair {
+    let [own, other] = kind.map(|shape| shape.random(rng));
     let Q = matrix(&exp(&vector(rng, 2.0)));
     let away = vector(rng, 1.0).normalize() * 3.0;
     let mut pose = RandomPair { y: away, Q, own, other };
@@ -77,8 +110,8 @@ fn random_pair(rng: &mut StdRng, kind: Kind) -> RandomPair {
 #[test]
 fn the_gradient_is_the_derivative_of_the_depth() {
     let mut rng = StdRng::seed_from_u64(3);
-    for k in 0..120 {
-        let pair = random_pair(&mut rng, KINDS[k % 3]);
+    for k in 0..360 {
+        let pair = random_pair(&mut rng, KINDS[k % 9]);
         let pose = pair.pose();
         let found = depth(&pose, 0.0).expect("they overlap");
         for k in 0..6 {
@@ -86,7 +119,7 @@ fn the_gradient_is_the_derivative_of_the_depth() {
             let at = |step: f64| depth(&pose.moved(k, step), 0.0).expect("they overlap").D;
             let slope = (at(h) - at(-h)) / (2.0 * h);
             // Third derivatives over depths of 5e-3 leave h²/D² = 4e-8, and rounding 1e-10.
-            assert!((slope - found.g[k]).abs() < 1e-5, "{k}: {slope} {}", found.g[k]);
+            assert!((slope - found.g[k]).abs() < 1e-5, "{k}: {slope} {} {} {pose:?}", found.g[k], found.D);
         }
     }
 }
@@ -94,9 +127,9 @@ fn the_gradient_is_the_derivative_of_the_depth() {
 /// Two faces: the depth is the penetration, wherever the box stands and however flush. An edge gives 1/√2 of it.
 #[test]
 fn faces_and_edges_have_the_depth_they_should() {
-    let own = Polyhedron::cuboid(Vec3::new(0.1, 0.2, 0.3));
-    let other = Polyhedron::cuboid(Vec3::new(0.2, 0.2, 0.3));
-    let at = |y: Vec3, Q: Mat3| depth(&PolyhedronPose { y, Q, own: &own, other: &other }, 0.0).expect("in touch");
+    let [own, other] = [Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.2, 0.2, 0.3)]
+        .map(|half| ConvexShape::Polyhedron(Arc::new(Polyhedron::cuboid(half))));
+    let at = |y: Vec3, Q: Mat3| depth(&ConvexPose { y, Q, own: &own, other: &other }, 0.0).expect("in touch");
     for (x, turn) in
         [(0.0, 0.0), (0.1, 0.0), (0.1 + 1e-16, 0.0), (0.1 - 1e-13, 0.0), (0.25, 0.0), (0.05, 0.3), (0.0, 1e-9)]
     {
@@ -127,9 +160,10 @@ fn law(friction: f64, loss: Loss) -> ContactLaw {
 }
 
 /// Two whose faces lie on each other, off the middle and tilted by as much as a part of the depth over their size.
-fn random_faces(rng: &mut StdRng, kind: Kind, deep: f64) -> RandomPair {
+fn random_faces(rng: &mut StdRng, kind: [Shape; 2], deep: f64) -> RandomPair {
     let pair = random_pair(rng, kind);
-    let [m, n] = [&pair.own, &pair.other].map(|of| of.faces()[rng.random_range(0..of.faces().len())].clone());
+    let [m, n] =
+        [&pair.own, &pair.other].map(corners).map(|of| of.faces()[rng.random_range(0..of.faces().len())].clone());
     // The normal of the one onto the opposite of the other's, by half a turn about what lies between.
     let between = (m.normal - n.normal).try_normalize(1e-3).unwrap_or_else(|| frame_along(&m.normal).column(0).into());
     let half_turn = 2.0 * between * between.transpose() - Mat3::identity();
@@ -140,32 +174,33 @@ fn random_faces(rng: &mut StdRng, kind: Kind, deep: f64) -> RandomPair {
     };
     let off = vector(rng, 0.05);
     let along = off - n.normal.dot(&off) * n.normal;
-    let y = middle(&pair.other, &n) - deep * n.normal + along - Q * middle(&pair.own, &m);
+    let y = middle(corners(&pair.other), &n) - deep * n.normal + along - Q * middle(corners(&pair.own), &m);
     RandomPair { y, Q, ..pair }
 }
 
 /// A pair in touch.
-fn touch(rng: &mut StdRng, kind: Kind, friction: f64, slide: f64) -> Touch<PolyhedronPairs> {
+fn touch(rng: &mut StdRng, kind: [Shape; 2], friction: f64, slide: f64) -> Touch<ConvexPairs> {
     let pose = random_pair(rng, kind);
     touch_of(rng, &pose, friction, slide)
 }
 
-fn touch_of(rng: &mut StdRng, pose: &RandomPair, friction: f64, slide: f64) -> Touch<PolyhedronPairs> {
-    let shape = SurfaceShape::of_polyhedron(pose.other.clone(), 0.0);
-    let surface = Surface { center: vector(rng, 0.3), axes: matrix(&exp(&vector(rng, 2.0))), shape };
+fn touch_of(rng: &mut StdRng, pose: &RandomPair, friction: f64, slide: f64) -> Touch<ConvexPairs> {
+    let other = Surface::of_convex(&pose.other, 0.0);
+    let turn = matrix(&exp(&vector(rng, 2.0)));
+    let surface = Surface { center: vector(rng, 0.3), axes: turn * other.axes, ..other };
     let mut carrier = Node::at_rest(vector(rng, 1.0));
     carrier.rotation = exp(&vector(rng, 2.0));
     let mut one = Node::at_rest(Vec3::zeros());
     let place = |carrier: &Node, one: &mut Node| {
         let R = carrier.R();
-        one.x = carrier.x + R * (surface.center + surface.axes * pose.y);
-        let quaternion = nalgebra::UnitQuaternion::from_matrix(&(R * surface.axes * pose.Q));
+        one.x = carrier.x + R * (surface.center + turn * pose.y);
+        let quaternion = nalgebra::UnitQuaternion::from_matrix(&(R * turn * pose.Q));
         one.rotation = *quaternion.quaternion();
     };
     place(&carrier, &mut one);
-    let touching = vec![TouchingPolyhedron { node: 1, shape: pose.own.clone() }];
+    let touching = vec![ConvexBody { node: 1, shape: pose.own.clone() }];
     let loss = Loss::Restitution { number: number(0.5), floor: 0.1 };
-    let block = PolyhedronPairs::new(law(friction, loss), &surface, 0, touching).expect("a polyhedron");
+    let block = ConvexPairs::new(law(friction, loss), &surface, 0, touching).expect("a polyhedron");
     let mut past = vec![0.0; block.history()];
     let nothing = past.clone();
     let nodes = vec![carrier, one];
@@ -183,11 +218,11 @@ fn touch_of(rng: &mut StdRng, pose: &RandomPair, friction: f64, slide: f64) -> T
     Touch { block, nodes: vec![carrier, one], past }
 }
 
-fn each(mut check: impl FnMut(&mut StdRng, Touch<PolyhedronPairs>, &str)) {
+fn each(mut check: impl FnMut(&mut StdRng, Touch<ConvexPairs>, &str)) {
     let mut rng = StdRng::seed_from_u64(11);
     for (friction, slide) in [(0.0, 1e-3), (0.8, 1e-4), (0.3, 3e-3)] {
         for k in 0..120 {
-            let touch = touch(&mut rng, KINDS[k % 3], friction, slide);
+            let touch = touch(&mut rng, KINDS[k % 9], friction, slide);
             check(&mut rng, touch, &format!("friction {friction}, number {k}"));
         }
     }
@@ -208,7 +243,7 @@ fn the_tangent_of_faces_is_the_derivative() {
     let mut checked = 0;
     for k in 0..120 {
         let deep = [1e-4, 1e-5][k % 2];
-        let pair = random_faces(&mut rng, KINDS[k % 3], deep);
+        let pair = random_faces(&mut rng, POLYHEDRA[k % 3], deep);
         let touch = touch_of(&mut rng, &pair, [0.0, 0.5][k / 2 % 2], 0.01 * deep);
         // Rounding of positions, 1e-16, over the way of the differences, a thousandth of the depth.
         checked += usize::from(touch.check_tangent_by(1e-3 * deep, 1e-5, &format!("number {k}, depth {deep}")));
@@ -243,7 +278,7 @@ fn the_hull_of_a_box_is_the_box() {
         let half = Vec3::from_fn(|_, _| rng.random_range(0.2..0.6));
         let turn = matrix(&exp(&vector(&mut rng, 2.0)));
         let away = vector(&mut rng, 5.0);
-        let of_box = Polyhedron::cuboid(half);
+        let of_box = Arc::new(Polyhedron::cuboid(half));
         let mut points: Vec<Vec3> = of_box.corners().to_vec();
         points.push(0.5 * (points[0] + points[1]));
         points.push(0.25 * (points[0] + points[1] + points[2] + points[3]));
@@ -263,12 +298,13 @@ fn the_hull_of_a_box_is_the_box() {
             let (of_hull, of_box) = (hull.distance(&(turn * y)), of_box.distance(&y));
             assert!((of_hull - of_box).abs() < 1e-12, "{of_hull} {of_box}");
         }
-        let other = self::hull(&mut rng);
+        let (hull, other) = (Arc::new(hull), Arc::new(self::hull(&mut rng)));
         let Q = matrix(&exp(&vector(&mut rng, 2.0)));
         for _ in 0..10 {
             let y = vector(&mut rng, 0.8);
-            let first = PolyhedronPose { y, Q, own: &of_box, other: &other };
-            let second = PolyhedronPose { Q: Q * turn.transpose(), own: &hull, ..first };
+            let [of_box, hull, other] = [&of_box, &hull, &other].map(|of| ConvexShape::Polyhedron(of.clone()));
+            let first = ConvexPose { y, Q, own: &of_box, other: &other };
+            let second = ConvexPose { Q: Q * turn.transpose(), own: &hull, ..first };
             let (a, b) = (first.least_axis(), second.least_axis());
             assert!((a.gap - b.gap).abs() < 1e-12, "{a:?} {b:?}");
             assert!((first.distance() - second.distance()).abs() < 1e-12);
@@ -288,27 +324,33 @@ fn the_hull_of_a_box_is_the_box() {
 fn the_least_axis_is_the_least() {
     let mut rng = StdRng::seed_from_u64(21);
     for k in 0..60 {
-        let mut pair = random_pair(&mut rng, KINDS[k % 3]);
+        let mut pair = random_pair(&mut rng, KINDS[k % 9]);
         if k % 2 == 0 {
             pair.y *= rng.random_range(1.0..1.3);
         }
         let pose = pair.pose();
         let least = pose.least_axis();
         let along = |axis: &Vec3| {
-            let own = pair.own.corners().iter().map(|x| axis.dot(&(pair.y + pair.Q * x))).fold(f64::INFINITY, f64::min);
-            own - pair.other.corners().iter().map(|x| axis.dot(x)).fold(f64::NEG_INFINITY, f64::max)
+            let own = axis.dot(&(pair.y + pair.Q * pair.own.farthest(&-pair.Q.tr_mul(axis))));
+            own - axis.dot(&pair.other.farthest(axis))
         };
-        // Rounding.
-        assert!((along(&least.axis) - least.gap).abs() < 1e-14);
+        // Rounding; the nearest place on a segment is known by its slope, 1e-13 of the length.
+        assert!((along(&least.axis) - least.gap).abs() < 1e-12);
         // Apart, the line between their nearest points may separate them by more than any of these axes.
         let most = if least.gap > 0.0 { pose.distance() } else { least.gap };
         for _ in 0..2000 {
             assert!(along(&vector(&mut rng, 1.0).normalize()) <= most + 1e-12);
         }
         if least.gap > 0.0 {
-            let inside = |of: &Polyhedron, rng: &mut StdRng| {
-                let weights: Vec<f64> = of.corners().iter().map(|_| rng.random_range(0.0f64..1.0).powi(8)).collect();
-                of.corners().iter().zip(&weights).map(|(x, w)| *w * x).sum::<Vec3>() / weights.iter().sum::<f64>()
+            let inside = |of: &ConvexShape, rng: &mut StdRng| match of {
+                ConvexShape::Polyhedron(of) => {
+                    let weights: Vec<f64> =
+                        of.corners().iter().map(|_| rng.random_range(0.0f64..1.0).powi(8)).collect();
+                    of.corners().iter().zip(&weights).map(|(x, w)| *w * x).sum::<Vec3>() / weights.iter().sum::<f64>()
+                }
+                ConvexShape::Spherocylinder(of) => {
+                    rng.random_range(-1.0..1.0) * of.half + of.radius * vector(rng, 1.0).normalize()
+                }
             };
             let found = pose.distance();
             assert!(found >= least.gap - 1e-14);
@@ -388,7 +430,7 @@ fn bodies_among_themselves_are_pairs() {
     fallen(3, 0.04);
 }
 
-/// Hulls thrown at each other at any attitude, without loss: momenta are kept to rounding of the iteration, and the energy in the limit of
+/// Boxes, hulls and capsules thrown at each other at any attitude, without loss: momenta are kept to rounding of the iteration, and the energy in the limit of
 /// short steps; at every step all pairs that overlap, looked for one by one, are pairs that touch.
 #[test]
 fn elastic_blows_of_many_keep_energy_and_momenta() {
@@ -399,8 +441,9 @@ fn elastic_blows_of_many_keep_energy_and_momenta() {
         let (v, spin) = (vector(&mut rng, 2.0) - 2.0 * Vec3::from(at), vector(&mut rng, 4.0));
         let points: Vec<[f64; 3]> =
             (0..rng.random_range(6..12)).map(|_| (0.2 * vector(&mut rng, 1.0).normalize()).into()).collect();
-        let shape = match k % 3 {
+        let shape = match k % 4 {
             0 => "kind = \"box\", size = [0.2, 0.25, 0.15]".to_owned(),
+            1 => format!("kind = \"capsule\", ends = [[0.0, 0.0, 0.0], {:?}], radius = 0.08", points[0]),
             _ => format!("kind = \"hull\", points = {points:?}"),
         };
         bodies += &format!(
@@ -423,12 +466,12 @@ fn elastic_blows_of_many_keep_energy_and_momenta() {
         "#
     );
     let model = read_deck(&text);
-    let solids = model.each::<model::Contact>().next().expect("a contact").polyhedra.clone();
+    let solids = model.each::<model::Contact>().next().expect("a contact").convex.clone();
     assert_eq!(solids.len(), 27);
-    let overlaps = |nodes: &[Node], one: &TouchingPolyhedron, other: &TouchingPolyhedron| {
+    let overlaps = |nodes: &[Node], one: &ConvexBody, other: &ConvexBody| {
         let (a, b) = (&nodes[one.node], &nodes[other.node]);
         let (y, Q) = (b.R().tr_mul(&(a.x - b.x)), b.R().tr_mul(&a.R()));
-        PolyhedronPose { y, Q, own: &one.shape, other: &other.shape }.least_axis().gap <= 0.0
+        ConvexPose { y, Q, own: &one.shape, other: &other.shape }.least_axis().gap <= 0.0
     };
     let (mut start, mut drift, mut most, mut touches) = (None, 0.0f64, 0.0f64, 0);
     let done = go(&text, &mut |frame| {
@@ -445,7 +488,7 @@ fn elastic_blows_of_many_keep_energy_and_momenta() {
     });
     let (first, last) = (done.rows[0][0], done.rows.last().expect("a row")[0]);
     println!("energy {first} {last}, in contact up to {most}, momenta {drift:e}, {touches} touches");
-    assert!(most > 5.0 && touches > 1000, "they have missed: {most}, {touches}");
+    assert!(most > 4.0 && touches > 1000, "they have missed: {most}, {touches}");
     // Central differences keep momenta to rounding.
     assert!(drift < 1e-10, "{drift:e}");
     // 120 steps an impact.
@@ -623,4 +666,40 @@ fn many_that_are_close_still_rub() {
     // Free they would slide by ½ 2 · 0.1² = 0.01; what sticks stretches its spring by 2 m/4k = 5e-6, and while the weight, which comes at
     // once, bounces, slips some times as much.
     assert!(way < 2e-4, "{way}");
+}
+
+/// A body that touches more others than it can remember is told of: rods side by side on a plate that is no larger than they are.
+#[test]
+fn a_body_that_touches_too_many_is_told() {
+    let warnings = |count: usize| {
+        let (mut bodies, mut names) = (String::new(), vec!["plate".to_owned()]);
+        for k in 0..count {
+            let y = 0.025 * (k as f64 - 0.5 * count as f64);
+            bodies += &format!(
+                "[[bodies]]\nname = \"rod_{k}\"\ncenter = [0.0, {y:?}, 0.0349]\nmass = 0.1\nshape = {{ kind = \"box\", size = [1.6, 0.02, 0.02] }}\n"
+            );
+            names.push(format!("rod_{k}"));
+        }
+        let text = format!(
+            r#"
+            analysis = {{ kind = "dynamic", end_time = 0.002, time_step = 1e-3 }}
+            environment = {{ gravity = [0.0, 0.0, -10.0] }}
+            supports = [{{ at = "plate", fix = "all" }}]
+            [[bodies]]
+            name = "plate"
+            center = [0.0, 0.0, 0.0]
+            mass = 10.0
+            shape = {{ kind = "box", size = [1.0, 1.0, 0.05] }}
+            {bodies}
+            [[contacts]]
+            name = "rods"
+            among = {names:?}
+            stiffness = 1e4
+            friction = 0.3
+            "#
+        );
+        let done = go(&text, &mut |_| Vec::new());
+        done.doubts.iter().filter(|doubt| doubt.contains("more than 32 others")).count()
+    };
+    assert_eq!([warnings(32), warnings(33)], [0, 1]);
 }

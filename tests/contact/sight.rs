@@ -59,9 +59,10 @@ fn surfaces_that_pass_between_points_are_said_until_there_are_enough() {
     );
     let rod = "shape = \"capsule\", ends = [[0.5, -1.0, 0.2], [0.5, 2.0, 0.2]], radius = 0.02";
     let block = "shape = \"box\", center = [0.5, 0.0, 0.2], size = [0.1, 0.2, 0.15]";
+    let post = "shape = \"cylinder\", center = [0.5, 0.5, -0.4], radius = 0.05, length = 1.0, axis = [0.0, 0.0, 1.0]";
     let cases = [
         // The diagonal of a mesh of the large face, or of an element, against the diameter.
-        (brick.clone(), "body", SPHERE, 0.5, 0.1),
+        (brick.clone(), "body", post, 0.5, 0.1),
         (plate.to_owned(), "plate", SPHERE, 0.25 * 2f64.sqrt(), 0.1),
         // A mesh of the side of a cylinder, 16 points around.
         (roll, "body", SPHERE, 1f64.hypot(std::f64::consts::TAU * 0.2 / 16.0), 0.1),
@@ -92,6 +93,7 @@ fn what_is_wider_than_the_openings_is_not_said() {
     let brick = body("kind = \"box\", size = [0.4, 0.3, 0.1]");
     let small = "shape = \"box\", center = [0.5, 0.5, 0.2], size = [0.05, 0.05, 0.05]";
     assert!(said(&brick, &contact(small, "body", None)).is_empty());
+    assert!(said(&brick, &contact(SPHERE, "body", None)).is_empty());
     // By the radius that the contact gives, and by that alone: 0.04 and twice the radius against 0.1118.
     let thin = "shape = \"capsule\", ends = [[0.5, -1.0, 0.2], [0.5, 2.0, 0.2]], radius = 0.02";
     let round = |radius: f64| contact(thin, "beam", None) + &format!("radius = {radius}\n");

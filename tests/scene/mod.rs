@@ -113,7 +113,7 @@ pub fn model() -> Model {
                 law: None,
                 chosen: None,
                 size: 1.0,
-                polyhedra: Vec::new(),
+                convex: Vec::new(),
                 joined: Vec::new(),
                 touchers: Default::default(),
             }),

@@ -16,9 +16,10 @@
 //! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
 //! keep what a point remembers of the way it came; `block` is what the equations see; `steps` bounds the steps; `resultant`
-//! sums what is shown. `polyhedra` are what boxes and hulls do to each other, `facets` what shells and balls do to all that touches them.
+//! sums what is shown. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
 
 mod block;
+pub mod convex;
 pub mod facets;
 mod force;
 pub mod friction;
@@ -28,7 +29,6 @@ mod kinematics;
 mod law;
 mod normal_motion;
 mod point;
-pub mod polyhedra;
 pub mod restitution;
 mod resultant;
 mod steps;
@@ -37,11 +37,11 @@ pub mod surfaces;
 mod tangent;
 mod update;
 
+pub use convex::{ConvexBody, ConvexHeap, ConvexPairs};
 pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
 pub use point::{ContactPoint, MOST_NODES};
-pub use polyhedra::{PolyhedronHeap, PolyhedronPairs, TouchingPolyhedron};
 pub use resultant::{Resultant, last_gap, last_pair_gap, least_gap, pair_gap, pair_resultant, resultant};
 pub use steps::{longest_step, misses};
 pub use surface::Surface;

@@ -1,4 +1,4 @@
-//! The motion of a point, or of a pair of polyhedra, along the normal: how its history goes on from the last state.
+//! The motion of a point, or of a pair of convex solids, along the normal: how its history goes on from the last state.
 
 use super::history::{PointHistory, PointHistoryMut};
 use super::law::ContactLaw;

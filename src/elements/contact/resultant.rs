@@ -1,10 +1,10 @@
 //! The results of a contact for output: the resultant of its points and its least gap.
 
+use super::convex::{CarriedConvex, ConvexBody, ConvexPairs, ConvexPose};
 use super::force::touch;
 use super::history::{self, PointHistory};
 use super::kinematics::Contacts;
 use super::point::ContactPoint;
-use super::polyhedra::{CarriedPolyhedron, PolyhedronPairs, PolyhedronPose, TouchingPolyhedron};
 use super::surface::Surface;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
@@ -52,8 +52,8 @@ pub fn last_gap(contacts: &Contacts, history: &[f64]) -> f64 {
     least(history::each(contacts, history))
 }
 
-/// The same of pairs of polyhedra.
-pub fn last_pair_gap(pairs: &PolyhedronPairs, history: &[f64]) -> f64 {
+/// The same of pairs of convex solids.
+pub fn last_pair_gap(pairs: &ConvexPairs, history: &[f64]) -> f64 {
     least((0..pairs.count()).map(|e| pairs.history(e, history)))
 }
 
@@ -61,8 +61,8 @@ fn least<'a>(points: impl Iterator<Item = PointHistory<'a>>) -> f64 {
     points.filter(|point| point.is_known()).map(PointHistory::gap).fold(f64::INFINITY, f64::min)
 }
 
-/// The resultant of the forces of all pairs of polyhedra on the one that is touched; each that touches counts once.
-pub fn pair_resultant(pairs: &PolyhedronPairs, now: &Configuration) -> Resultant {
+/// The resultant of the forces of all pairs of convex solids on the one that is touched; each that touches counts once.
+pub fn pair_resultant(pairs: &ConvexPairs, now: &Configuration) -> Resultant {
     let mut sum = Resultant::default();
     for (at, acting) in (0..pairs.count()).filter_map(|e| pairs.pair(e).touch(pairs.history(e, now.history), now)) {
         let (f, m) = at.global(&acting.W);
@@ -73,18 +73,18 @@ pub fn pair_resultant(pairs: &PolyhedronPairs, now: &Configuration) -> Resultant
     sum
 }
 
-/// Least distance of polyhedra from another; infinite where there are none.
-pub fn pair_gap(surface: &Surface, carrier: usize, touching: &[TouchingPolyhedron], nodes: &[Node]) -> f64 {
-    let Some(other) = CarriedPolyhedron::of_surface(surface, carrier).filter(|_| !touching.is_empty()) else {
+/// Least distance of convex solids from another; infinite where there are none.
+pub fn pair_gap(surface: &Surface, carrier: usize, touching: &[ConvexBody], nodes: &[Node]) -> f64 {
+    let Some(other) = CarriedConvex::of_surface(surface, carrier).filter(|_| !touching.is_empty()) else {
         return f64::INFINITY;
     };
     touching.iter().fold(f64::INFINITY, |least, one| least.min(distance(one, &other, least, nodes)))
 }
 
-/// The distance of two polyhedra, negative by their least overlap; where it is beyond a `limit`, a lower bound that is beyond it too.
-pub(super) fn distance(one: &TouchingPolyhedron, other: &CarriedPolyhedron, limit: f64, nodes: &[Node]) -> f64 {
+/// The distance of two convex solids, negative by their least overlap; where it is beyond a `limit`, a lower bound that is beyond it too.
+pub(super) fn distance(one: &ConvexBody, other: &CarriedConvex, limit: f64, nodes: &[Node]) -> f64 {
     let (carrier, R) = (&nodes[other.node], nodes[other.node].R());
     let y = other.axes.tr_mul(&(R.tr_mul(&nodes[one.node].relative_position(carrier)) - other.center));
     let Q = (R * other.axes).tr_mul(&nodes[one.node].R());
-    PolyhedronPose { y, Q, own: &one.shape, other: &other.shape }.distance_within(limit)
+    ConvexPose { y, Q, own: &one.shape, other: &other.shape }.distance_within(limit)
 }

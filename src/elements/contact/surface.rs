@@ -1,10 +1,9 @@
 //! A surface on the node that carries it.
 
-use super::surfaces::SurfaceShape;
 use super::surfaces::kind::{ClosestPoint, Touched};
-use crate::math::polyhedron::Polyhedron;
-use crate::math::{Mat3, Vec3};
-use std::sync::Arc;
+use super::surfaces::{Capsule, Sphere, SurfaceShape};
+use crate::math::convex::{ConvexShape, Spherocylinder};
+use crate::math::{Mat3, Vec3, frame_along};
 
 /// A surface in the frame of the node that carries it.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,9 +45,24 @@ impl Surface {
         self.shape.least()
     }
 
-    /// The polyhedron in the axes of the shape, where it is one.
-    pub fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
-        self.shape.as_polyhedron()
+    /// The surface of a solid about the node that carries it, and what is no farther from it than a distance; a box becomes larger by that.
+    pub fn of_convex(shape: &ConvexShape, rounding: f64) -> Self {
+        let (axes, shape) = match shape {
+            ConvexShape::Polyhedron(shape) => (Mat3::identity(), SurfaceShape::of_polyhedron(shape.clone(), rounding)),
+            ConvexShape::Spherocylinder(Spherocylinder { half, radius }) => {
+                let radius = radius + rounding;
+                match half.try_normalize(0.0) {
+                    Some(axis) => (frame_along(&axis), SurfaceShape::Capsule(Capsule { radius, half: half.norm() })),
+                    None => (Mat3::identity(), SurfaceShape::Sphere(Sphere { radius })),
+                }
+            }
+        };
+        Surface { center: Vec3::zeros(), axes, shape }
+    }
+
+    /// The convex shape in the axes of the surface, where it is one that convex solids touch in full.
+    pub fn as_convex(&self) -> Option<ConvexShape> {
+        self.shape.as_convex()
     }
 
     /// True when a point in the plane through the shape's origin normal to a global axis feels no force out of that plane.
@@ -60,9 +74,11 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elements::contact::surfaces::{Capsule, Cuboid, Cylinder, Plane, Sphere};
+    use crate::elements::contact::surfaces::{Cuboid, Cylinder, Plane};
+    use crate::math::polyhedron::Polyhedron;
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
+    use std::sync::Arc;
 
     fn shapes() -> [SurfaceShape; 6] {
         [

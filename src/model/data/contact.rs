@@ -1,7 +1,7 @@
 //! Contacts: points against a surface.
 
 use super::part_answers::PartAnswers;
-use crate::elements::contact::{ContactLaw, ContactPoint, Facet, FacetTouchers, Surface, Toucher, TouchingPolyhedron};
+use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, Toucher};
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column};
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ pub struct Contact {
     /// The points.
     pub points: Vec<ContactPoint>,
     /// Boxes and hulls that touch the surface, which is one then, or each other, with their corners, edges and faces.
-    pub polyhedra: Vec<TouchingPolyhedron>,
+    pub convex: Vec<ConvexBody>,
     /// The pairs of these, by number in ascending order, that do not touch each other: a joint holds them together.
     pub joined: Vec<[usize; 2]>,
     /// The shapes of all that touches, by which `check` says what is not seen.
@@ -86,12 +86,12 @@ impl PartAnswers for Contact {
     }
 
     fn elements(&self) -> usize {
-        self.points.len() + self.polyhedra.len()
+        self.points.len() + self.convex.len()
     }
 
     fn nodes(&self, element: usize) -> &[usize] {
         match element.checked_sub(self.points.len()) {
-            Some(of_polyhedra) => std::slice::from_ref(&self.polyhedra[of_polyhedra].node),
+            Some(of_convex) => std::slice::from_ref(&self.convex[of_convex].node),
             None => self.points[element].nodes(),
         }
     }
@@ -106,7 +106,7 @@ impl PartAnswers for Contact {
             }
         }
         self.points.iter_mut().flat_map(|point| &mut point.nodes[..point.count]).for_each(&mut *visit);
-        self.polyhedra.iter_mut().for_each(|one| visit(&mut one.node));
+        self.convex.iter_mut().for_each(|one| visit(&mut one.node));
     }
 
     fn may_stiffen(&self) -> bool {

@@ -2,7 +2,7 @@
 
 use super::explanation::Explanation;
 
-use crate::elements::contact::{Facet, FacetTouchers, TouchingPolyhedron};
+use crate::elements::contact::{ConvexBody, Facet, FacetTouchers};
 use crate::model::{CarriedSurface, Contact, Model, TouchedSurface};
 use crate::names::short;
 use crate::system::System;
@@ -50,11 +50,8 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
     let (count, part) = (faces.facets.len(), &faces.part);
     let back = match faces.solids.len() {
         0 => String::new(),
-        1 if faces.solids[0].surface.as_polyhedron().is_some_and(|of| of.half().is_none()) => {
-            ", and its nodes against a hull".to_owned()
-        }
-        1 => ", and its nodes against a box".to_owned(),
-        solids => format!(", and its nodes against {solids} boxes or hulls"),
+        1 => format!(", and its nodes against a {}", faces.solids[0].surface.shape.word()),
+        solids => format!(", and its nodes against {solids} convex bodies"),
     };
     let kind = if faces.facets.iter().any(Facet::is_line) { "lines" } else { "faces" };
     match faces.touchers {
@@ -70,21 +67,24 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
     }
 }
 
-/// The points, and the boxes with all that they are.
+/// The points, and the convex bodies with all that they are.
 fn touching_in_words(contact: &Contact) -> String {
     let radius = contact.points.iter().map(|point| point.radius).fold(0.0, f64::max);
     let radius = if radius > 0.0 { format!(" of contact radius {}", short(radius)) } else { String::new() };
     let words = if contact.points.iter().any(|point| point.is_line) { ["line", "lines"] } else { ["point", "points"] };
     let points = counted(contact.points.len(), words[0], words[1]).map(|points| points + &radius);
-    let solids = solids_in_words(contact).map(|solids| solids + " with corners, edges and faces");
+    let solids = solids_in_words(contact).map(|solids| solids + " with all their surface");
     points.into_iter().chain(solids).collect::<Vec<_>>().join(" and ")
 }
 
-/// The boxes and hulls, each kind that there is.
+/// The convex bodies, each kind that there is.
 fn solids_in_words(contact: &Contact) -> impl Iterator<Item = String> {
-    let is_box = |one: &&TouchingPolyhedron| one.shape.half().is_some();
-    let boxes = contact.polyhedra.iter().filter(is_box).count();
-    let kinds = [(boxes, "box", "boxes"), (contact.polyhedra.len() - boxes, "hull", "hulls")];
+    let is_box = |one: &&ConvexBody| one.shape.half_edges().is_some();
+    let is_polyhedron = |one: &&ConvexBody| one.shape.as_polyhedron().is_some();
+    let boxes = contact.convex.iter().filter(is_box).count();
+    let polyhedra = contact.convex.iter().filter(is_polyhedron).count();
+    let capsules = contact.convex.len() - polyhedra;
+    let kinds = [(boxes, "box", "boxes"), (polyhedra - boxes, "hull", "hulls"), (capsules, "capsule", "capsules")];
     kinds.into_iter().filter_map(|(count, one, many)| counted(count, one, many))
 }
 

@@ -2,7 +2,7 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use crate::elements::contact::{
-    ContactLaw, ContactPoint, Contacts, FacetContacts, MOST_NODES, PolyhedronHeap, PolyhedronPairs, SurfaceShape,
+    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, FacetContacts, MOST_NODES, SurfaceShape,
 };
 use crate::model::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::sections::Stiffness;
@@ -17,9 +17,9 @@ impl Assembled for Contact {
             TouchedSurface::Shape(carried) => carried,
             TouchedSurface::Facets(faces) => {
                 let mut blocks = facet_blocks(law, faces, &self.points, setting);
-                if !self.polyhedra.is_empty() {
+                if !self.convex.is_empty() {
                     blocks.push((
-                        Box::new(PolyhedronHeap::new(law, self.polyhedra.clone(), self.joined.clone())),
+                        Box::new(ConvexHeap::new(law, self.convex.clone(), self.joined.clone())),
                         self.points.len(),
                     ));
                 }
@@ -34,9 +34,9 @@ impl Assembled for Contact {
                 blocks.push((Box::new(block), piece.start));
             }
         }
-        for piece in pieces(self.polyhedra.len()) {
-            let polyhedra = self.polyhedra[piece.clone()].to_vec();
-            let pairs = PolyhedronPairs::new(law, &carried.surface, carried.node, polyhedra);
+        for piece in pieces(self.convex.len()) {
+            let convex = self.convex[piece.clone()].to_vec();
+            let pairs = ConvexPairs::new(law, &carried.surface, carried.node, convex);
             blocks.extend(pairs.map(|pairs| (Box::new(pairs) as _, self.points.len() + piece.start)));
         }
         blocks
@@ -46,13 +46,14 @@ impl Assembled for Contact {
         let TouchedSurface::Shape(CarriedSurface { surface, .. }) = &self.surface else { return false };
         let center = surface.center[plane.normal].abs();
         // Two boxes of which each is the same on both sides of the plane push each other along it.
-        if self.polyhedra.iter().any(|one| one.shape.half().is_none()) || matches!(surface.shape, SurfaceShape::Hull(_))
+        if self.convex.iter().any(|one| one.shape.half_edges().is_none())
+            || matches!(surface.shape, SurfaceShape::Hull(_))
         {
             return false;
         }
-        let keeps = !self.points.is_empty() || self.polyhedra.is_empty();
+        let keeps = !self.points.is_empty() || self.convex.is_empty();
         let along = surface.axes.row(plane.normal).iter().any(|x| x.abs() > 1.0 - 1e-12);
-        center <= SMALL * plane.size && (!keeps || surface.keeps(plane.normal)) && (self.polyhedra.is_empty() || along)
+        center <= SMALL * plane.size && (!keeps || surface.keeps(plane.normal)) && (self.convex.is_empty() || along)
     }
 }
 

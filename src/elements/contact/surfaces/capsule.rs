@@ -2,6 +2,7 @@
 
 use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, across, along, round};
 use crate::math::{Mat3, Vec3, frame_along};
+use crate::solids::segment::{ENDS, segment_of};
 use crate::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -10,24 +11,15 @@ pub const KIND: SurfaceKind<Capsule> = SurfaceKind {
     aliases: &[],
     guesses: &["pill"],
     about: "A cylinder with round ends.",
-    keys: &[
-        Key { name: "ends", form: Form::Vectors, about: "Two points, the ends of the line that it is round." },
-        Key { name: "radius", form: Form::Number, about: "Its radius, above 0." },
-    ],
+    keys: &[ENDS, Key { name: "radius", form: Form::Number, about: "Its radius, above 0." }],
     make: read,
 };
 
 fn read(given: &mut Given, _: Option<Vec3>) -> Option<Placed<Capsule>> {
-    let radius = given.require_positive("radius");
-    let &[ax, ay, az, bx, by, bz] = given.require("ends")? else {
-        return given.error("ends", "`ends` takes two points");
-    };
-    let (a, b) = (Vec3::new(ax, ay, az), Vec3::new(bx, by, bz));
-    let Some(axis) = (b - a).try_normalize(0.0) else {
-        return given.error_with("ends", "the ends of a capsule lie at one place", "that is a sphere");
-    };
-    let shape = Capsule { radius: radius?, half: 0.5 * (b - a).norm() };
-    Some(Placed { center: 0.5 * (a + b), axes: frame_along(&axis), shape })
+    let (segment, center) = segment_of(given)?;
+    let half = segment.half.norm();
+    let shape = Capsule { radius: segment.radius, half };
+    Some(Placed { center, axes: frame_along(&(segment.half / half)), shape })
 }
 
 /// All that is nearer than the radius to a line along the third axis.

@@ -11,6 +11,7 @@ pub mod sight;
 pub mod sphere;
 
 use crate::math::Vec3;
+use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::polyhedron::Polyhedron;
 use kind::{ClosestPoint, Placed, SurfaceKind, Touched};
 use std::sync::Arc;
@@ -36,12 +37,19 @@ macro_rules! surfaces {
         })),+];
 
         impl SurfaceShape {
-            /// The polyhedron that it is, where it is one.
-            pub fn as_polyhedron(&self) -> Option<Arc<Polyhedron>> {
+            /// The convex shape that it is, where solids that are such touch it in full; a hull without its rounding.
+            pub fn as_convex(&self) -> Option<ConvexShape> {
+                let about = |half: f64, radius: f64| {
+                    ConvexShape::Spherocylinder(Spherocylinder { half: Vec3::z() * half, radius })
+                };
                 match self {
-                    SurfaceShape::Cuboid(cuboid) => Some(Arc::new(Polyhedron::cuboid(cuboid.half.into()))),
-                    SurfaceShape::Hull(hull) => Some(hull.polyhedron.clone()),
-                    _ => None,
+                    SurfaceShape::Cuboid(cuboid) => {
+                        Some(ConvexShape::Polyhedron(Arc::new(Polyhedron::cuboid(cuboid.half.into()))))
+                    }
+                    SurfaceShape::Hull(hull) => Some(ConvexShape::Polyhedron(hull.polyhedron.clone())),
+                    SurfaceShape::Sphere(sphere) => Some(about(0.0, sphere.radius)),
+                    SurfaceShape::Capsule(capsule) => Some(about(capsule.half, capsule.radius)),
+                    SurfaceShape::Plane(_) | SurfaceShape::Cylinder(_) => None,
                 }
             }
 

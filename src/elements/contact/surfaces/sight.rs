@@ -12,6 +12,8 @@ pub enum Toucher {
     Box,
     /// A body that is the hull of points.
     Hull,
+    /// A body that is a capsule.
+    Capsule,
     /// A body that is a cylinder or a tube: points of its rims.
     Rims,
     /// Nodes of a part or of a body of rigid parts, and places between them that are asked for.
@@ -20,23 +22,25 @@ pub enum Toucher {
 
 impl Toucher {
     /// All of them.
-    pub const ALL: [Toucher; 5] = [Toucher::Ball, Toucher::Box, Toucher::Hull, Toucher::Rims, Toucher::Nodes];
+    pub const ALL: [Toucher; 6] =
+        [Toucher::Ball, Toucher::Box, Toucher::Hull, Toucher::Capsule, Toucher::Rims, Toucher::Nodes];
 
     /// What of the one and of the surface is not seen; `None` where they see each other in full.
     pub fn unseen(self, surface: &SurfaceShape) -> Option<&'static str> {
         match (self, surface) {
             (Toucher::Ball, _) => None,
-            // They touch a plane with their corners, whatever else lies on it, and each other with all of both.
+            // They touch a plane with their corners or ends, whatever else lies on it, and the others with all of both.
             (
-                Toucher::Box | Toucher::Hull,
-                SurfaceShape::Plane(_) | SurfaceShape::Cuboid(_) | SurfaceShape::Hull(_),
+                Toucher::Box | Toucher::Hull | Toucher::Capsule,
+                SurfaceShape::Plane(_)
+                | SurfaceShape::Cuboid(_)
+                | SurfaceShape::Hull(_)
+                | SurfaceShape::Sphere(_)
+                | SurfaceShape::Capsule(_),
             ) => None,
-            (Toucher::Box, SurfaceShape::Sphere(_) | SurfaceShape::Cylinder(_) | SurfaceShape::Capsule(_)) => {
-                Some("edges and faces of the box between its points")
-            }
-            (Toucher::Hull, SurfaceShape::Sphere(_) | SurfaceShape::Cylinder(_) | SurfaceShape::Capsule(_)) => {
-                Some("edges and faces of the hull between its points")
-            }
+            (Toucher::Box, SurfaceShape::Cylinder(_)) => Some("edges and faces of the box between its points"),
+            (Toucher::Hull, SurfaceShape::Cylinder(_)) => Some("edges and faces of the hull between its points"),
+            (Toucher::Capsule, SurfaceShape::Cylinder(_)) => Some("the side of the capsule between its points"),
             (Toucher::Rims, SurfaceShape::Plane(_)) => Some("the rim between its points"),
             (
                 Toucher::Rims,
@@ -65,6 +69,7 @@ impl Toucher {
             // The nodes of the shell see the faces of the box.
             Toucher::Box => Some("edges of the box that cross edges of the faces"),
             Toucher::Hull => Some("edges of the hull that cross edges of the faces"),
+            Toucher::Capsule => Some("the side of the capsule that crosses edges of the faces"),
             Toucher::Rims => Some("ends and side of the cylinder between its points"),
             Toucher::Nodes => Some("edges that cross edges"),
         }
@@ -77,6 +82,7 @@ impl Toucher {
             // The nodes of the beams see the faces of the box.
             Toucher::Box => Some("edges of the box that cross lines"),
             Toucher::Hull => Some("edges of the hull that cross lines"),
+            Toucher::Capsule => Some("the side of the capsule that crosses lines"),
             Toucher::Rims => Some("ends and side of the cylinder between its points"),
             Toucher::Nodes => Some("what lies between nodes"),
         }
@@ -84,7 +90,7 @@ impl Toucher {
 
     /// True where a body as a whole may pass the surface unseen, and not only sink in a little further than it should.
     pub fn may_pass(self, surface: &SurfaceShape) -> bool {
-        matches!(self, Toucher::Box | Toucher::Hull | Toucher::Rims)
+        matches!(self, Toucher::Box | Toucher::Hull | Toucher::Capsule | Toucher::Rims)
             && self.unseen(surface).is_some()
             && !matches!(surface, SurfaceShape::Plane(_))
     }

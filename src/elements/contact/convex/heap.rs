@@ -1,6 +1,6 @@
-//! Polyhedra among themselves: who is near whom, and what they remember of each other.
+//! Convex solids among themselves: who is near whom, and what they remember of each other.
 
-use super::pair::{CarriedPolyhedron, PolyhedronPair, TouchingPolyhedron, law_of_faces, width};
+use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
 use crate::elements::contact::grid::{BoxGrid, GridBox};
 use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::law::ContactLaw;
@@ -8,17 +8,17 @@ use crate::math::Vec3;
 use crate::state::Node;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Polyhedra at least as large that one remembers at once: the 26 that surround a cube in a lattice, and what hangs over.
+/// Solids at least as large that one remembers at once: the 26 that surround a cube in a lattice, and what hangs over.
 pub(super) const SLOTS: usize = 32;
 
-/// Polyhedra of which each may touch each.
-pub struct PolyhedronHeap {
+/// Convex solids of which each may touch each.
+pub struct ConvexHeap {
     /// The law, for the whole of a face; what is far is known to be far by the lists.
     pub(super) law: ContactLaw,
     /// All of them.
-    pub(super) solids: Vec<TouchingPolyhedron>,
+    pub(super) solids: Vec<ConvexBody>,
     /// The same, as what is touched.
-    others: Vec<CarriedPolyhedron>,
+    others: Vec<CarriedConvex>,
     /// The pairs that do not touch, in ascending order.
     joined: Vec<[usize; 2]>,
     /// Their nodes.
@@ -45,11 +45,11 @@ pub(super) struct NearbySolids {
     wide: Vec<u32>,
 }
 
-impl PolyhedronHeap {
+impl ConvexHeap {
     /// The stiffness and damping of `law` are those of a corner; `joined` are pairs that do not touch, in ascending order.
-    pub fn new(law: ContactLaw, solids: Vec<TouchingPolyhedron>, joined: Vec<[usize; 2]>) -> Self {
+    pub fn new(law: ContactLaw, solids: Vec<ConvexBody>, joined: Vec<[usize; 2]>) -> Self {
         let law = ContactLaw { near: f64::INFINITY, ..law_of_faces(law) };
-        let others = solids.iter().map(CarriedPolyhedron::of_body).collect();
+        let others = solids.iter().map(CarriedConvex::of_body).collect();
         // The usual size: a floor among many stones does not count.
         let mut sizes: Vec<f64> = solids.iter().map(|one| one.shape.reach()).collect();
         sizes.sort_unstable_by(f64::total_cmp);
@@ -57,12 +57,12 @@ impl PolyhedronHeap {
         let mut involved: Vec<usize> = solids.iter().map(|one| one.node).collect();
         involved.sort_unstable();
         let (margin, cell, width) = (0.1 * usual, 3.0 * usual, 1 + width(&law));
-        PolyhedronHeap { law, solids, others, joined, involved, margin, cell, width, nearby: Mutex::default() }
+        ConvexHeap { law, solids, others, joined, involved, margin, cell, width, nearby: Mutex::default() }
     }
 
     /// One of the pairs.
-    pub(super) fn pair(&self, e: usize, other: usize) -> PolyhedronPair<'_> {
-        PolyhedronPair { law: &self.law, one: &self.solids[e], other: &self.others[other] }
+    pub(super) fn pair(&self, e: usize, other: usize) -> ConvexPair<'_> {
+        ConvexPair { law: &self.law, one: &self.solids[e], other: &self.others[other] }
     }
 
     /// The history of one, of that of the block.
@@ -95,7 +95,7 @@ impl PolyhedronHeap {
         let own = self.of_solid(e, history);
         match self.slot_of(own, other) {
             Some(slot) => self.slot(own, slot).1,
-            None => PolyhedronHeap::nothing(),
+            None => ConvexHeap::nothing(),
         }
     }
 
@@ -108,7 +108,7 @@ impl PolyhedronHeap {
     /// Those near each, where the nodes lie thus. Threads take turns: what is found does not depend on them.
     pub(super) fn nearby(&self, nodes: &[Node]) -> MutexGuard<'_, NearbySolids> {
         let mut nearby = self.nearby.lock().unwrap_or_else(PoisonError::into_inner);
-        let moved = |place: &Vec3, one: &TouchingPolyhedron| (nodes[one.node].x - place).norm();
+        let moved = |place: &Vec3, one: &ConvexBody| (nodes[one.node].x - place).norm();
         // What is not a number is far.
         let holds = nearby.places.iter().zip(&self.solids).all(|(place, one)| moved(place, one) <= self.margin);
         if nearby.places.is_empty() || !holds {
@@ -174,7 +174,7 @@ impl NearbySolids {
         &self.lists[self.starts[e]..self.starts[e + 1]]
     }
 
-    fn rebuild(&mut self, of: &PolyhedronHeap, nodes: &[Node]) {
+    fn rebuild(&mut self, of: &ConvexHeap, nodes: &[Node]) {
         self.places.clear();
         self.places.extend(of.solids.iter().map(|one| nodes[one.node].x));
         // What is asked for lies within twice the margin of touching; both may have moved by the margin.

@@ -1,17 +1,17 @@
-//! Two polyhedra on two bodies, or on a body and the ground: where they lie, and the force between them.
+//! Two convex solids on two bodies, or on a body and the ground: where they lie, and the force between them.
 
-use super::depth::{Depth, SHALLOW, depth};
+use super::depth::Depth;
 use super::memory::Memory;
-use super::pose::PolyhedronPose;
+use super::pose::ConvexPose;
 use super::rubbing::{Rubbing, rubbing};
+use super::touch::{SHALLOW, depth};
 use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::restitution::{Loss, NormalForce, normal_force};
 use crate::elements::contact::surface::Surface;
-use crate::math::polyhedron::Polyhedron;
+use crate::math::convex::ConvexShape;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, stack};
 use crate::state::{Configuration, Node};
-use std::sync::Arc;
 
 /// A face that lies on another acts as the four corners it has.
 const POINTS: f64 = 4.0;
@@ -19,18 +19,18 @@ const POINTS: f64 = 4.0;
 /// Depth, as a part of their size, at which those are taken to rest on each other that were drawn face to face.
 const RESTING: f64 = 1e-6;
 
-/// A polyhedron that touches others.
+/// A convex solid on a body, which touches others.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TouchingPolyhedron {
+pub struct ConvexBody {
     /// The node of its body, at its centre.
     pub node: usize,
     /// The shape, in the axes of the body.
-    pub shape: Arc<Polyhedron>,
+    pub shape: ConvexShape,
 }
 
-/// A polyhedron that is touched.
+/// A convex solid that is touched.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CarriedPolyhedron {
+pub struct CarriedConvex {
     /// The node that carries it.
     pub node: usize,
     /// Its centre from the node, in the frame of the node.
@@ -38,19 +38,19 @@ pub struct CarriedPolyhedron {
     /// Its axes (columns), in the frame of the node.
     pub axes: Mat3,
     /// The shape, in these axes.
-    pub shape: Arc<Polyhedron>,
+    pub shape: ConvexShape,
 }
 
-impl CarriedPolyhedron {
-    /// The polyhedron that a surface is; `None` where it is none.
+impl CarriedConvex {
+    /// The convex solid that a surface is; `None` where it is none.
     pub fn of_surface(surface: &Surface, node: usize) -> Option<Self> {
-        let shape = surface.as_polyhedron()?;
-        Some(CarriedPolyhedron { node, center: surface.center, axes: surface.axes, shape })
+        let shape = surface.as_convex()?;
+        Some(CarriedConvex { node, center: surface.center, axes: surface.axes, shape })
     }
 
     /// The one that touches, where others touch it.
-    pub fn of_body(one: &TouchingPolyhedron) -> Self {
-        CarriedPolyhedron { node: one.node, center: Vec3::zeros(), axes: Mat3::identity(), shape: one.shape.clone() }
+    pub fn of_body(one: &ConvexBody) -> Self {
+        CarriedConvex { node: one.node, center: Vec3::zeros(), axes: Mat3::identity(), shape: one.shape.clone() }
     }
 }
 
@@ -68,15 +68,15 @@ pub(super) fn width(law: &ContactLaw) -> usize {
     if law.friction > 0.0 { super::memory::WIDTH } else { FRICTION_FORCE }
 }
 
-/// Two polyhedra and the law between them.
+/// Two convex solids and the law between them.
 #[derive(Clone, Copy)]
-pub(in crate::elements::contact) struct PolyhedronPair<'a> {
+pub(in crate::elements::contact) struct ConvexPair<'a> {
     /// The law, for the whole of a face.
     pub law: &'a ContactLaw,
     /// The one that touches.
-    pub one: &'a TouchingPolyhedron,
+    pub one: &'a ConvexBody,
     /// The one that is touched.
-    pub other: &'a CarriedPolyhedron,
+    pub other: &'a CarriedConvex,
 }
 
 /// A pair at an instant. E is the frame of the one that is touched: its columns are its axes, global components.
@@ -87,7 +87,7 @@ pub(in crate::elements::contact) struct PairKinematics<'a> {
     /// Position of the one body less that of the carrier, global components.
     pub d: Vec3,
     /// The position of the one relative to the other, in E.
-    pub pose: PolyhedronPose<'a>,
+    pub pose: ConvexPose<'a>,
     /// Velocity of the one body relative to the frame E that moves with the carrier, and relative angular velocity, in E.
     pub rates: Vec6,
 }
@@ -113,7 +113,7 @@ pub(in crate::elements::contact) struct PairForce {
     pub W: Vec6,
 }
 
-impl<'a> PolyhedronPair<'a> {
+impl<'a> ConvexPair<'a> {
     /// Where the two are to each other, and how they move.
     pub fn kinematics(&self, nodes: &[Node]) -> PairKinematics<'a> {
         let (one, carrier) = (&nodes[self.one.node], &nodes[self.other.node]);
@@ -123,7 +123,7 @@ impl<'a> PolyhedronPair<'a> {
         let w = one.v - carrier.v - carrier.omega.cross(&d);
         let rates = stack(&E.tr_mul(&w), &E.tr_mul(&(one.omega - carrier.omega)));
         let y = self.other.axes.tr_mul(&(R.tr_mul(&d) - self.other.center));
-        let pose = PolyhedronPose { y, Q: E.tr_mul(&one.R()), own: &self.one.shape, other: &self.other.shape };
+        let pose = ConvexPose { y, Q: E.tr_mul(&one.R()), own: &self.one.shape, other: &self.other.shape };
         PairKinematics { E, d, pose, rates }
     }
 

@@ -1,8 +1,8 @@
 //! The history of a pair at the end of a step, and what was dissipated on the way.
 
-use super::depth::approaching;
 use super::memory::Memory;
-use super::pair::{PairForce, PairKinematics, PolyhedronPair};
+use super::pair::{ConvexPair, PairForce, PairKinematics};
+use super::touch::approaching;
 use crate::elements::contact::history::{PointHistory, PointHistoryMut};
 use crate::elements::contact::normal_motion::{NormalMotion, pass_over, update_normal, way};
 use crate::materials::Dissipation;
@@ -12,7 +12,7 @@ use crate::state::Configuration;
 
 /// Writes the history of a pair after `part` of the way from the last state to `now`; returns what was dissipated.
 pub(super) fn update_pair(
-    pair: &PolyhedronPair,
+    pair: &ConvexPair,
     old: PointHistory,
     now: &Configuration,
     part: f64,

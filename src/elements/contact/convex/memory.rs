@@ -1,4 +1,4 @@
-//! What friction between polyhedra remembers: the stretch of its spring and the place of the two that it was found at.
+//! What friction between convex solids remembers: the stretch of its spring and the place of the two that it was found at.
 
 use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
 use crate::math::{Mat3, Vec3};

@@ -1,14 +1,14 @@
-//! Pairs of polyhedra as a block of elements.
+//! Pairs of convex solids as a block of elements.
 
 use super::pair::width;
-use super::pairs::PolyhedronPairs;
+use super::pairs::ConvexPairs;
 use super::tangent::{spread, tangent};
 use super::update::update_pair;
 use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::materials::Dissipation;
 use crate::state::Configuration;
 
-impl ElementBlock for PolyhedronPairs {
+impl ElementBlock for ConvexPairs {
     fn len(&self) -> usize {
         self.count()
     }

@@ -1,6 +1,6 @@
 //! The force of a pair on its two nodes, and the tangent of that.
 
-use super::pair::{PairForce, PairKinematics, PolyhedronPair};
+use super::pair::{ConvexPair, PairForce, PairKinematics};
 use crate::elements::block::{Force, subtract};
 use crate::elements::contact::history::PointHistory;
 use crate::math::{Mat3, Mat6, Vec3, skew};
@@ -12,7 +12,7 @@ use nalgebra::SMatrix;
 type FromNodes = SMatrix<f64, 6, 12>;
 
 /// Subtracts the internal forces of a pair, which are opposite to what acts.
-pub(super) fn spread(pair: &PolyhedronPair, at: &PairKinematics, acting: &PairForce, F: &mut [Force]) {
+pub(super) fn spread(pair: &ConvexPair, at: &PairKinematics, acting: &PairForce, F: &mut [Force]) {
     let (f, m) = at.global(&acting.W);
     subtract(&mut F[pair.one.node], 0, &-f);
     subtract(&mut F[pair.one.node], 3, &-m);
@@ -22,7 +22,7 @@ pub(super) fn spread(pair: &PolyhedronPair, at: &PairKinematics, acting: &PairFo
 
 /// Writes the tangent of a pair, 12 rows of 12 over the one and the other, into `K`, which is zero; false where the two are apart.
 pub(super) fn tangent(
-    pair: &PolyhedronPair,
+    pair: &ConvexPair,
     old: PointHistory,
     now: &Configuration,
     rate_weight: f64,

@@ -1,13 +1,13 @@
-//! What limits the steps of polyhedra among themselves, and their results for output.
+//! What limits the steps of convex solids among themselves, and their results for output.
 
-use super::heap::PolyhedronHeap;
-use super::pair::{CarriedPolyhedron, TouchingPolyhedron};
+use super::heap::ConvexHeap;
+use super::pair::{CarriedConvex, ConvexBody};
 use super::steps::{is_missed, longest_step};
 use crate::elements::contact::resultant::{Resultant, distance};
 use crate::state::{Configuration, Node};
 
 /// True where a step from `start` to `now` must be shorter, as for [`super::misses_pair`].
-pub fn misses_heap(heap: &PolyhedronHeap, start: &[Node], now: &Configuration) -> bool {
+pub fn misses_heap(heap: &ConvexHeap, start: &[Node], now: &Configuration) -> bool {
     let ways = heap.involved.iter().map(|&node| (now.nodes[node].x - start[node].x).norm());
     let way = ways.fold(0.0, |most: f64, way| if way > most || way.is_nan() { way } else { most });
     if !way.is_finite() {
@@ -22,30 +22,30 @@ pub fn misses_heap(heap: &PolyhedronHeap, start: &[Node], now: &Configuration) -
 }
 
 /// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_heap_step(heap: &PolyhedronHeap, history: &[f64]) -> f64 {
+pub fn longest_heap_step(heap: &ConvexHeap, history: &[f64]) -> f64 {
     longest_step(&heap.law, heap.memories(history))
 }
 
 /// Least gap at the end of the last step, by the history of the block; infinite where none is near.
-pub fn last_heap_gap(heap: &PolyhedronHeap, history: &[f64]) -> f64 {
+pub fn last_heap_gap(heap: &ConvexHeap, history: &[f64]) -> f64 {
     let known = heap.memories(history).filter(|old| old.is_known());
     known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
 }
 
 /// The number of pairs that touch: forces among them have no resultant.
-pub fn heap_resultant(heap: &PolyhedronHeap, now: &Configuration) -> Resultant {
+pub fn heap_resultant(heap: &ConvexHeap, now: &Configuration) -> Resultant {
     let mut sum = Resultant::default();
     heap.each_touch(now, |_| sum.touching += 1);
     sum
 }
 
-/// Least distance of polyhedra among themselves, without the pairs that are `joined`, negative where they overlap; infinite where there are
+/// Least distance of solids among themselves, without the pairs that are `joined`, negative where they overlap; infinite where there are
 /// fewer than two.
-pub fn heap_gap(solids: &[TouchingPolyhedron], joined: &[[usize; 2]], nodes: &[Node]) -> f64 {
+pub fn heap_gap(solids: &[ConvexBody], joined: &[[usize; 2]], nodes: &[Node]) -> f64 {
     let mut least = f64::INFINITY;
     // In the order of a coordinate: what begins farther than the nearest so far ends the search.
-    let low = |one: &TouchingPolyhedron| nodes[one.node].x.x - one.shape.reach();
-    let mut order: Vec<(usize, &TouchingPolyhedron)> = solids.iter().enumerate().collect();
+    let low = |one: &ConvexBody| nodes[one.node].x.x - one.shape.reach();
+    let mut order: Vec<(usize, &ConvexBody)> = solids.iter().enumerate().collect();
     order.sort_by(|a, b| low(a.1).total_cmp(&low(b.1)));
     for (k, &(i, one)) in order.iter().enumerate() {
         let high = nodes[one.node].x.x + one.shape.reach();
@@ -56,7 +56,7 @@ pub fn heap_gap(solids: &[TouchingPolyhedron], joined: &[[usize; 2]], nodes: &[N
             let d = nodes[one.node].relative_position(&nodes[other.node]);
             let is_near = d.norm() - one.shape.reach() - other.shape.reach() < least;
             if is_near && joined.binary_search(&[i.min(j), i.max(j)]).is_err() {
-                least = least.min(distance(one, &CarriedPolyhedron::of_body(other), least, nodes));
+                least = least.min(distance(one, &CarriedConvex::of_body(other), least, nodes));
             }
         }
     }

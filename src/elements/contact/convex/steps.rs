@@ -1,8 +1,8 @@
-//! Limits on the step length: no polyhedron passes through another, and impacts are resolved.
+//! Limits on the step length: no convex solid passes through another, and impacts are resolved.
 
-use super::pair::PolyhedronPair;
-use super::pairs::PolyhedronPairs;
-use super::pose::{LeastAxis, PolyhedronPose};
+use super::pair::ConvexPair;
+use super::pairs::ConvexPairs;
+use super::pose::{ConvexPose, LeastAxis};
 use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::law::ContactLaw;
 use crate::math::Vec3;
@@ -10,12 +10,12 @@ use crate::state::{Configuration, Node};
 
 /// True where a step from `start` to `now` must be shorter: one would pass through the other, or be more than half way through, or
 /// come into an impact that the step does not resolve.
-pub fn misses_pair(pairs: &PolyhedronPairs, start: &[Node], now: &Configuration) -> bool {
+pub fn misses_pair(pairs: &ConvexPairs, start: &[Node], now: &Configuration) -> bool {
     (0..pairs.count()).any(|e| is_missed(&pairs.pair(e), pairs.history(e, now.history), start, now))
 }
 
 /// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_pair_step(pairs: &PolyhedronPairs, history: &[f64]) -> f64 {
+pub fn longest_pair_step(pairs: &ConvexPairs, history: &[f64]) -> f64 {
     longest_step(&pairs.law, (0..pairs.count()).map(|e| pairs.history(e, history)))
 }
 
@@ -28,7 +28,7 @@ pub(super) fn longest_step<'a>(law: &ContactLaw, mut pairs: impl Iterator<Item =
 }
 
 /// The same of one pair.
-pub(super) fn is_missed(pair: &PolyhedronPair, old: PointHistory, start: &[Node], now: &Configuration) -> bool {
+pub(super) fn is_missed(pair: &ConvexPair, old: PointHistory, start: &[Node], now: &Configuration) -> bool {
     let law = pair.law;
     let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);
     let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.reach();
@@ -69,15 +69,15 @@ fn is_opposite(a: &Vec3, b: &Vec3) -> bool {
 
 /// The motion of a pair in a step, from 0 to 1.
 struct Way<'a> {
-    from: &'a PolyhedronPose<'a>,
-    to: &'a PolyhedronPose<'a>,
+    from: &'a ConvexPose<'a>,
+    to: &'a ConvexPose<'a>,
 }
 
 impl Way<'_> {
     fn least_axis(&self, t: f64) -> LeastAxis {
         let Way { from, to } = self;
         let (y, Q) = (from.y + t * (to.y - from.y), from.Q + t * (to.Q - from.Q));
-        PolyhedronPose { y, Q, ..**from }.least_axis()
+        ConvexPose { y, Q, ..**from }.least_axis()
     }
 
     /// Where the two meet first on a way of this `length`, and the axis that held them apart until then. No way is shorter than
@@ -96,7 +96,7 @@ impl Way<'_> {
 }
 
 /// True where two that are apart before and after have met on the way.
-fn passes(from: &PolyhedronPose, to: &PolyhedronPose, length: f64) -> bool {
+fn passes(from: &ConvexPose, to: &ConvexPose, length: f64) -> bool {
     let (Some((t0, _)), Some((back, _))) = (Way { from, to }.entry(length), Way { from: to, to: from }.entry(length))
     else {
         return false;

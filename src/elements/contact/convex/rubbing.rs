@@ -1,4 +1,4 @@
-//! Friction between two polyhedra: a spring at the centre of what they have in common, along the faces and about their normal.
+//! Friction between two convex solids: a spring at the centre of what they have in common, along the faces and about their normal.
 //!
 //! It bears up to μN in sliding, μN r in turning about the normal, r the mean lever of an even pressure, and what lies on the
 //! ellipsoid between the two where both happen (S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991)); beyond that it slips.
@@ -6,7 +6,7 @@
 
 use super::depth::Depth;
 use super::memory::Memory;
-use super::pose::PolyhedronPose;
+use super::pose::ConvexPose;
 use crate::elements::contact::law::ContactLaw;
 use crate::math::{Vec3, Vec6, linear, stack};
 
@@ -28,7 +28,7 @@ pub struct Rubbing {
 
 /// The friction of a pair that is `depth` deep under the normal force `N`; `None` where the normal force has no direction along
 /// which anything could move.
-pub fn rubbing(law: &ContactLaw, pose: &PolyhedronPose, depth: &Depth, N: f64, memory: &Memory) -> Option<Rubbing> {
+pub fn rubbing(law: &ContactLaw, pose: &ConvexPose, depth: &Depth, N: f64, memory: &Memory) -> Option<Rubbing> {
     let normal = -linear(&depth.g);
     let n = normal.try_normalize(0.0)?;
     let arm = depth.c - pose.y;

@@ -1,7 +1,7 @@
-//! Polyhedra among themselves as a block of elements, one for each, and as pairs for the matrix.
+//! Convex solids among themselves as a block of elements, one for each, and as pairs for the matrix.
 
-use super::heap::{PolyhedronHeap, SLOTS};
-use super::pair::{PairForce, PairKinematics, PolyhedronPair};
+use super::heap::{ConvexHeap, SLOTS};
+use super::pair::{ConvexPair, PairForce, PairKinematics};
 use super::tangent::{spread, tangent};
 use super::update::update_pair;
 use crate::elements::block::{ElementBlock, Force, Moduli};
@@ -12,14 +12,14 @@ use crate::state::{Configuration, Node};
 
 /// A pair that touches: the two by number, the pair, and what it remembers.
 pub(super) struct HeapTouch<'a> {
-    pub pair: PolyhedronPair<'a>,
+    pub pair: ConvexPair<'a>,
     pub at: PairKinematics<'a>,
     pub acting: PairForce,
     old: PointHistory<'a>,
     numbers: [usize; 2],
 }
 
-impl PolyhedronHeap {
+impl ConvexHeap {
     /// Calls with each pair that touches.
     pub(super) fn each_touch<'a>(&'a self, now: &Configuration<'a>, mut act: impl FnMut(HeapTouch<'a>)) {
         if now.history.is_empty() {
@@ -34,7 +34,7 @@ impl PolyhedronHeap {
     }
 }
 
-impl ElementBlock for PolyhedronHeap {
+impl ElementBlock for ConvexHeap {
     fn len(&self) -> usize {
         self.solids.len()
     }
@@ -112,7 +112,7 @@ impl ElementBlock for PolyhedronHeap {
     }
 }
 
-impl PolyhedronHeap {
+impl ConvexHeap {
     /// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
     fn let_go(&self, now: &Configuration, part: f64, new: &[f64]) -> Dissipation {
         let mut spent = Dissipation::default();
@@ -131,7 +131,24 @@ impl PolyhedronHeap {
     }
 }
 
-impl Wandering for PolyhedronHeap {
+impl ConvexHeap {
+    /// True where one touches more others at least as large than it remembers: those that it forgets press without friction, and give back
+    /// by the speed of the moment.
+    pub fn is_crowded(&self, now: &Configuration) -> bool {
+        let is_full = |e: usize| self.slot(self.of_solid(e, now.history), SLOTS - 1).0.is_some();
+        if now.history.is_empty() || !(0..self.solids.len()).any(is_full) {
+            return false;
+        }
+        let (mut last, mut count, mut most) = (usize::MAX, 0, 0);
+        self.each_touch(now, |touch| {
+            count = if touch.numbers[0] == last { count + 1 } else { 1 };
+            (last, most) = (touch.numbers[0], most.max(count));
+        });
+        most > SLOTS
+    }
+}
+
+impl Wandering for ConvexHeap {
     fn partners(&self, nodes: &[Node]) -> Partners {
         let mut partners = Partners::default();
         self.each_near(nodes, 2.0 * self.margin, |e, other| {

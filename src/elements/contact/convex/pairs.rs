@@ -1,28 +1,28 @@
-//! Polyhedra on bodies against one on another body or on the ground.
+//! Convex solids on bodies against one on another body or on the ground.
 
-use super::pair::{CarriedPolyhedron, PolyhedronPair, TouchingPolyhedron, law_of_faces, width};
+use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
 use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::surface::Surface;
 
-/// Polyhedra against one polyhedron.
-pub struct PolyhedronPairs {
+/// Convex solids against one.
+pub struct ConvexPairs {
     /// The law, for the whole of a face.
     pub(super) law: ContactLaw,
     /// The one that is touched.
-    pub(super) other: CarriedPolyhedron,
+    pub(super) other: CarriedConvex,
     /// Those that touch it.
-    pub(super) touching: Vec<TouchingPolyhedron>,
+    pub(super) touching: Vec<ConvexBody>,
     /// The node of each of these, then the carrier of the other.
     pub(super) nodes: Vec<[usize; 2]>,
 }
 
-impl PolyhedronPairs {
-    /// `None` where the surface is no polyhedron. The stiffness and damping of `law` are those of a corner.
-    pub fn new(law: ContactLaw, surface: &Surface, carrier: usize, touching: Vec<TouchingPolyhedron>) -> Option<Self> {
+impl ConvexPairs {
+    /// `None` where the surface is no convex solid of these kinds. The stiffness and damping of `law` are those of a corner.
+    pub fn new(law: ContactLaw, surface: &Surface, carrier: usize, touching: Vec<ConvexBody>) -> Option<Self> {
         let nodes = touching.iter().map(|one| [one.node, carrier]).collect();
-        let other = CarriedPolyhedron::of_surface(surface, carrier)?;
-        Some(PolyhedronPairs { law: law_of_faces(law), other, touching, nodes })
+        let other = CarriedConvex::of_surface(surface, carrier)?;
+        Some(ConvexPairs { law: law_of_faces(law), other, touching, nodes })
     }
 
     /// The number of pairs.
@@ -31,8 +31,8 @@ impl PolyhedronPairs {
     }
 
     /// One of the pairs.
-    pub(in crate::elements::contact) fn pair(&self, e: usize) -> PolyhedronPair<'_> {
-        PolyhedronPair { law: &self.law, one: &self.touching[e], other: &self.other }
+    pub(in crate::elements::contact) fn pair(&self, e: usize) -> ConvexPair<'_> {
+        ConvexPair { law: &self.law, one: &self.touching[e], other: &self.other }
     }
 
     /// The history of a pair, as a part of that of the block.

@@ -1,0 +1,36 @@
+//! Convex solids against each other: boxes and hulls with corners, edges and faces, capsules and spheres.
+//!
+//! The force follows from one number, how deep two are in each other ([`depth`]): N = k D (1 + d Ḋ) along −∂D by the motion of either
+//! body. So it is opposite on the two, and elastic contact stores ½ k D². `pose` says where two lie, and with `axes` how far they are
+//! apart; `touch` is the depth wherever they are, by the `volume` of the solid that two polyhedra have in common (`overlap`), or along the
+//! segment about which one of the two is round (`swept`). `pair` is what acts between two, `rubbing` their friction and `memory` what it remembers, `update` goes from step to step, `tangent` is what the matrix sees of it, `steps` bounds the
+//! steps. `pairs` are many against one, which `block` shows to the equations, `heap` many among themselves, with `heap_block` and
+//! `heap_steps`.
+
+mod axes;
+mod block;
+mod depth;
+mod heap;
+mod heap_block;
+mod heap_steps;
+mod memory;
+mod overlap;
+mod pair;
+mod pairs;
+mod pose;
+mod rubbing;
+mod steps;
+mod swept;
+mod tangent;
+mod touch;
+mod update;
+mod volume;
+
+pub use depth::Depth;
+pub use heap::ConvexHeap;
+pub use heap_steps::{heap_gap, heap_resultant, last_heap_gap, longest_heap_step, misses_heap};
+pub use pair::{CarriedConvex, ConvexBody};
+pub use pairs::ConvexPairs;
+pub use pose::ConvexPose;
+pub use steps::{longest_pair_step, misses_pair};
+pub use touch::depth;
