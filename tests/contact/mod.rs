@@ -8,6 +8,7 @@ mod edges;
 mod element;
 mod faces;
 mod faces_alone;
+mod folds;
 mod impact;
 mod lines;
 mod lines_alone;

@@ -1,6 +1,7 @@
 //! A point and a facet at an instant: where they are to each other, and what they do to each other.
 
-use super::facet::{Facet, FacetPoint, MOST_CORNERS};
+use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
+use super::facing::Facing;
 use super::memory::PairMemory;
 use crate::elements::contact::friction::{FrictionForce, friction_force};
 use crate::elements::contact::law::ContactLaw;
@@ -20,6 +21,8 @@ pub(super) struct FacetPair<'a> {
     /// The point; of a line that touches, the point of it that is nearest.
     pub point: Cow<'a, ContactPoint>,
     pub facet: &'a Facet,
+    /// What tells on which side the point is.
+    pub facing: Facing,
     pub memory: Option<PairMemory<'a>>,
     /// The depth at which the point was found where it came along the surface itself: only what is deeper pushes.
     pub inset: f64,
@@ -108,9 +111,14 @@ impl<'a> FacetPair<'a> {
         let W = self.facet.weights(&at);
         let distance = at.g.norm();
         let normal = self.facet.normal(at.triangle, &p);
-        let actual = if at.g.dot(&normal) < 0.0 { -1.0 } else { 1.0 };
+        let (facing, has_sides) = match self.facing {
+            Facing::Rim(facing) if at.region != Region::Interior => (facing, true),
+            Facing::Nothing if at.region != Region::Interior => (normal, false),
+            Facing::Normal | Facing::Rim(_) | Facing::Nothing => (normal, true),
+        };
+        let actual = if at.g.dot(&facing) < 0.0 { -1.0 } else { 1.0 };
         // A point that has come through still is on the side that it came from, but not beyond the rim, which has no sides.
-        let known = self.memory.filter(|_| self.facet.has_sides() && !self.facet.is_free(&at));
+        let known = self.memory.filter(|_| has_sides && self.facet.has_sides() && !self.facet.is_free(&at));
         let side = known.map_or(actual, |memory| memory.side());
         let sign = side * actual;
         let outward = if self.facet.has_sides() { side * normal } else { self.facet.outward(&p) };

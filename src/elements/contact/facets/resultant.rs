@@ -4,6 +4,7 @@ use super::facet::Facet;
 use super::lines;
 use super::span::FacetSpan;
 use super::surface::FacetContacts;
+use super::touch;
 use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::point::ContactPoint;
 use crate::elements::contact::resultant::Resultant;
@@ -85,6 +86,16 @@ pub fn facet_gap(
 pub fn least_facet_gap(of: &FacetContacts, nodes: &[Node]) -> f64 {
     let may_touch = |e: usize, facet: usize| of.may_touch(e, facet as u32) && !of.is_near_along(e, facet as u32);
     let mut nearby = of.nearby(nodes);
+    if of.is_inner {
+        // Of what touches itself only minima of the distance count, which the lists tell as far as they reach.
+        let mut found = std::mem::take(&mut nearby.touches);
+        let least = (0..of.points.len()).map(|e| touch::least_minimum(of, nearby.of(e), e, nodes, &mut found));
+        let least = least.fold(f64::INFINITY, f64::min);
+        nearby.touches = found;
+        if least.is_finite() {
+            return least;
+        }
+    }
     facet_gap(&of.facets, &of.points, &may_touch, nodes, &mut nearby.spans)
 }
 

@@ -1,6 +1,7 @@
 //! Points against a surface of facets, with the lists of what is near.
 
 use super::facet::Facet;
+use super::facing::Facing;
 use super::memory::PairMemory;
 use super::nearby::NearbyFacets;
 use super::pair::FacetPair;
@@ -51,8 +52,9 @@ impl FacetContacts {
         let memory = touch.slot.map(|slot| self.memory(history, slot));
         let facet = &self.facets[touch.facet];
         let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
-        let inset = memory.map_or(if touch.slides_in { -touch.gap } else { 0.0 }, PairMemory::inset);
-        FacetPair { law: &self.law, point: self.point_at(e, touch.share), facet, memory, inset, kept }
+        let inset = memory.map_or(touch.inset, PairMemory::inset);
+        let (point, facing) = (self.point_at(e, touch.share), touch.facing);
+        FacetPair { law: &self.law, point, facet, facing, memory, inset, kept }
     }
 
     /// A point and the facet that it remembers in this slot.
@@ -60,7 +62,8 @@ impl FacetContacts {
         let memory = self.memory(history, slot);
         let facet = &self.facets[memory.facet()];
         let point = self.point_at(e, None);
-        FacetPair { law: &self.law, point, facet, memory: Some(memory), inset: memory.inset(), kept: facet }
+        let (memory, inset) = (Some(memory), memory.inset());
+        FacetPair { law: &self.law, point, facet, facing: Facing::Normal, memory, inset, kept: facet }
     }
 
     /// True where two lines touch that are parallel within some degrees, and not end to end.

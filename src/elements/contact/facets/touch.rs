@@ -5,6 +5,7 @@
 //! and layers on either side, count for themselves.
 
 use super::facet::Facet;
+use super::facing::Facing;
 use super::scene::FacetScene;
 use crate::math::Vec3;
 use crate::state::Node;
@@ -27,14 +28,28 @@ pub(super) struct FacetTouch {
     pub rim: [Option<usize>; 2],
     /// The normal of the facet.
     pub normal: Vec3,
+    /// What tells on which side of the facet the point is.
+    pub facing: Facing,
     /// False for facets that only tell that others are not the nearest.
     pub counts: bool,
-    /// True where the point lies in the facet already as it comes there along the surface, from facets that it cannot touch.
-    pub slides_in: bool,
+    /// The depth that does not push, where the point lies in the facet already as it comes there along the surface, from facets that it cannot
+    /// touch.
+    pub inset: f64,
     /// The place where what is remembered of it stands.
     pub slot: Option<usize>,
     /// Of a line that touches, the share of its second end in its nearest point.
     pub share: Option<f64>,
+}
+
+impl FacetTouch {
+    /// Positive where the point is on the side of the normal, negative on the other, zero where there are none.
+    fn height(&self) -> f64 {
+        match self.facing {
+            Facing::Normal => self.toward.dot(&self.normal),
+            Facing::Rim(facing) => self.toward.dot(&facing),
+            Facing::Nothing => 0.0,
+        }
+    }
 }
 
 /// What is to be found.
@@ -64,6 +79,7 @@ pub(super) fn find(
         if of.is_inner {
             mark_slides(&of.facets, found);
         }
+        face_from_rims(&of.facets, found);
         keep_minima(&of.facets, found);
     }
     found.sort_unstable_by(|a, b| a.gap.total_cmp(&b.gap).then(a.facet.cmp(&b.facet)));
@@ -82,11 +98,27 @@ pub(super) fn find(
     }
     found.truncate(kept);
     match_memory(of, query.e, nodes, history, found);
-    let memories = || (0..of.slots).map(|slot| of.memory(history, slot).motion());
-    if found.iter().any(|touch| touch.slides_in) && memories().any(|motion| motion.is_known() && motion.gap() <= 0.0) {
-        // What goes on from one facet to the next in contact stays in contact.
-        found.iter_mut().for_each(|touch| touch.slides_in = false);
+    if found.iter().any(|touch| touch.inset > 0.0) {
+        // What goes on from one facet to the next in contact is pressed as deep as it was.
+        let memories = (0..of.slots).map(|slot| of.memory(history, slot).motion());
+        let pressed = memories.filter(|motion| motion.is_known()).map(|motion| -motion.gap()).fold(0.0, f64::max);
+        found.iter_mut().for_each(|touch| touch.inset = (touch.inset - pressed).max(0.0));
     }
+}
+
+/// The least gap of a point at which the distance from what is near has a minimum; infinite where it has none.
+pub(super) fn least_minimum(
+    of: &FacetScene,
+    near: &[u32],
+    e: usize,
+    nodes: &[Node],
+    found: &mut Vec<FacetTouch>,
+) -> f64 {
+    find_within(of, near, TouchQuery { e, limit: f64::INFINITY, stays: false }, nodes, found);
+    if !of.is_of_lines {
+        keep_minima(&of.facets, found);
+    }
+    found.iter().filter(|touch| touch.counts).map(|touch| touch.gap).fold(f64::INFINITY, f64::min)
 }
 
 /// Where a point lies from its first node.
@@ -140,8 +172,9 @@ pub(super) fn find_within(
             toward,
             rim,
             normal,
+            facing: Facing::Normal,
             counts,
-            slides_in: false,
+            inset: 0.0,
             slot: None,
             share,
         });
@@ -178,7 +211,29 @@ fn mark_slides(facets: &[Facet], found: &mut [FacetTouch]) {
             let names = &facets[other.facet].names;
             !other.counts && other.gap < 0.0 && facets[touch.facet].names.iter().any(|name| names.contains(name))
         };
-        found[k].slides_in = touch.counts && touch.gap < 0.0 && found.iter().any(is_beside);
+        let slides_in = touch.counts && touch.gap < 0.0 && found.iter().any(is_beside);
+        found[k].inset = if slides_in { -touch.gap } else { 0.0 };
+    }
+}
+
+/// Finds the facets that meet in the nearest point, where that lies on a rim, and the sum of their normals.
+fn face_from_rims(facets: &[Facet], found: &mut [FacetTouch]) {
+    /// The cosine below which the sum tells nothing: normals that cancel where sheets are joined, but for what rounding leaves.
+    const TELLS: f64 = 1e-4;
+    for k in 0..found.len() {
+        let touch = found[k];
+        let [Some(a), b] = touch.rim else { continue };
+        let distance = |touch: &FacetTouch| touch.gap + facets[touch.facet].half;
+        let own = distance(&touch);
+        let meets = |other: &&FacetTouch| {
+            let has = |corner: usize| facets[other.facet].names.contains(&corner);
+            has(a) && b.is_none_or(has) && (distance(other) - own).abs() <= 1e-9 * own.abs()
+        };
+        let count = found.iter().filter(meets).count();
+        let facing: Vec3 = found.iter().filter(meets).map(|other| other.normal).sum();
+        let tells = touch.toward.dot(&facing).abs() > TELLS * facing.norm();
+        let is_joint = b.is_some() && count > 2;
+        found[k].facing = if tells && !is_joint { Facing::Rim(facing) } else { Facing::Nothing };
     }
 }
 
@@ -229,8 +284,12 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
         let at = facet.closest(&p);
         let normal = facet.facing(&at, &p);
         let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);
+        // It goes on to the same side alone, for of two layers that face alike it lies above the one and below the other; where it has come
+        // through nearly to the middle, it is on either side of the next as rounding will have it.
+        let is_deep = memory.motion().gap() < -0.5 * (facet.half + of.points[e].radius);
+        let same_side = |touch: &FacetTouch| !facet.has_sides() || is_deep || memory.side() * touch.height() >= 0.0;
         let goes_on = |touch: &&mut FacetTouch| {
-            touch.slot.is_none() && likeness(touch) > NEIGHBOURS && is_close(of, touch, &at.g)
+            touch.slot.is_none() && likeness(touch) > NEIGHBOURS && same_side(touch) && is_close(of, touch, &at.g)
         };
         let best = found.iter_mut().filter(goes_on).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
         if let Some(touch) = best {
