@@ -1079,6 +1079,14 @@ fn contacts_of_faces() {
     let touch = "[[contacts]]\nname = \"touch\"\namong = [\"stone\", \"brick\"]\nstiffness = 1e5\n";
     assert_eq!(hull(corners, touch), "");
     assert_snapshot!("hull_with_radius", hull(corners, &format!("{touch}radius = 0.1")));
+    let capsule = |keys: &str| {
+        let body = format!("[[bodies]]\nname = \"log\"\nmass = 1.0\nshape = {{ kind = \"capsule\", {keys} }}\n");
+        said(&format!("{FACES}{body}"), &[])
+    };
+    assert_eq!(capsule("ends = [[20.0, 0.0, 0.0], [21.0, 0.0, 0.0]], radius = 0.1"), "");
+    assert_snapshot!("capsule_of_one_place", capsule("ends = [[20.0, 0.0, 0.0], [20.0, 1e-200, 0.0]], radius = 0.1"));
+    assert_snapshot!("capsule_of_one_end", capsule("ends = [[20.0, 0.0, 0.0]], radius = 0.1"));
+    assert_snapshot!("capsule_without_radius", capsule("ends = [[20.0, 0.0, 0.0], [21.0, 0.0, 0.0]], length = 1.0"));
     assert_snapshot!("among_and_with", faces("among = [\"marble\", \"brick\"]\nradius = 0.1\nwith = \"sheet\""));
 }
 

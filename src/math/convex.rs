@@ -73,7 +73,7 @@ impl ConvexShape {
                 let away = y - part * shape.half;
                 let d = away.norm();
                 // On the segment itself any direction across it leads out.
-                let n = if d > 0.0 { away / d } else { super::frame_along(&across_or_x(&shape.half)).column(0).into() };
+                let n = if d > 0.0 { away / d } else { super::frame_along(&direction(&shape.half)).column(0).into() };
                 (d, n)
             }
         }
@@ -89,6 +89,6 @@ impl ConvexShape {
 }
 
 /// The direction of a segment, or any where it has no length.
-fn across_or_x(half: &Vec3) -> Vec3 {
+fn direction(half: &Vec3) -> Vec3 {
     half.try_normalize(0.0).unwrap_or_else(Vec3::x)
 }

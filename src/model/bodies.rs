@@ -132,7 +132,7 @@ pub(super) fn title(deck: &Deck, part: PartIndex) -> String {
 /// True for a body whose shape tells where it is.
 fn is_of_points(body: &words::Body) -> bool {
     let kind = body.shape.as_ref().and_then(|shape| shape.kind.as_ref());
-    kind.is_some_and(|kind| kind.value.takes("points"))
+    kind.is_some_and(|kind| kind.value.takes("points") || kind.value.takes("ends"))
 }
 
 /// What a body is made of.

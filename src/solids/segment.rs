@@ -18,7 +18,8 @@ pub fn segment_of(given: &mut Given) -> Option<(Spherocylinder, Vec3)> {
         return given.error("ends", "`ends` takes two points");
     };
     let (a, b) = (Vec3::new(ax, ay, az), Vec3::new(bx, by, bz));
-    if a == b {
+    // Nearer, the direction of the line is rounding.
+    if (b - a).norm() <= 1e-12 * a.norm().max(radius.unwrap_or(0.0)) {
         return given.error_with("ends", "the ends of a capsule lie at one place", "that is a sphere");
     }
     Some((Spherocylinder { half: 0.5 * (b - a), radius: radius? }, 0.5 * (a + b)))
