@@ -287,7 +287,8 @@ pub const LINK: [Column; 10] = {
 pub const CONTACT: [Column; 8] = {
     let [fx, fy, fz, mx, my, mz] = wrench(
         "force on the surface",
-        "moment on the surface, about the centre of mass of the body that carries it, or about the ground surface's own point",
+        "moment on the surface, about the centre of mass of the body that carries it, about the ground surface's own point, or, on faces \
+         and lines of parts, about the origin",
     );
     [
         Column::scalar("touching", "number of points in contact", Unit::Count),
@@ -301,6 +302,13 @@ pub const CONTACT: [Column; 8] = {
         mz,
     ]
 };
+
+/// Touches between two parts, then force and moment on the first.
+pub const CONTACT_PAIR: [Column; 7] = {
+    let [fx, fy, fz, mx, my, mz] = wrench("force on the first", "moment on the first, about the origin");
+    [Column::scalar("touching", "number of places at which they touch", Unit::Count), fx, fy, fz, mx, my, mz]
+};
+
 /// The magnitude of the force of a contact, which only `[[expect]]` asks for.
 pub const CONTACT_FORCE: Column =
     Column::scalar("force", "magnitude of the force on the surface", Unit::Force).kind("force");

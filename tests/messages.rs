@@ -664,7 +664,9 @@ fn loads_and_values() {
     );
     assert_snapshot!(
         "output",
-        portal_and("[output]\nnodes = [\"block\", \"knee_left\"]\nevery = 0\nfields = { every = 2 }\ncheckpoint = 0.0")
+        portal_and(
+            "[output]\nnodes = [\"block\", \"knee_left\"]\nevery = 0\nfields = { every = 2 }\ncheckpoint = 0.0\ncontacts = { by = \"pair\" }\nsections = {}"
+        )
     );
     assert_snapshot!("initial", portal_and("[[initial]]\nat = [\"portal\", \"everything\"]"));
     assert_snapshot!("initial_normal", portal_and("[[initial]]\nat = \"portal\"\nnormal_velocity = 1.0"));

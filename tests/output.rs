@@ -43,6 +43,7 @@ fn headers_are_those_of_the_interface() {
         ),
         ("links.csv", "step,time,link,elongation,rate,force,fx,fy,fz,mx,my,mz"),
         ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),
+        ("contact_pairs.csv", "step,time,contact,surface,with,touching,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),
         ("sections.csv", "step,time,beam,element,point,s,N,Vy,Vz,T,My,Mz,plastic_strain"),
         ("steps.csv", "step,time,dt,iterations,refactorizations,residual,cuts"),
@@ -93,6 +94,10 @@ fn rows_are_the_frames_to_the_last_bit() {
     assert_eq!(table(dir.path(), "sections.csv").1[1][2..6], ["fore & aft", "0", "1", "0.5"]);
     assert_eq!(table(dir.path(), "links.csv").1[0][2..6], ["bumper", "0.1", "-1.0", "7.0"]);
     assert_eq!(table(dir.path(), "contacts.csv").1[0][2..5], ["seat", "2", "-0.001"]);
+    let pairs = table(dir.path(), "contact_pairs.csv").1;
+    assert_eq!(pairs[0][2..6], ["seat", "arm", "body 0", "1"]);
+    assert_eq!(pairs[1][2..6], ["seat", "arm", "body 1", "2"]);
+    assert_eq!(pairs.len(), 6 * 2);
 }
 
 /// An interrupted run, resumed from a checkpoint that lies before its last rows, ends in the same bytes.
@@ -113,7 +118,7 @@ fn a_resumed_run_leaves_the_same_files() {
     files.finish().unwrap();
     let mut names: Vec<_> = fs::read_dir(whole.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names.len(), 8 + 3 + 5, "eight tables, names, the list, that of files, grids of steps 0 3 6 9 10");
+    assert_eq!(names.len(), 9 + 3 + 5, "nine tables, names, the list, that of files, grids of steps 0 3 6 9 10");
     for name in names {
         let [a, b] = [&whole, &resumed].map(|dir| fs::read(dir.path().join(&name)).unwrap());
         assert!(a == b, "{name:?}");
@@ -128,7 +133,7 @@ fn only_what_is_asked_for_is_written() {
     let output = &mut model.output;
     output.nodes.clear();
     (output.energy, output.links, output.reactions, output.sections) = (false, false, false, None);
-    output.contacts = false;
+    output.contacts = None;
     run(dir.path(), &model);
     let names: Vec<_> = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     assert_eq!(names, ["steps.csv"]);

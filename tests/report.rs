@@ -212,8 +212,13 @@ fn the_page_of_every_deck_shows_its_tables() {
         let mut model = support::read(&name, &[]);
         let output = &mut model.output;
         (output.cadence, output.energy) = (Cadence::Steps(1), true);
-        (output.links, output.contacts, output.reactions, output.sections, output.parts) =
-            (true, true, true, Some(rdsolve::model::SectionPlaces::Points), true);
+        (output.links, output.contacts, output.reactions, output.sections, output.parts) = (
+            true,
+            Some(rdsolve::model::ContactRows::Contacts),
+            true,
+            Some(rdsolve::model::SectionPlaces::Points),
+            true,
+        );
         let folder = tempfile::tempdir().unwrap();
         support::write(&model, folder.path(), STEPS);
         let page = page_of(folder.path()).unwrap_or_else(|error| panic!("{name}: {error}"));

@@ -23,8 +23,9 @@ pub struct Output {
     pub energy: Maybe<bool>,
     /// Write links.csv: elongation, rate and force of links. Default: false.
     pub links: Maybe<bool>,
-    /// Write contacts.csv: gaps and forces of contacts. Default: false.
-    pub contacts: Maybe<bool>,
+    /// Write contacts.csv, gaps and forces of contacts, or contact_pairs.csv, forces between parts. `true` is { by = "contacts" }. Default:
+    /// false.
+    pub contacts: Maybe<FlagOrTable<ContactOutput>>,
     /// Write reactions.csv: reactions of supports and joints. Default: false.
     pub reactions: Maybe<bool>,
     /// Write sections.csv for beams and shells.csv for shells: stress resultants. `true` is { at = "points" }. Default: false.
@@ -58,6 +59,27 @@ pub enum SectionPlaces {
     /// Both ends of each element: member end forces, in balance with what acts at the nodes.
     Ends,
     /// Integration points and ends.
+    Both,
+}
+
+/// What rows of the tables of contacts are about.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactOutput {
+    /// What a row is about.
+    #[schemars(required)]
+    pub by: Maybe<ContactRows>,
+}
+
+/// What a row of the tables of contacts is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactRows {
+    /// A contact of the deck, in contacts.csv.
+    Contacts,
+    /// Two parts or bodies that touch, in contact_pairs.csv.
+    Pairs,
+    /// Both tables.
     Both,
 }
 

@@ -33,7 +33,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             cadence_is_open: true,
             energy: true,
             links: false,
-            contacts: false,
+            contacts: None,
             reactions: false,
             sections: None,
             failures: may_fail(scene),
@@ -69,7 +69,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         cadence_is_open: table.every.is_none() && table.interval.is_none(),
         energy: flag(&table.energy, true),
         links: flag(&table.links, false),
-        contacts: flag(&table.contacts, false),
+        contacts: contacts(table, report),
         reactions: flag(&table.reactions, false),
         sections: sections(table, report),
         failures: may_fail(scene),
@@ -111,13 +111,13 @@ fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, repo
     nodes
 }
 
-/// Whether stress resultants are written, and where in beams.
 /// True where the deck, in whichever stage, has something that may fail.
 fn may_fail(scene: &Scene) -> bool {
     scene.deck.links.iter().any(|link| link.failure.is_some())
         || scene.deck.materials.0.iter().any(|(_, material)| material.value.values.place("failure_strain").is_some())
 }
 
+/// Whether stress resultants are written, and where in beams.
 fn sections<'d>(table: &'d words::Output, report: &mut Report<'d>) -> Option<words::SectionPlaces> {
     let sections = table.sections.as_ref()?;
     match &sections.value {
@@ -126,6 +126,19 @@ fn sections<'d>(table: &'d words::Output, report: &mut Report<'d>) -> Option<wor
             let owner = Owner::new("`sections`", &sections.span);
             let places = report.require(&owner, "at", &places.at);
             Some(places.map_or(words::SectionPlaces::Points, |places| places.value))
+        }
+    }
+}
+
+/// Which tables of contacts are written.
+fn contacts<'d>(table: &'d words::Output, report: &mut Report<'d>) -> Option<words::ContactRows> {
+    let contacts = table.contacts.as_ref()?;
+    match &contacts.value {
+        FlagOrTable::Flag(flag) => flag.then_some(words::ContactRows::Contacts),
+        FlagOrTable::Table(rows) => {
+            let owner = Owner::new("`contacts`", &contacts.span);
+            let rows = report.require(&owner, "by", &rows.by);
+            Some(rows.map_or(words::ContactRows::Contacts, |rows| rows.value))
         }
     }
 }

@@ -8,8 +8,8 @@ use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::energy::{self, Energy, PartEnergy};
 use crate::system::{
-    ContactState, Excitation, JointState, LinkState, Loading, SectionPoint, ShearBalance, ShellState, Side, System,
-    results,
+    ContactState, ContactTouch, Excitation, JointState, LinkState, Loading, SectionPoint, ShearBalance, ShellState,
+    Side, System, results,
 };
 use std::ops::BitOr;
 
@@ -44,8 +44,10 @@ impl Wanted {
     pub const MODES: Wanted = Wanted(1 << 9);
     /// Stress resultants at the nodes of beams, for fields.
     pub const NODAL_RESULTANTS: Wanted = Wanted(1 << 10);
+    /// Forces of each touch of contacts.
+    pub const CONTACT_TOUCHES: Wanted = Wanted(1 << 11);
     /// All quantities.
-    pub const ALL: Wanted = Wanted((1 << 11) - 1);
+    pub const ALL: Wanted = Wanted((1 << 12) - 1);
 
     /// True where all of `what` is in the set.
     pub const fn has(self, what: Wanted) -> bool {
@@ -102,6 +104,8 @@ pub struct Derived {
     pub joints: Vec<JointState>,
     /// States of contacts, in the order of [`Model::parts`].
     pub contacts: Vec<ContactState>,
+    /// Each touch of these, contact by contact.
+    pub contact_touches: Vec<ContactTouch>,
     /// Largest accumulated plastic strain of each element of all beams, bars and shells in deck order. It is computed
     /// for fields too, when tables are not due.
     pub plastic_strains: Vec<f64>,
@@ -127,7 +131,7 @@ pub struct Derived {
 }
 
 keep!(Derived { effort } without {
-    energy, links, joints, contacts, plastic_strains, failed, broken, shells, shear_balance, nodal_resultants, sections, parts, loading,
+    energy, links, joints, contacts, contact_touches, plastic_strains, failed, broken, shells, shear_balance, nodal_resultants, sections, parts, loading,
 });
 
 /// The request for the derived quantities of one accepted step.
@@ -190,6 +194,9 @@ impl Derived {
         if is_wanted(Wanted::CONTACTS) {
             system.contact_states(model, now, &mut self.contacts);
         }
+        if is_wanted(Wanted::CONTACT_TOUCHES) {
+            system.contact_touches(model, now, &mut self.contact_touches);
+        }
         if is_wanted(Wanted::SECTIONS) {
             // What begins acts already at the beginning, and jumps at the end of a step come after it.
             excitation.loading(state.time, if begins { Side::After } else { Side::Before }, &mut self.loading);
@@ -205,6 +212,7 @@ impl Derived {
         self.links.clear();
         self.joints.clear();
         self.contacts.clear();
+        self.contact_touches.clear();
         self.plastic_strains.clear();
         self.failed.clear();
         self.broken.clear();

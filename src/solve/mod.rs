@@ -45,7 +45,7 @@ mod warning;
 mod work;
 mod workspace;
 
-pub use crate::system::{ContactState, JointState};
+pub use crate::system::{ContactState, ContactTouch, JointState};
 pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState};
 pub use breakage::Broken;
 pub use contacts::settling_energy;

@@ -2,7 +2,7 @@
 
 use super::equations::System;
 use super::group::Group;
-use crate::elements::contact::{self, Contacts, ConvexHeap, ConvexPairs, FacetContacts, Resultant};
+use crate::elements::contact::{self, ContactAction, Contacts, ConvexHeap, ConvexPairs, FacetContacts};
 use crate::elements::{Partners, Wandering};
 use crate::math::Vec3;
 use crate::model::{CarriedSurface, Contact, Model, PartType, TouchedSurface};
@@ -19,6 +19,19 @@ pub struct ContactState {
     pub f: Vec3,
     /// Its moment about the centre of the body that carries the surface, or about the reference point of a ground
     /// surface.
+    pub m: Vec3,
+}
+
+/// What one touch does to the surface of its contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactTouch {
+    /// The number of the contact among all.
+    pub contact: usize,
+    /// A node of what is touched and one of what touches.
+    pub nodes: [usize; 2],
+    /// Force on what is touched, global components.
+    pub f: Vec3,
+    /// Its moment about the origin.
     pub m: Vec3,
 }
 
@@ -58,13 +71,40 @@ impl ContactBlock<'_> {
         }
     }
 
-    fn resultant(&self, now: &Configuration) -> Resultant {
+    /// Calls with what each touch does to the surface.
+    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
         match self {
-            ContactBlock::Points(block) => contact::resultant(block, now),
-            ContactBlock::Pairs(block) => contact::pair_resultant(block, now),
-            ContactBlock::Heap(block) => contact::convex::heap_resultant(block, now),
-            ContactBlock::Facets(block) => contact::facets::facet_resultant(block, now),
+            ContactBlock::Points(block) => contact::each_touch(block, now, act),
+            ContactBlock::Pairs(block) => contact::each_pair_touch(block, now, act),
+            ContactBlock::Heap(block) => contact::convex::each_heap_touch(block, now, act),
+            ContactBlock::Facets(block) => contact::facets::each_facet_touch(block, now, act),
         }
+    }
+
+    /// True for nodes of facets that touch a body, to which the facets are what touches.
+    fn is_turned_round(&self, contact: &Contact) -> bool {
+        matches!(self, ContactBlock::Points(_)) && contact.has_facets()
+    }
+
+    /// What all touches together do to the surface: their number, the force and the moment, as [`ContactState`] has them.
+    fn resultant(&self, contact: &Contact, now: &Configuration) -> (usize, [Vec3; 2]) {
+        let has_sides = match &contact.surface {
+            TouchedSurface::Shape(_) => true,
+            TouchedSurface::Facets(faces) => faces.has_sides(),
+        };
+        let (mut count, mut f, mut m, mut on) = (0, Vec3::zeros(), Vec3::zeros(), None);
+        self.each_action(now, &mut |action| {
+            (count, on) = (count + 1, Some(action.on));
+            if has_sides {
+                f += action.f;
+                m += action.m;
+            }
+        });
+        if let (Some(node), true) = (on, self.is_turned_round(contact)) {
+            // About the centre of the body so far, and about the origin as that on the facets.
+            (f, m) = (-f, -(m + now.nodes[node].x.cross(&f)));
+        }
+        (count, [f, m])
     }
 }
 
@@ -154,12 +194,34 @@ impl System {
             let gap = least_gap(contact, own().map(|(_, block)| block), now.nodes);
             let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
             for (group, block) in own() {
-                let sum = block.resultant(&group.configuration(now));
-                state.touching += sum.touching;
-                state.f += sum.f;
-                state.m += sum.m;
+                let (touching, [f, m]) = block.resultant(contact, &group.configuration(now));
+                state.touching += touching;
+                state.f += f;
+                state.m += m;
             }
             out.push(state);
+        }
+    }
+
+    /// Writes into `out` what each touch of each contact that acts does, contact by contact in deck order.
+    pub fn contact_touches(&self, model: &Model, now: &Configuration, out: &mut Vec<ContactTouch>) {
+        out.clear();
+        let contacts = model.parts.iter().enumerate().filter_map(|(place, part)| Some((place, Contact::of(part)?)));
+        for (number, (place, contact)) in contacts.enumerate() {
+            for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
+                let is_turned_round = block.is_turned_round(contact);
+                let is_about_node = matches!(block, ContactBlock::Points(_) | ContactBlock::Pairs(_));
+                block.each_action(&group.configuration(now), &mut |action| {
+                    let ContactAction { on, by, f, mut m } = action;
+                    if is_about_node {
+                        m += now.nodes[on].x.cross(&f);
+                    }
+                    out.push(match is_turned_round {
+                        true => ContactTouch { contact: number, nodes: [by, on], f: -f, m: -m },
+                        false => ContactTouch { contact: number, nodes: [on, by], f, m },
+                    });
+                });
+            }
         }
     }
 }

@@ -79,7 +79,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             cadence_is_open: false,
             energy: true,
             links: false,
-            contacts: false,
+            contacts: None,
             reactions: true,
             sections: None,
             failures: false,

@@ -11,7 +11,7 @@ use rdsolve::solids::SolidShape;
 use rdsolve::solids::cuboid::SolidCuboid;
 use rdsolve::solids::hollow::HollowCylinder;
 use rdsolve::solids::sphere::SolidSphere;
-use rdsolve::solve::{ContactState, Derived, Effort, Frame, LinkState, SectionPlace, SectionPoint};
+use rdsolve::solve::{ContactState, ContactTouch, Derived, Effort, Frame, LinkState, SectionPlace, SectionPoint};
 use rdsolve::state::{self, State};
 use rdsolve::system::energy::Energy;
 use std::sync::Arc;
@@ -133,7 +133,7 @@ pub fn model() -> Model {
             cadence_is_open: false,
             energy: true,
             links: true,
-            contacts: true,
+            contacts: Some(ContactRows::Both),
             reactions: true,
             sections: Some(SectionPlaces::Points),
             failures: false,
@@ -216,6 +216,8 @@ impl Extras {
                 failed: false,
             }],
             contacts: vec![ContactState { touching: 2, gap: -1e-3, f: p, m: Vec3::zeros() }],
+            // The second body touches twice, before and after the first.
+            contact_touches: [7, 6, 7].map(|node| ContactTouch { contact: 0, nodes: [0, node], f: p, m: -p }).into(),
             sections: vec![point(0), point(1)],
             // That of two steps, of which the second is due.
             effort: Effort { iterations: 6, refactorizations: 2, residual: 1e-9, cuts: 1 },

@@ -42,7 +42,7 @@ pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
 pub use point::{ContactPoint, MOST_NODES};
-pub use resultant::{Resultant, last_gap, last_pair_gap, least_gap, pair_gap, pair_resultant, resultant};
+pub use resultant::{ContactAction, each_pair_touch, each_touch, last_gap, last_pair_gap, least_gap, pair_gap};
 pub use steps::{longest_step, misses};
 pub use surface::Surface;
 pub use surfaces::SurfaceShape;

@@ -1,4 +1,4 @@
-//! The results of a contact for output: the resultant of its points and its least gap.
+//! The results of a contact for output: what each touch does to the surface, and the least gap.
 
 use super::convex::{CarriedConvex, ConvexBody, ConvexPairs, ConvexPose};
 use super::force::touch;
@@ -9,33 +9,27 @@ use super::surface::Surface;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
-/// The resultant of a contact.
+/// What one touch does to the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Resultant {
-    /// Number of points in contact.
-    pub touching: usize,
+pub struct ContactAction {
+    /// A node of what is touched: of a shape the one that carries it, of facets the first of the one that is touched.
+    pub on: usize,
+    /// A node of what touches.
+    pub by: usize,
     /// Force on the surface, global components.
     pub f: Vec3,
-    /// Its moment about the node that carries the surface.
+    /// Moment on a shape about the node that carries it, and on facets and among bodies about the origin.
     pub m: Vec3,
 }
 
-impl Default for Resultant {
-    fn default() -> Self {
-        Resultant { touching: 0, f: Vec3::zeros(), m: Vec3::zeros() }
-    }
-}
-
-/// The resultant of the forces of all points on the surface.
-pub fn resultant(contacts: &Contacts, now: &Configuration) -> Resultant {
-    let mut sum = Resultant::default();
-    for (at, acting) in (0..contacts.points.len()).filter_map(|e| touch(contacts, e, now)) {
+/// Calls with what each point that touches does to the surface.
+pub fn each_touch(contacts: &Contacts, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
+    for (e, point) in contacts.points.iter().enumerate() {
+        let Some((at, acting)) = touch(contacts, e, now) else { continue };
         let f = at.R * acting.F;
-        sum.touching += 1;
-        sum.f -= f;
-        sum.m -= at.d.cross(&f) + at.R * acting.M;
+        let m = at.d.cross(&f) + at.R * acting.M;
+        act(ContactAction { on: contacts.carrier, by: point.nodes[0], f: -f, m: -m });
     }
-    sum
 }
 
 /// Least distance of points from a surface; infinite where there are none.
@@ -61,16 +55,14 @@ fn least<'a>(points: impl Iterator<Item = PointHistory<'a>>) -> f64 {
     points.filter(|point| point.is_known()).map(PointHistory::gap).fold(f64::INFINITY, f64::min)
 }
 
-/// The resultant of the forces of all pairs of convex solids on the one that is touched; each that touches counts once.
-pub fn pair_resultant(pairs: &ConvexPairs, now: &Configuration) -> Resultant {
-    let mut sum = Resultant::default();
-    for (at, acting) in (0..pairs.count()).filter_map(|e| pairs.pair(e).touch(pairs.history(e, now.history), now)) {
+/// Calls with what each convex solid that touches does to the one that is touched; each counts once.
+pub fn each_pair_touch(pairs: &ConvexPairs, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
+    for e in 0..pairs.count() {
+        let pair = pairs.pair(e);
+        let Some((at, acting)) = pair.touch(pairs.history(e, now.history), now) else { continue };
         let (f, m) = at.global(&acting.W);
-        sum.touching += 1;
-        sum.f -= f;
-        sum.m -= m + at.d.cross(&f);
+        act(ContactAction { on: pair.other.node, by: pair.one.node, f: -f, m: -(m + at.d.cross(&f)) });
     }
-    sum
 }
 
 /// Least distance of convex solids from another; infinite where there are none.

@@ -62,6 +62,14 @@ pub struct FacetSurface {
     pub back: Vec<ContactPoint>,
 }
 
+impl FacetSurface {
+    /// True where one side touches and the other is touched, and so forces have a resultant: not in what touches itself, and not among
+    /// bodies.
+    pub fn has_sides(&self) -> bool {
+        matches!(self.touchers, FacetTouchers::Others)
+    }
+}
+
 impl Contact {
     /// True for faces of a shell, and for balls among themselves.
     pub fn has_facets(&self) -> bool {

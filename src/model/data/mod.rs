@@ -24,7 +24,7 @@ mod step_length;
 mod study;
 
 pub use crate::deck::analysis::{Gyroscopic, Method, Update};
-pub use crate::deck::output::SectionPlaces;
+pub use crate::deck::output::{ContactRows, SectionPlaces};
 pub use crate::deck::part_table::MassKind;
 pub use crate::deck::parts::{PartIndex, PartKind};
 pub use crate::deck::supports::History;

@@ -1,7 +1,7 @@
 //! The output of a run.
 
 use super::step_length::StepLength;
-use crate::deck::output::SectionPlaces;
+use crate::deck::output::{ContactRows, SectionPlaces};
 
 /// The tables and fields that the run writes.
 #[derive(Debug, Clone)]
@@ -18,8 +18,8 @@ pub struct Output {
     pub energy: bool,
     /// True where links.csv is written.
     pub links: bool,
-    /// True where contacts.csv is written.
-    pub contacts: bool,
+    /// What the tables of contacts are about; `None`: none is written.
+    pub contacts: Option<ContactRows>,
     /// True where reactions.csv is written.
     pub reactions: bool,
     /// The places of beams that sections.csv is about; `None`: it is not written.

@@ -1,6 +1,6 @@
 //! contacts.csv: clearances and forces of the contacts.
 
-use crate::model::{Contact, ExpectAt, PartKind};
+use crate::model::{Contact, ContactRows, ExpectAt, PartKind};
 use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind, WriteRow};
 use crate::quantities::{CONTACT, CONTACT_FORCE, Column, names};
@@ -10,9 +10,11 @@ use std::io;
 pub static TABLE: TableKind = TableKind {
     file: "contacts.csv",
     about: "One row for each contact: its least clearance and what all its points together exert on the surface. Written if \
-            `[output] contacts = true` and there are contacts.",
+            `[output] contacts` asks for it and there are contacts.",
     columns: &[&[Column::key("contact", "name of the contact")], &CONTACT],
-    wanted: |model| model.output.contacts && model.has(PartKind::Contact),
+    wanted: |model| {
+        model.output.contacts.is_some_and(|rows| rows != ContactRows::Pairs) && model.has(PartKind::Contact)
+    },
     needs: Wanted::CONTACTS,
     tells_failures: false,
     every_step: false,

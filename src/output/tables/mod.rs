@@ -1,6 +1,7 @@
 //! The tables of results, a file each. A new table is one more file and one line of [`TABLES`].
 
 mod bodies;
+mod contact_pairs;
 mod contacts;
 mod energy;
 mod joints;
@@ -27,6 +28,7 @@ pub static TABLES: &[&TableKind] = &[
     &energy::TABLE,
     &links::TABLE,
     &contacts::TABLE,
+    &contact_pairs::TABLE,
     &joints::TABLE,
     &reactions::TABLE,
     &sections::TABLE,

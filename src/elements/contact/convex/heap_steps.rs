@@ -3,7 +3,7 @@
 use super::heap::ConvexHeap;
 use super::pair::{CarriedConvex, ConvexBody};
 use super::steps::{is_missed, longest_step};
-use crate::elements::contact::resultant::{Resultant, distance};
+use crate::elements::contact::resultant::{ContactAction, distance};
 use crate::state::{Configuration, Node};
 
 /// True where a step from `start` to `now` must be shorter, as for [`super::misses_pair`].
@@ -32,11 +32,13 @@ pub fn last_heap_gap(heap: &ConvexHeap, history: &[f64]) -> f64 {
     known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
 }
 
-/// The number of pairs that touch: forces among them have no resultant.
-pub fn heap_resultant(heap: &ConvexHeap, now: &Configuration) -> Resultant {
-    let mut sum = Resultant::default();
-    heap.each_touch(now, |_| sum.touching += 1);
-    sum
+/// Calls with what one of each pair that touches does to the other, its moment about the origin.
+pub fn each_heap_touch(heap: &ConvexHeap, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
+    heap.each_touch(now, |touch| {
+        let (f, m) = touch.at.global(&touch.acting.W);
+        let (on, by) = (touch.pair.other.node, touch.pair.one.node);
+        act(ContactAction { on, by, f: -f, m: -(m + now.nodes[by].x.cross(&f)) });
+    });
 }
 
 /// Least distance of solids among themselves, without the pairs that are `joined`, negative where they overlap; infinite where there are

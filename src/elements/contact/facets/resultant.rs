@@ -7,24 +7,18 @@ use super::surface::FacetContacts;
 use super::touch;
 use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::point::ContactPoint;
-use crate::elements::contact::resultant::Resultant;
+use crate::elements::contact::resultant::ContactAction;
 use crate::state::{Configuration, Node};
 
-/// The resultant of the forces of all points on the facets, its moment about the origin; of what touches itself, the number of pairs.
-pub fn facet_resultant(of: &FacetContacts, now: &Configuration) -> Resultant {
-    let mut sum = Resultant::default();
+/// Calls with what each point that touches does to a facet, its moment about the origin.
+pub fn each_facet_touch(of: &FacetContacts, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
     of.each_touch(now.nodes, now.history, |_, _, pair| {
-        sum.touching += 1;
-        if of.is_inner {
-            return;
-        }
         let place = pair.place(now.nodes);
         let force = pair.force(&place, now.nodes);
         let x = now.nodes[pair.point.nodes[0]].x + place.x;
-        sum.f -= force.F;
-        sum.m += force.C - (x - place.at.g).cross(&force.F);
+        let m = force.C - (x - place.at.g).cross(&force.F);
+        act(ContactAction { on: pair.facet.nodes[0], by: pair.point.nodes[0], f: -force.F, m });
     });
-    sum
 }
 
 /// Least gap of points from facets, those left out which `may_touch` excludes; infinite where there are none. Facets are looked at in the
