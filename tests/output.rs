@@ -1,7 +1,7 @@
 //! The files of the output folder, read back.
 
 use crate::scene;
-use base64::prelude::{BASE64_STANDARD, Engine};
+use crate::support::grid::Grid;
 use rdsolve::model::{Cadence, Expect, ExpectAt, Model, PartIndex, PartKind, Tolerance, When};
 use rdsolve::output::Files;
 use rdsolve::output::expect::{Expectations, quantities};
@@ -149,23 +149,6 @@ fn a_folder_that_cannot_be_made_is_named() {
 }
 
 /// Content of the array of a name, after its length.
-fn array(xml: &str, name: &str) -> Vec<u8> {
-    let from = xml.find(&format!("Name=\"{name}\"")).unwrap();
-    let text = xml[from..].split_once('>').unwrap().1.split_once('<').unwrap().0;
-    let bytes = BASE64_STANDARD.decode(text).unwrap();
-    let (length, content) = bytes.split_at(8);
-    assert_eq!(u64::from_le_bytes(length.try_into().unwrap()), content.len() as u64, "{name}");
-    content.to_vec()
-}
-
-fn numbers(bytes: &[u8]) -> Vec<f64> {
-    bytes.chunks_exact(8).map(|chunk| f64::from_le_bytes(chunk.try_into().unwrap())).collect()
-}
-
-fn indices(bytes: &[u8]) -> Vec<usize> {
-    bytes.chunks_exact(8).map(|chunk| i64::from_le_bytes(chunk.try_into().unwrap()) as usize).collect()
-}
-
 /// Every opened element is closed in order.
 fn well_formed(xml: &str) -> bool {
     let mut open = Vec::new();
@@ -193,18 +176,18 @@ fn grids_hold_together() {
     for (time, step) in [("0", 0), ("0.4", 4), ("0.8", 8), ("1", 10)] {
         assert!(list.contains(&format!("timestep=\"{time}\" part=\"0\" file=\"fields_{step:06}.vtu\"")), "{list}");
     }
-    let xml = fs::read_to_string(dir.path().join("fields_000004.vtu")).unwrap();
-    assert!(well_formed(&xml));
+    let grid = Grid::read(&dir.path().join("fields_000004.vtu"));
+    assert!(well_formed(&grid.xml));
     let state = scene::state(&model, 0.4);
-    let points = numbers(&array(&xml, "Points"));
-    let (offsets, connectivity) = (indices(&array(&xml, "offsets")), indices(&array(&xml, "connectivity")));
-    let (types, parts) = (array(&xml, "types"), indices(&array(&xml, "part")));
+    let points = grid.numbers("Points");
+    let (offsets, connectivity) = (grid.indices("offsets"), grid.indices("connectivity"));
+    let (types, parts) = (grid.array("types"), grid.indices("part"));
     let (count, cells) = (points.len() / 3, types.len());
-    assert!(xml.contains(&format!("<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">")));
+    assert!(grid.xml.contains(&format!("<Piece NumberOfPoints=\"{count}\" NumberOfCells=\"{cells}\">")));
     for name in ["displacement", "velocity", "rotation", "frame_x", "frame_y", "frame_z"] {
-        assert_eq!(numbers(&array(&xml, name)).len(), points.len(), "{name}");
+        assert_eq!(grid.numbers(name).len(), points.len(), "{name}");
     }
-    assert_eq!(numbers(&array(&xml, "TimeValue")), [state.time]);
+    assert_eq!(grid.numbers("TimeValue"), [state.time]);
     assert!(offsets.is_sorted() && *offsets.last().unwrap() == connectivity.len() && offsets.len() == cells);
     assert!(connectivity.iter().all(|point| *point < count) && parts.len() == cells);
     // The cubic element: ends first, then inner nodes; its points are the nodes 0 to 3.
@@ -218,7 +201,7 @@ fn grids_hold_together() {
     let (body, arm) = (&state.nodes[6], rdsolve::math::Vec3::new(-0.5, -0.25, -0.1));
     let expected = body.x + body.R() * arm;
     let velocity = body.v + body.omega.cross(&(body.R() * arm));
-    let velocities = numbers(&array(&xml, "velocity"));
+    let velocities = grid.numbers("velocity");
     for k in 0..3 {
         assert!((points[3 * corner + k] - expected[k]).abs() < 1e-14);
         assert!((velocities[3 * corner + k] - velocity[k]).abs() < 1e-14);
@@ -309,14 +292,14 @@ fn shells_are_drawn_with_what_they_feel() {
     assert_eq!(layers.len(), 2 * 3 * 2, "and two surfaces each");
     assert_eq!((layers[6][4].as_str(), layers[6][5].as_str(), layers[7][5].as_str()), ("0", "-0.05", "0.05"));
 
-    let grid = |step: usize| fs::read_to_string(out.join(format!("fields_{step:06}.vtu"))).unwrap();
-    let xml = grid(2);
-    assert!(well_formed(&xml) && well_formed(&grid(1)));
-    assert_eq!(array(&xml, "types"), [3, 9, 9, 5], "a line, two quadrilaterals, a triangle");
-    assert_eq!(indices(&array(&xml, "offsets")), [2, 6, 10, 13]);
-    assert_eq!(indices(&array(&xml, "part")), [0, 1, 1, 2]);
+    let grid_of = |step: usize| Grid::read(&out.join(format!("fields_{step:06}.vtu")));
+    let grid = grid_of(2);
+    assert!(well_formed(&grid.xml) && well_formed(&grid_of(1).xml));
+    assert_eq!(grid.array("types"), [3, 9, 9, 5], "a line, two quadrilaterals, a triangle");
+    assert_eq!(grid.indices("offsets"), [2, 6, 10, 13]);
+    assert_eq!(grid.indices("part"), [0, 1, 1, 2]);
     // Points of a face go round as the corners do.
-    let (points, corners) = (numbers(&array(&xml, "Points")), indices(&array(&xml, "connectivity")));
+    let (points, corners) = (grid.numbers("Points"), grid.indices("connectivity"));
     let x = |k: usize| [points[3 * corners[k]], points[3 * corners[k] + 1]];
     for first in [2, 6, 10] {
         let [a, b, c] = [x(first), x(first + 1), x(first + 2)];
@@ -331,7 +314,7 @@ fn shells_are_drawn_with_what_they_feel() {
         ("von_mises_bottom", 12, 1),
         ("von_mises_top", 13, 1),
     ] {
-        let found = numbers(&array(&xml, name));
+        let found = grid.numbers(name);
         assert_eq!(found.len(), 4 * width, "{name}");
         assert!(found[..width].iter().all(|v| *v == 0.0), "{name}: the bar has none");
         for row in 0..3 {
@@ -341,9 +324,9 @@ fn shells_are_drawn_with_what_they_feel() {
         }
     }
     // Axis 1 of the strip is y by the deck, of the tip x; half of the force at half of the way, where no table has a row.
-    let axes = numbers(&array(&xml, "axis_1"));
+    let axes = grid.numbers("axis_1");
     assert!((axes[4] - 1.0).abs() < 1e-6 && (axes[9] - 1.0).abs() < 1e-6, "{axes:?}");
-    let half = numbers(&array(&grid(1), "membrane_force"));
+    let half = grid_of(1).numbers("membrane_force");
     assert!((value(0, 4) - 1.0).abs() < 2e-3 && (half[3] - 0.5).abs() < 1e-3, "{} {}", value(0, 4), half[3]);
 }
 

@@ -7,9 +7,9 @@
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
 //! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
-use super::disk::{at, create, replace};
+use super::disk::{at, replace};
 use super::run_list::RunList;
-use super::vtu::{self, Cell};
+use super::vtu::{Cell, GridText};
 use crate::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
 use crate::model::{Drawing, Model, Part};
 use crate::snapshot::keep;
@@ -18,7 +18,7 @@ use crate::solve::{Frame, ShellState};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// A drawn point, which is fixed to a node and turns with it; `arm` and `axes` (columns) are global at t = 0.
@@ -134,7 +134,7 @@ fn is_drawn(part: &Part) -> bool {
     part.kind().is_drawn() && part.is_listed()
 }
 
-/// Bytes of one grid, about: base64 has four letters for three bytes.
+/// Bytes of one grid at most: as a rule compression takes away half of them.
 pub fn bytes(model: &Model) -> usize {
     let Grid { places, connectivity, offsets, .. } = Grid::of(model);
     let cells = offsets.len();
@@ -142,7 +142,7 @@ pub fn bytes(model: &Model) -> usize {
     let of_points = if model.has_sections() { 27 } else { 21 };
     let numbers = of_points * places.len() + connectivity.len() + cells * (2 + of_shells + usize::from(model.yields()));
     let arrays = if model.has_surfaces() { 18 } else { 12 } + if model.has_sections() { 2 } else { 0 };
-    (8 * numbers + cells) * 4 / 3 + arrays * ARRAY + ENDS
+    8 * numbers + cells + arrays * ARRAY + ENDS
 }
 
 /// Bytes of an array without its numbers, and of what stands before and behind the arrays.
@@ -194,9 +194,9 @@ pub struct Fields {
     places: Vec<Place>,
     /// The opening of the one piece of a grid, which is the same at every step, as are the next two.
     piece: String,
-    /// The array with the part of each cell.
+    /// The tag of the array with the part of each cell.
     parts: String,
-    /// The cells.
+    /// The tags of the cells.
     cells: String,
     /// The number of cells.
     count: usize,
@@ -204,10 +204,7 @@ pub struct Fields {
     before: Option<usize>,
     /// How far the grids have come.
     marked: FieldsMark,
-    /// The text of a grid; its memory serves again at the next step.
-    text: String,
-    /// The bytes of an array before they are encoded; their memory serves again as well.
-    bytes: Vec<u8>,
+    grid: GridText,
 }
 
 /// How far the grids of a run have come.
@@ -233,27 +230,25 @@ impl Fields {
         let Grid { places, connectivity, offsets, types, parts } = Grid::of(model);
         replace(&dir.join("fields.csv"), &names(model)?)?;
         let piece = format!("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", places.len(), offsets.len());
-        let (mut part_array, mut cells, mut bytes) = (String::new(), String::from("<Cells>\n"), Vec::new());
-        vtu::array(&mut part_array, &mut bytes, "part", 1, parts.into_iter());
-        vtu::array(&mut cells, &mut bytes, "connectivity", 1, connectivity.into_iter());
-        vtu::array(&mut cells, &mut bytes, "offsets", 1, offsets.iter().copied());
-        vtu::array(&mut cells, &mut bytes, "types", 1, types.into_iter());
-        cells.push_str("</Cells>\n</Piece>\n");
+        let mut grid = GridText::new();
+        let parts = grid.keep("part", 1, parts.into_iter());
+        let connectivity = grid.keep("connectivity", 1, connectivity.into_iter());
+        let ends = grid.keep("offsets", 1, offsets.iter().copied());
+        let types = grid.keep("types", 1, types.into_iter());
         Ok(Fields {
             dir: dir.into(),
             list: RunList::open(dir)?,
             places,
             piece,
-            parts: part_array,
-            cells,
+            parts,
+            cells: format!("<Cells>\n{connectivity}{ends}{types}</Cells>\n</Piece>\n"),
             count: offsets.len(),
             before: model.has_surfaces().then(|| {
                 let others = model.parts.iter().take_while(|part| !part.kind().is_surface());
                 others.map(Part::elements).sum()
             }),
             marked: FieldsMark::default(),
-            text: String::new(),
-            bytes,
+            grid,
         })
     }
 
@@ -317,41 +312,36 @@ impl Fields {
     pub fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
         let Some(modes) = frame.modes else { return Ok(()) };
         for (number, mode) in (1..).zip(&modes.list) {
-            let (text, bytes) = (&mut self.text, &mut self.bytes);
-            text.clear();
-            text.push_str(vtu::OPEN);
-            text.push_str("<FieldData>\n");
-            vtu::array(text, bytes, "TimeValue", 1, [f64::from(number)].into_iter());
-            vtu::array(text, bytes, "frequency", 1, [mode.frequency()].into_iter());
-            text.push_str("</FieldData>\n");
-            text.push_str(&self.piece);
+            let grid = &mut self.grid;
+            grid.begin();
+            grid.push("<FieldData>\n");
+            grid.array("TimeValue", 1, [f64::from(number)].into_iter());
+            grid.array("frequency", 1, [mode.frequency()].into_iter());
+            grid.push("</FieldData>\n");
+            grid.push(&self.piece);
             let (places, now) = (&self.places, &frame.state.nodes);
-            let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
-                vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
-            };
             let arm = |p: &Place| now[p.node].R() * p.arm;
             let moved = |p: &Place, shape: &[Vec6]| linear(&shape[p.node]) + angular(&shape[p.node]).cross(&arm(p));
-            text.push_str("<PointData>\n");
-            vectors(text, "displacement", &|p| moved(p, &mode.shape));
-            vectors(text, "rotation", &|p| angular(&mode.shape[p.node]));
+            grid.push("<PointData>\n");
+            vectors(grid, places, "displacement", |p| moved(p, &mode.shape));
+            vectors(grid, places, "rotation", |p| angular(&mode.shape[p.node]));
             if !mode.quadrature.is_empty() {
-                vectors(text, "displacement_ahead", &|p| moved(p, &mode.quadrature));
-                vectors(text, "rotation_ahead", &|p| angular(&mode.quadrature[p.node]));
+                vectors(grid, places, "displacement_ahead", |p| moved(p, &mode.quadrature));
+                vectors(grid, places, "rotation_ahead", |p| angular(&mode.quadrature[p.node]));
             }
-            text.push_str("</PointData>\n<Points>\n");
-            vectors(text, "Points", &|p| now[p.node].x + arm(p));
-            text.push_str("</Points>\n<CellData>\n");
-            text.push_str(&self.parts);
-            text.push_str("</CellData>\n");
-            text.push_str(&self.cells);
-            text.push_str(vtu::CLOSE);
+            grid.push("</PointData>\n<Points>\n");
+            vectors(grid, places, "Points", |p| now[p.node].x + arm(p));
+            grid.push("</Points>\n<CellData>\n");
+            grid.push(&self.parts);
+            grid.push("</CellData>\n");
+            grid.push(&self.cells);
             let name = match &frame.model.analysis.stage {
                 Some(stage) => format!("mode_{}_{number:04}.vtu", stage.index + 1),
                 None => format!("mode_{number:04}.vtu"),
             };
             let path = self.dir.join(&name);
             self.list.note([name.as_str()])?;
-            create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
+            self.grid.write(&path)?;
             self.marked.modes += 1;
             let _ = writeln!(
                 self.marked.listed_modes,
@@ -365,26 +355,24 @@ impl Fields {
     }
 
     fn write(&mut self, frame: &Frame) -> io::Result<()> {
-        let (text, bytes) = (&mut self.text, &mut self.bytes);
-        let time = frame.state.time;
-        text.clear();
-        text.push_str(vtu::OPEN);
-        text.push_str("<FieldData>\n");
-        vtu::array(text, bytes, "TimeValue", 1, [time].into_iter());
-        text.push_str("</FieldData>\n");
-        text.push_str(&self.piece);
+        let (grid, time) = (&mut self.grid, frame.state.time);
+        grid.begin();
+        grid.push("<FieldData>\n");
+        grid.array("TimeValue", 1, [time].into_iter());
+        grid.push("</FieldData>\n");
+        grid.push(&self.piece);
 
-        write_points(text, bytes, &self.places, frame);
-        text.push_str("<CellData>\n");
-        text.push_str(&self.parts);
+        write_points(grid, &self.places, frame);
+        grid.push("<CellData>\n");
+        grid.push(&self.parts);
         if !frame.derived.plastic_strains.is_empty() {
             // Cells of beams, bars and shells come first; links and bodies do not yield.
             let strains = frame.derived.plastic_strains.iter().copied().chain(std::iter::repeat(0.0)).take(self.count);
-            vtu::array(text, bytes, "plastic_strain", 1, strains);
+            grid.array("plastic_strain", 1, strains);
         }
         if !frame.derived.failed.is_empty() {
             let failed = frame.derived.failed.iter().map(|failed| f64::from(u8::from(*failed)));
-            vtu::array(text, bytes, "failed", 1, failed.chain(std::iter::repeat(0.0)).take(self.count));
+            grid.array("failed", 1, failed.chain(std::iter::repeat(0.0)).take(self.count));
         }
         if let Some(before) = self.before {
             let (count, after) =
@@ -393,7 +381,7 @@ impl Fields {
                 let zeros = |cells: usize| std::iter::repeat_n(0.0, components * cells);
                 let shells = frame.derived.shells.iter().flat_map(|state| (0..components).map(move |i| of(state, i)));
                 let all = zeros(before).chain(shells).chain(zeros(after)).take(components * count);
-                vtu::array(text, bytes, name, components, all);
+                grid.array(name, components, all);
             };
             cells("axis_1", 3, &|state, i| state.at.frame[(i, 0)]);
             cells("membrane_force", 3, &|state, i| state.at.N[i]);
@@ -402,14 +390,13 @@ impl Fields {
             cells("von_mises_bottom", 1, &|state, _| state.outer_von_mises()[0]);
             cells("von_mises_top", 1, &|state, _| state.outer_von_mises()[1]);
         }
-        text.push_str("</CellData>\n");
-        text.push_str(&self.cells);
-        text.push_str(vtu::CLOSE);
+        grid.push("</CellData>\n");
+        grid.push(&self.cells);
 
         let name = format!("fields_{:06}.vtu", frame.step);
         let path = self.dir.join(&name);
         self.list.note([name.as_str()])?;
-        create(&path).and_then(|mut file| file.write_all(text.as_bytes())).map_err(|e| at(&path, e))?;
+        self.grid.write(&path)?;
         let _ = writeln!(self.marked.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
         self.write_list()
     }
@@ -421,33 +408,32 @@ impl Fields {
     }
 }
 
-/// Writes the points of a grid, and what they carry.
-fn write_points(text: &mut String, bytes: &mut Vec<u8>, places: &[Place], frame: &Frame) {
+/// Adds a vector for each point.
+fn vectors(grid: &mut GridText, places: &[Place], name: &str, vector: impl Fn(&Place) -> Vec3) {
+    grid.array(name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
+}
+
+/// Adds the points of a grid, and what they carry.
+fn write_points(grid: &mut GridText, places: &[Place], frame: &Frame) {
     let (start, now) = (&frame.model.nodes, &frame.state.nodes);
-    let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
-        vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
-    };
     let arm = |p: &Place| now[p.node].R() * p.arm;
-    text.push_str("<PointData>\n");
-    vectors(text, "displacement", &|p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
-    vectors(text, "velocity", &|p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
-    vectors(text, "rotation", &|p| rotation::log(&now[p.node].rotation));
+    grid.push("<PointData>\n");
+    vectors(grid, places, "displacement", |p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
+    vectors(grid, places, "velocity", |p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
+    vectors(grid, places, "rotation", |p| rotation::log(&now[p.node].rotation));
     for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
-        vectors(text, name, &|p| now[p.node].R() * p.axes.column(axis));
+        vectors(grid, places, name, |p| now[p.node].R() * p.axes.column(axis));
     }
     // Points of beams come first.
     let resultants = &frame.derived.nodal_resultants;
     for (first, name) in [(0, "section_force"), (3, "section_moment")].into_iter().filter(|_| !resultants.is_empty()) {
         let zeros = std::iter::repeat_n(0.0, 3 * places.len().saturating_sub(resultants.len()));
         let values = resultants.iter().flat_map(|all| all[first..first + 3].iter().copied()).chain(zeros);
-        vtu::array(text, bytes, name, 3, values.take(3 * places.len()));
+        grid.array(name, 3, values.take(3 * places.len()));
     }
-    let mut vectors = |text: &mut String, name: &str, vector: &dyn Fn(&Place) -> Vec3| {
-        vtu::array(text, bytes, name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
-    };
-    text.push_str("</PointData>\n<Points>\n");
-    vectors(text, "Points", &|p| now[p.node].x + arm(p));
-    text.push_str("</Points>\n");
+    grid.push("</PointData>\n<Points>\n");
+    vectors(grid, places, "Points", |p| now[p.node].x + arm(p));
+    grid.push("</Points>\n");
 }
 
 /// The beginning of fields.pvd.

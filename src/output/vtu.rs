@@ -1,15 +1,23 @@
-//! The XML of VTK's unstructured grids: base64 arrays in little-endian order, each behind its length in bytes (UInt64).
-//! Reference: VTKFileFormats, docs.vtk.org.
+//! VTK's unstructured grids: XML that names the arrays, and behind it their numbers, little-endian and compressed by zlib in blocks.
+//! Reference: VTKFileFormats, docs.vtk.org; "appended raw" data with `vtkZLibDataCompressor`.
 
-use base64::prelude::{BASE64_STANDARD, Engine};
+use super::disk::{at, create};
+use flate2::{Compress, Compression, FlushCompress, Status};
 use std::fmt::Write;
+use std::io::{self, Write as _};
+use std::path::Path;
 
 /// The beginning of a grid, up to its field data.
-pub const OPEN: &str = "<?xml version=\"1.0\"?>\n\
-    <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+const OPEN: &str = "<?xml version=\"1.0\"?>\n\
+    <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
+    compressor=\"vtkZLibDataCompressor\">\n\
     <UnstructuredGrid>\n";
-/// The end of a grid, behind its cells.
-pub const CLOSE: &str = "</UnstructuredGrid>\n</VTKFile>\n";
+/// What stands behind the cells, before the numbers.
+pub const APPENDED: &str = "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+/// The end of a grid, behind the numbers.
+const CLOSE: &str = "\n</AppendedData>\n</VTKFile>\n";
+/// The number of bytes that are compressed together.
+const BLOCK: usize = 1 << 16;
 
 /// Types of cells, by the numbers of VTK.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,27 +52,131 @@ macro_rules! scalar {
 }
 scalar! { f64, "Float64"; i64, "Int64"; u8, "UInt8"; }
 
-/// Appends a `DataArray` to `text`: tuples of so many `components`, one after the other; `bytes` is scratch. There are no arrays
-/// of strings, for meshio refuses a file that has one.
-pub fn array<T: Scalar>(
-    text: &mut String,
-    bytes: &mut Vec<u8>,
-    name: &str,
-    components: usize,
-    values: impl Iterator<Item = T>,
-) {
-    bytes.clear();
-    bytes.extend_from_slice(&[0; 8]);
-    values.for_each(|value| value.append(bytes));
-    let length = bytes.len() as u64 - 8;
-    bytes[..8].copy_from_slice(&length.to_le_bytes());
-    let kind = T::TYPE;
-    let tuples = length as usize / (components * size_of::<T>());
-    let _ = write!(
-        text,
-        "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" NumberOfTuples=\"{tuples}\" \
-         format=\"binary\">"
-    );
-    BASE64_STANDARD.encode_string(bytes, text);
-    text.push_str("</DataArray>\n");
+/// A grid that is being put together. Its memory serves again for the next one.
+pub struct GridText {
+    text: String,
+    /// The compressed arrays, one behind the other.
+    data: Vec<u8>,
+    /// The number of their bytes that all grids begin with.
+    kept: usize,
+    /// An array before it is compressed.
+    bytes: Vec<u8>,
+    coder: Compress,
+}
+
+impl GridText {
+    /// No grid yet.
+    pub fn new() -> GridText {
+        // The fastest level: the others gain 2 % on numbers that a solver has computed.
+        let coder = Compress::new(Compression::fast(), true);
+        GridText { text: String::new(), data: Vec::new(), kept: 0, bytes: Vec::new(), coder }
+    }
+
+    /// Compresses an array whose numbers are the same in every grid, and returns the tag that stands for it. It must come before
+    /// the first grid begins.
+    pub fn keep<T: Scalar>(&mut self, name: &str, components: usize, values: impl Iterator<Item = T>) -> String {
+        self.text.clear();
+        self.array(name, components, values);
+        self.kept = self.data.len();
+        std::mem::take(&mut self.text)
+    }
+
+    /// Begins a grid.
+    pub fn begin(&mut self) {
+        self.data.truncate(self.kept);
+        self.text.clear();
+        self.text.push_str(OPEN);
+    }
+
+    /// Adds text.
+    pub fn push(&mut self, text: &str) {
+        self.text.push_str(text);
+    }
+
+    /// Adds an array: tuples of so many `components`, one after the other. There are no arrays of strings, for meshio refuses a file
+    /// that has one.
+    pub fn array<T: Scalar>(&mut self, name: &str, components: usize, values: impl Iterator<Item = T>) {
+        self.bytes.clear();
+        values.for_each(|value| value.append(&mut self.bytes));
+        let tuples = self.bytes.len() / (components * size_of::<T>());
+        let (kind, offset) = (T::TYPE, self.data.len());
+        let _ = writeln!(
+            self.text,
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{components}\" NumberOfTuples=\"{tuples}\" \
+             format=\"appended\" offset=\"{offset}\"/>"
+        );
+        self.compress();
+    }
+
+    /// Appends the array to the data: the number of blocks, the bytes of a block, those of the last one where they are fewer, then the
+    /// compressed bytes of each block, each of these a UInt64; then the blocks.
+    fn compress(&mut self) {
+        let GridText { data, bytes, coder, .. } = self;
+        let blocks = bytes.chunks(BLOCK);
+        for number in [blocks.len(), BLOCK, bytes.len() % BLOCK] {
+            data.extend_from_slice(&(number as u64).to_le_bytes());
+        }
+        let mut length_at = data.len();
+        data.resize(length_at + 8 * blocks.len(), 0);
+        for block in blocks {
+            let begins = data.len();
+            coder.reset();
+            loop {
+                // What cannot be compressed becomes longer by a few bytes in ten thousand.
+                data.reserve(block.len() + block.len() / 64 + 256);
+                let rest = &block[coder.total_in() as usize..];
+                if let Ok(Status::StreamEnd) | Err(_) = coder.compress_vec(rest, data, FlushCompress::Finish) {
+                    break;
+                }
+            }
+            let length = (data.len() - begins) as u64;
+            data[length_at..length_at + 8].copy_from_slice(&length.to_le_bytes());
+            length_at += 8;
+        }
+    }
+
+    /// Ends the grid and writes it.
+    ///
+    /// # Errors
+    /// The file cannot be written; the error names it.
+    pub fn write(&mut self, path: &Path) -> io::Result<()> {
+        self.text.push_str(APPENDED);
+        let parts = [self.text.as_bytes(), &self.data, CLOSE.as_bytes()];
+        create(path)
+            .and_then(|mut file| parts.iter().try_for_each(|part| file.write_all(part)))
+            .map_err(|e| at(path, e))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use flate2::bufread::ZlibDecoder;
+    use std::io::Read;
+
+    /// Numbers without a pattern, as many as fill no block, one block in part, one exactly, and more than two, after an array that all
+    /// grids share.
+    #[test]
+    fn arrays_of_any_length_come_back() {
+        let mut grid = GridText::new();
+        assert!(grid.keep("types", 1, [3_u8; 5].into_iter()).contains("offset=\"0\""));
+        for count in [0, 1, 100, 8191, 8192, 8193, 20_000] {
+            let values: Vec<f64> = (0..count).map(|k| (1e9 * f64::from(k).sin()).sin()).collect();
+            grid.begin();
+            let offset = grid.data.len();
+            grid.array("x", 1, values.iter().copied());
+            let data = &grid.data[offset..];
+            let number =
+                |k: usize| data.as_chunks::<8>().0.get(k).map_or(0, |&eight| u64::from_le_bytes(eight) as usize);
+            let bytes = 8 * values.len();
+            assert_eq!([number(0), number(1), number(2)], [bytes.div_ceil(BLOCK), BLOCK, bytes % BLOCK]);
+            let (mut at, mut found) = (8 * (3 + number(0)), Vec::new());
+            for k in 0..number(0) {
+                ZlibDecoder::new(&data[at..at + number(3 + k)]).read_to_end(&mut found).expect("a whole block");
+                at += number(3 + k);
+            }
+            assert_eq!(at, data.len());
+            assert!(found.as_chunks().0.iter().map(|&eight| f64::from_le_bytes(eight)).eq(values));
+        }
+    }
 }

@@ -1,6 +1,7 @@
 //! docs/results.md: every column of every table of results, from their registry, and the arrays of the fields.
 
 use super::{cell, keep, rdsolve, read, root, with_generated};
+use crate::support::grid::Grid;
 use rdsolve::output::TABLES;
 use rdsolve::quantities::{Column, STEP, TIME};
 use serde_json::Value;
@@ -39,7 +40,7 @@ fn the_results_reference_names_the_arrays_of_fields() {
         let (path, out) = (format!("decks/tutorial/{deck}.toml"), folder.path().join(deck));
         let short = ["--set", "analysis.end_time=0.05", "--set", "expect=[]", "--set", "output.fields.every=1000000"];
         rdsolve(&[&[&path, "-o", out.to_str().unwrap(), "--quiet"][..], &short].concat()).assert().code(0);
-        let grid = read(&out.join("fields_000000.vtu"));
+        let grid = Grid::read(&out.join("fields_000000.vtu")).xml;
         let data = ["<PointData>", "<CellData>"]
             .map(|section| grid.split_once(section).unwrap().1.split_once("Data>").unwrap().0);
         for name in data.iter().flat_map(|section| section.split("Name=\"").skip(1)) {

@@ -1,6 +1,7 @@
 //! The program with a mesh: from any folder, with overrides, and its hash.
 
 use super::Plate;
+use crate::support::grid::Grid;
 use assert_cmd::Command;
 use std::path::Path;
 
@@ -80,7 +81,7 @@ fn a_rigid_part_is_drawn() {
         DECK.replace("group = \"plate\"", "group = \"plate\"\nrigid = true").replace("at = \"root\"", "at = \"plate\"");
     std::fs::write(dir.path().join("deck.toml"), deck).unwrap();
     run(dir.path(), &["deck.toml", "-o", "out", "--quiet"]).code(0);
-    let fields = std::fs::read_to_string(dir.path().join("out/fields_000000.vtu")).unwrap();
+    let fields = Grid::read(&dir.path().join("out/fields_000000.vtu")).xml;
     assert!(fields.contains("NumberOfPoints=\"15\" NumberOfCells=\"8\""), "{}", &fields[..400]);
     assert!(std::fs::read_to_string(dir.path().join("out/fields.csv")).unwrap().contains("body,plate"));
 }

@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each test uses its part
 
 pub mod blocks;
+pub mod grid;
 pub mod random;
 pub mod truss;
 

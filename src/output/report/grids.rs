@@ -5,10 +5,12 @@ use super::data::{PageScene, numbers};
 use crate::math::curved_faces::{facets, ring};
 use crate::output::at;
 use crate::output::table_reader::{TableReader, fields, text};
+use crate::output::vtu::APPENDED;
 use base64::prelude::{BASE64_STANDARD, Engine};
+use flate2::bufread::ZlibDecoder;
 use std::collections::HashSet;
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// The largest number of numbers over all times that a page carries.
@@ -159,13 +161,18 @@ fn kinds(path: &Path) -> io::Result<Vec<u8>> {
 /// A grid as this program writes it.
 struct Grid {
     path: PathBuf,
+    /// What stands before the numbers.
     text: String,
+    /// The compressed arrays, and the end of the file.
+    data: Vec<u8>,
 }
 
 impl Grid {
     fn read(path: PathBuf) -> io::Result<Grid> {
-        let text = fs::read_to_string(&path).map_err(|e| at(&path, e))?;
-        Ok(Grid { path, text })
+        let mut bytes = fs::read(&path).map_err(|e| at(&path, e))?;
+        let found = bytes.windows(APPENDED.len()).position(|window| window == APPENDED.as_bytes());
+        let data = bytes.split_off(found.map_or(bytes.len(), |at| at + APPENDED.len()));
+        Ok(Grid { path, text: String::from_utf8_lossy(&bytes).into_owned(), data })
     }
 
     /// The error that the grid lacks something.
@@ -177,12 +184,12 @@ impl Grid {
     fn array(&self, name: &str, components: usize) -> io::Result<Vec<f64>> {
         let read = || {
             let at = self.text.find(&format!(" Name=\"{name}\""))?;
-            let (tag, rest) = self.text[at..].split_once('>')?;
-            let kind = attribute(&self.text[self.text[..at].rfind('<')?..], "type")?;
+            let tag = &self.text[self.text[..at].rfind('<')?..];
+            let tag = &tag[..tag.find('>')?];
             let fits = attribute(tag, "NumberOfComponents")?.parse() == Ok(components);
-            let bytes = BASE64_STANDARD.decode(rest.split('<').next()?.trim()).ok()?;
-            let bytes = fits.then_some(bytes.get(8..)?)?;
-            Some(match kind {
+            let bytes = inflate(self.data.get(attribute(tag, "offset")?.parse().ok()?..)?)?;
+            let bytes = fits.then_some(bytes)?;
+            Some(match attribute(tag, "type")? {
                 "Float64" => bytes.as_chunks().0.iter().map(|&eight| f64::from_le_bytes(eight)).collect(),
                 "Int64" => bytes.as_chunks().0.iter().map(|&eight| i64::from_le_bytes(eight) as f64).collect(),
                 "UInt8" => bytes.iter().map(|&byte| f64::from(byte)).collect(),
@@ -206,6 +213,25 @@ impl Grid {
         names.filter(|name| *name != "part").map(String::from).collect()
     }
 }
+
+/// The bytes of a compressed array, which begins with the numbers of its blocks; `None` where they are not as written.
+fn inflate(data: &[u8]) -> Option<Vec<u8>> {
+    let head = data.as_chunks::<8>().0;
+    let number = |k: usize| head.get(k).map(|&eight| u64::from_le_bytes(eight) as usize);
+    let (count, most) = (number(0)?, number(1)?);
+    let mut blocks = data.get(8_usize.checked_mul(count.checked_add(3)?)?..)?;
+    let mut bytes = Vec::new();
+    for k in 0..count {
+        let (block, rest) = blocks.split_at_checked(number(3 + k)?)?;
+        blocks = rest;
+        // No more than a block holds, whatever the file says.
+        ZlibDecoder::new(block).take(most.min(LARGEST_BLOCK) as u64).read_to_end(&mut bytes).ok()?;
+    }
+    Some(bytes)
+}
+
+/// The largest number of bytes of a block that is read.
+const LARGEST_BLOCK: usize = 1 << 30;
 
 /// The corners of the faces of a hexahedron, in VTK's order.
 const FACES: [[usize; 4]; 6] = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
