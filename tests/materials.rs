@@ -1,6 +1,7 @@
 //! The material law against exact solutions, through its public face only.
 
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
+use rdsolve::materials::failure::{FactorTable, Failure};
 use rdsolve::materials::{
     Dissipation, FibreStress, Hardening, MaterialLaw, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
 };
@@ -595,6 +596,31 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
         // The stress and the plastic strain each have the error of the yield condition.
         close(dissipation, R * multiplier, 3e-10 * scale * (multiplier + old[N] + EY), &at);
         old = new;
+    }
+}
+
+/// A layer drawn in small steps until it fails: in shear, where the triaxiality is 0, and evenly both ways, where it is 2/3.
+#[test]
+fn a_layer_fails_by_its_triaxiality() {
+    let table = FactorTable::new(vec![[0.0, 2.0], [1.0 / 3.0, 1.0], [2.0 / 3.0, 0.5]]).expect("a table");
+    let failure = Failure { strain: 0.05, triaxiality: Some(table), rate: None };
+    for share in [0.0, 0.5] {
+        let law = MaterialLaw::new(E, NU, linear(1e3), share, None).failing_at(failure.clone());
+        for (unit, factor) in [([0.0, 0.0, 1.0], 2.0), ([1.0, 1.0, 0.0], 0.5), ([-1.0, -1.0, 0.0], 2.0)] {
+            let part = 1e-5;
+            let mut old = vec![0.0; law.history(PlaneStress)];
+            let mut new = old.clone();
+            let mut steps = 0;
+            while !law.has_failed(PlaneStress, &old) {
+                steps += 1;
+                let strain = unit.map(|u: f64| u * part * f64::from(steps));
+                law.advance(PlaneStress, &strain, (1.0, 1.0), &old, &mut new);
+                old.copy_from_slice(&new);
+            }
+            // A step adds at most twice its strain.
+            let (found, wanted) = (law.accumulated(PlaneStress, &old), factor * failure.strain);
+            assert!((0.0..2.0 * part).contains(&(found - wanted)), "{unit:?}: {found} for {wanted}");
+        }
     }
 }
 

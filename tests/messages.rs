@@ -295,6 +295,9 @@ fn materials_that_yield() {
     assert_snapshot!("kinematic_share", plastic("yield_stress = 275e6\nkinematic_share = 2.0"));
     assert_snapshot!("failure_strain", plastic("yield_stress = 275e6\nfailure_strain = 0.0"));
     assert_snapshot!("failure_in_per_cent", plastic("yield_stress = 275e6\nfailure_strain = 25.0"));
+    let factors = "failure_triaxiality = [[0.3, 1.0], [0.3, 2.0]]\nfailure_rate = [[-1.0, 1.0]]";
+    assert_snapshot!("failure_factors", plastic(&format!("yield_stress = 275e6\nfailure_strain = 0.2\n{factors}")));
+    assert_snapshot!("failure_factors_alone", plastic(&format!("yield_stress = 275e6\n{factors}")));
     assert_snapshot!("failure_when_elastic", yielding("elastic", "failure_strain = 0.2", ""));
     assert_snapshot!("overstress_exponent", viscous(&format!("{stress}\n{}", viscosity.replace("5.0", "0.5"))));
     assert_snapshot!(

@@ -4,6 +4,7 @@
 
 use super::constants::ElasticConstants;
 use super::dissipation::Dissipation;
+use super::failure::Failure;
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
 use super::return_mapping::{ReturnPoint, Trial, Yielding};
@@ -15,8 +16,8 @@ use super::stress_state::StressState;
 pub struct MaterialLaw {
     elastic: ElasticConstants,
     yielding: Yielding,
-    /// Accumulated plastic strain from which on a point carries nothing; infinite for a material that does not fail.
-    failure_strain: f64,
+    /// When a point carries nothing more; `None` for a material that does not fail.
+    failure: Option<Failure>,
 }
 
 /// Part of the elastic stiffness that the tangent keeps where a material has failed. Its stress is zero; a node that nothing else holds
@@ -56,24 +57,33 @@ impl MaterialLaw {
         MaterialLaw {
             elastic: ElasticConstants::new(E, nu),
             yielding: Yielding { hardening, kinematic_share, viscosity },
-            failure_strain: f64::INFINITY,
+            failure: None,
         }
     }
 
-    /// The same material, which fails where its accumulated plastic strain reaches `strain`, above 0.
-    pub fn failing_at(self, strain: f64) -> MaterialLaw {
-        MaterialLaw { failure_strain: strain, ..self }
+    /// The same material, which fails.
+    pub fn failing_at(self, failure: Failure) -> MaterialLaw {
+        MaterialLaw { failure: Some(failure), ..self }
     }
 
     /// True for a material whose points may fail.
     pub fn can_fail(&self) -> bool {
-        self.failure_strain < f64::INFINITY
+        self.failure.is_some()
+    }
+
+    /// True where failure depends on the rate of plastic strain.
+    pub fn fails_by_rate(&self) -> bool {
+        self.failure.as_ref().is_some_and(|failure| failure.rate.is_some())
     }
 
     /// True where a point has failed by its history: its stress is zero from then on.
     #[inline(always)]
     pub fn has_failed<const N: usize, S: StressState<N>>(&self, _: S, history: &[f64]) -> bool {
-        history[N] >= self.failure_strain
+        match &self.failure {
+            None => false,
+            Some(failure) if failure.sums_damage() => history[self.damage_place::<N>()] >= 1.0,
+            Some(failure) => history[N] >= failure.strain,
+        }
     }
 
     /// The elastic constants.
@@ -82,9 +92,16 @@ impl MaterialLaw {
     }
 
     /// Numbers of history per point: plastic strains, accumulated plastic strain, back stresses if there is a kinematic
-    /// share, overstress of the last state if viscous.
+    /// share, damage if failure depends on stress or rate, overstress of the last state if viscous.
     pub fn history<const N: usize, S: StressState<N>>(&self, _: S) -> usize {
-        N + 1 + if self.is_kinematic() { N } else { 0 } + usize::from(self.yielding.viscosity.is_some())
+        let damage = self.failure.as_ref().is_some_and(Failure::sums_damage);
+        self.damage_place::<N>() + usize::from(damage) + usize::from(self.yielding.viscosity.is_some())
+    }
+
+    /// The place of damage in the history of a point, where there is such a number.
+    #[inline(always)]
+    fn damage_place<const N: usize>(&self) -> usize {
+        N + 1 + if self.is_kinematic() { N } else { 0 }
     }
 
     /// Stress at `strain`, `dt` after the state in `old`. Not finite where the strain or its elastic stress is not.
@@ -200,6 +217,11 @@ impl MaterialLaw {
             let mean = |i: usize| answer.back[i] + 0.5 * back * direction[i];
             spent.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
         }
+        if let Some(failure) = self.failure.as_ref().filter(|failure| failure.sums_damage()) {
+            // A step of no length has no rate.
+            let rate = if dt > 0.0 { y.multiplier / dt } else { 0.0 };
+            new[self.damage_place::<N>()] += failure.damage(multiplier, triaxiality::<N, S>(&stress), rate);
+        }
         if self.has_failed(state, new) {
             self.give_up(state, strain, new, &mut spent);
         }
@@ -278,6 +300,12 @@ impl MaterialLaw {
         };
         Answer { relative, back, radius, yielding }
     }
+}
+
+/// σ_m/σ_eq; 0 without stress.
+fn triaxiality<const N: usize, S: StressState<N>>(stress: &[f64; N]) -> f64 {
+    let equivalent = squares::<N, S>(&S::modes(*stress)).iter().sum::<f64>().sqrt();
+    if equivalent > 0.0 { S::mean(stress) / equivalent } else { 0.0 }
 }
 
 /// pᵢ ξᵢ².

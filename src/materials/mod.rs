@@ -7,6 +7,7 @@
 mod constants;
 mod dissipation;
 mod eight_points;
+pub mod failure;
 pub mod hardening;
 mod law;
 pub mod models;
@@ -18,6 +19,7 @@ pub mod stress_state;
 pub use constants::ElasticConstants;
 pub use dissipation::Dissipation;
 pub use eight_points::{EightPoints, PointsHistory};
+pub use failure::Failure;
 pub use hardening::Hardening;
 pub use law::{FAILED_STIFFNESS, MaterialLaw};
 pub use overstress::{Overstress, Viscosity};

@@ -15,6 +15,9 @@ pub trait StressState<const N: usize>: Copy + Send + Sync {
     /// e of each mode.
     fn moduli(elastic: &ElasticConstants) -> [f64; N];
 
+    /// Mean stress σ_m: a third of the sum of the normal stresses.
+    fn mean(stress: &[f64; N]) -> f64;
+
     /// Components to modes and modes to components, of stress or strain: orthogonal and its own inverse.
     #[inline(always)]
     fn modes(v: [f64; N]) -> [f64; N] {
@@ -47,6 +50,11 @@ impl StressState<1> for Uniaxial {
     fn moduli(elastic: &ElasticConstants) -> [f64; 1] {
         [elastic.E]
     }
+
+    #[inline(always)]
+    fn mean(stress: &[f64; 1]) -> f64 {
+        stress[0] / 3.0
+    }
 }
 
 impl StressState<3> for FibreStress {
@@ -56,6 +64,11 @@ impl StressState<3> for FibreStress {
     fn moduli(elastic: &ElasticConstants) -> [f64; 3] {
         [elastic.E, elastic.G, elastic.G]
     }
+
+    #[inline(always)]
+    fn mean(stress: &[f64; 3]) -> f64 {
+        stress[0] / 3.0
+    }
 }
 
 impl StressState<3> for PlaneStress {
@@ -64,6 +77,11 @@ impl StressState<3> for PlaneStress {
     #[inline(always)]
     fn moduli(elastic: &ElasticConstants) -> [f64; 3] {
         [elastic.biaxial, 2.0 * elastic.G, elastic.G]
+    }
+
+    #[inline(always)]
+    fn mean(stress: &[f64; 3]) -> f64 {
+        (stress[0] + stress[1]) / 3.0
     }
 
     #[inline(always)]

@@ -89,6 +89,13 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
             );
             report.error::<()>(&at.span, message);
         }
+        if let Some(place) = material.values.place("failure_rate") {
+            let message = format!(
+                "material `{}` fails by the rate of its strain, and with arc-length control time is the load factor only",
+                name.value
+            );
+            report.error::<()>(place, message);
+        }
     }
     let used = named_amplitudes(scene.deck);
     for (index, (name, amplitude)) in scene.deck.amplitudes.0.iter().enumerate() {

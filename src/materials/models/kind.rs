@@ -1,5 +1,6 @@
 //! What a model of material says of itself, and what several models share.
 
+use crate::materials::failure::{FactorTable, Failure};
 use crate::materials::hardening::Hardening;
 use crate::materials::law::MaterialLaw;
 use crate::materials::overstress::Viscosity;
@@ -24,7 +25,7 @@ pub struct MaterialModel {
 pub type MakeLaw = fn(&mut Given, [f64; 2], Option<Viscosity>) -> Option<MaterialLaw>;
 
 /// The keys of J2 plasticity.
-pub const PLASTICITY: [Key; 5] = [
+pub const PLASTICITY: [Key; 7] = [
     Key { name: "yield_stress", form: Form::Number, about: "Initial yield stress in tension, above 0." },
     Key {
         name: "hardening_modulus",
@@ -48,6 +49,18 @@ pub const PLASTICITY: [Key; 5] = [
         about: "Accumulated plastic strain, above 0, at which a point of the material fails: it carries nothing more, and an element goes \
                 when all its points have. Its mass stays with its nodes. Default: it does not fail.",
     },
+    Key {
+        name: "failure_triaxiality",
+        form: Form::Pairs,
+        about: "[[triaxiality, factor], ...]: `failure_strain` is multiplied by a factor that depends on the mean stress over the equivalent \
+                stress, 1/3 in tension, 0 in shear, -1/3 in compression; straight lines, constant beyond the ends. Default: 1 throughout.",
+    },
+    Key {
+        name: "failure_rate",
+        form: Form::Pairs,
+        about: "[[rate, factor], ...]: `failure_strain` is multiplied by a factor that depends on the rate of plastic strain per time, \
+                likewise. Default: 1 throughout.",
+    },
 ];
 
 /// J2 plasticity of the keys [`PLASTICITY`].
@@ -59,6 +72,11 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
     }
     let law = MaterialLaw::new(E, nu, hardening?, share, viscosity);
     if !given.has("failure_strain") {
+        for key in ["failure_triaxiality", "failure_rate"].into_iter().filter(|key| given.has(key)).collect::<Vec<_>>()
+        {
+            let needs = format!("`{key}` needs `failure_strain`, which it multiplies");
+            given.error::<()>(key, needs);
+        }
         return Some(law);
     }
     let strain = given.positive("failure_strain")?;
@@ -66,7 +84,24 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
         let message = format!("{} fails at a plastic strain of {} %", given.what(), short(100.0 * strain));
         given.warn("failure_strain", message, "`failure_strain` is a strain, not per cent");
     }
-    Some(law.failing_at(strain))
+    let triaxiality = factors(given, "failure_triaxiality");
+    let rate = factors(given, "failure_rate");
+    if rate.as_ref().is_some_and(|rate| rate.first() < 0.0) {
+        given.error::<()>("failure_rate", "rates of plastic strain are not negative");
+    }
+    Some(law.failing_at(Failure { strain, triaxiality, rate }))
+}
+
+/// The table of factors behind a key, where it is written.
+fn factors(given: &mut Given, key: &str) -> Option<FactorTable> {
+    if !given.has(key) {
+        return None;
+    }
+    let points = given.numbers(key).chunks_exact(2).map(|point| [point[0], point[1]]);
+    match FactorTable::new(points.collect()) {
+        Ok(table) => Some(table),
+        Err(reason) => given.error(key, format!("`{key}`: {reason}")),
+    }
 }
 
 /// A failure strain above this was meant in per cent: no metal stretches to three times its length.
