@@ -19,7 +19,7 @@ use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSpa
 use faer::{Conj, MatMut, Par};
 
 /// Factorisations of fewer operations run on one thread: there threads cost more time than they save.
-const WORTH_THREADS: f64 = 5e8;
+pub(super) const WORTH_THREADS: f64 = 5e8;
 
 /// A symmetric matrix and its Cholesky factorisation.
 pub struct Cholesky {

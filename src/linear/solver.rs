@@ -2,7 +2,7 @@
 
 use super::block_lu::BlockLu;
 use super::block_slot::BlockSlot;
-use super::cholesky::Cholesky;
+use super::cholesky::{Cholesky, WORTH_THREADS};
 use super::factorization::Factorization;
 use super::graph::Graph;
 use super::memory::TooLarge;
@@ -143,6 +143,14 @@ impl Solver {
             Solver::Cholesky(_) => "supernodal Cholesky",
         };
         let Stats { unknowns, nonzeros, flops, ordering } = self.stats();
-        format!("{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {flops:.3e} flops, {ordering} order")
+        let threads = if self.is_worth_threads() { "all threads" } else { "one thread" };
+        format!(
+            "{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {flops:.3e} flops, {ordering} order, {threads}"
+        )
+    }
+
+    /// True where several threads share the factorisation if there are any.
+    fn is_worth_threads(&self) -> bool {
+        matches!(self, Solver::Cholesky(_)) && self.stats().flops > WORTH_THREADS
     }
 }

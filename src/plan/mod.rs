@@ -19,6 +19,9 @@ use dof_status::DofStatus;
 pub use sideways::{Sideways, deforms_in_plane};
 pub use unreachable_targets::unreachable_targets;
 
+/// Number of nodes from which several threads pay in the loops over nodes.
+const NODES_WORTH_THREADS: usize = 2048;
+
 /// The decisions about a model. They are constant over a run.
 pub struct Plan {
     /// Numbering of the unknowns.
@@ -95,6 +98,11 @@ impl Plan {
         let solver = Solver::new(&structure, linear::Factorization::choose(&structure), 1)?;
         let assembly = Assembly::new(bare, &self.dofs, &solver, 1);
         Ok((solver, assembly))
+    }
+
+    /// True where the nodes are many enough for several threads to pay in the loops over them.
+    pub fn has_many_nodes(&self) -> bool {
+        self.nodes.len() >= NODES_WORTH_THREADS
     }
 
     /// True where constraint equations are redundant, or may be.

@@ -50,12 +50,13 @@ impl<'a> Context<'a> {
         let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
         let independent_nodes = independent_nodes(model, plan, system);
         let restraints = &model.constraints.restraints;
+        let shares_nodes = plan.threads > 1 && plan.has_many_nodes();
         Context {
             model,
             plan,
             system,
             excitation: Excitation::new(model),
-            chunks: NodeChunks::new(model.nodes.len(), &independent_nodes, restraints, plan.threads),
+            chunks: NodeChunks::new(model.nodes.len(), &independent_nodes, restraints, shares_nodes),
             independent_nodes,
             driving: driving(model, system),
             numbers: model.number_nodes().collect(),

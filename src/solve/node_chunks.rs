@@ -6,8 +6,6 @@ use std::ops::{AddAssign, Range};
 
 /// Number of nodes in a chunk: what they move by stays near the processor from one loop to the next.
 const NODES: usize = 512;
-/// Number of nodes from which several threads pay.
-const WORTH_THREADS: usize = 2048;
 
 /// A range of nodes, with the ranges of what belongs to them in ascending lists.
 pub struct NodeChunk {
@@ -47,8 +45,8 @@ impl<A: ByNode, B: ByNode> ByNode for (A, B) {
 }
 
 impl NodeChunks {
-    /// Chunks of `nodes` nodes, for so many threads.
-    pub fn new(nodes: usize, independent: &[usize], restraints: &[Restraint], threads: usize) -> Self {
+    /// Chunks of `nodes` nodes, which several threads share where `threads`.
+    pub fn new(nodes: usize, independent: &[usize], restraints: &[Restraint], threads: bool) -> Self {
         let mut order: Vec<usize> = (0..restraints.len()).collect();
         order.sort_by_key(|&i| restraints[i].node);
         let chunk = |first: usize| {
@@ -63,7 +61,7 @@ impl NodeChunks {
             }
         };
         let chunks = (0..nodes).step_by(NODES).map(chunk).collect();
-        NodeChunks { chunks, restraints: order, threads: threads > 1 && nodes >= WORTH_THREADS }
+        NodeChunks { chunks, restraints: order, threads }
     }
 
     /// Calls `of` for each chunk with its part of `data`, which is by node, and sums what it returns.

@@ -456,8 +456,13 @@ impl System {
     }
 
     /// True where the elements are many enough for several threads to pay.
+    pub fn has_many_elements(&self) -> bool {
+        thread_partition::is_large(&self.groups)
+    }
+
+    /// True where several threads share the elements.
     pub(super) fn uses_threads(&self, threads: usize) -> bool {
-        threads > 1 && thread_partition::is_large(&self.groups)
+        threads > 1 && self.has_many_elements()
     }
 
     /// Power that viscous damping dissipates: dampers, nodal and Rayleigh damping.

@@ -12,6 +12,7 @@ mod response;
 mod scene;
 mod shells;
 mod solution;
+mod threads;
 
 pub use explanation::Explanation;
 pub use redundant::redundant_constraints;
@@ -27,6 +28,7 @@ pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     analysis::explain(&mut text, model);
     scene::explain(&mut text, plan, model, system);
     solution::explain(&mut text, plan, model, system);
+    threads::explain(&mut text, plan, system);
     text.omitted = omitted::list(plan, model, system);
     text.notes.extend(redundant_constraints(plan, model, system));
     text
