@@ -205,7 +205,7 @@ pub fn listed(model: &Model, plan: &Plan) -> String {
     let output = &model.output;
     let names: Vec<&str> = TABLES.iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file).collect();
     let chosen = output.cadence_is_open && output.cadence != Cadence::Steps(1);
-    let open = if chosen { ", as all would be large and `[output]` has neither `every` nor `interval`" } else { "" };
+    let open = if chosen { ", as rows would be many and `[output]` has neither `every` nor `interval`" } else { "" };
     let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
     groups.extend(output.fields.map(|cadence| format!("fields ({})", in_words(cadence))));
     groups.extend(output.checkpoint.map(|apart| format!("a checkpoint every {apart} s of run time")));
@@ -225,7 +225,8 @@ fn in_words(cadence: Cadence) -> String {
 /// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
-    let fields = model.output.fields.map(|_| Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS);
+    let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
+    let fields = model.output.fields.map(|_| drawn);
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
         When::Max | When::Min | When::Abs => needs(expect.at).at_every_step(),

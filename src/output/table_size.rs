@@ -4,7 +4,7 @@ use super::extent::{Extent, Rows};
 use super::fields;
 use super::table::TableKind;
 use super::tables::TABLES;
-use crate::model::{Cadence, Model, StepLength};
+use crate::model::{Cadence, Model, Part, StepLength};
 use crate::plan::Plan;
 
 /// The number of bytes of a number with its comma: most have sixteen or seventeen digits.
@@ -21,6 +21,10 @@ const STEP: usize = 5;
 const MOST: f64 = 20e6;
 /// The number of times that tables have even if they grow beyond that, for charts need as many.
 const FEWEST: f64 = 200.0;
+/// The number of times that tables of a large explicit run have at most: a row costs about half a step, which nobody needs of each.
+const EXPLICIT: f64 = 2000.0;
+/// The number of elements from which an explicit run is large.
+const LARGE: usize = 1000;
 /// The number of bytes below which tables and fields, taken together, need no list of the largest.
 const SMALL: f64 = 10e6;
 
@@ -34,11 +38,13 @@ fn bytes(kind: &TableKind, model: &Model, rows: &Rows) -> usize {
     rows.rows * fixed + rows.letters + rows.numbers * NUMBER + zeros * ZERO
 }
 
-/// Chooses the times of tables where the deck does not: all steps, unless the tables become large.
+/// Chooses the times of tables where the deck does not: all steps, unless the tables become large or take much of the run.
 pub fn settle_cadence(model: &mut Model, plan: &Plan) {
     if model.output.cadence_is_open {
         let once: usize = sizes(model, plan).iter().map(|(_, size)| size).sum();
-        let times = (MOST / once.max(1) as f64).max(FEWEST);
+        let elements: usize = model.parts.iter().filter(|part| part.kind().is_deformable()).map(Part::elements).sum();
+        let most = if plan.explicit && elements >= LARGE { EXPLICIT } else { f64::INFINITY };
+        let times = (MOST / once.max(1) as f64).max(FEWEST).min(most);
         model.output.cadence = Cadence::at_most(times, model.analysis.duration(), &model.analysis.step_length);
     }
 }

@@ -13,13 +13,13 @@ use crate::system::{
 };
 use std::ops::BitOr;
 
-/// A set of derived quantities, those that the observer needs; others are not computed. The upper half of the bits has
-/// those that it needs of every accepted step.
+/// A set of derived quantities, those that the observer needs; others are not computed. The bits come in three groups: what it needs
+/// where tables are due, of every accepted step, and where fields are drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Wanted(u32);
+pub struct Wanted(u64);
 
-/// Bits of one half.
-const HALF: u32 = 16;
+/// Bits of one group.
+const GROUP: u32 = 16;
 
 impl Wanted {
     /// No quantity.
@@ -49,7 +49,7 @@ impl Wanted {
     /// All quantities.
     pub const ALL: Wanted = Wanted((1 << 12) - 1);
 
-    /// True where all of `what` is in the set.
+    /// True where all of `what` is wanted where tables are due.
     pub const fn has(self, what: Wanted) -> bool {
         self.0 & what.0 == what.0
     }
@@ -63,24 +63,31 @@ impl Wanted {
     /// The set without `what`.
     #[must_use]
     pub const fn without(self, what: Wanted) -> Wanted {
-        Wanted(self.0 & !(what.0 | what.0 << HALF))
+        Wanted(self.0 & !(what.0 | what.0 << GROUP | what.0 << (2 * GROUP)))
     }
 
     /// The set, wanted of every accepted step, whether or not tables are due.
     #[must_use]
     pub const fn at_every_step(self) -> Wanted {
-        Wanted(self.0 | self.0 << HALF)
+        Wanted(self.0 | self.0 << GROUP)
     }
 
     /// The set, wanted only where tables are due.
     #[must_use]
     pub const fn where_due(self) -> Wanted {
-        Wanted(self.0 & ((1 << HALF) - 1))
+        Wanted(self.0 & ((1 << GROUP) - 1))
     }
 
-    /// True where all of `what` is wanted of a step; tables are `due` there, or not.
-    pub const fn has_now(self, what: Wanted, due: bool) -> bool {
-        if due { self.has(what) } else { self.has(Wanted(what.0 << HALF)) }
+    /// The set, wanted only where fields are drawn.
+    #[must_use]
+    pub const fn where_drawn(self) -> Wanted {
+        Wanted(self.0 << (2 * GROUP))
+    }
+
+    /// True where all of `what` is wanted of a step, at which tables are `due` and fields `drawn`, or not.
+    pub const fn has_now(self, what: Wanted, due: bool, drawn: bool) -> bool {
+        let always = self.has(Wanted(what.0 << GROUP));
+        always || due && self.has(what) || drawn && self.has(what.where_drawn())
     }
 }
 
@@ -106,15 +113,13 @@ pub struct Derived {
     pub contacts: Vec<ContactState>,
     /// Each touch of these, contact by contact.
     pub contact_touches: Vec<ContactTouch>,
-    /// Largest accumulated plastic strain of each element of all beams, bars and shells in deck order. It is computed
-    /// for fields too, when tables are not due.
+    /// Largest accumulated plastic strain of each element of all beams, bars and shells in deck order.
     pub plastic_strains: Vec<f64>,
     /// Whether each of these elements has failed, likewise; empty where none can.
     pub failed: Vec<bool>,
     /// What failed in the step.
     pub broken: Vec<Broken>,
-    /// Stress resultants of all shell elements in deck order. They are computed for fields too, when tables are not
-    /// due.
+    /// Stress resultants of all shell elements in deck order.
     pub shells: Vec<ShellState>,
     /// Room for their shear forces.
     pub shear_balance: ShearBalance,
@@ -170,16 +175,15 @@ impl Derived {
         self.clear();
         let &Request { model, system, excitation, state, begins, due, drawn, balance, threads } = request;
         let now = &state.configuration();
-        let is_wanted = |what| wanted.has_now(what, due);
-        let is_drawn = |what| wanted.has_now(what, due || drawn);
-        if is_drawn(Wanted::PLASTIC_STRAINS) {
+        let is_wanted = |what| wanted.has_now(what, due, drawn);
+        if is_wanted(Wanted::PLASTIC_STRAINS) {
             results::plastic_strains(system, now, &mut self.plastic_strains);
             results::failed(system, now, &mut self.failed);
         }
-        if is_drawn(Wanted::SHELLS) {
+        if is_wanted(Wanted::SHELLS) {
             results::shell_states(system, model, now, &mut self.shear_balance, &mut self.shells);
         }
-        if drawn && wanted.has(Wanted::NODAL_RESULTANTS) {
+        if is_wanted(Wanted::NODAL_RESULTANTS) {
             results::nodal_resultants(system, model, now, &mut self.nodal_resultants);
         }
         if is_wanted(Wanted::ENERGY) {

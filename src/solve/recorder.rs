@@ -350,7 +350,11 @@ impl Recorder {
             last,
             inside: false,
             compared,
-            reactions: if self.wanted.has_now(Wanted::REACTIONS, due || compared) { &state.reactions } else { &[] },
+            reactions: if self.wanted.has_now(Wanted::REACTIONS, due || compared, false) {
+                &state.reactions
+            } else {
+                &[]
+            },
             derived: &self.derived,
             modes: None,
             passed,
