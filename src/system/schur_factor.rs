@@ -4,6 +4,7 @@
 use super::equations::System;
 use super::multipliers::REGULARIZATION;
 use crate::linear::{Factorization, Solver, Structure};
+use crate::math::lanes::LANES;
 use crate::snapshot::{keep, keep_either};
 
 /// The largest number of constraint equations of a dense system.
@@ -112,15 +113,15 @@ impl DenseFactor {
                 L[k * n + k] *= 1.0 + REGULARIZATION;
             }
             for l in 0..k {
-                let sum: f64 = (0..l).map(|i| L[k * n + i] * L[l * n + i]).sum();
+                let sum = scalar_product(&L[k * n..k * n + l], &L[l * n..l * n + l]);
                 L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
             }
             if inert[k] {
                 L[k * n + k] = 1.0;
                 continue;
             }
-            let sum: f64 = (0..k).map(|i| L[k * n + i] * L[k * n + i]).sum();
-            let pivot = L[k * n + k] - sum;
+            let row = &L[k * n..k * n + k];
+            let pivot = L[k * n + k] - scalar_product(row, row);
             if pivot <= 0.0 || pivot.is_nan() {
                 return false;
             }
@@ -198,13 +199,28 @@ impl SparseFactor {
 fn substitute(L: &[f64], x: &mut [f64]) {
     let n = x.len();
     for k in 0..n {
-        let sum: f64 = (0..k).map(|i| L[k * n + i] * x[i]).sum();
+        let sum = scalar_product(&L[k * n..k * n + k], &x[..k]);
         x[k] = (x[k] - sum) / L[k * n + k];
     }
     for k in (0..n).rev() {
-        let sum: f64 = (k + 1..n).map(|i| L[i * n + k] * x[i]).sum();
-        x[k] = (x[k] - sum) / L[k * n + k];
+        let (above, rest) = x.split_at_mut(k);
+        rest[0] /= L[k * n + k];
+        above.iter_mut().zip(&L[k * n..k * n + k]).for_each(|(x, l)| *x -= l * rest[0]);
     }
+}
+
+/// Σ aᵢ bᵢ, in sums of its own for each of eight lanes: one sum alone waits for each product.
+#[inline]
+fn scalar_product(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..LANES {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]
