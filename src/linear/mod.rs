@@ -18,6 +18,7 @@ mod graph;
 mod kernel;
 mod memory;
 mod packed;
+mod panel;
 mod pivot;
 mod solver;
 mod sparse;

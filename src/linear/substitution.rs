@@ -1,16 +1,11 @@
 //! Forward and backward substitution, L y = b and Lᵀ x = y, front by front: up the assembly tree with the subtrees of
-//! [`super::fronts`] side by side and the supernodes above them on one thread, and down again. Each reads L once and is bound
-//! by the speed of memory.
+//! [`super::fronts`] side by side and the supernodes above them one by one, the large panels of each in halves
+//! ([`super::panel`]), and down again. Each reads L once and is bound by the speed of memory.
 
 use super::dense::join;
 use super::fronts::{FrontWorkspace, Fronts, Tree};
-use crate::math::fma;
+use super::panel::Panel;
 use std::ops::Range;
-
-/// Columns eliminated together: the rows below are then read and written once for all of them.
-const COLUMNS: usize = 4;
-/// Width of the partial sums of a scalar product.
-const LANES: usize = 8;
 
 impl Fronts {
     /// x ← K⁻¹ x, in the order of elimination.
@@ -19,11 +14,11 @@ impl Fronts {
         tree.forward_all(subtrees, L, x, 0, *threads);
         for &s in above.iter() {
             let columns = tree.columns(s);
-            tree.forward(s, L, &mut x[columns], workspace, subtrees);
+            tree.forward(s, L, &mut x[columns], workspace, subtrees, *threads);
         }
         for &s in above.iter().rev() {
             tree.gather(s, x, 0, &[], &mut workspace.front);
-            tree.backward(s, L, &mut workspace.front);
+            tree.backward(s, L, &mut workspace.front, *threads);
             x[tree.columns(s)].copy_from_slice(&workspace.front[..tree.fronts[s].columns]);
         }
         done.copy_from_slice(x);
@@ -51,7 +46,7 @@ impl Tree {
             [(supernodes, workspace)] => {
                 for s in supernodes.clone() {
                     let columns = self.columns(s);
-                    self.forward(s, L, &mut x[columns.start - base..columns.end - base], workspace, &[]);
+                    self.forward(s, L, &mut x[columns.start - base..columns.end - base], workspace, &[], false);
                 }
             }
             _ => {
@@ -76,6 +71,7 @@ impl Tree {
         x: &mut [f64],
         workspace: &mut FrontWorkspace,
         subtrees: &[(Range<usize>, FrontWorkspace)],
+        threads: bool,
     ) {
         let front = &self.fronts[s];
         let height = front.columns + front.rows;
@@ -91,31 +87,7 @@ impl Tree {
             places.iter().zip(&stack[child.vector..]).for_each(|(&place, u)| f[place as usize] += u);
         }
 
-        let panel = &L[front.panel..self.fronts[s + 1].panel];
-        let mut j = 0;
-        while j < front.columns {
-            let block = COLUMNS.min(front.columns - j);
-            for k in j..j + block {
-                let column = &panel[k * height..(k + 1) * height];
-                f[k] /= column[k];
-                for i in k + 1..j + block {
-                    f[i] -= column[i] * f[k];
-                }
-            }
-            let (y, rest) = f.split_at_mut(j + block);
-            let column = |k: usize| &panel[(j + k) * height + j + block..(j + k + 1) * height];
-            if let Ok(y) = <[f64; COLUMNS]>::try_from(&y[j..]) {
-                let [a, b, c, d] = std::array::from_fn(column);
-                for ((((r, a), b), c), d) in rest.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                    *r = fma(*d, -y[3], fma(*c, -y[2], fma(*b, -y[1], fma(*a, -y[0], *r))));
-                }
-            } else {
-                for k in 0..block {
-                    rest.iter_mut().zip(column(k)).for_each(|(r, l)| *r = fma(*l, -y[j + k], *r));
-                }
-            }
-            j += block;
-        }
+        Panel::new(front, &L[front.panel..self.fronts[s + 1].panel]).forward(f, threads);
         x.copy_from_slice(&f[..front.columns]);
         workspace.vectors[front.vector..front.vector + front.rows].copy_from_slice(&f[front.columns..]);
     }
@@ -135,7 +107,7 @@ impl Tree {
             [(supernodes, workspace)] => {
                 for s in supernodes.clone().rev() {
                     self.gather(s, x, base, done, &mut workspace.front);
-                    self.backward(s, L, &mut workspace.front);
+                    self.backward(s, L, &mut workspace.front, false);
                     let columns = self.columns(s);
                     x[columns.start - base..columns.end - base].copy_from_slice(&workspace.front[..columns.len()]);
                 }
@@ -167,49 +139,9 @@ impl Tree {
     }
 
     /// Backward substitution in supernode `s`: `f` holds its columns, which are solved for, and the solution in the rows below.
-    fn backward(&self, s: usize, L: &[f64], f: &mut [f64]) {
+    fn backward(&self, s: usize, L: &[f64], f: &mut [f64], threads: bool) {
         let front = &self.fronts[s];
-        let height = front.columns + front.rows;
-        let panel = &L[front.panel..self.fronts[s + 1].panel];
-        let mut end = front.columns;
-        while end > 0 {
-            let j = end - if end.is_multiple_of(COLUMNS) { COLUMNS } else { end % COLUMNS };
-            let (y, rest) = f[..height].split_at_mut(end);
-            let column = |k: usize| &panel[(j + k) * height + end..(j + k + 1) * height];
-            let taken: [f64; COLUMNS] = if end - j == COLUMNS {
-                products(std::array::from_fn(column), rest)
-            } else {
-                std::array::from_fn(|k| if j + k < end { products([column(k)], rest)[0] } else { 0.0 })
-            };
-            for k in (j..end).rev() {
-                let column = &panel[k * height..(k + 1) * height];
-                let mut sum = y[k] - taken[k - j];
-                for i in k + 1..end {
-                    sum -= column[i] * y[i];
-                }
-                y[k] = sum / column[k];
-            }
-            end = j;
-        }
+        let panel = Panel::new(front, &L[front.panel..self.fronts[s + 1].panel]);
+        panel.backward(&mut f[..panel.height], threads);
     }
-}
-
-/// Scalar products of columns with `x`, each summed in lanes of fixed width.
-#[inline(always)]
-fn products<const C: usize>(columns: [&[f64]; C], x: &[f64]) -> [f64; C] {
-    let mut sums = [[0.0; LANES]; C];
-    let (whole, rest) = x.as_chunks::<LANES>();
-    for (n, x) in whole.iter().enumerate() {
-        for c in 0..C {
-            let column = &columns[c][n * LANES..(n + 1) * LANES];
-            for i in 0..LANES {
-                sums[c][i] = fma(column[i], x[i], sums[c][i]);
-            }
-        }
-    }
-    let from = whole.len() * LANES;
-    std::array::from_fn(|c| {
-        let tail: f64 = columns[c][from..].iter().zip(rest).map(|(l, x)| l * x).sum();
-        sums[c].iter().sum::<f64>() + tail
-    })
 }
