@@ -4,7 +4,7 @@
 //! that the halves can run side by side. The cut depends on the sizes alone, so the bits do not depend on the number of threads.
 
 use super::dense::join;
-use super::fronts::Front;
+use super::tree::Front;
 use crate::math::fma;
 
 /// Columns eliminated together: the rows below are then read and written once for all of them.
@@ -24,11 +24,13 @@ pub(super) struct Panel<'a> {
     values: &'a [f64],
     columns: usize,
     pub height: usize,
+    /// L of L D Lᵀ: ones in place of its diagonal, which holds D.
+    unit: bool,
 }
 
 impl<'a> Panel<'a> {
-    pub fn new(front: &Front, values: &'a [f64]) -> Self {
-        Panel { values, columns: front.columns, height: front.columns + front.rows }
+    pub fn new(front: &Front, values: &'a [f64], unit: bool) -> Self {
+        Panel { values, columns: front.columns, height: front.height(), unit }
     }
 
     /// Columns of a block.
@@ -63,7 +65,9 @@ impl<'a> Panel<'a> {
             let next = (j + COLUMNS).min(end);
             for k in j..next {
                 let column = self.column(k, 0, next);
-                f[k] /= column[k];
+                if !self.unit {
+                    f[k] /= column[k];
+                }
                 for i in k + 1..next {
                     f[i] -= column[i] * f[k];
                 }
@@ -107,8 +111,13 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Solves for the columns in `f`, whose rows below hold the solution.
+    /// Solves for the columns in `f`, whose rows below hold the solution; divides by D before, where there is one.
     pub fn backward(&self, f: &mut [f64], threads: bool) {
+        if self.unit {
+            for (k, y) in f[..self.columns].iter_mut().enumerate() {
+                *y /= self.values[k * self.height + k];
+            }
+        }
         let mut end = self.columns;
         while end > 0 {
             let begin = (end - 1) / self.block() * self.block();
@@ -163,7 +172,7 @@ impl<'a> Panel<'a> {
                 for i in k + 1..next {
                     sum -= column[i] * y[i];
                 }
-                y[k] = sum / column[k];
+                y[k] = if self.unit { sum } else { sum / column[k] };
             }
         }
     }
