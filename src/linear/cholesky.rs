@@ -1,22 +1,22 @@
-//! Supernodal Cholesky factorisation: multifrontal K = L Lᵀ, or faer's L D Lᵀ where K is not positive definite.
+//! Supernodal Cholesky factorisation: multifrontal K = L Lᵀ, or L D Lᵀ where K is not positive definite.
 //!
-//! Assembly writes straight into the lower triangle in the order of elimination, the one form that faer takes without
-//! permuting the matrix at each factorisation. L is stored as faer stores it. L D Lᵀ is formed without pivoting: beyond a
+//! Assembly writes straight into the lower triangle in the order of elimination. L D Lᵀ is formed without pivoting: beyond a
 //! buckling load it is as accurate as the leading minors are away from zero, and the caller's residual shows whether it was.
 
 use super::block_slot::BlockSlot;
 use super::elimination::Elimination;
-use super::fronts::Fronts;
+use super::fronts::{Fronts, Matrix};
 use super::graph::Graph;
 use super::memory::{self, TooLarge};
-use super::pivot::{PIVOT_TOLERANCE, Singular};
+use super::pivot::Singular;
 use super::stats::Stats;
+use super::substitution::Factor;
+use super::tree::Layout;
+use super::triangle::Triangle;
 use crate::snapshot::{Keep, Snapshot};
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::linalg::cholesky::ldlt::factor::LdltError;
+use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
-use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par};
+use faer::sparse::{FaerError, SymbolicSparseColMat, SymbolicSparseColMatRef};
 
 /// Factorisations of fewer operations run on one thread: there threads cost more time than they save.
 pub(super) const WORTH_THREADS: f64 = 5e8;
@@ -26,29 +26,23 @@ pub struct Cholesky {
     graph: Graph,
     ordering: &'static str,
     flops: f64,
-    /// The position in the order of elimination of each external row.
-    position: Vec<usize>,
-    /// The external row at each position.
-    external: Vec<usize>,
-    /// The pattern of the lower triangle in the order of elimination; each column begins with its diagonal entry.
-    pattern: SymbolicSparseColMat<usize>,
-    symbolic: supernodal::SymbolicSupernodalCholesky<usize>,
+    /// Numbers of the matrix, the factor and the update matrices.
+    numbers: usize,
+    /// The place in the order of elimination of each group.
+    place: Vec<u32>,
+    /// The external row at each position in the order of elimination.
+    external: Vec<u32>,
+    /// Where entries lie in `values`.
+    triangle: Triangle,
     fronts: Fronts,
-    par: Par,
     /// The lower triangle, and the spare place at the end. Written by assembly.
     values: Vec<f64>,
     /// The factor, L or L with D on its diagonal. Written by `factor`.
     L: Vec<f64>,
-    /// The place in `L` of each diagonal entry.
-    diagonal: Vec<usize>,
     /// The matrix factored last is positive definite, and `L` is that of L Lᵀ. Written by `factor`.
     definite: bool,
     /// Right-hand side and solution in the order of elimination. Written by `solve`.
     x: Vec<f64>,
-    /// The workspace of faer for L D Lᵀ, empty until a matrix needs it.
-    buffer: MemBuffer,
-    /// `buffer` is large enough.
-    ready_for_indefinite: bool,
 }
 
 impl Keep for Cholesky {
@@ -60,23 +54,16 @@ impl Keep for Cholesky {
             graph: _,
             ordering: _,
             flops: _,
-            position: _,
+            numbers: _,
+            place: _,
             external: _,
-            pattern: _,
-            symbolic: _,
+            triangle: _,
             fronts: _,
-            par: _,
-            diagonal: _,
             x: _,
-            buffer: _,
-            ready_for_indefinite: _,
         } = self;
         values.keep(snapshot);
         L.keep(snapshot);
         definite.keep(snapshot);
-        if snapshot.gives() && !self.definite {
-            self.prepare_indefinite();
-        }
     }
 }
 
@@ -87,68 +74,53 @@ impl Cholesky {
     /// The factor does not fit into memory.
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph).or_dissected(&graph).postordered(&graph);
-        memory::require(graph.unknowns(), elimination.nonzeros)?;
-        let external: Vec<usize> = elimination.order.iter().flat_map(|&g| graph.first[g]..graph.first[g + 1]).collect();
-        let mut position = vec![0; external.len()];
-        for (p, &row) in external.iter().enumerate() {
-            position[row] = p;
-        }
-        let pattern = triangle(&graph, &elimination, &position, |p, q| q >= p);
-        let symbolic = symbolic(triangle(&graph, &elimination, &position, |p, q| q <= p).as_ref());
+        let triangle = Triangle::new(&graph, &elimination);
+        memory::require(graph.unknowns(), elimination.nonzeros + triangle.entries())?;
         let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
-        let symbolic = symbolic.map_err(|_| TooLarge { unknowns: graph.unknowns(), needed: bytes })?;
-        // The patterns have taken their part of the memory, so it is asked once more.
-        memory::require(graph.unknowns(), symbolic.len_val())?;
-        let par = match elimination.flops > WORTH_THREADS && threads > 1 {
-            true => Par::rayon(threads),
-            false => Par::Seq,
-        };
-        let fronts = Fronts::new(&symbolic, &pattern, par != Par::Seq);
-        let multipliers = graph.multipliers > 0;
-        let mut cholesky = Cholesky {
+        let too_large = |_| TooLarge { unknowns: graph.unknowns(), needed: bytes };
+        let symbolic = symbolic(upper_pattern(&triangle).as_ref()).map_err(too_large)?;
+        let threads = if elimination.flops > WORTH_THREADS { threads } else { 1 };
+        let layout = Layout::new(&symbolic, &triangle);
+        let numbers = triangle.entries() + symbolic.len_val() + layout.updates(threads);
+        memory::require(graph.unknowns(), numbers)?;
+        let rows = |g: usize| graph.first[g] as u32..graph.first[g + 1] as u32;
+        Ok(Cholesky {
             ordering: elimination.name,
             flops: elimination.flops,
-            values: vec![0.0; pattern.compute_nnz() + 1],
+            values: vec![0.0; triangle.entries() + 1],
             L: vec![0.0; symbolic.len_val()],
-            diagonal: diagonal(&symbolic),
             definite: true,
-            x: vec![0.0; external.len()],
-            buffer: MemBuffer::new(StackReq::EMPTY),
-            fronts,
-            ready_for_indefinite: false,
+            x: vec![0.0; graph.unknowns()],
+            fronts: Fronts::new(layout, threads),
+            numbers,
+            place: elimination.position.iter().map(|&place| place as u32).collect(),
+            external: elimination.order.iter().flat_map(|&g| rows(g)).collect(),
             graph,
-            position,
-            external,
-            pattern,
-            symbolic,
-            par,
-        };
-        if multipliers {
-            cholesky.prepare_indefinite();
-        }
-        Ok(cholesky)
+            triangle,
+        })
+    }
+
+    /// The group of an external row, by its place in the order of elimination, and the row within it.
+    fn placed(&self, row: usize) -> Option<(usize, usize)> {
+        let group = *self.graph.group.get(row)? as usize;
+        Some((self.place[group] as usize, row - self.graph.first[group]))
     }
 
     /// The place of an entry in [`Cholesky::values`], the same for both triangles; `None` where it is not in the pattern.
     pub(super) fn slot(&self, row: usize, col: usize) -> Option<usize> {
-        let (p, q) = (*self.position.get(row)?, *self.position.get(col)?);
-        let (p, q) = (p.max(q), p.min(q));
-        let place = self.pattern.row_idx_of_col_raw(q).binary_search(&p).ok()?;
-        Some(self.pattern.col_ptr()[q] + place)
+        let (p, q) = (self.placed(row)?, self.placed(col)?);
+        self.triangle.slot(p.max(q), p.min(q))
     }
 
     pub(super) fn block_slot(&self, row: usize, col: usize) -> Option<(BlockSlot, bool)> {
-        let first = |row: usize| {
-            let group = *self.graph.group.get(row)? as usize;
-            let (own, size) = (self.graph.first[group], self.graph.sizes[group]);
-            (size == 6 && row == own).then(|| self.position[own])
+        let whole = |row: usize| {
+            let (place, within) = self.placed(row)?;
+            (self.triangle.size(place) == 6 && within == 0).then_some(place)
         };
-        let (p, q) = (first(row)?, first(col)?);
+        let (p, q) = (whole(row)?, whole(col)?);
         let (lower, upper) = (p.max(q), p.min(q));
-        let column = self.pattern.row_idx_of_col_raw(upper);
-        let place = column.binary_search(&lower).ok()?;
-        let at = (self.pattern.col_ptr()[upper] + place) as u32;
-        Some((BlockSlot { at, step: column.len() as u32 - 1 }, p < q))
+        let at = self.triangle.slot((lower, 0), (upper, 0))? as u32;
+        Some((BlockSlot { at, step: self.triangle.step(upper) as u32 }, p < q))
     }
 
     /// The entries of the matrix, to be filled before each factorisation.
@@ -158,16 +130,13 @@ impl Cholesky {
 
     /// Hands each entry of both triangles to `visit`: external row, external column, value.
     pub(super) fn each_entry(&self, visit: &mut dyn FnMut(usize, usize, f64)) {
-        for (column, &j) in self.external.iter().enumerate() {
-            let from = self.pattern.col_ptr()[column];
-            for (place, &row) in self.pattern.row_idx_of_col_raw(column).iter().enumerate() {
-                let (i, value) = (self.external[row], self.values[from + place]);
-                visit(i, j, value);
-                if row != column {
-                    visit(j, i, value);
-                }
+        self.triangle.each(&mut |row, column, place| {
+            let (i, j, value) = (self.external[row] as usize, self.external[column] as usize, self.values[place]);
+            visit(i, j, value);
+            if row != column {
+                visit(j, i, value);
             }
-        }
+        });
     }
 
     /// A place in [`Cholesky::values`] for entries that are not wanted.
@@ -178,31 +147,21 @@ impl Cholesky {
     /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
     /// the same bits. Only the pool of several threads allocates.
     pub(super) fn factor(&mut self) -> Result<(), Singular> {
-        self.definite = self.graph.multipliers == 0 && self.fronts.factor(&self.values, &mut self.L);
+        let matrix = |definite| Matrix { triangle: &self.triangle, values: &self.values, definite };
+        self.definite = self.graph.multipliers == 0 && self.fronts.factor(matrix(true), &mut self.L).is_ok();
         if !self.definite {
-            self.factor_indefinite()?;
+            self.fronts.factor(matrix(false), &mut self.L).map_err(|position| self.singular(position))?;
         }
-
-        for (p, &at) in self.diagonal.iter().enumerate() {
-            let pivot = if self.definite { self.L[at] * self.L[at] } else { self.L[at] };
-            if pivot.abs() <= PIVOT_TOLERANCE * self.values[self.pattern.col_ptr()[p]].abs() {
-                return Err(Singular { row: self.external[p], pivot });
-            }
+        match self.fronts.tree.vanishing(&self.triangle, &self.values, &self.L, self.definite) {
+            Some(position) => Err(self.singular(position)),
+            None => Ok(()),
         }
-        Ok(())
     }
 
-    /// Takes the memory of L D Lᵀ.
-    pub(super) fn prepare_indefinite(&mut self) {
-        if !self.ready_for_indefinite {
-            let indefinite = supernodal::factorize_supernodal_numeric_ldlt_scratch::<usize, f64>(
-                &self.symbolic,
-                self.par,
-                Default::default(),
-            );
-            self.buffer = MemBuffer::new(indefinite.or(solve_scratch(&self.symbolic)));
-            self.ready_for_indefinite = true;
-        }
+    fn singular(&self, position: usize) -> Singular {
+        let own = self.fronts.tree.diagonal().nth(position).map_or(f64::NAN, |at| self.L[at]);
+        let pivot = if self.definite { own * own } else { own };
+        Singular { row: self.external[position] as usize, pivot }
     }
 
     pub(super) fn is_determinant_negative(&self) -> bool {
@@ -211,75 +170,46 @@ impl Cholesky {
 
     /// The number of negative entries of D: none where K = L Lᵀ.
     pub(super) fn negative_eigenvalues(&self) -> usize {
-        if self.definite { 0 } else { self.diagonal.iter().filter(|&&at| self.L[at] < 0.0).count() }
-    }
-
-    /// L D Lᵀ by faer.
-    fn factor_indefinite(&mut self) -> Result<(), Singular> {
-        self.prepare_indefinite();
-        let nonzeros = self.values.len() - 1;
-        let K = SparseColMatRef::new(self.pattern.as_ref(), &self.values[..nonzeros]);
-        supernodal::factorize_supernodal_numeric_ldlt(
-            &mut self.L,
-            K,
-            Default::default(),
-            &self.symbolic,
-            self.par,
-            MemStack::new(&mut self.buffer),
-            Default::default(),
-        )
-        .map(|_| ())
-        .map_err(|LdltError::ZeroPivot { index }| Singular {
-            row: self.external[index],
-            pivot: self.L[self.diagonal[index]],
-        })
+        if self.definite { 0 } else { self.fronts.tree.diagonal().filter(|&at| self.L[at] < 0.0).count() }
     }
 
     /// Replaces the right-hand side `b` by the solution.
     pub(super) fn solve(&mut self, b: &mut [f64]) {
         for (x, &row) in self.x.iter_mut().zip(&self.external) {
-            *x = b[row];
+            *x = b[row as usize];
         }
-        if self.definite {
-            self.fronts.solve(&self.L, &mut self.x);
-        } else {
-            // The solution of faer depends in its last bits on the number of threads, so it uses one.
-            let n = self.x.len();
-            let x = MatMut::from_column_major_slice_mut(&mut self.x, n, 1);
-            let stack = MemStack::new(&mut self.buffer);
-            let factor = supernodal::SupernodalLdltRef::new(&self.symbolic, &self.L);
-            factor.solve_in_place_with_conj(Conj::No, x, Par::Seq, stack);
-        }
+        self.fronts.solve(Factor { values: &self.L, definite: self.definite }, &mut self.x);
         for (x, &row) in self.x.iter().zip(&self.external) {
-            b[row] = *x;
+            b[row as usize] = *x;
         }
     }
 
     /// The size of the factorisation, for `check`.
     pub(super) fn stats(&self) -> Stats {
-        Stats { unknowns: self.graph.unknowns(), nonzeros: self.L.len(), flops: self.flops, ordering: self.ordering }
+        Stats {
+            unknowns: self.graph.unknowns(),
+            nonzeros: self.L.len(),
+            numbers: self.numbers,
+            flops: self.flops,
+            ordering: self.ordering,
+        }
     }
 }
 
-/// The pattern of the entries (q, p) in the order of elimination that `wanted(p, q)` keeps, by ascending columns p and
-/// rows q.
-fn triangle(
-    graph: &Graph,
-    elimination: &Elimination,
-    position: &[usize],
-    wanted: impl Fn(usize, usize) -> bool,
-) -> SymbolicSparseColMat<usize> {
-    let n = graph.unknowns();
-    let (mut start, mut rows) = (vec![0], Vec::new());
-    for &g in &elimination.order {
-        let mut coupled: Vec<usize> = graph.neighbours(g).iter().map(|&h| h as usize).chain([g]).collect();
-        coupled.sort_unstable_by_key(|&h| elimination.position[h]);
-        for row in graph.first[g]..graph.first[g + 1] {
-            let column = coupled.iter().flat_map(|&h| graph.first[h]..graph.first[h + 1]).map(|row| position[row]);
-            rows.extend(column.filter(|&q| wanted(position[row], q)));
-            start.push(rows.len());
-        }
+/// The pattern of the upper triangle in the order of elimination, by ascending columns and rows.
+fn upper_pattern(triangle: &Triangle) -> SymbolicSparseColMat<usize> {
+    let n = triangle.rows();
+    let mut start = vec![0; n + 1];
+    triangle.each(&mut |row, _, _| start[row + 1] += 1);
+    for row in 0..n {
+        start[row + 1] += start[row];
     }
+    let (mut next, mut rows) = (start.clone(), vec![0; start[n]]);
+    // A row of the lower triangle is a column of the upper one.
+    triangle.each(&mut |row, column, _| {
+        rows[next[row]] = column;
+        next[row] += 1;
+    });
     SymbolicSparseColMat::new_checked(n, n, start, None, rows)
 }
 
@@ -298,20 +228,4 @@ fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> Result<supernodal::Symboli
         MemStack::new(&mut buffer),
         Default::default(),
     )
-}
-
-/// The workspace of a substitution with one right-hand side.
-fn solve_scratch(symbolic: &supernodal::SymbolicSupernodalCholesky<usize>) -> StackReq {
-    symbolic.solve_in_place_scratch::<f64>(1, Par::Seq)
-}
-
-/// The place of each diagonal entry in the factor.
-fn diagonal(symbolic: &supernodal::SymbolicSupernodalCholesky<usize>) -> Vec<usize> {
-    let mut diagonal = Vec::with_capacity(symbolic.nrows());
-    for s in 0..symbolic.n_supernodes() {
-        let columns = symbolic.supernode_end()[s] - symbolic.supernode_begin()[s];
-        let rows = columns + symbolic.supernode(s).pattern().len();
-        diagonal.extend((0..columns).map(|j| symbolic.col_ptr_for_val()[s] + j * rows + j));
-    }
-    diagonal
 }

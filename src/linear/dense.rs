@@ -4,7 +4,7 @@
 use faer::dyn_stack::MemStack;
 use faer::linalg::cholesky::llt::factor::cholesky_in_place;
 use faer::linalg::matmul::{matmul, triangular};
-use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_unit_lower_triangular_in_place};
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, MatRef, Par};
 
@@ -30,35 +30,39 @@ pub(super) fn potrf(A: MatMut<f64>, scratch: &mut MemStack, threads: bool) -> bo
     if !potrf(first.rb_mut(), scratch, threads) {
         return false;
     }
-    trsm(first.rb(), below.rb_mut(), threads);
-    syrk(Accum::Add, below.rb(), rest.rb_mut(), threads);
+    trsm(first.rb(), below.rb_mut(), false, threads);
+    syrk(Accum::Add, below.rb(), below.rb(), rest.rb_mut(), threads);
     potrf(rest, scratch, threads)
 }
 
-/// B ← B L⁻ᵀ.
-pub(super) fn trsm(L: MatRef<f64>, B: MatMut<f64>, threads: bool) {
+/// B ← B L⁻ᵀ, with ones for the diagonal of L where `unit`.
+pub(super) fn trsm(L: MatRef<f64>, B: MatMut<f64>, unit: bool, threads: bool) {
     let n = B.nrows();
     if n < 2 * SMALLEST {
-        return solve_lower_triangular_in_place(L, B.transpose_mut(), Par::Seq);
+        let solve = if unit { solve_unit_lower_triangular_in_place } else { solve_lower_triangular_in_place };
+        return solve(L, B.transpose_mut(), Par::Seq);
     }
     let (upper, lower) = B.split_at_row_mut(n / 2);
-    join(threads, || trsm(L, upper, threads), || trsm(L, lower, threads));
+    join(threads, || trsm(L, upper, unit, threads), || trsm(L, lower, unit, threads));
 }
 
-/// U ← U − B Bᵀ or −B Bᵀ, lower triangles.
-pub(super) fn syrk(accum: Accum, B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
+/// U ← U − A Bᵀ or −A Bᵀ, the lower triangle of what is symmetric.
+pub(super) fn syrk(accum: Accum, A: MatRef<f64>, B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
     use triangular::BlockStructure::{Rectangular, TriangularLower};
     let n = B.nrows();
     if n < 2 * SMALLEST {
-        let (lhs, rhs) = ((B, Rectangular), (B.transpose(), Rectangular));
+        let (lhs, rhs) = ((A, Rectangular), (B.transpose(), Rectangular));
         return triangular::matmul(U, TriangularLower, accum, lhs.0, lhs.1, rhs.0, rhs.1, -1.0, Par::Seq);
     }
-    let (upper, lower) = B.split_at_row(n / 2);
+    let ((A_upper, A_lower), (B_upper, B_lower)) = (A.split_at_row(n / 2), B.split_at_row(n / 2));
     let (first, _, beside, rest) = U.split_at_mut(n / 2, n / 2);
     join(
         threads,
-        || gemm(accum, lower, upper, beside, threads),
-        || join(threads, || syrk(accum, upper, first, threads), || syrk(accum, lower, rest, threads)),
+        || gemm(accum, A_lower, B_upper, beside, threads),
+        || {
+            let first = || syrk(accum, A_upper, B_upper, first, threads);
+            join(threads, first, || syrk(accum, A_lower, B_lower, rest, threads))
+        },
     );
 }
 

@@ -1,367 +1,269 @@
-//! Multifrontal L Lᵀ: each supernode adds up the update matrices of its children in its front, eliminates its columns and
+//! Multifrontal L Lᵀ and L D Lᵀ: each supernode adds up the update matrices of its children in its front, eliminates its columns and
 //! leaves one update matrix, a packed triangle, to its parent. Update matrices wait on two stacks, one for every other level of the tree: a
 //! front is then written where it stays, beside those of its children, and nothing is moved.
 //! I. S. Duff & J. K. Reid, ACM Trans. Math. Softw. 9 (1983).
 //!
-//! Subtrees of the elimination tree are independent: each is factored on one thread with a workspace of its own. The
-//! supernodes above them follow one by one, the large dense operations of each in halves ([`super::dense`]). Both cuts
-//! depend on the structure alone, so the bits do not depend on the number of threads. Factorisations allocate nothing.
+//! Subtrees of the elimination tree are independent: each is factored on one thread, with stacks that it hands on to the next, and only what
+//! its roots leave stays. The supernodes above them follow one by one, the large dense operations of each in halves ([`super::dense`]). Both
+//! cuts depend on the structure alone, so the bits do not depend on the number of threads. Factorisations allocate nothing.
 
 use super::dense::{join, potrf, trsm};
+use super::indefinite::{ldlt, ldlt_scratch};
 use super::packed::Packed;
+use super::pool::Pool;
+use super::tree::{Front, Layout, Sizes, Tree};
+use super::triangle::Triangle;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::prelude::{Reborrow, ReborrowMut};
-use faer::sparse::SymbolicSparseColMat;
-use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
-use faer::{MatMut, Par};
+use faer::{Accum, MatMut, Par};
 use std::ops::Range;
 
-/// A subtree has about this part of all operations: there are then enough of them to share out evenly.
-const SUBTREE_SHARE: f64 = 1.0 / 24.0;
-/// A tree of fewer operations is one subtree.
-const WORTH_CUTTING: f64 = 5e7;
+/// Fronts are assembled in pieces of about so many numbers, which stay in a core's cache.
+const PIECE: usize = 1 << 15;
+/// Unknowns of most nodes.
+const NODE: usize = 6;
 
 /// The factorisation of one structure: the assembly tree and the memory to work through it.
 pub(super) struct Fronts {
     /// The assembly tree of the supernodes.
     pub(super) tree: Tree,
-    /// Ranges of supernodes that are whole subtrees, ascending.
-    pub(super) subtrees: Vec<(Range<usize>, FrontWorkspace)>,
+    /// Whole subtrees, ascending.
+    pub(super) subtrees: Vec<Subtree>,
     /// The supernodes above the subtrees.
-    pub(super) above: (Vec<usize>, FrontWorkspace),
+    pub(super) above: Vec<usize>,
+    /// The vectors of the supernodes above.
+    pub(super) vectors: Vectors,
+    /// The stacks of the supernodes above.
+    stacks: Stacks,
+    /// The stacks of subtrees, one for each thread.
+    pool: Pool<Stacks>,
     /// Subtrees and the halves of dense operations run side by side.
     pub(super) threads: bool,
     /// The solution above the subtrees, by position. Written and read by [`super::substitution`].
     pub(super) done: Vec<f64>,
 }
 
-/// The assembly tree: fronts, and lists of all fronts one after the other.
-pub(super) struct Tree {
-    /// Supernodes in the order of elimination. One more at the end marks where the lists end.
-    pub fronts: Vec<Front>,
-    /// Children of each supernode.
-    children: Vec<u32>,
-    /// Rows below each supernode, by position in the order of elimination.
-    pub rows: Vec<u32>,
-    /// The row in the front of the parent of each of `rows`.
-    pub places: Vec<u32>,
-    /// Where rows follow each other in the front of the parent too: the first of each such run, counted from the supernode's own first, and
-    /// its place in the front of the parent.
-    runs: Vec<[u32; 2]>,
-    /// The place in the panel of its supernode of each entry of the matrix.
-    entries: Vec<u32>,
+/// Supernodes that are factored one after the other on one thread.
+pub(super) struct Subtree {
+    pub supernodes: Range<usize>,
+    /// What its roots leave to the supernodes above.
+    updates: Vec<f64>,
+    /// The vectors of a substitution.
+    pub vectors: Vectors,
 }
 
-/// The memory of a walk through supernodes: update matrices that wait for their parents, the last on top, by level of the tree, and
-/// the scratch of the dense operations.
-pub(super) struct FrontWorkspace {
-    stacks: [Vec<f64>; 2],
-    scratch: MemBuffer,
-    /// The stack of update vectors of a substitution.
-    pub vectors: Vec<f64>,
+/// The memory of a substitution.
+pub(super) struct Vectors {
+    /// The stack of update vectors.
+    pub stack: Vec<f64>,
     /// The right-hand side of one front.
     pub front: Vec<f64>,
 }
 
-/// A supernode: a panel of columns with the rows below them. Its parts of the tree's lists end where those of the next
-/// supernode start.
-pub(super) struct Front {
-    /// Its first column.
-    pub begin: usize,
-    /// The number of its columns.
-    pub columns: usize,
-    /// The number of rows below the square on the diagonal.
-    pub rows: usize,
-    /// Start of its panel in L.
-    pub panel: usize,
-    /// Start of its rows in `Tree::rows` and `Tree::places`.
-    pub place: usize,
-    /// Start of its entries in the matrix and in `Tree::entries`.
-    entry: usize,
-    /// Start of its children in `Tree::children`.
-    child: usize,
-    /// Start of its runs in `Tree::runs`.
-    run: usize,
-    /// Its level in the tree is odd: the stack of its update matrix.
-    level: usize,
-    /// Start of its update matrix on its stack.
-    update: usize,
-    /// Start of its update vector on the stack of vectors.
-    pub vector: usize,
-    /// The subtree that it belongs to; none for supernodes above the subtrees.
-    pub subtree: Option<usize>,
-}
-
-impl Front {
-    /// An empty supernode at the start of all lists.
-    const END: Front = Front {
-        begin: 0,
-        columns: 0,
-        rows: 0,
-        panel: 0,
-        place: 0,
-        entry: 0,
-        child: 0,
-        run: 0,
-        level: 0,
-        update: 0,
-        vector: 0,
-        subtree: None,
-    };
-}
-
-/// The children of each supernode in the assembly tree: the parent holds the column of a child's first row.
-fn offspring(symbolic: &SymbolicSupernodalCholesky<usize>) -> Vec<Vec<u32>> {
-    let count = symbolic.n_supernodes();
-    let mut supernode_of = vec![0; symbolic.nrows()];
-    for s in 0..count {
-        supernode_of[symbolic.supernode_begin()[s]..symbolic.supernode_end()[s]].fill(s);
+impl Vectors {
+    fn new(sizes: Sizes) -> Vectors {
+        Vectors { stack: vec![0.0; sizes.vectors], front: vec![0.0; sizes.tallest] }
     }
-    let mut offspring = vec![Vec::new(); count];
-    for s in 0..count {
-        if let Some(&row) = symbolic.supernode(s).pattern().first() {
-            offspring[supernode_of[row]].push(s as u32);
+}
+
+/// The memory of a factorisation.
+struct Stacks {
+    /// Update matrices that wait for their parents, the last on top, by level of the tree.
+    updates: [Vec<f64>; 2],
+    /// The scratch of the dense operations.
+    scratch: MemBuffer,
+    /// Columns of L D. Untouched where all pivots are positive.
+    scaled: Vec<f64>,
+}
+
+impl Stacks {
+    fn new(sizes: Sizes) -> Stacks {
+        let definite = cholesky_in_place_scratch::<f64>(sizes.widest, Par::Seq, Default::default());
+        let (indefinite, scaled) = ldlt_scratch(sizes.widest, sizes.tallest);
+        Stacks {
+            updates: sizes.stacks.map(|size| vec![0.0; size]),
+            scratch: MemBuffer::new(definite.or(indefinite)),
+            scaled: vec![0.0; scaled],
         }
     }
-    offspring
+}
+
+/// A symmetric matrix to be factored.
+#[derive(Clone, Copy)]
+pub(super) struct Matrix<'a> {
+    /// Where its entries lie.
+    pub triangle: &'a Triangle,
+    pub values: &'a [f64],
+    /// As L Lᵀ, not as L D Lᵀ.
+    pub definite: bool,
+}
+
+impl Fronts {
+    /// The memory to walk through the fronts on so many threads.
+    pub fn new(layout: Layout, threads: usize) -> Self {
+        let (largest, side_by_side) = layout.side_by_side(threads);
+        let Layout { tree, subtrees, above: (above, sizes) } = layout;
+        let subtree = |(supernodes, sizes): (Range<usize>, Sizes)| Subtree {
+            supernodes,
+            updates: vec![0.0; sizes.left],
+            vectors: Vectors::new(sizes),
+        };
+        Fronts {
+            done: vec![0.0; tree.unknowns()],
+            tree,
+            subtrees: subtrees.into_iter().map(subtree).collect(),
+            above,
+            vectors: Vectors::new(sizes),
+            stacks: Stacks::new(sizes),
+            pool: Pool::new((0..side_by_side).map(|_| Stacks::new(largest))),
+            threads: threads > 1,
+        }
+    }
+
+    /// Factors a matrix into `L`.
+    ///
+    /// # Errors
+    /// The position of a pivot that is zero or not finite, or, of a matrix that should be definite, not positive.
+    pub fn factor(&mut self, K: Matrix, L: &mut [f64]) -> Result<(), usize> {
+        let Fronts { tree, subtrees, above, stacks, pool, threads, .. } = self;
+        tree.factor_subtrees(subtrees, K, (L, 0), pool, *threads)?;
+        above
+            .iter()
+            .try_for_each(|&s| tree.eliminate(s, K, &mut L[tree.panel(s)], (stacks, &mut []), subtrees, *threads))
+    }
 }
 
 impl Tree {
-    fn new(symbolic: &SymbolicSupernodalCholesky<usize>, pattern: &SymbolicSparseColMat<usize>) -> Self {
-        let count = symbolic.n_supernodes();
-        let columns = |s: usize| symbolic.supernode_begin()[s]..symbolic.supernode_end()[s];
-        let rows = |s: usize| symbolic.supernode(s).pattern();
-        let offspring = offspring(symbolic);
-        let mut first_place = vec![0];
-        (0..count).for_each(|s| first_place.push(first_place[s] + rows(s).len()));
-
-        let mut fronts = Vec::with_capacity(count + 1);
-        let (mut children, mut places, mut entries) = (Vec::new(), vec![0; first_place[count]], Vec::new());
-        // The row of each position in the front at hand.
-        let mut local = vec![0; symbolic.nrows()];
-        for s in 0..count {
-            let (columns, rows_below) = (columns(s), rows(s));
-            let height = columns.len() + rows_below.len();
-            for (at, row) in columns.clone().chain(rows_below.iter().copied()).enumerate() {
-                local[row] = at as u32;
-            }
-            fronts.push(Front {
-                begin: columns.start,
-                columns: columns.len(),
-                rows: rows_below.len(),
-                panel: symbolic.col_ptr_for_val()[s],
-                place: first_place[s],
-                entry: entries.len(),
-                child: children.len(),
-                ..Front::END
-            });
-            children.extend(&offspring[s]);
-            for child in offspring[s].iter().map(|&child| child as usize) {
-                let places = &mut places[first_place[child]..first_place[child + 1]];
-                places.iter_mut().zip(rows(child)).for_each(|(place, &row)| *place = local[row]);
-            }
-            for (j, column) in columns.enumerate() {
-                let at = (j * height) as u32;
-                entries.extend(pattern.row_idx_of_col_raw(column).iter().map(|&row| at + local[row]));
-            }
-        }
-        fronts.push(Front {
-            begin: symbolic.nrows(),
-            panel: symbolic.len_val(),
-            place: first_place[count],
-            entry: entries.len(),
-            child: children.len(),
-            ..Front::END
-        });
-        let all = (0..count).flat_map(|s| rows(s).iter().map(|&row| row as u32)).collect();
-        let mut tree = Tree { fronts, children, rows: all, places, runs: Vec::new(), entries };
-        tree.find_runs();
-        tree.find_levels();
-        tree
-    }
-
-    fn find_runs(&mut self) {
-        for s in 0..self.fronts.len() {
-            self.fronts[s].run = self.runs.len();
-            let Front { place, rows, .. } = self.fronts[s];
-            let places = &self.places[place..place + rows];
-            for (j, &place) in places.iter().enumerate() {
-                if j == 0 || place != places[j - 1] + 1 {
-                    self.runs.push([j as u32, place]);
-                }
-            }
-        }
-    }
-
-    /// Levels count from the roots, which come after all below them.
-    fn find_levels(&mut self) {
-        for s in (0..self.fronts.len() - 1).rev() {
-            let level = 1 - self.fronts[s].level;
-            for at in self.fronts[s].child..self.fronts[s + 1].child {
-                self.fronts[self.children[at] as usize].level = level;
-            }
-        }
-    }
-
-    /// The children of supernode `s`, ascending.
-    pub fn children(&self, s: usize) -> impl Iterator<Item = usize> {
-        self.children[self.fronts[s].child..self.fronts[s + 1].child].iter().map(|&child| child as usize)
-    }
-
-    /// Ranges of supernodes that are whole subtrees, ascending, and the supernodes above them.
-    fn cut(&self) -> (Vec<Range<usize>>, Vec<usize>) {
-        let count = self.fronts.len() - 1;
-        // The operations of the subtree below each supernode, itself included, and the first supernode of it.
-        let (mut flops, mut first, mut whole) = (vec![0.0; count], vec![0; count], 0.0);
-        for s in 0..count {
-            let Front { columns, rows, .. } = self.fronts[s];
-            let own: f64 = (rows + 1..=rows + columns).map(|length| (length * length) as f64).sum();
-            flops[s] = own + self.children(s).map(|child| flops[child]).sum::<f64>();
-            first[s] = self.children(s).next().map_or(s, |child| first[child]);
-            whole += own;
-        }
-        let limit = if whole < WORTH_CUTTING { f64::INFINITY } else { SUBTREE_SHARE * whole };
-        let (mut subtrees, mut above): (Vec<(Range<usize>, f64)>, Vec<usize>) = (Vec::new(), Vec::new());
-        let mut end = count;
-        while end > 0 {
-            let root = end - 1;
-            if flops[root] > limit {
-                above.push(root);
-                end = root;
-                continue;
-            }
-            end = first[root];
-            match subtrees.last_mut() {
-                // Neighbours that are small together are factored as one.
-                Some((range, sum)) if range.start == root + 1 && *sum + flops[root] <= limit => {
-                    range.start = end;
-                    *sum += flops[root];
-                }
-                _ => subtrees.push((end..root + 1, flops[root])),
-            }
-        }
-        above.reverse();
-        (subtrees.into_iter().rev().map(|(range, _)| range).collect(), above)
-    }
-
-    /// The workspace for the given supernodes, and their places in it, by walking through them as a factorisation does.
-    fn workspace(&mut self, supernodes: impl Iterator<Item = usize>, subtree: Option<usize>) -> FrontWorkspace {
-        let (mut top, mut highest, mut vector, mut longest) = ([0; 2], [0; 2], 0, 0);
-        let (mut widest, mut tallest) = (0, 0);
-        for s in supernodes {
-            let Front { columns, rows, level, .. } = self.fronts[s];
-            let size = Packed::new(rows).len();
-            highest[level] = highest[level].max(top[level] + size);
-            (widest, tallest) = (widest.max(columns), tallest.max(columns + rows));
-            for child in self.children(s).map(|child| &self.fronts[child]).filter(|child| child.subtree == subtree) {
-                top[child.level] -= Packed::new(child.rows).len();
-                vector -= child.rows;
-            }
-            let front = &mut self.fronts[s];
-            (front.update, front.vector, front.subtree) = (top[level], vector, subtree);
-            top[level] += size;
-            vector += rows;
-            longest = longest.max(vector);
-        }
-        let scratch = cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
-        FrontWorkspace {
-            stacks: highest.map(|highest| vec![0.0; highest]),
-            scratch: MemBuffer::new(scratch),
-            vectors: vec![0.0; longest],
-            front: vec![0.0; tallest],
-        }
-    }
-
-    /// Factors subtrees into `L`, which begins at `base` of the whole factor. False if a pivot is not positive.
+    /// Factors subtrees into `L`, which begins at `base` of the whole factor.
     fn factor_subtrees(
         &self,
-        of: &mut [(Range<usize>, FrontWorkspace)],
-        K: &[f64],
-        L: &mut [f64],
-        base: usize,
+        of: &mut [Subtree],
+        K: Matrix,
+        (L, base): (&mut [f64], usize),
+        pool: &Pool<Stacks>,
         threads: bool,
-    ) -> bool {
+    ) -> Result<(), usize> {
         match of {
-            [] => true,
-            [(supernodes, workspace)] => {
-                let panel = |s: usize| self.fronts[s].panel - base;
-                supernodes.clone().all(|s| self.eliminate(s, K, &mut L[panel(s)..panel(s + 1)], workspace, &[], false))
-            }
+            [] => Ok(()),
+            [Subtree { supernodes, updates, .. }] => pool.with(|stacks| {
+                supernodes.clone().try_for_each(|s| {
+                    let panel = self.panel(s);
+                    let panel = &mut L[panel.start - base..panel.end - base];
+                    self.eliminate(s, K, panel, (stacks, updates), &[], false)
+                })
+            }),
             _ => {
                 let (left, right) = of.split_at_mut(of.len() / 2);
-                let middle = self.fronts[right[0].0.start].panel;
+                let middle = self.fronts[right[0].supernodes.start].panel;
                 let (head, tail) = L.split_at_mut(middle - base);
                 let (left, right) = join(
                     threads,
-                    || self.factor_subtrees(left, K, head, base, threads),
-                    || self.factor_subtrees(right, K, tail, middle, threads),
+                    || self.factor_subtrees(left, K, (head, base), pool, threads),
+                    || self.factor_subtrees(right, K, (tail, middle), pool, threads),
                 );
-                left && right
+                left.and(right)
             }
         }
     }
 
-    /// Assembles and eliminates supernode `s`: writes its panel of L, and on the stack its update matrix in place of those of
-    /// its children. False if a pivot is not positive.
+    /// Assembles and eliminates supernode `s`: writes its panel of L, and its update matrix onto the stack in place of those of its children,
+    /// or into `left` where a supernode above the subtree takes it.
     fn eliminate(
         &self,
         s: usize,
-        K: &[f64],
+        K: Matrix,
         panel: &mut [f64],
-        workspace: &mut FrontWorkspace,
-        subtrees: &[(Range<usize>, FrontWorkspace)],
+        (stacks, left): (&mut Stacks, &mut [f64]),
+        subtrees: &[Subtree],
         threads: bool,
-    ) -> bool {
-        let (front, next) = (&self.fronts[s], &self.fronts[s + 1]);
-        let (columns, rows) = (front.columns, front.rows);
-        let height = columns + rows;
-        for j in 0..columns {
-            panel[j * height + j..(j + 1) * height].fill(0.0);
-        }
-        for (&at, &k) in self.entries[front.entry..next.entry].iter().zip(&K[front.entry..next.entry]) {
-            panel[at as usize] = k;
-        }
-        let [even, odd] = &mut workspace.stacks;
+    ) -> Result<(), usize> {
+        let front = &self.fronts[s];
+        let (columns, rows, height) = (front.columns, front.rows, front.height());
+        let Stacks { updates: [even, odd], scratch, scaled } = stacks;
         let (own, others) = if front.level == 0 { (even, &*odd) } else { (odd, &*even) };
+        let own = if front.is_left { left } else { own };
         let update_of = |child: &Front| match child.subtree {
-            Some(t) if child.subtree != front.subtree => &subtrees[t].1.stacks[child.level][child.update..],
+            Some(t) if child.subtree != front.subtree => &subtrees[t].updates[child.update..],
             _ => &others[child.update..],
         };
-        for child in self.children(s) {
-            let (of_panel, _) = self.split(child, columns);
-            let diagonal = |place: usize| place * height + place;
-            self.extend_add(child, update_of(&self.fronts[child]), of_panel, (panel, height), diagonal);
-        }
+        let diagonal = |j: usize| j * height + j;
+        let begin = |columns: Range<usize>, panel: &mut [f64]| self.begin(s, K, columns, panel);
+        self.assemble(s, 0..columns, (panel, &diagonal), &begin, &update_of, threads);
 
+        let shape = Packed::new(rows);
+        let update = &mut own[front.update..][..shape.len()];
         let panel = MatMut::from_column_major_slice_mut(panel, height, columns);
-        let (mut square, mut below) = panel.split_at_row_mut(columns);
-        if !potrf(square.rb_mut(), MemStack::new(&mut workspace.scratch), threads) {
-            return false;
+        let scratch = MemStack::new(scratch);
+        if K.definite {
+            let (mut square, mut below) = panel.split_at_row_mut(columns);
+            if !potrf(square.rb_mut(), scratch, threads) {
+                return Err(front.begin);
+            }
+            trsm(square.rb(), below.rb_mut(), false, threads);
+            shape.subtract(Accum::Replace, (below.rb(), below.rb()), update, threads);
+        } else {
+            ldlt(panel, (shape, &mut *update), scaled, scratch, threads).map_err(|column| front.begin + column)?;
         }
-        if rows > 0 {
-            trsm(square.rb(), below.rb_mut(), threads);
-            let shape = Packed::new(rows);
-            let update = &mut own[front.update..front.update + shape.len()];
-            shape.fill(below.rb(), update, threads);
+        let diagonal = |place: usize| shape.diagonal(place - columns);
+        self.assemble(s, columns..height, (update, &diagonal), &|_, _| {}, &update_of, threads);
+        Ok(())
+    }
+
+    /// Adds the update matrices of the children of `s` to `columns` of its front, after `begin`. `diagonal` gives the place of each entry of the
+    /// diagonal, which those below it follow; the first is where `to` begins.
+    fn assemble<'a>(
+        &self,
+        s: usize,
+        columns: Range<usize>,
+        (to, diagonal): (&mut [f64], &(impl Fn(usize) -> usize + Sync)),
+        begin: &(impl Fn(Range<usize>, &mut [f64]) + Sync),
+        update_of: &(impl Fn(&Front) -> &'a [f64] + Sync),
+        threads: bool,
+    ) {
+        if to.len() > PIECE && columns.len() > 1 {
+            let middle = columns.start + columns.len() / 2;
+            let (left, right) = to.split_at_mut(diagonal(middle) - diagonal(columns.start));
+            join(
+                threads,
+                || self.assemble(s, columns.start..middle, (left, diagonal), begin, update_of, threads),
+                || self.assemble(s, middle..columns.end, (right, diagonal), begin, update_of, threads),
+            );
+        } else if !columns.is_empty() {
+            begin(columns.clone(), to);
+            let (height, base) = (self.fronts[s].height(), diagonal(columns.start));
             for child in self.children(s) {
-                let (_, of_update) = self.split(child, columns);
-                let diagonal = |place: usize| shape.diagonal(place - columns);
-                self.extend_add(child, update_of(&self.fronts[child]), of_update, (update, height), diagonal);
+                let from = update_of(&self.fronts[child]);
+                self.extend_add(child, from, columns.clone(), (to, height), |j| diagonal(j) - base);
             }
         }
-        true
     }
 
-    /// The columns of the update matrix of supernode `s` that go into the panel of its parent of `columns` columns, and into its update matrix.
-    fn split(&self, s: usize, columns: usize) -> (Range<usize>, Range<usize>) {
-        let Front { place, rows, .. } = self.fronts[s];
-        let of_panel = self.places[place..place + rows].partition_point(|&place| (place as usize) < columns);
-        (0..of_panel, of_panel..rows)
+    /// Sets `columns` of the panel of supernode `s` to the entries of the matrix. `panel` begins on the diagonal of the first.
+    fn begin(&self, s: usize, K: Matrix, columns: Range<usize>, panel: &mut [f64]) {
+        let (front, triangle) = (&self.fronts[s], K.triangle);
+        let height = front.height();
+        let mut k = triangle.group(front.begin + columns.start);
+        for j in columns.clone() {
+            let row = front.begin + j;
+            while triangle.first(k + 1) <= row {
+                k += 1;
+            }
+            let within = row - triangle.first(k);
+            let column = &mut panel[(j - columns.start) * (height + 1)..][..height - j];
+            column.fill(0.0);
+            let values = &K.values[triangle.diagonal(k, within)..];
+            let own = triangle.size(k) - within;
+            column[..own].copy_from_slice(&values[..own]);
+            for (block, &group) in triangle.blocks(k).zip(triangle.coupled(k)) {
+                let (at, size) = (self.blocks[block] as usize - j, triangle.size(group as usize));
+                copy(&mut column[at..at + size], &values[triangle.down_to(block, within)..][..size]);
+            }
+        }
     }
 
-    /// Adds `columns` of the update matrix of supernode `s` to a part of the front of its parent, of `height` rows: `diagonal` gives the place
-    /// of each entry of its diagonal, which those below follow.
+    /// Adds the update matrix of supernode `s` to `columns` of the front of its parent, of `height` rows: `diagonal` gives the place of each
+    /// entry of its diagonal, which those below follow.
     fn extend_add(
         &self,
         s: usize,
@@ -372,6 +274,8 @@ impl Tree {
     ) {
         let (front, next) = (&self.fronts[s], &self.fronts[s + 1]);
         let (places, runs) = (&self.places[front.place..next.place], &self.runs[front.run..next.run]);
+        let column_before = |column: usize| places.partition_point(|&place| (place as usize) < column);
+        let columns = column_before(columns.start)..column_before(columns.end);
         let shape = Packed::new(front.rows);
         let mut run = runs.partition_point(|&[first, _]| (first as usize) < columns.start + 1).saturating_sub(1);
         for j in columns {
@@ -395,38 +299,20 @@ impl Tree {
 /// a ← a + b, in pieces of a node with six unknowns.
 #[inline]
 fn add(a: &mut [f64], b: &[f64]) {
-    const PIECE: usize = 6;
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks_mut::<PIECE>(), b.as_chunks::<PIECE>());
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks_mut::<NODE>(), b.as_chunks::<NODE>());
     for (a, b) in a.iter_mut().zip(b) {
-        for i in 0..PIECE {
+        for i in 0..NODE {
             a[i] += b[i];
         }
     }
     a_rest.iter_mut().zip(b_rest).for_each(|(a, b)| *a += b);
 }
 
-impl Fronts {
-    /// The fronts of a symbolic factorisation and of the pattern of the matrix, lower triangle.
-    pub fn new(
-        symbolic: &SymbolicSupernodalCholesky<usize>,
-        pattern: &SymbolicSparseColMat<usize>,
-        threads: bool,
-    ) -> Self {
-        let mut tree = Tree::new(symbolic, pattern);
-        let (subtrees, above) = tree.cut();
-        let subtrees = subtrees.into_iter().enumerate();
-        let subtrees = subtrees.map(|(t, range)| (range.clone(), tree.workspace(range, Some(t)))).collect();
-        let workspace = tree.workspace(above.iter().copied(), None);
-        Fronts { tree, subtrees, above: (above, workspace), threads, done: vec![0.0; symbolic.nrows()] }
-    }
-
-    /// Factors the matrix with the entries `K`, lower triangle by columns, into `L`. False if a pivot is not positive.
-    pub fn factor(&mut self, K: &[f64], L: &mut [f64]) -> bool {
-        let Fronts { tree, subtrees, above: (above, workspace), threads, .. } = self;
-        tree.factor_subtrees(subtrees, K, L, 0, *threads)
-            && above.iter().all(|&s| {
-                let panel = &mut L[tree.fronts[s].panel..tree.fronts[s + 1].panel];
-                tree.eliminate(s, K, panel, workspace, subtrees, *threads)
-            })
+/// Copies the rows of a node, mostly six.
+#[inline]
+fn copy(to: &mut [f64], from: &[f64]) {
+    match (<&mut [f64; NODE]>::try_from(&mut *to), <&[f64; NODE]>::try_from(from)) {
+        (Ok(to), Ok(from)) => *to = *from,
+        _ => to.copy_from_slice(from),
     }
 }

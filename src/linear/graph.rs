@@ -31,9 +31,12 @@ impl Graph {
         }
 
         let mut pairs: Vec<(u32, u32)> = Vec::new();
+        // Groups without unknowns couple nothing; the tree of those with some would not be in postorder with them.
+        let held = |&&g: &&usize| sizes[g] > 0;
         for coupled in &structure.connectivity {
-            for &g in coupled {
-                pairs.extend(coupled.iter().filter(|&&h| h != g).map(|&h| (g as u32, h as u32)));
+            for &g in coupled.iter().filter(held) {
+                let others = coupled.iter().filter(held).filter(|&&h| h != g);
+                pairs.extend(others.map(|&h| (g as u32, h as u32)));
             }
         }
         pairs.sort_unstable();

@@ -3,7 +3,7 @@
 //! All that depends on the structure alone (order of elimination, fill, the place of each number) is settled once in
 //! [`Solver::new`]; [`Solver::factor`] and [`Solver::solve`] then run over flat lists and, on one thread, allocate nothing.
 //! There are two factorisations: LU on small dense blocks for small systems and unsymmetric values, and supernodal
-//! Cholesky for large symmetric ones. Iterative methods and orderings by dissection are left out.
+//! Cholesky for large symmetric ones. Iterative methods are left out.
 
 mod block_lu;
 mod block_slot;
@@ -15,15 +15,20 @@ mod elimination;
 mod factorization;
 mod fronts;
 mod graph;
+mod indefinite;
 mod kernel;
 mod memory;
 mod packed;
+mod panel;
 mod pivot;
+mod pool;
 mod solver;
 mod sparse;
 mod stats;
 mod structure;
 mod substitution;
+mod tree;
+mod triangle;
 
 pub use block_lu::BlockLu;
 pub use block_slot::BlockSlot;

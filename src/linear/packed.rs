@@ -47,25 +47,33 @@ impl Packed {
         self.start(block) + (j - before) * (self.rows - before) + (j - before)
     }
 
-    /// U ← −B Bᵀ for the packed triangle U.
-    pub fn fill(&self, B: MatRef<f64>, U: &mut [f64], threads: bool) {
-        self.fill_blocks(B, U, 0..self.blocks(), threads);
+    /// U ← U − A Bᵀ or −A Bᵀ for the packed triangle U of what is symmetric.
+    pub fn subtract(&self, accum: Accum, (A, B): (MatRef<f64>, MatRef<f64>), U: &mut [f64], threads: bool) {
+        self.subtract_blocks(accum, (A, B), U, 0..self.blocks(), threads);
     }
 
-    fn fill_blocks(&self, B: MatRef<f64>, U: &mut [f64], blocks: Range<usize>, threads: bool) {
+    fn subtract_blocks(
+        &self,
+        accum: Accum,
+        (A, B): (MatRef<f64>, MatRef<f64>),
+        U: &mut [f64],
+        blocks: Range<usize>,
+        threads: bool,
+    ) {
         match blocks.len() {
             0 => {}
             1 => {
                 let from = blocks.start * self.width;
                 let height = self.rows - from;
                 let width = self.width.min(height);
-                let (upper, lower) = B.subrows(from, height).split_at_row(width);
+                let (A_upper, A_lower) = A.subrows(from, height).split_at_row(width);
+                let B_upper = B.subrows(from, width);
                 let block = MatMut::from_column_major_slice_mut(U, height, width);
                 let (square, below) = block.split_at_row_mut(width);
                 join(
                     threads,
-                    || syrk(Accum::Replace, upper, square, threads),
-                    || gemm(Accum::Replace, lower, upper, below, threads),
+                    || syrk(accum, A_upper, B_upper, square, threads),
+                    || gemm(accum, A_lower, B_upper, below, threads),
                 );
             }
             count => {
@@ -74,8 +82,8 @@ impl Packed {
                 let (left, right) = U.split_at_mut(self.start(middle) - self.start(blocks.start));
                 join(
                     threads,
-                    || self.fill_blocks(B, left, blocks.start..middle, threads),
-                    || self.fill_blocks(B, right, middle..blocks.end, threads),
+                    || self.subtract_blocks(accum, (A, B), left, blocks.start..middle, threads),
+                    || self.subtract_blocks(accum, (A, B), right, middle..blocks.end, threads),
                 );
             }
         }
@@ -107,9 +115,9 @@ mod tests {
             let B = MatRef::from_column_major_slice(&b, rows, columns);
             let shape = Packed::new(rows);
             let mut U = vec![f64::NAN; shape.len()];
-            shape.fill(B, &mut U, false);
+            shape.subtract(Accum::Replace, (B, B), &mut U, false);
             let mut threaded = vec![f64::NAN; shape.len()];
-            shape.fill(B, &mut threaded, true);
+            shape.subtract(Accum::Replace, (B, B), &mut threaded, true);
             for j in 0..rows {
                 for i in j..rows {
                     let exact: f64 = (0..columns).map(|k| -B[(i, k)] * B[(j, k)]).sum();

@@ -113,13 +113,6 @@ impl Solver {
         each!(self, inner => inner.solve(b))
     }
 
-    /// Takes the memory that indefinite matrices need, so that a run which is known to meet them does not allocate.
-    pub fn expect_indefinite(&mut self) {
-        if let Solver::Cholesky(inner) = self {
-            inner.prepare_indefinite();
-        }
-    }
-
     /// The number of negative eigenvalues of the matrix factored last, where it is symmetric (Sylvester's law of inertia).
     pub fn negative_eigenvalues(&self) -> usize {
         each!(self, inner => inner.negative_eigenvalues())
@@ -142,10 +135,11 @@ impl Solver {
             Solver::Block6(_) => "LU on 6×6 blocks",
             Solver::Cholesky(_) => "supernodal Cholesky",
         };
-        let Stats { unknowns, nonzeros, flops, ordering } = self.stats();
+        let Stats { unknowns, nonzeros, numbers, flops, ordering } = self.stats();
+        let megabytes = (size_of::<f64>() * numbers) as f64 / 1e6;
         let threads = if self.is_worth_threads() { "all threads" } else { "one thread" };
         format!(
-            "{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {flops:.3e} flops, {ordering} order, {threads}"
+            "{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {megabytes:.1} MB, {flops:.3e} flops, {ordering} order, {threads}"
         )
     }
 

@@ -7,6 +7,8 @@ pub struct Stats {
     pub unknowns: usize,
     /// Numbers stored in the factor.
     pub nonzeros: usize,
+    /// Numbers held in memory: the matrix, its factor and what the factorisation needs beside them.
+    pub numbers: usize,
     /// Additions and multiplications of one factorisation.
     pub flops: f64,
     /// Name of the elimination order.

@@ -14,16 +14,14 @@ pub struct LinearSystem {
     pub solver: Solver,
     /// The slots of the matrices of elements and nodes.
     pub assembly: Assembly,
-    /// True where the matrix may not be positive definite.
-    pub is_indefinite: bool,
 }
 
-keep!(LinearSystem { solver } without { assembly, is_indefinite });
+keep!(LinearSystem { solver } without { assembly });
 
 impl LinearSystem {
-    /// A matrix that is taken for positive definite.
+    /// A matrix, to be assembled and factorised.
     pub fn new(solver: Solver, assembly: Assembly) -> LinearSystem {
-        LinearSystem { solver, assembly, is_indefinite: false }
+        LinearSystem { solver, assembly }
     }
 
     /// Makes the structure anew where pairs of elements act for which the matrix has no room: those that may act soon have room then.
@@ -47,18 +45,9 @@ impl LinearSystem {
     }
 
     fn rebuild(&mut self, cx: &Context, partners: &[(usize, Partners)]) {
-        if let Ok((mut solver, assembly)) = cx.plan.build_with(cx.system, partners) {
-            if self.is_indefinite {
-                solver.expect_indefinite();
-            }
+        if let Ok((solver, assembly)) = cx.plan.build_with(cx.system, partners) {
             (self.solver, self.assembly) = (solver, assembly);
         }
-    }
-
-    /// Prepares for a matrix that is not positive definite.
-    pub fn expect_indefinite(&mut self) {
-        self.is_indefinite = true;
-        self.solver.expect_indefinite();
     }
 
     /// Solves for nodal unknowns and multipliers together. `rhs` holds the forces on the nodal unknowns and becomes the

@@ -68,7 +68,6 @@ struct Found {
 impl ArcLengthController {
     /// A controller of the deck's path.
     pub fn new(cx: &Context, ws: &mut Workspace, newton: Newton, path: &ArcLength) -> ArcLengthController {
-        ws.matrix.expect_indefinite();
         ArcLengthController {
             newton,
             constraint: ArcLengthConstraint::new(cx, ws),
