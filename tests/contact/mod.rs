@@ -15,6 +15,7 @@ mod lines_alone;
 mod polyhedra;
 mod rubbing;
 mod sight;
+mod stages;
 mod stiffness;
 mod touch;
 
