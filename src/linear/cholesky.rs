@@ -17,6 +17,7 @@ use faer::linalg::cholesky::ldlt::factor::LdltError;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Factorisations of fewer operations run on one thread: there threads cost more time than they save.
 const WORTH_THREADS: f64 = 5e8;
@@ -176,13 +177,26 @@ impl Cholesky {
     }
 
     /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
-    /// the same bits. Only the pool of several threads allocates.
-    pub(super) fn factor(&mut self) -> Result<(), Singular> {
-        self.definite = self.graph.multipliers == 0 && self.fronts.factor(&self.values, &mut self.L);
-        if !self.definite {
-            self.factor_indefinite()?;
+    /// the same bits. Only the pool of several threads allocates. False where `stop` is raised before L Lᵀ has come to its end.
+    pub(super) fn factor(&mut self, stop: &AtomicBool) -> Result<bool, Singular> {
+        self.definite = self.graph.multipliers == 0 && self.fronts.factor(&self.values, &mut self.L, stop);
+        if self.definite {
+            return self.check_pivots().map(|()| true);
         }
+        if stop.load(Ordering::Relaxed) {
+            return Ok(false);
+        }
+        self.factor_indefinite().map(|()| true)
+    }
 
+    /// Forms L D Lᵀ at once.
+    pub(super) fn factor_indefinite(&mut self) -> Result<(), Singular> {
+        self.definite = false;
+        self.form_indefinite()?;
+        self.check_pivots()
+    }
+
+    fn check_pivots(&self) -> Result<(), Singular> {
         for (p, &at) in self.diagonal.iter().enumerate() {
             let pivot = if self.definite { self.L[at] * self.L[at] } else { self.L[at] };
             if pivot.abs() <= PIVOT_TOLERANCE * self.values[self.pattern.col_ptr()[p]].abs() {
@@ -190,6 +204,11 @@ impl Cholesky {
             }
         }
         Ok(())
+    }
+
+    /// Gives back the memory that L Lᵀ alone needs, until it is formed again.
+    pub(super) fn rest(&mut self) {
+        self.fronts.rest();
     }
 
     /// Takes the memory of L D Lᵀ.
@@ -215,7 +234,7 @@ impl Cholesky {
     }
 
     /// L D Lᵀ by faer.
-    fn factor_indefinite(&mut self) -> Result<(), Singular> {
+    fn form_indefinite(&mut self) -> Result<(), Singular> {
         self.prepare_indefinite();
         let nonzeros = self.values.len() - 1;
         let K = SparseColMatRef::new(self.pattern.as_ref(), &self.values[..nonzeros]);

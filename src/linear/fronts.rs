@@ -16,6 +16,7 @@ use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::{MatMut, Par};
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A subtree has about this part of all operations: there are then enough of them to share out evenly.
 const SUBTREE_SHARE: f64 = 1.0 / 24.0;
@@ -57,6 +58,8 @@ pub(super) struct Tree {
 /// the scratch of the dense operations.
 pub(super) struct FrontWorkspace {
     stacks: [Vec<f64>; 2],
+    /// Their lengths while there is something to factor.
+    heights: [usize; 2],
     scratch: MemBuffer,
     /// The stack of update vectors of a substitution.
     pub vectors: Vec<f64>,
@@ -267,26 +270,30 @@ impl Tree {
         let scratch = cholesky_in_place_scratch::<f64>(widest, Par::Seq, Default::default());
         FrontWorkspace {
             stacks: highest.map(|highest| vec![0.0; highest]),
+            heights: highest,
             scratch: MemBuffer::new(scratch),
             vectors: vec![0.0; longest],
             front: vec![0.0; tallest],
         }
     }
 
-    /// Factors subtrees into `L`, which begins at `base` of the whole factor. False if a pivot is not positive.
+    /// Factors subtrees into `L`, which begins at `base` of the whole factor. False if a pivot is not positive, or `stop` is raised.
     fn factor_subtrees(
         &self,
         of: &mut [(Range<usize>, FrontWorkspace)],
         K: &[f64],
         L: &mut [f64],
         base: usize,
-        threads: bool,
+        (threads, stop): (bool, &AtomicBool),
     ) -> bool {
         match of {
             [] => true,
             [(supernodes, workspace)] => {
                 let panel = |s: usize| self.fronts[s].panel - base;
-                supernodes.clone().all(|s| self.eliminate(s, K, &mut L[panel(s)..panel(s + 1)], workspace, &[], false))
+                supernodes.clone().all(|s| {
+                    let panel = &mut L[panel(s)..panel(s + 1)];
+                    !stop.load(Ordering::Relaxed) && self.eliminate(s, K, panel, workspace, &[], false)
+                })
             }
             _ => {
                 let (left, right) = of.split_at_mut(of.len() / 2);
@@ -294,8 +301,8 @@ impl Tree {
                 let (head, tail) = L.split_at_mut(middle - base);
                 let (left, right) = join(
                     threads,
-                    || self.factor_subtrees(left, K, head, base, threads),
-                    || self.factor_subtrees(right, K, tail, middle, threads),
+                    || self.factor_subtrees(left, K, head, base, (threads, stop)),
+                    || self.factor_subtrees(right, K, tail, middle, (threads, stop)),
                 );
                 left && right
             }
@@ -420,13 +427,34 @@ impl Fronts {
         Fronts { tree, subtrees, above: (above, workspace), threads, done: vec![0.0; symbolic.nrows()] }
     }
 
-    /// Factors the matrix with the entries `K`, lower triangle by columns, into `L`. False if a pivot is not positive.
-    pub fn factor(&mut self, K: &[f64], L: &mut [f64]) -> bool {
+    /// Factors the matrix with the entries `K`, lower triangle by columns, into `L`. False if a pivot is not positive, or as soon as `stop`
+    /// is raised.
+    pub fn factor(&mut self, K: &[f64], L: &mut [f64], stop: &AtomicBool) -> bool {
+        self.each_workspace().for_each(FrontWorkspace::take_stacks);
         let Fronts { tree, subtrees, above: (above, workspace), threads, .. } = self;
-        tree.factor_subtrees(subtrees, K, L, 0, *threads)
+        tree.factor_subtrees(subtrees, K, L, 0, (*threads, stop))
             && above.iter().all(|&s| {
                 let panel = &mut L[tree.fronts[s].panel..tree.fronts[s + 1].panel];
-                tree.eliminate(s, K, panel, workspace, subtrees, *threads)
+                !stop.load(Ordering::Relaxed) && tree.eliminate(s, K, panel, workspace, subtrees, *threads)
             })
+    }
+
+    /// Gives back the memory of update matrices until there is something to factor.
+    pub fn rest(&mut self) {
+        self.each_workspace().for_each(|workspace| workspace.stacks = Default::default());
+    }
+
+    fn each_workspace(&mut self) -> impl Iterator<Item = &mut FrontWorkspace> {
+        self.subtrees.iter_mut().map(|(_, workspace)| workspace).chain([&mut self.above.1])
+    }
+}
+
+impl FrontWorkspace {
+    fn take_stacks(&mut self) {
+        for (stack, height) in self.stacks.iter_mut().zip(self.heights) {
+            if stack.len() < height {
+                *stack = vec![0.0; height];
+            }
+        }
     }
 }
