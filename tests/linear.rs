@@ -5,6 +5,7 @@ use crate::structures::{
 };
 use nalgebra::{DMatrix, DVector};
 use rdsolve::linear::{Factorization, Solver, Structure};
+use std::sync::atomic::AtomicBool;
 
 fn shapes(random: &mut Random) -> Vec<Structure> {
     let mut shapes = vec![
@@ -380,4 +381,39 @@ fn the_sign_of_a_determinant_is_told_of_matrices_that_are_not_symmetric() {
         }
     }
     assert!((20..40).contains(&negative), "{negative}");
+}
+
+/// A factorisation that is stopped leaves no factors; the next has the bits of one that nobody has stopped, whatever memory was given back.
+#[test]
+fn a_factorisation_that_is_stopped_costs_the_next_nothing() {
+    let mut random = Random(7);
+    let structure = sheet(24, 24, 6);
+    for threads in [1, 2] {
+        let mut solver = Solver::new(&structure, Factorization::Cholesky, threads).unwrap();
+        let entries = entries(&structure, Values::Definite, &mut random);
+        let slots = slots(&solver, &entries);
+        let b: Vec<f64> = (0..unknowns(&structure)).map(|_| random.number()).collect();
+        let solved = |solver: &mut Solver| {
+            let mut x = b.clone();
+            solver.solve(&mut x);
+            x
+        };
+        fill(&mut solver, &slots);
+        assert_eq!(solver.factor_unless(&AtomicBool::new(false)), Ok(true));
+        let first = solved(&mut solver);
+        fill(&mut solver, &slots);
+        assert_eq!(solver.factor_unless(&AtomicBool::new(true)), Ok(false));
+        solver.rest();
+        fill(&mut solver, &slots);
+        solver.factor().unwrap();
+        solver.rest();
+        assert!(solved(&mut solver) == first, "{threads} threads");
+        // L D Lᵀ of the same matrix: other roundings, and no negative pivot.
+        fill(&mut solver, &slots);
+        solver.factor_indefinite().unwrap();
+        assert_eq!(solver.negative_eigenvalues(), 0);
+        let other = solved(&mut solver);
+        let size = first.iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        assert!(first.iter().zip(&other).all(|(a, b)| (a - b).abs() < 1e-11 * size), "{threads} threads");
+    }
 }

@@ -15,7 +15,7 @@ use std::hash::{Hash, Hasher};
 use std::io;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Keeps a digest of everything that a run shows, and a few checkpoints.
@@ -349,6 +349,99 @@ fn without_a_checkpoint_a_run_begins() {
     fs::write(desk.at("mine/letter"), "").unwrap();
     let (code, said) = desk.run("mine", &["--resume"]);
     assert!(code == Some(2) && said.contains("holds files already"), "{said}");
+}
+
+/// Raises the flag that ends a run before one of its steps, as a signal that comes while it is computed, and counts what it leaves.
+struct Signal<'s> {
+    stop: &'s AtomicBool,
+    steps_before: usize,
+    asked: usize,
+    rows: usize,
+    checkpoints: usize,
+}
+
+impl Observer for Signal<'_> {
+    fn on_step(&mut self, _: &Frame) -> io::Result<()> {
+        self.rows += 1;
+        Ok(())
+    }
+
+    fn wants_checkpoint(&mut self, _: bool) -> bool {
+        self.stop.store(self.asked == self.steps_before, Ordering::Relaxed);
+        self.asked += 1;
+        false
+    }
+
+    fn on_checkpoint(&mut self, _: &[u8], _: bool) -> io::Result<()> {
+        self.checkpoints += 1;
+        Ok(())
+    }
+}
+
+/// A signal ends the factorisation in hand before the first step is done: nothing is lost then. A later step is done first, and leaves a
+/// checkpoint.
+#[test]
+fn a_signal_ends_the_first_factorization() {
+    let text = r#"
+[analysis]
+kind = "static"
+end_time = 1.0
+time_step = 0.25
+[materials.steel]
+model = "elastic"
+youngs_modulus = 200e9
+poisson_ratio = 0.3
+density = 8000.0
+[points]
+a = [0.0, 0.0, 0.0]
+b = [2.0, 0.0, 0.0]
+c = [2.0, 1.0, 0.0]
+d = [0.0, 1.0, 0.0]
+[[shells]]
+name = "plate"
+corners = ["a", "b", "c", "d"]
+elements = 24
+thickness = 0.05
+material = "steel"
+[[supports]]
+at = ["a", "b", "c", "d"]
+fix = "all"
+[[loads]]
+at = "plate"
+pressure = 1e3
+"#;
+    let model = crate::support::read_deck(text);
+    let system = System::new(&model).unwrap();
+    let plan = Plan::new(&model, &system, 1);
+    for (steps_before, rows, checkpoints, end) in [(0, 1, 0, 0.0), (1, 3, 1, 0.5)] {
+        let stop = AtomicBool::new(false);
+        let mut run = Run::new(&model, &system, &plan, wanted(&model), &stop).unwrap();
+        let mut signal = Signal { stop: &stop, steps_before, asked: 0, rows: 0, checkpoints: 0 };
+        let (outcome, _) = run.run(&mut signal);
+        assert!(matches!(outcome, Outcome::Stopped { time } if time == end), "{steps_before}: {outcome:?}");
+        assert_eq!((signal.rows, signal.checkpoints), (rows, checkpoints), "{steps_before}");
+    }
+}
+
+/// A run that a signal has ended before its first step was done leaves a result without a checkpoint, and begins anew.
+#[test]
+fn what_was_stopped_before_its_first_step_begins() {
+    let desk = Desk::new(&BALL.replace("1e5", "1.0"));
+    let (code, said) = desk.run("out", &[]);
+    assert_eq!(code, Some(0), "{said}");
+    let rows = fs::read(desk.at("out/bodies.csv")).unwrap();
+    let stopped = |steps: u64| {
+        let mut result = desk.result("out");
+        result["status"] = "stopped".into();
+        result["counts"]["steps"] = steps.into();
+        fs::write(desk.at("out/result.json"), result.to_string()).unwrap();
+        desk.run("out", &["--resume"])
+    };
+    let (code, said) = stopped(3);
+    assert!(code == Some(2) && said.contains("its checkpoint is gone"), "{said}");
+    let (code, said) = stopped(0);
+    assert!(code == Some(0) && said.contains("begins at t = 0"), "{said}");
+    assert_eq!(fs::read(desk.at("out/bodies.csv")).unwrap(), rows);
 }
 
 /// A heavy top made longer goes where one goes that was as long from the beginning; steps begin anew at its end, which rounds differently.

@@ -133,6 +133,8 @@ fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exi
         "done" => Exit::Done,
         "not-converged" => Exit::NotConverged,
         "expectation-missed" => Exit::CheckFailed,
+        // A run that is stopped before its first step is done leaves no checkpoint.
+        "stopped" if result["counts"]["steps"] == 0 => return None,
         _ => {
             complain(&format!("the run in `{place}` was stopped, and its checkpoint is gone"));
             say("  help: --overwrite in place of --resume runs the deck from the beginning");

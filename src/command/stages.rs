@@ -236,6 +236,7 @@ impl StageRunner<'_> {
     ) -> io::Result<(Outcome, Option<State>)> {
         if let Some(past) = course.recalled.pop() {
             run.keep_end(&mut Snapshot::of(past.left.clone()));
+            run.forget_matrix();
             told.counts = past.counts;
             let state = past.state.clone();
             course.past.push(past);
@@ -252,6 +253,8 @@ impl StageRunner<'_> {
             checkpoints.begin_stage(course.so_far(told));
         }
         let (outcome, state) = run.run(watchers);
+        // The stages to come have matrices of their own.
+        run.forget_matrix();
         told.take(run, model, state.as_ref().map(|state| state.time));
         if let (Outcome::Done, Some(state)) = (&outcome, &state) {
             let mut left = Snapshot::taken();

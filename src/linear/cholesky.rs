@@ -17,6 +17,10 @@ use crate::snapshot::{Keep, Snapshot};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{FaerError, SymbolicSparseColMat, SymbolicSparseColMatRef};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// The flag of what nobody stops.
+pub(super) static NEVER: AtomicBool = AtomicBool::new(false);
 
 /// Factorisations of fewer operations run on one thread: there threads cost more time than they save.
 pub(super) const WORTH_THREADS: f64 = 5e8;
@@ -145,17 +149,39 @@ impl Cholesky {
     }
 
     /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
-    /// the same bits. Only the pool of several threads allocates.
-    pub(super) fn factor(&mut self) -> Result<(), Singular> {
-        let matrix = |definite| Matrix { triangle: &self.triangle, values: &self.values, definite };
-        self.definite = self.graph.multipliers == 0 && self.fronts.factor(matrix(true), &mut self.L).is_ok();
-        if !self.definite {
-            self.fronts.factor(matrix(false), &mut self.L).map_err(|position| self.singular(position))?;
+    /// the same bits. Only the pool of several threads allocates. False where `stop` is raised before it is done.
+    pub(super) fn factor(&mut self, stop: &AtomicBool) -> Result<bool, Singular> {
+        self.definite = self.graph.multipliers == 0 && self.form(true, stop).is_ok();
+        if !self.definite
+            && let Err(position) = self.form(false, stop)
+        {
+            return if stop.load(Ordering::Relaxed) { Ok(false) } else { Err(self.singular(position)) };
         }
+        self.check_pivots().map(|()| true)
+    }
+
+    /// Forms L D Lᵀ at once.
+    pub(super) fn factor_indefinite(&mut self) -> Result<(), Singular> {
+        self.definite = false;
+        self.form(false, &NEVER).map_err(|position| self.singular(position))?;
+        self.check_pivots()
+    }
+
+    fn form(&mut self, definite: bool, stop: &AtomicBool) -> Result<(), usize> {
+        let matrix = Matrix { triangle: &self.triangle, values: &self.values, definite, stop };
+        self.fronts.factor(matrix, &mut self.L)
+    }
+
+    fn check_pivots(&self) -> Result<(), Singular> {
         match self.fronts.tree.vanishing(&self.triangle, &self.values, &self.L, self.definite) {
             Some(position) => Err(self.singular(position)),
             None => Ok(()),
         }
+    }
+
+    /// Gives back the memory of update matrices until there is something to factor.
+    pub(super) fn rest(&mut self) {
+        self.fronts.rest();
     }
 
     fn singular(&self, position: usize) -> Singular {

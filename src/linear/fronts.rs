@@ -18,6 +18,7 @@ use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, Par};
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Fronts are assembled in pieces of about so many numbers, which stay in a core's cache.
 const PIECE: usize = 1 << 15;
@@ -47,8 +48,9 @@ pub(super) struct Fronts {
 /// Supernodes that are factored one after the other on one thread.
 pub(super) struct Subtree {
     pub supernodes: Range<usize>,
-    /// What its roots leave to the supernodes above.
+    /// What its roots leave to the supernodes above, and how many numbers.
     updates: Vec<f64>,
+    left: usize,
     /// The vectors of a substitution.
     pub vectors: Vectors,
 }
@@ -71,6 +73,8 @@ impl Vectors {
 struct Stacks {
     /// Update matrices that wait for their parents, the last on top, by level of the tree.
     updates: [Vec<f64>; 2],
+    /// Their lengths while there is something to factor.
+    heights: [usize; 2],
     /// The scratch of the dense operations.
     scratch: MemBuffer,
     /// Columns of L D. Untouched where all pivots are positive.
@@ -83,6 +87,7 @@ impl Stacks {
         let (indefinite, scaled) = ldlt_scratch(sizes.widest, sizes.tallest);
         Stacks {
             updates: sizes.stacks.map(|size| vec![0.0; size]),
+            heights: sizes.stacks,
             scratch: MemBuffer::new(definite.or(indefinite)),
             scaled: vec![0.0; scaled],
         }
@@ -97,6 +102,8 @@ pub(super) struct Matrix<'a> {
     pub values: &'a [f64],
     /// As L Lᵀ, not as L D Lᵀ.
     pub definite: bool,
+    /// Raised where the factorisation is to end before it is done.
+    pub stop: &'a AtomicBool,
 }
 
 impl Fronts {
@@ -107,6 +114,7 @@ impl Fronts {
         let subtree = |(supernodes, sizes): (Range<usize>, Sizes)| Subtree {
             supernodes,
             updates: vec![0.0; sizes.left],
+            left: sizes.left,
             vectors: Vectors::new(sizes),
         };
         Fronts {
@@ -124,13 +132,38 @@ impl Fronts {
     /// Factors a matrix into `L`.
     ///
     /// # Errors
-    /// The position of a pivot that is zero or not finite, or, of a matrix that should be definite, not positive.
+    /// The position of a pivot that is zero or not finite, or, of a matrix that should be definite, not positive; any where it was stopped.
     pub fn factor(&mut self, K: Matrix, L: &mut [f64]) -> Result<(), usize> {
+        self.take_memory();
         let Fronts { tree, subtrees, above, stacks, pool, threads, .. } = self;
         tree.factor_subtrees(subtrees, K, (L, 0), pool, *threads)?;
         above
             .iter()
             .try_for_each(|&s| tree.eliminate(s, K, &mut L[tree.panel(s)], (stacks, &mut []), subtrees, *threads))
+    }
+
+    /// Gives back the memory of update matrices until there is something to factor.
+    pub fn rest(&mut self) {
+        self.subtrees.iter_mut().for_each(|subtree| subtree.updates = Vec::new());
+        self.each_stacks(|stacks| stacks.updates = Default::default());
+    }
+
+    /// Takes it again where it was given back.
+    fn take_memory(&mut self) {
+        let take = |memory: &mut Vec<f64>, length: usize| {
+            if memory.len() < length {
+                *memory = vec![0.0; length];
+            }
+        };
+        self.subtrees.iter_mut().for_each(|subtree| take(&mut subtree.updates, subtree.left));
+        self.each_stacks(|Stacks { updates, heights, .. }| {
+            updates.iter_mut().zip(heights).for_each(|(updates, height)| take(updates, *height));
+        });
+    }
+
+    fn each_stacks(&mut self, mut visit: impl FnMut(&mut Stacks)) {
+        visit(&mut self.stacks);
+        self.pool.each(visit);
     }
 }
 
@@ -179,8 +212,11 @@ impl Tree {
         threads: bool,
     ) -> Result<(), usize> {
         let front = &self.fronts[s];
+        if K.stop.load(Ordering::Relaxed) {
+            return Err(front.begin);
+        }
         let (columns, rows, height) = (front.columns, front.rows, front.height());
-        let Stacks { updates: [even, odd], scratch, scaled } = stacks;
+        let Stacks { updates: [even, odd], scratch, scaled, .. } = stacks;
         let (own, others) = if front.level == 0 { (even, &*odd) } else { (odd, &*even) };
         let own = if front.is_left { left } else { own };
         let update_of = |child: &Front| match child.subtree {

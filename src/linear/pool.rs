@@ -28,6 +28,11 @@ impl<T> Pool<T> {
         self.returned.notify_one();
         result
     }
+
+    /// Visits all things, none of which is borrowed.
+    pub fn each(&mut self, visit: impl FnMut(&mut T)) {
+        self.free.get_mut().unwrap_or_else(PoisonError::into_inner).iter_mut().for_each(visit);
+    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::block_lu::BlockLu;
 use super::block_slot::BlockSlot;
-use super::cholesky::{Cholesky, WORTH_THREADS};
+use super::cholesky::{Cholesky, NEVER, WORTH_THREADS};
 use super::factorization::Factorization;
 use super::graph::Graph;
 use super::memory::TooLarge;
@@ -11,6 +11,7 @@ use super::sparse::Sparse;
 use super::stats::Stats;
 use super::structure::Structure;
 use crate::snapshot::{Keep, Snapshot};
+use std::sync::atomic::AtomicBool;
 
 /// A matrix and its factorisation, the memory of both included.
 pub enum Solver {
@@ -105,7 +106,44 @@ impl Solver {
     /// # Errors
     /// A pivot is zero or not finite. [`Solver::solve`] then gives nothing of use until values are filled and factored again.
     pub fn factor(&mut self) -> Result<(), Singular> {
-        each!(self, inner => inner.factor())
+        self.factor_unless(&NEVER).map(|_| ())
+    }
+
+    /// Factors the matrix as [`Solver::factor`] does. False where `stop` is raised before it is done: there are no factors then. A symmetric
+    /// matrix that is positive definite looks at the flag between fronts, every other one not at all.
+    ///
+    /// # Errors
+    /// As for [`Solver::factor`].
+    pub fn factor_unless(&mut self, stop: &AtomicBool) -> Result<bool, Singular> {
+        match self {
+            Solver::Block3(inner) => inner.factor().map(|()| true),
+            Solver::Block6(inner) => inner.factor().map(|()| true),
+            Solver::Cholesky(inner) => inner.factor(stop),
+        }
+    }
+
+    /// Factors a matrix that is known to be indefinite, as [`Solver::factor`] does but without looking whether it is positive definite
+    /// first. Where one factor is to give the bits of another one, both are to be known.
+    ///
+    /// # Errors
+    /// As for [`Solver::factor`].
+    pub fn factor_indefinite(&mut self) -> Result<(), Singular> {
+        match self {
+            Solver::Cholesky(inner) => inner.factor_indefinite(),
+            _ => self.factor(),
+        }
+    }
+
+    /// A solver without unknowns.
+    pub fn none() -> Self {
+        Solver::Block3(Box::new(BlockLu::new(Graph::new(&Structure::default()))))
+    }
+
+    /// Gives back the memory that is needed to factor and not to solve, until there is something to factor.
+    pub fn rest(&mut self) {
+        if let Solver::Cholesky(inner) = self {
+            inner.rest();
+        }
     }
 
     /// Replaces the right-hand side `b`, by external rows, by the solution for the matrix factored last.

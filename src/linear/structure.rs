@@ -2,7 +2,7 @@
 
 /// The couplings of unknowns. Unknowns come in groups (nodes); external row numbers are group-major and compact: the
 /// rows of group 0, those of group 1, and so on.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Structure {
     /// Unknowns per group, at most 6.
     pub sizes: Vec<usize>,

@@ -11,7 +11,7 @@ use super::mode::Modes;
 use super::pencil::{Pencil, weights};
 use super::rest::multipliers_at_rest;
 use super::shape::Shapes;
-use crate::linear::eigen::{EigenPair, Lanczos, SymmetricOperator};
+use crate::linear::eigen::{Converged, EigenPair, Lanczos, SymmetricOperator};
 use crate::linear::{Solver, Sparse};
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec6, angular, linear};
@@ -94,8 +94,10 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     if response.is_nothing() {
         return Err(ModesFault::NoLoads);
     }
-    let first = response.rate(SMALL / response.size(&pencil), &mut pencil);
-    let lowest = factors(&mut pencil, (&K, &first), 1)?;
+    let lowest = {
+        let first = response.rate(SMALL / response.size(&pencil), &mut pencil);
+        factors(&mut pencil, (&K, &first), 1)?
+    };
     let Some(lowest) = lowest.first().map(|(lowest, _)| lowest.abs()) else { return Err(ModesFault::NoBuckling) };
     let rate = response.rate((STEP * lowest).min(STEP / response.size(&pencil)), &mut pencil);
     let found = factors(&mut pencil, (&K, &rate), wanted)?;
@@ -158,40 +160,39 @@ fn factors(pencil: &mut Pencil, (K, rate): (&Sparse, &Sparse), wanted: usize) ->
     let threads = pencil.at.plan.threads > 1;
     pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
     let mut operator = Buckling { pencil: &mut *pencil, K, rate };
-    let mut lanczos = Lanczos::new(&mut operator, WIDTH, wanted, threads);
+    let mut lanczos = Lanczos::new(&mut operator, WIDTH, threads);
     let mut goal = wanted;
     let mut searches = 0;
     while searches < SEARCHES {
         let mut operator = Buckling { pencil: &mut *pencil, K, rate };
         let limit = lanczos.applications + 60 * goal + 600;
-        let (pairs, next) =
+        let Converged { thetas, next } =
             lanczos.converge(&mut operator, goal, TOLERANCE, limit).ok_or_else(|| pencil.not_converged(goal))?;
-        let whole = pairs.len() < goal || next.is_none();
-        let reached = pairs.last().map_or(0.0, |pair| 1.0 / pair.theta.abs());
-        let (mut found, mut reversed) = by_sign(pairs);
+        let whole = thetas.len() < goal || next.is_none();
+        let reached = thetas.last().map_or(0.0, |theta| 1.0 / theta.abs());
+        let least = least(thetas.first());
+        let found = thetas.iter().filter(|theta| **theta > least).count();
         // Factors of reversed loads take places of their own.
-        if found.len() < wanted && !whole && goal < 4 * wanted + 24 {
-            goal += (wanted - found.len()).max(goal / 2);
+        if found < wanted && !whole && goal < 4 * wanted + 24 {
+            goal += (wanted - found).max(goal / 2);
             continue;
         }
         let next = next.map_or(f64::INFINITY, |theta| 1.0 / theta.abs());
-        if whole || next - reached <= 1e-4 * reached {
-            if whole {
-                found.truncate(wanted);
-                reversed.truncate(wanted);
-                return Ok(if found.is_empty() { reversed } else { found });
-            }
+        if whole {
+            return Ok(lowest(lanczos.into_pairs(), wanted));
+        }
+        if next - reached <= 1e-4 * reached {
             searches += usize::from(goal > 4 * wanted + CLUSTER);
             goal += 1;
             continue;
         }
+        // The space is the largest thing beside the factor.
+        lanczos.narrow();
         let there = pencil.factor_along(rate, reached + 0.1 * (next - reached));
         pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
-        let missing = there.unwrap_or(found.len()).saturating_sub(found.len());
+        let missing = there.unwrap_or(found).saturating_sub(found);
         if missing == 0 {
-            found.truncate(wanted);
-            reversed.truncate(wanted);
-            return Ok(if found.is_empty() { reversed } else { found });
+            return Ok(lowest(lanczos.into_pairs(), wanted));
         }
         searches += 1;
         goal += missing;
@@ -201,13 +202,23 @@ fn factors(pencil: &mut Pencil, (K, rate): (&Sparse, &Sparse), wanted: usize) ->
     Err(ModesFault::Missed { found: wanted, there: goal })
 }
 
-/// The factors of some pairs, positive ones and negative ones, each the nearest to zero first.
-fn by_sign(pairs: Vec<EigenPair>) -> (Vec<Factor>, Vec<Factor>) {
-    let least = FARTHEST * pairs.first().map_or(0.0, |pair| pair.theta.abs());
+/// The size of 1/λ below which it is rounding of the largest.
+fn least(largest: Option<&f64>) -> f64 {
+    FARTHEST * largest.map_or(0.0, |theta| theta.abs())
+}
+
+/// The lowest positive factors of some pairs, or where there are none the negative ones, the nearest to zero first.
+fn lowest(pairs: Vec<EigenPair>, wanted: usize) -> Vec<Factor> {
+    let least = least(pairs.first().map(|pair| &pair.theta));
     let mut factors: Vec<Factor> =
         pairs.into_iter().filter(|pair| pair.theta.abs() > least).map(|pair| (1.0 / pair.theta, pair.vector)).collect();
     factors.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    factors.into_iter().partition(|(factor, _)| *factor > 0.0)
+    let (mut found, reversed): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(factor, _)| *factor > 0.0);
+    if found.is_empty() {
+        found = reversed;
+    }
+    found.truncate(wanted);
+    found
 }
 
 /// The linear response to unit loads.
@@ -248,18 +259,18 @@ impl Response {
 
     /// The rate of the tangent with the load factor, by differences at multiples of the factors ±ε.
     fn rate(&self, epsilon: f64, pencil: &mut Pencil) -> Sparse {
-        let mut at = |steps: f64| {
-            let factor = steps * epsilon;
-            let loads = pencil.at.loading.plus(factor, pencil.at.factored);
-            let nodes = self.moved(factor, pencil);
-            let base = &pencil.at.state.multipliers;
-            let multipliers: Vec<f64> = base.iter().zip(&self.multipliers).map(|(m, rate)| m + rate * factor).collect();
-            pencil.stressed_matrix(&nodes, &loads, &multipliers)
-        };
-        let pairs = [1.0, 2.0, 3.0].map(|steps| [at(steps), at(-steps)]);
-        let terms = pairs.iter().zip(DIFFERENCES);
-        let terms = terms.flat_map(|([plus, minus], weight)| [(weight / epsilon, plus), (-weight / epsilon, minus)]);
-        Sparse::sum(&terms.collect::<Vec<_>>())
+        let mut sum = Vec::new();
+        for (steps, weight) in [1.0, 2.0, 3.0].into_iter().zip(DIFFERENCES) {
+            for sign in [1.0, -1.0] {
+                let factor = sign * steps * epsilon;
+                let loads = pencil.at.loading.plus(factor, pencil.at.factored);
+                let nodes = self.moved(factor, pencil);
+                let base = pencil.at.state.multipliers.iter().zip(&self.multipliers);
+                let multipliers: Vec<f64> = base.map(|(m, rate)| m + rate * factor).collect();
+                pencil.add_stressed(sign * weight / epsilon, (&nodes, &loads, &multipliers), &mut sum);
+            }
+        }
+        pencil.summed(&sum)
     }
 
     /// What the loads slacken, and pull taut, up to the lowest factor, in words.

@@ -165,7 +165,7 @@ fn nearest(
     let mut operator = Quadratic { pencil, damping: &damping, shift, diagonal, square, scratch };
     let wanted = if let ModeExtent::Count(count) = extent { count } else { UP_TO };
     let most = 12 * wanted + 240;
-    let mut arnoldi = Arnoldi::new(&mut operator, WIDTH, most, threads);
+    let mut arnoldi = Arnoldi::new(&mut operator, WIDTH, threads);
     let enough = |thetas: &[Complex]| enough(thetas, near, extent);
     let converged = arnoldi.converge(&mut operator, TOLERANCE, most, enough);
     converged.ok_or_else(|| operator.pencil.not_converged(wanted))

@@ -11,7 +11,7 @@ use super::mode::{EigenMode, Modes};
 use super::pencil::Pencil;
 use super::shape::Shapes;
 use crate::linear::Solver;
-use crate::linear::eigen::{EigenPair, Lanczos};
+use crate::linear::eigen::{Converged, EigenPair, Lanczos};
 use crate::model::{ModeExtent, ModeKind};
 use crate::names::short;
 use crate::system::assembly::Assembly;
@@ -166,7 +166,7 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
 /// # Errors
 /// The matrix is singular whatever the shift.
 pub(super) fn lowest_square(pencil: &mut Pencil) -> Result<f64, ModesFault> {
-    let mut lanczos = settle(pencil, 1)?;
+    let mut lanczos = settle(pencil)?;
     let thetas = lanczos.probe(pencil, PROBE);
     let shift = pencil.shift;
     let mut values = thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta);
@@ -186,7 +186,8 @@ struct Goal {
 fn count_below(pencil: &mut Pencil, s: f64) -> Result<usize, ModesFault> {
     let mut row = 0;
     for moved in [1.0, 1.0 + 1e-9, 1.0 + 1e-7] {
-        match pencil.factor(s * moved) {
+        pencil.at.check_stop()?;
+        match pencil.count_below(s * moved) {
             Ok(count) => return Ok(count),
             Err(at) => row = at,
         }
@@ -196,15 +197,16 @@ fn count_below(pencil: &mut Pencil, s: f64) -> Result<usize, ModesFault> {
 
 /// The modes wanted by their eigenvalues λ = ω², ascending, with vectors of modal mass 1.
 fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
-    let mut lanczos = settle(pencil, wanted)?;
+    let mut lanczos = settle(pencil)?;
+    pencil.solver.rest();
     let shift = pencil.shift;
     let mut goal = wanted;
     for _ in 0..SEARCHES {
         let limit = lanczos.applications + 40 * goal + 400;
         let converged = lanczos.converge(pencil, goal, TOLERANCE, limit);
-        let (pairs, next) = converged.ok_or_else(|| pencil.not_converged(goal))?;
+        let Converged { thetas, next } = converged.ok_or_else(|| pencil.not_converged(goal))?;
         let value = |theta: f64| shift + 1.0 / theta;
-        let found: Vec<f64> = pairs.iter().map(|pair| value(pair.theta)).collect();
+        let found: Vec<f64> = thetas.into_iter().map(value).collect();
         let last = found.iter().copied().fold(shift, f64::max);
         let missing = match (below, next.map(value)) {
             (Some(below), _) => wanted - found.iter().filter(|lambda| **lambda <= below).count().min(wanted),
@@ -215,6 +217,8 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
                 continue;
             }
             (None, Some(next)) => {
+                // The space is the largest thing beside the factor.
+                lanczos.narrow();
                 let there = count_below(pencil, last + 0.1 * (next - last))?;
                 let missing = there.saturating_sub(found.len());
                 if missing > 0 {
@@ -223,12 +227,9 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
                 missing
             }
         };
-        if missing == 0 {
-            return Ok(sorted(pairs, shift, wanted));
-        }
         goal = found.len() + missing;
-        if !lanczos.start(pencil, missing) {
-            return Ok(sorted(pairs, shift, wanted));
+        if missing == 0 || !lanczos.start(pencil, missing) {
+            return Ok(sorted(lanczos.into_pairs(), shift, wanted));
         }
     }
     Err(ModesFault::Missed { found: wanted, there: goal })
@@ -247,7 +248,7 @@ fn sorted(pairs: Vec<EigenPair>, shift: f64, wanted: usize) -> Vec<(f64, Vec<f64
 }
 
 /// Factorises at a shift below all eigenvalues, near the first that is not zero, and begins the iteration there.
-fn settle(pencil: &mut Pencil, wanted: usize) -> Result<Lanczos, ModesFault> {
+fn settle(pencil: &mut Pencil) -> Result<Lanczos, ModesFault> {
     let threads = pencil.at.plan.threads > 1;
     let mut shift = 0.0;
     let mut row = 0;
@@ -262,7 +263,7 @@ fn settle(pencil: &mut Pencil, wanted: usize) -> Result<Lanczos, ModesFault> {
                 continue;
             }
         }
-        let mut lanczos = Lanczos::new(pencil, WIDTH, wanted, threads);
+        let mut lanczos = Lanczos::new(pencil, WIDTH, threads);
         let thetas = lanczos.probe(pencil, PROBE);
         match better_shift(shift, &thetas) {
             Some(better) if better != shift => shift = better,

@@ -122,13 +122,32 @@ impl<'a> Pencil<'a> {
     /// Factorises K − σ M. Returns the number of eigenvalues below σ.
     ///
     /// # Errors
-    /// The row of a pivot that vanishes.
+    /// The row of a pivot that vanishes; any where a signal has come, of which [`Pencil::singular`] makes what it is.
     pub fn factor(&mut self, shift: f64) -> Result<usize, usize> {
         self.shift = shift;
         self.form(weights(0.0, -shift), true);
         self.factorizations += 1;
-        self.solver.factor().map_err(|singular| singular.row)?;
-        Ok(self.solver.negative_eigenvalues().saturating_sub(self.forces.multipliers.gaps.len()))
+        match self.solver.factor_unless(self.at.stop) {
+            Ok(true) => Ok(self.negative()),
+            Ok(false) => Err(0),
+            Err(singular) => Err(singular.row),
+        }
+    }
+
+    /// Counts the eigenvalues below `s`, above some of which it lies, by factors of K − s M, which take the place of those of the shift.
+    ///
+    /// # Errors
+    /// The row of a pivot that vanishes.
+    pub fn count_below(&mut self, s: f64) -> Result<usize, usize> {
+        self.form(weights(0.0, -s), true);
+        self.factorizations += 1;
+        self.solver.factor_indefinite().map_err(|singular| singular.row)?;
+        Ok(self.negative())
+    }
+
+    /// The number of negative eigenvalues of the matrix factorised last, without those that joints make.
+    fn negative(&self) -> usize {
+        self.solver.negative_eigenvalues().saturating_sub(self.forces.multipliers.gaps.len())
     }
 
     /// Solves for the motion that a force on the unknowns of nodes causes, in place.
@@ -155,21 +174,34 @@ impl<'a> Pencil<'a> {
         }
     }
 
-    /// K of the state with the stresses that elements have at other positions of the nodes, and with other loads and multipliers, over the
-    /// unknowns of nodes and without the rows of joints.
-    pub fn stressed_matrix(&mut self, nodes: &[Node], loading: &Loading, multipliers: &[f64]) -> Sparse {
+    /// Adds K of the state with the stresses that elements have at other positions of the nodes, and with other loads and multipliers, times
+    /// a weight, to a sum of such matrices, which begins empty: the entries of the solver, without the rows of joints.
+    pub fn add_stressed(
+        &mut self,
+        weight: f64,
+        (nodes, loading, multipliers): (&[Node], &Loading, &[f64]),
+        sum: &mut Vec<f64>,
+    ) {
         let Pencil { at, forces, solver, assembly, .. } = self;
         forces.multipliers.values.copy_from_slice(multipliers);
         let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
         at.system.residual(&now, loading, forces);
         let now = Configuration { nodes: &self.nodes, lead: Some(nodes), ..now };
         assembly.stressed(at.system, &now, loading, forces, weights(0.0, 0.0), solver);
-        let matrix = solver.matrix(self.unknowns);
+        let values = solver.values();
+        sum.resize(values.len(), 0.0);
+        sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * *value);
         // The state itself again.
         self.forces.multipliers.values.copy_from_slice(&self.at.state.multipliers);
         let now = Configuration { nodes: &self.nodes, history: &self.at.state.history, dt: 0.0, lead: None };
         self.at.system.residual(&now, self.at.loading, &mut self.forces);
-        matrix
+    }
+
+    /// The sum of matrices that [`Pencil::add_stressed`] has formed, over the unknowns of nodes.
+    pub fn summed(&mut self, sum: &[f64]) -> Sparse {
+        self.solver.values().copy_from_slice(sum);
+        // Rows are summed by ascending columns, whatever the order of elimination.
+        Sparse::sum(&[(1.0, &self.solver.matrix(self.unknowns))])
     }
 
     /// Factorises K + σ C + σ² M with the matrices of bodies that spin.
@@ -185,10 +217,14 @@ impl<'a> Pencil<'a> {
                 solver.values()[slot] += shift * rate + turn;
             }
         });
-        self.solver.factor().map_err(|singular| singular.row)
+        match self.solver.factor_unless(self.at.stop) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(0),
+            Err(singular) => Err(singular.row),
+        }
     }
 
-    /// Factorises K + λ K', with K' symmetric. Returns the number of negative eigenvalues; `None` where it is singular.
+    /// Factorises K + λ K', with K' symmetric, where some of its eigenvalues are negative. Returns their number; `None` where it is singular.
     pub fn factor_along(&mut self, rate: &Sparse, lambda: f64) -> Option<usize> {
         self.form(weights(0.0, 0.0), true);
         self.factorizations += 1;
@@ -197,8 +233,8 @@ impl<'a> Pencil<'a> {
                 self.solver.values()[slot] += lambda * value;
             }
         }
-        self.solver.factor().ok()?;
-        Some(self.solver.negative_eigenvalues().saturating_sub(self.forces.multipliers.gaps.len()))
+        self.solver.factor_indefinite().ok()?;
+        Some(self.negative())
     }
 
     /// Solves as [`Pencil::solve`] does where some nodes are moved by supports, which joints follow.
@@ -292,8 +328,11 @@ impl<'a> Pencil<'a> {
         if self.at.is_stopped() { ModesFault::Stopped } else { ModesFault::NotConverged { wanted } }
     }
 
-    /// The fault of a matrix that is singular at this row.
+    /// The fault of a matrix that is singular at this row, or that a signal has left without factors.
     pub fn singular(&self, row: usize) -> ModesFault {
+        if self.at.is_stopped() {
+            return ModesFault::Stopped;
+        }
         let (label, direction) = self.at.name(row);
         ModesFault::Singular { label, direction }
     }

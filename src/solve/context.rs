@@ -6,6 +6,7 @@ use crate::model::{AnalysisKind, Model, Restraint};
 use crate::plan::Plan;
 use crate::state::Node;
 use crate::system::{Excitation, System};
+use std::sync::atomic::AtomicBool;
 
 /// Everything about a run that no step changes. It is built once and borrowed by all that computes.
 pub struct Context<'a> {
@@ -36,6 +37,8 @@ pub struct Context<'a> {
     pub wants_forces: bool,
     /// True where energies are wanted.
     pub wants_energy: bool,
+    /// The flag that ends the run when it is raised.
+    pub stop: &'a AtomicBool,
 }
 
 impl<'a> Context<'a> {
@@ -44,8 +47,8 @@ impl<'a> Context<'a> {
         model: &'a Model,
         plan: &'a Plan,
         system: &'a System,
-        wants_forces: bool,
-        wants_energy: bool,
+        [wants_forces, wants_energy]: [bool; 2],
+        stop: &'a AtomicBool,
     ) -> Context<'a> {
         let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
         let independent_nodes = independent_nodes(model, plan, system);
@@ -65,6 +68,7 @@ impl<'a> Context<'a> {
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
             wants_energy,
+            stop,
         }
     }
 

@@ -148,6 +148,8 @@ pub enum Failure {
         /// The largest residual forces, or those that are no numbers.
         largest: Vec<NamedResidual>,
     },
+    /// A signal has ended a step that would have been the first.
+    Stopped,
 }
 
 keep_either!(Failure {
@@ -171,6 +173,7 @@ keep_either!(Failure {
     17 => ErrorTooLarge { dt },
     18 => Modes(fault),
     19 => NotFinite { largest },
+    20 => Stopped,
 });
 
 /// A residual force, or a gap, with its name.
@@ -315,6 +318,7 @@ impl Failure {
                 format!("no convergence in {iterations} iterations{limit}; the largest unbalanced forces are")
             }
             Failure::Modes(fault) => fault.to_string(),
+            Failure::Stopped => "stopped by a signal in the first step".to_owned(),
             Failure::NotFinite { .. } => {
                 "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
             }

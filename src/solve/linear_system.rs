@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use crate::elements::Partners;
-use crate::linear::Solver;
+use crate::linear::{Singular, Solver};
 use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::Configuration;
 use crate::system::Multipliers;
@@ -14,14 +14,27 @@ pub struct LinearSystem {
     pub solver: Solver,
     /// The slots of the matrices of elements and nodes.
     pub assembly: Assembly,
+    /// True as long as nothing has been computed that a signal may cost.
+    pub loses_nothing: bool,
 }
 
-keep!(LinearSystem { solver } without { assembly });
+keep!(LinearSystem { solver } without { assembly, loses_nothing });
 
 impl LinearSystem {
     /// A matrix, to be assembled and factorised.
     pub fn new(solver: Solver, assembly: Assembly) -> LinearSystem {
-        LinearSystem { solver, assembly }
+        LinearSystem { solver, assembly, loses_nothing: true }
+    }
+
+    /// Factors the matrix. False where a signal has ended that, as it does before the first step of a run is done.
+    ///
+    /// # Errors
+    /// A pivot is zero or not finite.
+    pub fn factor(&mut self, cx: &Context) -> Result<bool, Singular> {
+        match self.loses_nothing {
+            true => self.solver.factor_unless(cx.stop),
+            false => self.solver.factor().map(|()| true),
+        }
     }
 
     /// Makes the structure anew where pairs of elements act for which the matrix has no room: those that may act soon have room then.

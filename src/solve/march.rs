@@ -123,6 +123,7 @@ impl March<'_, '_> {
     /// # Errors
     /// As for [`Recorder::notify`].
     pub fn notify(&mut self, step: &AcceptedStep) -> Result<(), Outcome> {
+        self.ws.matrix.loses_nothing &= step.dt == 0.0;
         self.recorder.notify(self.cx, self.ws, self.state, self.observer, step)
     }
 
@@ -142,7 +143,7 @@ impl March<'_, '_> {
 
     /// The outcome of a run that ends here by a failure.
     pub fn failed(&self, failure: Failure) -> Outcome {
-        Outcome::Failed { time: self.state.time, failure }
+        Outcome::of(failure, self.state.time)
     }
 
     /// Shows the state at t = 0 to the observer.

@@ -24,6 +24,16 @@ pub enum Outcome {
     Io(std::io::Error),
 }
 
+impl Outcome {
+    /// The end of a run at a time by what no shorter step may overcome.
+    pub(super) fn of(failure: Failure, time: f64) -> Outcome {
+        match failure {
+            Failure::Stopped => Outcome::Stopped { time },
+            failure => Outcome::Failed { time, failure },
+        }
+    }
+}
+
 /// The effort of a run so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {

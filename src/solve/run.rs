@@ -17,7 +17,7 @@ use super::stop_watch::StopWatch;
 use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace, Unseen};
 use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
-use crate::linear::TooLarge;
+use crate::linear::{Solver, TooLarge};
 use crate::model::{AnalysisKind, Model, StepLength};
 use crate::plan::Plan;
 use crate::snapshot::{Keep, Snapshot, keep, keep_either};
@@ -129,7 +129,7 @@ impl<'a> Run<'a> {
         // Load steps are judged by their work.
         let is_static = model.analysis.kind == AnalysisKind::Static;
         let wants_forces = is_static || wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
-        let context = Context::new(model, plan, system, wants_forces, wants_energy);
+        let context = Context::new(model, plan, system, [wants_forces, wants_energy], stop);
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);
@@ -167,6 +167,7 @@ impl<'a> Run<'a> {
     ) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, checkpoint, .. } = self;
         let mut checkpoint = checkpoint.take();
+        ws.matrix.loses_nothing &= checkpoint.is_none() && handover.is_none();
         let began = match (&mut checkpoint, handover.as_ref()) {
             (Some(snapshot), _) => {
                 recorder.keep(snapshot);
@@ -177,7 +178,7 @@ impl<'a> Run<'a> {
         };
         let mut state = match began {
             Ok(state) => state,
-            Err(failure) => return (Outcome::Failed { time: cx.model.analysis.begin, failure }, None),
+            Err(failure) => return (Outcome::of(failure, cx.model.analysis.begin), None),
         };
         if checkpoint.is_none() {
             recorder.begin(cx, &state, handover.as_ref());
@@ -462,6 +463,11 @@ impl<'a> Run<'a> {
     pub fn keep_end(&mut self, snapshot: &mut Snapshot) {
         self.recorder.initial_energy_mut().keep(snapshot);
         self.workspace.load_steps.keep(snapshot);
+    }
+
+    /// Gives back the memory of the matrix and its factor; what the run has found and leaves to the next stage stays.
+    pub fn forget_matrix(&mut self) {
+        self.workspace.matrix.solver = Solver::none();
     }
 
     /// Whether the value at which the stage was to stop has been reached; `None` where there is none.

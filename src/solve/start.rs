@@ -314,8 +314,9 @@ pub fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Res
             }
         }
         ws.factorizations += 1;
-        match matrix.solver.factor() {
-            Ok(()) => return Ok(massless),
+        match matrix.factor(cx) {
+            Ok(true) => return Ok(massless),
+            Ok(false) => return Err(Failure::Stopped),
             Err(singular) if oblique.contains(&singular.row) => {
                 return Err(Failure::singular(cx.model, cx.plan, cx.system, singular.row, (None, true)));
             }

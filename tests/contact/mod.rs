@@ -16,6 +16,7 @@ mod pairs;
 mod polyhedra;
 mod rubbing;
 mod sight;
+mod stages;
 mod stiffness;
 mod touch;
 

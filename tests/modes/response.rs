@@ -383,6 +383,36 @@ fn modes_beyond_the_frequencies_asked_answer_too() {
     assert!(differs(&found, exact) < 1e-9, "{found:?}");
 }
 
+/// Moved by its support, an oscillator with a damping ratio answers as in the closed form for damping of its motion relative to the support,
+/// whether or not something else is free, for which modes are found about another shift.
+#[test]
+fn damping_of_modes_is_that_of_the_motion_relative_to_supports() {
+    let (m, k, ratio) = (2.0, 710.6, 0.2);
+    for (history, more) in [("displacement", false), ("displacement", true), ("acceleration", true)] {
+        let free = "[[bodies]]\nname = \"free\"\ncenter = [0.0, 5.0, 0.0]\nmass = 2.0\ninertia = [0.3, 0.4, 0.5]\n";
+        let text = analysis(&format!(
+            "frequencies = [1.0, 2.5, 4.0]\nmethod = \"modal\"\nmodes = 8\ndamping_ratio = {ratio:?}"
+        )) + "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[masses]]\nat = \"b\"\nmass = 2.0\n\
+               [[links]]\nname = \"spring\"\nfrom = { node = \"a\" }\nto = { node = \"b\" }\nlaw = \"linear\"\nstiffness = 710.6\n\
+               [[supports]]\nat = \"b\"\nfix = [\"uy\", \"uz\"]\n\
+               [[supports]]\nat = \"a\"\nfix = [\"uy\", \"uz\"]\n"
+            + &format!("motion = {{ ux = {{ amplitude = \"shake\", scale = 0.1, history = \"{history}\" }} }}\n")
+            + if more { free } else { "" };
+        let text = shaken(text);
+        let (model, found) = (read_deck(&text), modes(&text));
+        let exact = |omega: f64| {
+            let natural = f64::sqrt(k / m);
+            let u = if history == "displacement" { 0.1 } else { -0.1 / (omega * omega) };
+            let left = C64::new(natural * natural - omega * omega, 2.0 * ratio * natural * omega);
+            C64::new(u, 0.0) * (C64::new(1.0, 0.0) + C64::new(omega * omega, 0.0) / left)
+        };
+        let found = motion(&found, node(&model, "b"), 0);
+        assert_eq!(found.len(), 3);
+        // What modes and solutions leave of one oscillator, whatever lies beside it.
+        assert!(differs(&found, exact) < 1e-9, "{history}, {more}: {found:?}");
+    }
+}
+
 /// Two undamped absorbers on a machine, asked where one of them would resonate alone: the machine rests, and the absorber takes the force.
 #[test]
 fn a_tuned_absorber_is_no_resonance() {

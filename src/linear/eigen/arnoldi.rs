@@ -40,14 +40,9 @@ pub struct Arnoldi {
 }
 
 impl Arnoldi {
-    /// The space of `width` starting vectors, the same in every run, with room for so many expansions.
-    pub fn new(operator: &mut dyn Operator, width: usize, room: usize, threads: bool) -> Arnoldi {
-        let length = operator.dimension();
-        let mut arnoldi = Arnoldi {
-            basis: Basis::new(length, (room + width).min(length) + 1, threads),
-            H: Vec::new(),
-            noise: Noise(1),
-        };
+    /// The space of `width` starting vectors, the same in every run.
+    pub fn new(operator: &mut dyn Operator, width: usize, threads: bool) -> Arnoldi {
+        let mut arnoldi = Arnoldi { basis: Basis::new(operator.dimension(), threads), H: Vec::new(), noise: Noise(1) };
         for _ in 0..width {
             arnoldi.start(operator);
         }
@@ -77,7 +72,7 @@ impl Arnoldi {
         }
         let length = dot(&w, &Dw).sqrt();
         if length > NEGLIGIBLE * before && length.is_normal() {
-            self.basis.push(&w, 1.0 / length);
+            self.basis.push(w, 1.0 / length);
             column.push(length);
         }
         column

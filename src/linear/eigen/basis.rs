@@ -1,4 +1,4 @@
-//! A growing set of long vectors, one after the other in memory. Sums keep their order whatever the number of threads.
+//! A growing set of long vectors, each with memory of its own. Sums keep their order whatever the number of threads.
 
 use rayon::prelude::*;
 
@@ -10,45 +10,45 @@ const LANES: usize = 8;
 /// Vectors of one length.
 pub(super) struct Basis {
     length: usize,
-    vectors: Vec<f64>,
+    vectors: Vec<Vec<f64>>,
     threads: bool,
 }
 
 impl Basis {
-    /// No vectors of this length, with room for some.
-    pub fn new(length: usize, room: usize, threads: bool) -> Basis {
-        Basis { length, vectors: Vec::with_capacity(length * room), threads }
+    /// No vectors of this length.
+    pub fn new(length: usize, threads: bool) -> Basis {
+        Basis { length, vectors: Vec::new(), threads }
     }
 
     /// Number of vectors.
     pub fn len(&self) -> usize {
-        self.vectors.len() / self.length.max(1)
+        self.vectors.len()
     }
 
     /// The k-th vector.
     pub fn vector(&self, k: usize) -> &[f64] {
-        &self.vectors[k * self.length..(k + 1) * self.length]
+        &self.vectors[k]
     }
 
     /// Adds a vector, times a factor.
-    pub fn push(&mut self, vector: &[f64], factor: f64) {
-        self.vectors.extend(vector.iter().map(|x| factor * x));
+    pub fn push(&mut self, mut vector: Vec<f64>, factor: f64) {
+        vector.iter_mut().for_each(|x| *x *= factor);
+        self.vectors.push(vector);
     }
 
     /// The scalar product of every vector with `x`.
     pub fn products(&self, x: &[f64]) -> Vec<f64> {
         if self.threads {
-            return self.vectors.par_chunks(self.length.max(1)).map(|vector| dot(vector, x)).collect();
+            return self.vectors.par_iter().map(|vector| dot(vector, x)).collect();
         }
-        self.vectors.chunks(self.length.max(1)).map(|vector| dot(vector, x)).collect()
+        self.vectors.iter().map(|vector| dot(vector, x)).collect()
     }
 
     /// x ← x − Σ factor × vector.
     pub fn subtract(&self, factors: &[f64], x: &mut [f64]) {
         let rows = |(chunk, x): (usize, &mut [f64])| {
-            for (k, factor) in factors.iter().enumerate() {
-                let from = k * self.length + chunk * CHUNK;
-                let vector = &self.vectors[from..from + x.len()];
+            for (factor, vector) in factors.iter().zip(&self.vectors) {
+                let vector = &vector[chunk * CHUNK..][..x.len()];
                 x.iter_mut().zip(vector).for_each(|(x, v)| *x -= factor * v);
             }
         };
@@ -67,19 +67,17 @@ impl Basis {
         sum
     }
 
-    /// Replaces the vectors by combinations of the first of them, each given by its factors, followed by the vectors from
-    /// `keep` on.
+    /// Replaces the vectors by combinations of the first of them, not more of these than there are, each given by its factors, followed by
+    /// the vectors from `keep` on.
     pub fn replace(&mut self, combinations: &[Vec<f64>], keep: usize) {
-        let (length, count) = (self.length, combinations.len());
-        let kept = self.vectors.split_off(keep * length);
+        let kept = self.vectors.split_off(keep);
         // Rows are independent of each other, so that the new vectors may stand where the old ones did.
         let first = combinations.first().map_or(0, Vec::len);
-        let (mut old, mut new) = (vec![0.0; first * CHUNK], vec![0.0; count * CHUNK]);
-        for from in (0..length).step_by(CHUNK) {
-            let rows = CHUNK.min(length - from);
-            for k in 0..first {
-                let at = k * length + from;
-                old[k * rows..(k + 1) * rows].copy_from_slice(&self.vectors[at..at + rows]);
+        let (mut old, mut new) = (vec![0.0; first * CHUNK], vec![0.0; combinations.len() * CHUNK]);
+        for from in (0..self.length).step_by(CHUNK) {
+            let rows = CHUNK.min(self.length - from);
+            for (old, vector) in old.chunks_mut(rows).zip(&self.vectors[..first]) {
+                old.copy_from_slice(&vector[from..from + rows]);
             }
             let old = &old;
             let combine = |(new, factors): (&mut [f64], &Vec<f64>)| {
@@ -88,19 +86,23 @@ impl Basis {
                     new.iter_mut().zip(old).for_each(|(new, old)| *new += factor * old);
                 }
             };
-            let new = &mut new[..count * rows];
+            let new = &mut new[..combinations.len() * rows];
             if self.threads {
                 new.par_chunks_mut(rows).zip(combinations).for_each(combine);
             } else {
                 new.chunks_mut(rows).zip(combinations).for_each(combine);
             }
-            for (k, new) in new.chunks(rows).enumerate() {
-                let at = k * length + from;
-                self.vectors[at..at + rows].copy_from_slice(new);
+            for (new, vector) in new.chunks(rows).zip(&mut self.vectors) {
+                vector[from..from + rows].copy_from_slice(new);
             }
         }
-        self.vectors.truncate(count * length);
+        self.vectors.truncate(combinations.len());
         self.vectors.extend(kept);
+    }
+
+    /// Hands over the first vectors, and forgets the others.
+    pub fn take(&mut self, count: usize) -> impl Iterator<Item = Vec<f64>> {
+        std::mem::take(&mut self.vectors).into_iter().take(count)
     }
 }
 

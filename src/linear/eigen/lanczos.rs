@@ -39,11 +39,22 @@ pub struct EigenPair {
     pub vector: Vec<f64>,
 }
 
+/// The values of the pairs that have converged.
+#[derive(Debug, Clone)]
+pub struct Converged {
+    /// Their eigenvalues θ, the largest magnitude first.
+    pub thetas: Vec<f64>,
+    /// An estimate of the one that follows them, if there is one.
+    pub next: Option<f64>,
+}
+
 /// A Krylov space of an operator.
 pub struct Lanczos {
     basis: Basis,
     /// Entries of H by columns; each of an expanded vector has a row for every vector there was then.
     H: Vec<Vec<f64>>,
+    /// The Ritz pairs that have converged last, where their vectors are still to be formed, and their number.
+    converged: Option<(Ritz, usize)>,
     noise: Noise,
     /// Applications of the operator so far.
     pub applications: usize,
@@ -63,11 +74,11 @@ struct Ritz {
 
 impl Lanczos {
     /// The space of `width` starting vectors of all frequencies, the same in every run.
-    pub fn new(operator: &mut dyn SymmetricOperator, width: usize, wanted: usize, threads: bool) -> Lanczos {
-        let room = most(wanted) + 2 * width;
+    pub fn new(operator: &mut dyn SymmetricOperator, width: usize, threads: bool) -> Lanczos {
         let mut lanczos = Lanczos {
-            basis: Basis::new(operator.dimension(), room.min(operator.dimension() + 1), threads),
+            basis: Basis::new(operator.dimension(), threads),
             H: Vec::new(),
+            converged: None,
             noise: Noise(1),
             applications: 0,
             restarts: 0,
@@ -105,7 +116,7 @@ impl Lanczos {
         }
         let length = dot(&w, &Bw).max(0.0).sqrt();
         if length > NEGLIGIBLE * before && length.is_normal() {
-            self.basis.push(&w, 1.0 / length);
+            self.basis.push(w, 1.0 / length);
             column.push(length);
         }
         column
@@ -145,22 +156,22 @@ impl Lanczos {
         })
     }
 
-    /// Ritz values after so many expansions in all, the largest magnitude first: first estimates.
+    /// Ritz values after so many expansions in all, or those there are when the search is stopped, the largest magnitude first: first estimates.
     pub fn probe(&mut self, operator: &mut dyn SymmetricOperator, expansions: usize) -> Vec<f64> {
-        while self.H.len() < expansions && self.expand(operator) {}
+        while self.H.len() < expansions && !operator.is_stopped() && self.expand(operator) {}
         self.ritz().map_or_else(Vec::new, |ritz| ritz.theta)
     }
 
-    /// Goes on until the `wanted` pairs of largest magnitude have residuals below `tolerance` times their values, and returns them
-    /// with one estimate beyond them, if there is one. Fewer are returned where the operator has no more; none where the
-    /// iteration does not come to its end within `limit` applications of the operator, or is stopped.
+    /// Goes on until the `wanted` pairs of largest magnitude have residuals below `tolerance` times their values, and returns these values;
+    /// fewer where the operator has no more, none where the iteration does not come to its end within `limit` applications of the
+    /// operator, or is stopped.
     pub fn converge(
         &mut self,
         operator: &mut dyn SymmetricOperator,
         wanted: usize,
         tolerance: f64,
         limit: usize,
-    ) -> Option<(Vec<EigenPair>, Option<f64>)> {
+    ) -> Option<Converged> {
         let most = most(wanted);
         let mut look = wanted + 2;
         loop {
@@ -180,7 +191,9 @@ impl Lanczos {
                 if there < wanted && self.start(operator, 1) {
                     continue;
                 }
-                return Some(self.pairs(&ritz, there));
+                let (thetas, next) = (ritz.theta[..there].to_vec(), ritz.theta.get(there).copied());
+                self.converged = Some((ritz, there));
+                return Some(Converged { thetas, next });
             }
             if self.applications > limit || operator.is_stopped() {
                 return None;
@@ -210,17 +223,27 @@ impl Lanczos {
         self.restarts += 1;
     }
 
-    /// The first pairs and the value that follows them.
-    fn pairs(&self, ritz: &Ritz, count: usize) -> (Vec<EigenPair>, Option<f64>) {
+    /// Leaves nothing of the space but the pairs that have converged, where they stand; a search that goes on starts anew beside them.
+    pub fn narrow(&mut self) {
+        let Some((ritz, count)) = self.converged.take() else { return };
         let (q, p) = (self.H.len(), self.basis.len());
-        let pair = |k: usize| {
-            // S y / θ = y + V r / θ, with the coefficients r of the residual.
-            let mut factors = ritz.s[k].clone();
+        // S y / θ = y + V r / θ, with the coefficients r of the residual.
+        let factors = |k: usize| {
             let rest = |i: usize| (0..q).map(|j| self.entry(i, j) * ritz.s[k][j]).sum::<f64>() / ritz.theta[k];
-            factors.extend((q..p).map(rest));
-            EigenPair { theta: ritz.theta[k], vector: self.basis.combine(&factors) }
+            ritz.s[k].iter().copied().chain((q..p).map(rest)).collect()
         };
-        ((0..count).map(pair).collect(), ritz.theta.get(count).copied())
+        let factors: Vec<Vec<f64>> = (0..count).map(factors).collect();
+        self.basis.replace(&factors, p);
+        let column = |k: usize| (0..count).map(|i| if i == k { ritz.theta[k] } else { 0.0 }).collect();
+        self.H = (0..count).map(column).collect();
+    }
+
+    /// The pairs that have converged, with the space given up.
+    pub fn into_pairs(mut self) -> Vec<EigenPair> {
+        self.narrow();
+        let thetas = (0..self.H.len()).map(|k| self.entry(k, k)).collect::<Vec<_>>();
+        let vectors = self.basis.take(thetas.len());
+        thetas.into_iter().zip(vectors).map(|(theta, vector)| EigenPair { theta, vector }).collect()
     }
 }
 

@@ -9,4 +9,4 @@ mod lanczos;
 
 pub use arnoldi::{Arnoldi, ComplexPair, Operator};
 pub use dense::Complex;
-pub use lanczos::{EigenPair, Lanczos, SymmetricOperator};
+pub use lanczos::{Converged, EigenPair, Lanczos, SymmetricOperator};

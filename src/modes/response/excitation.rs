@@ -105,17 +105,14 @@ fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, Mod
             if u == 0.0 {
                 continue;
             }
-            let known = all.iter_mut().find(|known| known.factor == factor && known.history == motion.history);
-            let moved = match known {
-                Some(known) => &mut known.moved,
-                None => {
-                    let moved = vec![Vec6::zeros(); model.nodes.len()];
-                    let (gaps, forces) = (vec![0.0; at.system.multipliers()], Default::default());
-                    all.push(SupportMotion { factor, history: motion.history, moved, gaps, forces });
-                    &mut all.last_mut().expect("one was added").moved
-                }
-            };
-            moved[restraint.node][restraint.dof] = u;
+            let is_alike = |known: &SupportMotion| known.factor == factor && known.history == motion.history;
+            let place = all.iter().position(is_alike).unwrap_or(all.len());
+            if place == all.len() {
+                let moved = vec![Vec6::zeros(); model.nodes.len()];
+                let (gaps, forces) = (vec![0.0; at.system.multipliers()], Default::default());
+                all.push(SupportMotion { factor, history: motion.history, moved, gaps, forces });
+            }
+            all[place].moved[restraint.node][restraint.dof] = u;
         }
     }
     if all.is_empty() {

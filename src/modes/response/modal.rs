@@ -4,7 +4,8 @@
 //! term of their inertia (mode acceleration and its next term; R. R. Craig & A. J. Kurdila, Fundamentals of Structural Dynamics (2006),
 //! chapter 11). With the shift s, at which K − s M is factorised, and P that removes the modes found,
 //!   x = Σ φ q + P (r + (ω² − s) S M r),   r = S f,   S = (K − s M)⁻¹.
-//! Supports that move carry the scene along as S would have it; what is left are forces of inertia and damping.
+//! Supports that move carry the scene along as S would have it; what is left are forces of inertia and damping. The damping ratio of modes is
+//! that of motions relative to what follows supports in statics: of that S leaves s/λ of the inertia of what it carries along.
 
 use super::super::fault::ModesFault;
 use super::super::gyroscopic::Gyroscopic;
@@ -122,6 +123,8 @@ struct Space<'p> {
     /// True where Ĉ is diagonal to rounding.
     diagonal: bool,
     shift: f64,
+    /// By mode, the damping by its ratio times s/λ; 0 of motions without stiffness, which have none.
+    carried: Vec<f64>,
 }
 
 /// A force whose response is known but for a factor at each frequency.
@@ -153,7 +156,11 @@ impl<'p> Space<'p> {
         let largest = damping.amax();
         let beside = |i: usize, j: usize| if i == j { 0.0 } else { damping[(i, j)].abs() };
         let coupled = (0..m).flat_map(|i| (0..m).map(move |j| (i, j))).any(|(i, j)| beside(i, j) > COUPLED * largest);
-        Space { pairs, damping, diagonal: !coupled, shift }
+        let stiffest = pairs.iter().map(|(lambda, _)| lambda.abs()).fold(0.0, f64::max);
+        let stiff = |lambda: f64| lambda > ZERO * stiffest;
+        let carried =
+            pairs.iter().map(|(lambda, _)| if stiff(*lambda) { 2.0 * ratio * shift / lambda.sqrt() } else { 0.0 });
+        Space { pairs, damping, diagonal: !coupled, shift, carried: carried.collect() }
     }
 
     /// What a force does.
@@ -273,6 +280,7 @@ impl Motion {
         let beyond = omega * omega - space.shift;
         let mut forces = DVector::from_element(space.pairs.len(), C64::new(0.0, 0.0));
         let mut sum: Vec<[C64; 6]> = Vec::new();
+        let mut carried = Vec::new();
         let mut add = |factor: C64, moved: &[Vec6]| {
             sum.resize(moved.len(), [C64::new(0.0, 0.0); 6]);
             for (sum, moved) in sum.iter_mut().zip(moved) {
@@ -295,6 +303,11 @@ impl Motion {
             add(factor, moved);
             act(factor * beyond, inertia, &rest[0], &mut add);
             act(factor * C64::new(0.0, -omega), damping, &rest[1], &mut add);
+            carried.push((factor * C64::new(0.0, -omega), inertia));
+        }
+        for (factor, inertia) in carried {
+            let each = forces.iter_mut().zip(&space.carried).zip(&inertia.modal);
+            each.for_each(|((sum, carried), inertia)| *sum += factor * *carried * *inertia);
         }
         if let Some(mode) = space.resonance(omega, &forces) {
             sum.iter_mut().for_each(|sum| sum.fill(C64::new(f64::INFINITY, f64::INFINITY)));

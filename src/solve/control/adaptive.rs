@@ -113,7 +113,7 @@ impl<C: StepController> CoverInterval for C {
                 Ok(None) => {}
                 Err(failure) => {
                     // The difference of two times is a length only to rounding.
-                    if length <= least || dt <= least {
+                    if length <= least || dt <= least || matches!(failure, Failure::Stopped) {
                         return Err(march.failed(failure));
                     }
                     if !matches!(failure, Failure::ErrorTooLarge { .. }) {

@@ -315,6 +315,9 @@ mod tests {
     use crate::plan::Plan;
     use crate::solve::start::start;
     use crate::system::System;
+    use std::sync::atomic::AtomicBool;
+
+    static NEVER: AtomicBool = AtomicBool::new(false);
 
     /// Steps that are refused, here by the limit, are not counted, before the first step and after it; the accelerations by which
     /// a blow is told are those of the steps that were taken.
@@ -357,7 +360,7 @@ interval = 1.0
         let model = model.unwrap_or_else(|| panic!("{}", drawn.join("\n")));
         let system = System::new(&model).unwrap();
         let plan = Plan::new(&model, &system, 1);
-        let cx = Context::new(&model, &plan, &system, true, false);
+        let cx = Context::new(&model, &plan, &system, [true, false], &NEVER);
         let mut ws = Workspace::new(&cx).unwrap();
         let mut stepper = CentralDifferenceStepper::new(&cx).unwrap();
         let mut state = start(&cx, &mut ws).unwrap();

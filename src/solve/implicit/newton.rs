@@ -483,12 +483,13 @@ impl Newton {
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             ws.factorizations += 1;
-            match matrix.solver.factor() {
-                Ok(()) if !search => {
+            match matrix.factor(cx) {
+                Ok(false) => return Err(Failure::Stopped),
+                Ok(true) if !search => {
                     self.searched = self.searched.map(|_| open);
                     return Ok(());
                 }
-                Ok(()) => {
+                Ok(true) => {
                     let (solver, dofs) = (&mut matrix.solver, &cx.plan.dofs);
                     let mechanism = mechanism::find(cx.system, dofs, solver, &now, weights, cx.length);
                     let Some(place) = mechanism else {

@@ -346,6 +346,9 @@ mod tests {
     use crate::system::System;
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
+    use std::sync::atomic::AtomicBool;
+
+    static NEVER: AtomicBool = AtomicBool::new(false);
 
     /// A free hub with an angled arm and a straight one, and a block at the end of the first.
     fn scene() -> Model {
@@ -442,7 +445,7 @@ interval = 1.0
         let model = scene();
         let system = System::new(&model).unwrap();
         let plan = Plan::new(&model, &system, 1);
-        let cx = Context::new(&model, &plan, &system, false, false);
+        let cx = Context::new(&model, &plan, &system, [false; 2], &NEVER);
         let mut turning = Turning::new(&cx).expect("two slender arms on a hub");
         let mut rng = StdRng::seed_from_u64(3);
         let mut number = |size: f64| rng.random_range(-size..size);
