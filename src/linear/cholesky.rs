@@ -10,9 +10,9 @@ use super::graph::Graph;
 use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
-use super::substitution::Factor;
+use super::substitution::Factored;
 use super::tree::Layout;
-use super::triangle::Triangle;
+use super::triangle::LowerTriangle;
 use crate::snapshot::{Keep, Snapshot};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
@@ -37,7 +37,7 @@ pub struct Cholesky {
     /// The external row at each position in the order of elimination.
     external: Vec<u32>,
     /// Where entries lie in `values`.
-    triangle: Triangle,
+    triangle: LowerTriangle,
     fronts: Fronts,
     /// The lower triangle, and the spare place at the end. Written by assembly.
     values: Vec<f64>,
@@ -78,7 +78,7 @@ impl Cholesky {
     /// The factor does not fit into memory.
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph).or_dissected(&graph).postordered(&graph);
-        let triangle = Triangle::new(&graph, &elimination);
+        let triangle = LowerTriangle::new(&graph, &elimination);
         memory::require(graph.unknowns(), elimination.nonzeros + triangle.entries())?;
         let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
         let too_large = |_| TooLarge { unknowns: graph.unknowns(), needed: bytes };
@@ -204,7 +204,7 @@ impl Cholesky {
         for (x, &row) in self.x.iter_mut().zip(&self.external) {
             *x = b[row as usize];
         }
-        self.fronts.solve(Factor { values: &self.L, definite: self.definite }, &mut self.x);
+        self.fronts.solve(Factored { values: &self.L, definite: self.definite }, &mut self.x);
         for (x, &row) in self.x.iter().zip(&self.external) {
             b[row as usize] = *x;
         }
@@ -223,7 +223,7 @@ impl Cholesky {
 }
 
 /// The pattern of the upper triangle in the order of elimination, by ascending columns and rows.
-fn upper_pattern(triangle: &Triangle) -> SymbolicSparseColMat<usize> {
+fn upper_pattern(triangle: &LowerTriangle) -> SymbolicSparseColMat<usize> {
     let n = triangle.rows();
     let mut start = vec![0; n + 1];
     triangle.each(&mut |row, _, _| start[row + 1] += 1);

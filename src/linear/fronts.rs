@@ -10,9 +10,9 @@
 use super::dense::{join, potrf, trsm};
 use super::indefinite::{ldlt, ldlt_scratch};
 use super::packed::Packed;
-use super::pool::Pool;
-use super::tree::{Front, Layout, Sizes, Tree};
-use super::triangle::Triangle;
+use super::pool::LendingPool;
+use super::tree::{Front, Layout, StackSizes, Tree};
+use super::triangle::LowerTriangle;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::prelude::{Reborrow, ReborrowMut};
@@ -38,7 +38,7 @@ pub(super) struct Fronts {
     /// The stacks of the supernodes above.
     stacks: Stacks,
     /// The stacks of subtrees, one for each thread.
-    pool: Pool<Stacks>,
+    pool: LendingPool<Stacks>,
     /// Subtrees and the halves of dense operations run side by side.
     pub(super) threads: bool,
     /// The solution above the subtrees, by position. Written and read by [`super::substitution`].
@@ -64,7 +64,7 @@ pub(super) struct Vectors {
 }
 
 impl Vectors {
-    fn new(sizes: Sizes) -> Vectors {
+    fn new(sizes: StackSizes) -> Vectors {
         Vectors { stack: vec![0.0; sizes.vectors], front: vec![0.0; sizes.tallest] }
     }
 }
@@ -82,7 +82,7 @@ struct Stacks {
 }
 
 impl Stacks {
-    fn new(sizes: Sizes) -> Stacks {
+    fn new(sizes: StackSizes) -> Stacks {
         let definite = cholesky_in_place_scratch::<f64>(sizes.widest, Par::Seq, Default::default());
         let (indefinite, scaled) = ldlt_scratch(sizes.widest, sizes.tallest);
         Stacks {
@@ -98,7 +98,7 @@ impl Stacks {
 #[derive(Clone, Copy)]
 pub(super) struct Matrix<'a> {
     /// Where its entries lie.
-    pub triangle: &'a Triangle,
+    pub triangle: &'a LowerTriangle,
     pub values: &'a [f64],
     /// As L Lᵀ, not as L D Lᵀ.
     pub definite: bool,
@@ -111,7 +111,7 @@ impl Fronts {
     pub fn new(layout: Layout, threads: usize) -> Self {
         let (largest, side_by_side) = layout.side_by_side(threads);
         let Layout { tree, subtrees, above: (above, sizes) } = layout;
-        let subtree = |(supernodes, sizes): (Range<usize>, Sizes)| Subtree {
+        let subtree = |(supernodes, sizes): (Range<usize>, StackSizes)| Subtree {
             supernodes,
             updates: vec![0.0; sizes.left],
             left: sizes.left,
@@ -124,7 +124,7 @@ impl Fronts {
             above,
             vectors: Vectors::new(sizes),
             stacks: Stacks::new(sizes),
-            pool: Pool::new((0..side_by_side).map(|_| Stacks::new(largest))),
+            pool: LendingPool::new((0..side_by_side).map(|_| Stacks::new(largest))),
             threads: threads > 1,
         }
     }
@@ -174,7 +174,7 @@ impl Tree {
         of: &mut [Subtree],
         K: Matrix,
         (L, base): (&mut [f64], usize),
-        pool: &Pool<Stacks>,
+        pool: &LendingPool<Stacks>,
         threads: bool,
     ) -> Result<(), usize> {
         match of {

@@ -3,14 +3,14 @@
 use std::sync::{Condvar, Mutex, PoisonError};
 
 /// Things to be borrowed by one task at a time.
-pub(super) struct Pool<T> {
+pub(super) struct LendingPool<T> {
     free: Mutex<Vec<T>>,
     returned: Condvar,
 }
 
-impl<T> Pool<T> {
-    pub fn new(things: impl Iterator<Item = T>) -> Pool<T> {
-        Pool { free: Mutex::new(things.collect()), returned: Condvar::new() }
+impl<T> LendingPool<T> {
+    pub fn new(things: impl Iterator<Item = T>) -> LendingPool<T> {
+        LendingPool { free: Mutex::new(things.collect()), returned: Condvar::new() }
     }
 
     /// Runs a task with one of the things. Where all are taken it waits, so tasks must not wait for each other.
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn more_tasks_than_things_take_turns() {
-        let pool = Pool::new([0, 0].into_iter());
+        let pool = LendingPool::new([0, 0].into_iter());
         std::thread::scope(|scope| {
             for _ in 0..8 {
                 scope.spawn(|| (0..100).for_each(|_| pool.with(|count| *count += 1)));

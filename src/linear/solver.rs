@@ -177,7 +177,8 @@ impl Solver {
         let megabytes = (size_of::<f64>() * numbers) as f64 / 1e6;
         let threads = if self.is_worth_threads() { "all threads" } else { "one thread" };
         format!(
-            "{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {megabytes:.1} MB, {flops:.3e} flops, {ordering} order, {threads}"
+            "{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {megabytes:.1} MB, {flops:.3e} flops, {ordering} order, \
+             {threads}"
         )
     }
 

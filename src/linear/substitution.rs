@@ -9,7 +9,7 @@ use super::tree::Tree;
 
 /// A factor of a matrix.
 #[derive(Clone, Copy)]
-pub(super) struct Factor<'a> {
+pub(super) struct Factored<'a> {
     pub values: &'a [f64],
     /// L of L Lᵀ, not L with D on its diagonal.
     pub definite: bool,
@@ -17,7 +17,7 @@ pub(super) struct Factor<'a> {
 
 impl Fronts {
     /// x ← K⁻¹ x, in the order of elimination.
-    pub fn solve(&mut self, L: Factor, x: &mut [f64]) {
+    pub fn solve(&mut self, L: Factored, x: &mut [f64]) {
         let Fronts { tree, subtrees, above, vectors, threads, done, .. } = self;
         tree.forward_all(subtrees, L, x, 0, *threads);
         for &s in above.iter() {
@@ -35,7 +35,7 @@ impl Fronts {
 
 impl Tree {
     /// Forward substitution in subtrees; `x` begins at `base` of the whole vector.
-    fn forward_all(&self, of: &mut [Subtree], L: Factor, x: &mut [f64], base: usize, threads: bool) {
+    fn forward_all(&self, of: &mut [Subtree], L: Factored, x: &mut [f64], base: usize, threads: bool) {
         match of {
             [] => {}
             [Subtree { supernodes, vectors, .. }] => {
@@ -59,7 +59,15 @@ impl Tree {
 
     /// Forward substitution in supernode `s`, whose columns `x` holds. Its update vector, which changes the rows below, comes
     /// onto the stack in place of those of its children.
-    fn forward(&self, s: usize, L: Factor, x: &mut [f64], vectors: &mut Vectors, subtrees: &[Subtree], threads: bool) {
+    fn forward(
+        &self,
+        s: usize,
+        L: Factored,
+        x: &mut [f64],
+        vectors: &mut Vectors,
+        subtrees: &[Subtree],
+        threads: bool,
+    ) {
         let front = &self.fronts[s];
         let f = &mut vectors.front[..front.height()];
         f[..front.columns].copy_from_slice(x);
@@ -80,7 +88,14 @@ impl Tree {
 
     /// Backward substitution in subtrees; `x` begins at `base` of the whole vector, and `done` holds the solution in rows outside
     /// the subtree.
-    fn backward_all(&self, of: &mut [Subtree], L: Factor, (x, base): (&mut [f64], usize), done: &[f64], threads: bool) {
+    fn backward_all(
+        &self,
+        of: &mut [Subtree],
+        L: Factored,
+        (x, base): (&mut [f64], usize),
+        done: &[f64],
+        threads: bool,
+    ) {
         match of {
             [] => {}
             [Subtree { supernodes, vectors, .. }] => {
@@ -118,7 +133,7 @@ impl Tree {
     }
 
     /// Backward substitution in supernode `s`: `f` holds its columns, which are solved for, and the solution in the rows below.
-    fn backward(&self, s: usize, L: Factor, f: &mut [f64], threads: bool) {
+    fn backward(&self, s: usize, L: Factored, f: &mut [f64], threads: bool) {
         let front = &self.fronts[s];
         let panel = Panel::new(front, &L.values[self.panel(s)], !L.definite);
         panel.backward(&mut f[..panel.height], threads);

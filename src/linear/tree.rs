@@ -3,7 +3,7 @@
 
 use super::packed::Packed;
 use super::pivot::PIVOT_TOLERANCE;
-use super::triangle::Triangle;
+use super::triangle::LowerTriangle;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use std::ops::Range;
 
@@ -25,7 +25,7 @@ pub(super) struct Tree {
     /// Where rows follow each other in the front of the parent too: the first of each such run, counted from the supernode's own first, and
     /// its place in the front of the parent.
     pub runs: Vec<[u32; 2]>,
-    /// The row of the front in which each block of the matrix begins, by the blocks of [`Triangle`].
+    /// The row of the front in which each block of the matrix begins, by the blocks of [`LowerTriangle`].
     pub blocks: Vec<u32>,
 }
 
@@ -70,7 +70,7 @@ impl Front {
 
 /// Numbers of memory to walk through supernodes.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Sizes {
+pub(super) struct StackSizes {
     /// The highest that each stack of update matrices becomes.
     pub stacks: [usize; 2],
     /// Update matrices that wait for supernodes above the subtree.
@@ -86,12 +86,12 @@ pub(super) struct Sizes {
 pub(super) struct Layout {
     pub tree: Tree,
     /// Ranges of supernodes that are whole subtrees, ascending.
-    pub subtrees: Vec<(Range<usize>, Sizes)>,
-    pub above: (Vec<usize>, Sizes),
+    pub subtrees: Vec<(Range<usize>, StackSizes)>,
+    pub above: (Vec<usize>, StackSizes),
 }
 
 impl Layout {
-    pub fn new(symbolic: &SymbolicSupernodalCholesky<usize>, triangle: &Triangle) -> Layout {
+    pub fn new(symbolic: &SymbolicSupernodalCholesky<usize>, triangle: &LowerTriangle) -> Layout {
         let mut tree = Tree::new(symbolic, triangle);
         let (ranges, above) = tree.cut();
         let mut subtrees = Vec::with_capacity(ranges.len());
@@ -104,24 +104,24 @@ impl Layout {
     }
 
     /// What serves for every subtree, and how many of them run side by side on so many threads.
-    pub fn side_by_side(&self, threads: usize) -> (Sizes, usize) {
-        let largest = self.subtrees.iter().fold(Sizes::default(), |largest, (_, sizes)| largest.max(*sizes));
+    pub fn side_by_side(&self, threads: usize) -> (StackSizes, usize) {
+        let largest = self.subtrees.iter().fold(StackSizes::default(), |largest, (_, sizes)| largest.max(*sizes));
         (largest, threads.clamp(1, self.subtrees.len().max(1)))
     }
 
     /// Numbers of all update matrices that are held at once.
     pub fn updates(&self, threads: usize) -> usize {
         let (largest, count) = self.side_by_side(threads);
-        let stacks = |sizes: Sizes| sizes.stacks.iter().sum::<usize>();
+        let stacks = |sizes: StackSizes| sizes.stacks.iter().sum::<usize>();
         let left = self.subtrees.iter().map(|(_, sizes)| sizes.left).sum::<usize>();
         count * stacks(largest) + stacks(self.above.1) + left
     }
 }
 
-impl Sizes {
+impl StackSizes {
     /// What serves for both.
-    pub fn max(self, other: Sizes) -> Sizes {
-        Sizes {
+    pub fn max(self, other: StackSizes) -> StackSizes {
+        StackSizes {
             stacks: [0, 1].map(|level| self.stacks[level].max(other.stacks[level])),
             left: self.left.max(other.left),
             vectors: self.vectors.max(other.vectors),
@@ -132,7 +132,7 @@ impl Sizes {
 }
 
 impl Tree {
-    pub fn new(symbolic: &SymbolicSupernodalCholesky<usize>, triangle: &Triangle) -> Self {
+    pub fn new(symbolic: &SymbolicSupernodalCholesky<usize>, triangle: &LowerTriangle) -> Self {
         let count = symbolic.n_supernodes();
         let rows_of = |s: usize| symbolic.supernode(s).pattern();
         let mut tree = Tree {
@@ -190,7 +190,7 @@ impl Tree {
     }
 
     /// The rows of children and of blocks of the matrix in each front.
-    fn find_places(&mut self, triangle: &Triangle) {
+    fn find_places(&mut self, triangle: &LowerTriangle) {
         self.places = vec![0; self.rows.len()];
         // The row of each position in the front at hand.
         let mut local = vec![0; triangle.rows()];
@@ -264,7 +264,7 @@ impl Tree {
     }
 
     /// The position of the first pivot of `L` that vanishes beside the diagonal entry of the matrix `K`.
-    pub fn vanishing(&self, triangle: &Triangle, K: &[f64], L: &[f64], definite: bool) -> Option<usize> {
+    pub fn vanishing(&self, triangle: &LowerTriangle, K: &[f64], L: &[f64], definite: bool) -> Option<usize> {
         let mut k = 0;
         for front in &self.fronts {
             for j in 0..front.columns {
@@ -321,8 +321,13 @@ impl Tree {
 
     /// Places update matrices and vectors of the given supernodes, by walking through them as a factorisation does. Update matrices wait on
     /// two stacks, one for every other level of the tree, but those for supernodes from `end` on.
-    pub fn lay_out(&mut self, supernodes: impl Iterator<Item = usize>, subtree: Option<usize>, end: usize) -> Sizes {
-        let (mut top, mut vector, mut sizes) = ([0; 2], 0, Sizes::default());
+    pub fn lay_out(
+        &mut self,
+        supernodes: impl Iterator<Item = usize>,
+        subtree: Option<usize>,
+        end: usize,
+    ) -> StackSizes {
+        let (mut top, mut vector, mut sizes) = ([0; 2], 0, StackSizes::default());
         for s in supernodes {
             for child in self.children(s).map(|child| &self.fronts[child]).filter(|child| child.subtree == subtree) {
                 top[child.level] -= Packed::new(child.rows).len();

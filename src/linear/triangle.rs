@@ -7,7 +7,7 @@ use super::graph::Graph;
 /// The lower triangle of a matrix of dense blocks. Groups are counted by their place in the order of elimination, rows by their
 /// position in it. A column holds the rows of its own group from the diagonal down, then those of all later groups that it couples
 /// with, ascending.
-pub(super) struct Triangle {
+pub(super) struct LowerTriangle {
     /// The first row of each group, and the number of all rows at the end.
     first: Vec<u32>,
     /// The first block below the diagonal of each group, and the number of all at the end.
@@ -20,7 +20,7 @@ pub(super) struct Triangle {
     start: Vec<usize>,
 }
 
-impl Triangle {
+impl LowerTriangle {
     pub fn new(graph: &Graph, elimination: &Elimination) -> Self {
         let (mut first, mut block, mut start) = (vec![0], vec![0], vec![0]);
         let (mut coupled, mut above) = (Vec::<u32>::new(), Vec::new());
@@ -40,7 +40,7 @@ impl Triangle {
             // Each column is shorter by one than that before it.
             start.push(start[k] + (0..graph.sizes[g]).map(|j| height - j).sum::<usize>());
         }
-        Triangle { first, block, coupled, above, start }
+        LowerTriangle { first, block, coupled, above, start }
     }
 
     /// Number of groups.
@@ -89,7 +89,7 @@ impl Triangle {
         self.block[k] as usize..self.block[k + 1] as usize
     }
 
-    /// The later group of each block of [`Triangle::blocks`].
+    /// The later group of each block of [`LowerTriangle::blocks`].
     pub fn coupled(&self, k: usize) -> &[u32] {
         &self.coupled[self.blocks(k)]
     }
