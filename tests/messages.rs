@@ -965,6 +965,15 @@ fn contacts() {
     let own = r#"shape = "sphere", body = "block", radius = 0.1"#;
     assert_snapshot!("contact_with_itself", contact(own, "with = [\"knee_left\", \"block\"]"));
     assert_snapshot!("contact_zone", contact(plane, "with = \"portal\"\nstiffness = 0.0\nfriction = 0.1"));
+    let multipliers = "with = \"portal\"\nstiffness = 1e5\nmethod = \"augmented-lagrangian\"\npenetration_tolerance = 0.0\nrestitution = 0.5";
+    assert_snapshot!("contact_multipliers_in_motion", contact(plane, multipliers));
+    let springs = "with = \"portal\"\nstiffness = 1e5\npenetration_tolerance = 1e-6\nmethod = \"penalty\"";
+    assert_snapshot!("contact_springs", contact(plane, springs));
+    assert_snapshot!("contact_method", contact(plane, "with = \"portal\"\nmethod = \"uzawa\""));
+    let zone = "with = \"portal\"\nstiffness = 0.0\nmethod = \"augmented-lagrangian\"";
+    assert_snapshot!("contact_multipliers_of_zone", contact(plane, zone));
+    let own_faces = "[[contacts]]\nname = \"touch\"\nsurface = { part = \"portal\" }\nwith = \"block\"\nmethod = \"augmented-lagrangian\"\n";
+    assert_snapshot!("contact_multipliers_of_faces", portal_and(own_faces));
     assert_snapshot!("contact_missing", portal_and("[[contacts]]\n[[contacts]]\nname = \"b\"\nsurface = {}"));
     let inside = r#"shape = "sphere", center = [0.0, 0.0, 2.0], radius = 0.1"#;
     assert_snapshot!("contact_closed", contact(inside, "with = \"portal\"\nstiffness = 1e5"));

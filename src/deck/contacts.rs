@@ -34,8 +34,13 @@ pub struct Contact {
     /// shells, half the smaller side of a beam's section, the radius of a sphere or a capsule; else 0.
     pub radius: Maybe<f64>,
     /// Penalty stiffness, force per penetration of each point, also for friction. 0: a clearance monitor,
-    /// nothing acts. Default in dynamics: by material, size, weight and speed of what touches; `check` says it.
+    /// nothing acts. Default in dynamics, and with multipliers: by material, size, weight and speed of what touches; `check` says it.
     pub stiffness: Maybe<f64>,
+    /// What keeps things apart. Default: "penalty".
+    pub method: Maybe<ContactMethod>,
+    /// With "augmented-lagrangian": the largest depth, and elastic slip of a load step, that are left, in units of length. Default: 1e-8 of
+    /// the smallest size of what touches.
+    pub penetration_tolerance: Maybe<f64>,
     /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1. Default: 1, nothing is
     /// lost. For a restitution of 0 give `damping`.
     pub restitution: Maybe<f64>,
@@ -46,6 +51,18 @@ pub struct Contact {
     /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
     /// boxes, ends of capsules and rims of cylinders, at most 100. Default: 0.
     pub points: Maybe<u64>,
+}
+
+/// What keeps things apart that touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactMethod {
+    /// Springs of the stiffness given, which are pressed in.
+    #[default]
+    Penalty,
+    /// Multipliers besides, in load steps of static analyses: nothing is pressed in, whatever the stiffness, and what sticks does not creep.
+    /// For points, nodes of parts and spheres on shapes, and for bodies on planes and cylinders.
+    AugmentedLagrangian,
 }
 
 impl PartTable for Contact {

@@ -1,5 +1,6 @@
 //! The numbers of a contact law, from the deck and the masses that meet.
 
+use super::contact_method::{self, is_augmented};
 use super::contact_opposite::Opposite;
 use super::contact_stiffness::{ChosenStiffness, Meets};
 use super::data::{AnalysisKind, Mass, StepLength};
@@ -71,14 +72,17 @@ impl LawReader<'_, '_> {
         let meeting = self.meeting(opposite, &points, &levers);
         let chosen = match &contact.stiffness {
             Some(_) => None,
-            None => match self.chosen_stiffness(&meeting, opposite, &points) {
+            None => match self.chosen_stiffness(contact, &meeting, opposite, &points) {
                 Ok(chosen) => Some(chosen),
                 Err(hint) => return report.error_with(owner.span, format!("{} needs `stiffness`", owner.what), hint),
             },
         };
         let given = contact.stiffness.as_ref().map(|at| at.value);
         let stiffness = given.or(chosen.as_ref().map(|chosen| chosen.stiffness))?;
-        if let Some(chosen) = &chosen {
+        let sizes = (self.size(opposite, touching), self.extent());
+        let by_points = touching.1.is_empty() && !matches!(opposite, Opposite::Facets(_));
+        let tolerance = contact_method::tolerance(self.scene, owner, contact, by_points, sizes, report);
+        if let Some(chosen) = chosen.as_ref().filter(|_| tolerance.is_none()) {
             self.check_step(owner, &meeting, stiffness, report);
             if chosen.rests_on_time {
                 let message = format!(
@@ -89,15 +93,21 @@ impl LawReader<'_, '_> {
                 report.warn(owner.span, message, "give `stiffness`: mass times the square of speed over depth");
             }
         }
-        Some((self.law(contact, &meeting, stiffness), chosen.map(|chosen| chosen.reason)))
+        let law = ContactLaw { tolerance, ..self.law(contact, &meeting, stiffness) };
+        Some((law, chosen.map(|chosen| chosen.reason)))
+    }
+
+    /// The extent of the scene from its first node.
+    fn extent(&self) -> f64 {
+        let first = self.topology.x(0);
+        self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max)
     }
 
     fn law(&self, contact: &words::Contact, meeting: &Meeting, stiffness: f64) -> ContactLaw {
         let dynamic = self.scene.analysis.kind == AnalysisKind::Dynamic;
         let mass = if meeting.least.is_finite() { meeting.least } else { meeting.mean };
         let frequency = if mass > 0.0 { (stiffness / mass).sqrt() } else { f64::INFINITY };
-        let first = self.topology.x(0);
-        let extent = self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max);
+        let extent = self.extent();
         // An approach that sinks in no deeper than the weight does is no impact. Where there is no weight, a trace of length.
         let floor = (self.gravity.norm() / frequency).max(if mass > 0.0 { 1e-7 * extent * frequency } else { 0.0 });
         let loss = match (&contact.restitution, &contact.damping) {
@@ -115,6 +125,7 @@ impl LawReader<'_, '_> {
             duration: TAU / frequency,
             near: 0.01 * extent,
             touching: if dynamic { 0.0 } else { TOUCHING * extent },
+            tolerance: None,
             dynamic,
         }
     }
@@ -159,13 +170,19 @@ impl LawReader<'_, '_> {
     /// The stiffness by what touches, or why none can be chosen.
     fn chosen_stiffness(
         &self,
+        contact: &words::Contact,
         meeting: &Meeting,
         opposite: Opposite,
         points: &[ContactPoint],
     ) -> Result<ChosenStiffness, &'static str> {
         if !self.scene.analysis.has_inertia() {
-            return Err(
-                "in a static analysis nothing says how stiff it should be: give force over the penetration that may be",
+            let chosen = match is_augmented(contact) {
+                true => self.meets(opposite, points).stiffness_under_loads(meeting.mean),
+                false => None,
+            };
+            return chosen.ok_or(
+                "in a static analysis nothing says how stiff it should be: give force over the penetration that may be; with \
+                 `method = \"augmented-lagrangian\"` hardly any is left, and any stiffness will do",
             );
         }
         if meeting.mean <= 0.0 {

@@ -72,6 +72,20 @@ impl Meets<'_, '_> {
         ChosenStiffness { stiffness, reason, rests_on_time }
     }
 
+    /// The stiffness from which load steps find multipliers, which it does not decide: by material, or by weight and loads on the mass that
+    /// meets. `None` where the deck says nothing of these.
+    pub fn stiffness_under_loads(&self, mass: f64) -> Option<ChosenStiffness> {
+        if let Some((stiffness, part)) = self.softest_part() {
+            let reason = format!("E A over the extent of `{part}`");
+            return Some(ChosenStiffness { stiffness, reason, rests_on_time: false });
+        }
+        let forces = self.whole_deck().loads.iter().filter_map(|load| load.force.as_ref());
+        let force = mass * self.gravity + forces.map(|at| vec3(at).norm()).sum::<f64>();
+        let depth = SUNK * self.size();
+        let reason = format!("weight and loads of {} press {} in", short(force), short(depth));
+        (force > 0.0).then(|| ChosenStiffness { stiffness: force / depth, reason, rests_on_time: false })
+    }
+
     /// The least stiffness of the deformable parts that touch, by their names.
     fn softest_part(&self) -> Option<(f64, &str)> {
         let mut touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();

@@ -192,6 +192,8 @@ fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Opti
     let is_zone = contact.stiffness.as_ref().is_some_and(|at| at.value == 0.0);
     if is_zone {
         let keys = [
+            ("method", span(&contact.method)),
+            ("penetration_tolerance", span(&contact.penetration_tolerance)),
             ("restitution", span(&contact.restitution)),
             ("damping", span(&contact.damping)),
             ("friction", span(&contact.friction)),

@@ -17,6 +17,7 @@ mod choose_scheme;
 mod coincidence;
 mod contact_faces;
 mod contact_law;
+mod contact_method;
 mod contact_opposite;
 mod contact_points;
 mod contact_stiffness;

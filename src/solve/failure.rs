@@ -17,7 +17,7 @@ pub enum Failure {
         label: String,
         /// The name of the degree of freedom or constraint.
         direction: &'static str,
-        /// A part there that would resist, but is open or slack.
+        /// A part there that would resist, but is open or slack: its name in quotes, and the gap of a contact.
         open: Option<String>,
         /// True for the first matrix of a run that nothing has moved yet: shorter steps do not help.
         at_start: bool,
@@ -32,7 +32,7 @@ pub enum Failure {
         direction: [f64; 3],
         /// True where what acts there pushes the node away.
         buckles: bool,
-        /// A part there that would hold it, but is open or slack.
+        /// A part there that would hold it, but is open or slack, likewise.
         open: Option<String>,
     },
     /// The iteration did not converge.
@@ -41,7 +41,7 @@ pub enum Failure {
         iterations: usize,
         /// True for a load step, beyond which there may be no equilibrium nearby.
         load_control: bool,
-        /// The part that has opened or gone slack last, while it is.
+        /// The part that has opened or gone slack last, while it is, by its name in quotes.
         open: Option<String>,
         /// The largest residual forces.
         largest: Vec<NamedResidual>,
@@ -81,6 +81,13 @@ pub enum Failure {
     ContactNotResolved {
         /// The name of the contact.
         name: String,
+    },
+    /// A contact with multipliers is not closed to its tolerance.
+    ContactNotClosed {
+        /// The name of the contact.
+        name: String,
+        /// By how much it is out, over the tolerance.
+        out: f64,
     },
     /// The ends of a bushing have turned against each other by half a turn.
     BushingTurnedOver {
@@ -174,6 +181,7 @@ keep_either!(Failure {
     18 => Modes(fault),
     19 => NotFinite { largest },
     20 => Stopped,
+    21 => ContactNotClosed { name, out },
 });
 
 /// A residual force, or a gap, with its name.
@@ -262,7 +270,7 @@ fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, op
     let why = match (buckles, open) {
         (true, _) => "what acts there is compressed and pushes it away".to_owned(),
         (false, None) => "nothing holds it".to_owned(),
-        (false, Some(name)) => format!("nothing holds it, as `{name}` is open or slack"),
+        (false, Some(name)) => format!("nothing holds it, as {name} is open or slack"),
     };
     format!(
         "`{label}` has no {what}, and {there} ({x}, {y}, {z}) {why}: it has no motion to compute; give it a mass \
@@ -294,7 +302,7 @@ impl Failure {
             Failure::Singular { label, direction, open, .. } => {
                 let open = open.as_ref().map_or_else(String::new, |name| {
                     format!(
-                        "; `{name}` is open or slack there: close it, or hold the node by a soft spring until it closes"
+                        "; {name} is open or slack there: close it, or hold the node by a soft spring until it closes"
                     )
                 });
                 format!(
@@ -309,7 +317,7 @@ impl Failure {
             Failure::NotConverged { iterations, load_control, open, .. } => {
                 let limit = match (open, load_control) {
                     (Some(name), _) => format!(
-                        " (`{name}` has opened or gone slack, and may have been all that held the structure: add a support or a \
+                        " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a \
                          soft spring)"
                     ),
                     (None, true) => " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned(),
@@ -330,6 +338,10 @@ impl Failure {
             Failure::ContactNotResolved { name } => format!(
                 "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
                  resolved; where shorter steps do not help, `stiffness` is too low for the speed"
+            ),
+            Failure::ContactNotClosed { name, out } => format!(
+                "contact `{name}` is still out by {out:.1e} times its `penetration_tolerance` after a hundred equilibria: where its \
+                 `stiffness` is far below that of what it presses, each brings it little nearer (a larger one, or a larger tolerance)"
             ),
             Failure::BushingTurnedOver { name } => format!(
                 "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \

@@ -43,7 +43,17 @@ enum ContactBlock<'a> {
     Facets(&'a FacetContacts),
 }
 
-impl ContactBlock<'_> {
+impl<'a> ContactBlock<'a> {
+    /// What a group of contacts is; `None` for all others.
+    fn of(group: &'a Group) -> Option<ContactBlock<'a>> {
+        let any = group.block.as_any()?;
+        let points = any.downcast_ref().map(ContactBlock::Points);
+        let convex = || any.downcast_ref().map(ContactBlock::Pairs);
+        let heap = || any.downcast_ref().map(ContactBlock::Heap);
+        let facets = || any.downcast_ref().map(ContactBlock::Facets);
+        points.or_else(convex).or_else(heap).or_else(facets)
+    }
+
     fn longest_step(&self, history: &[f64]) -> f64 {
         match self {
             ContactBlock::Points(block) => contact::longest_step(block, history),
@@ -108,6 +118,12 @@ impl ContactBlock<'_> {
     }
 }
 
+/// The least gap of a contact at the start of a step, by its history, where all of it is open; `None` for other groups.
+pub fn open_gap(group: &Group, history: &[f64]) -> Option<f64> {
+    let gap = ContactBlock::of(group)?.last_gap(history);
+    (gap > 0.0 && gap.is_finite()).then_some(gap)
+}
+
 impl System {
     /// True where the scene has contacts.
     pub fn has_contacts(&self) -> bool {
@@ -131,14 +147,7 @@ impl System {
     }
 
     fn contact_groups(&self) -> impl Iterator<Item = (&Group, ContactBlock<'_>)> {
-        self.groups[self.contacts..].iter().filter_map(|group| {
-            let any = group.block.as_any()?;
-            let points = any.downcast_ref().map(ContactBlock::Points);
-            let convex = || any.downcast_ref().map(ContactBlock::Pairs);
-            let heap = || any.downcast_ref().map(ContactBlock::Heap);
-            let facets = || any.downcast_ref().map(ContactBlock::Facets);
-            Some((group, points.or_else(convex).or_else(heap).or_else(facets)?))
-        })
+        self.groups[self.contacts..].iter().filter_map(|group| Some((group, ContactBlock::of(group)?)))
     }
 
     /// The contact, by its index in [`Model::parts`], with an impact after `state` that is not resolved by a step whose
@@ -156,6 +165,21 @@ impl System {
         self.contact_groups()
             .find(|(group, block)| block.misses(start, &group.configuration(now)))
             .map(|(group, _)| group.part)
+    }
+
+    /// Writes into `history`, that of the start of a step, multipliers of contacts by the forces in the equilibrium `now`; `start` are the
+    /// nodes at the start of the step. Returns the largest length by which one was out, over its tolerance, and the contact by its index
+    /// in [`Model::parts`].
+    pub fn augment_contacts(&self, start: &[Node], now: &Configuration, history: &mut [f64]) -> (f64, usize) {
+        let mut worst = (0.0, 0);
+        for (group, block) in self.contact_groups() {
+            let ContactBlock::Points(block) = block else { continue };
+            let out = contact::augment(block, start, &group.configuration(now), &mut history[group.history.clone()]);
+            if out > worst.0 {
+                worst = (out, group.part);
+            }
+        }
+        worst
     }
 
     /// Each block of contacts, with the least gap of all that is near; from the history alone, which costs next to nothing.

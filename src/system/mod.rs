@@ -33,7 +33,7 @@ mod thread_partition;
 mod turning_body;
 
 pub use carry::carry_history;
-pub use contacts::{ContactState, ContactTouch};
+pub use contacts::{ContactState, ContactTouch, open_gap};
 pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};
 pub use excitation::{Excitation, Prescribed, Side, between};

@@ -69,6 +69,7 @@ fn heap(count: usize) -> (FacetContacts, Vec<Node>) {
         duration: 0.0,
         near: 0.0,
         touching: 0.0,
+        tolerance: None,
         dynamic: true,
     };
     let places = (0..count).flat_map(|i| (0..count).flat_map(move |j| (0..count).map(move |k| [i, j, k])));

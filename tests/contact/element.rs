@@ -32,7 +32,7 @@ fn touch(
     shape: SurfaceShape,
     count: usize,
     radius: f64,
-    friction: f64,
+    (friction, lift): (f64, f64),
     slide: f64,
 ) -> Touch<Contacts> {
     let law = ContactLaw {
@@ -44,6 +44,7 @@ fn touch(
         duration: 0.0,
         near: 1.0,
         touching: 0.0,
+        tolerance: (lift > 0.0).then_some(1e-9),
         dynamic: true,
     };
     let surface = Surface { center: vector(rng, 0.3), axes: matrix(&exp(&vector(rng, 2.0))), shape };
@@ -79,6 +80,9 @@ fn touch(
     let mut past = vec![0.0; block.history()];
     let nothing = past.clone();
     block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, lead: None }, 1.0, &mut past);
+    if let (true, Some(last)) = (lift > 0.0, past.last_mut()) {
+        *last = lift;
+    }
 
     // Now it has gone a bit on, with everything turned and moving.
     let turn = exp(&vector(rng, 0.1));
@@ -103,9 +107,10 @@ fn each(mut check: impl FnMut(&mut StdRng, Touch<Contacts>, &str)) {
     let mut rng = StdRng::seed_from_u64(7);
     for shape in shapes() {
         for (count, radius) in [(1, 0.0), (1, 0.15), (3, 0.0), (2, 0.1)] {
-            for (friction, slide) in [(0.0, 1e-3), (0.8, 3e-4), (0.3, 5e-2)] {
+            // With multipliers, too, of a force that is there at a gap.
+            for (friction, slide, lift) in [(0.0, 1e-3, 0.0), (0.8, 3e-4, 0.0), (0.3, 5e-2, 0.0), (0.5, 3e-4, 0.01)] {
                 for _ in 0..8 {
-                    let touch = touch(&mut rng, shape.clone(), count, radius, friction, slide);
+                    let touch = touch(&mut rng, shape.clone(), count, radius, (friction, lift), slide);
                     check(&mut rng, touch, &format!("{shape:?}, {count} nodes, radius {radius}, friction {friction}"));
                 }
             }

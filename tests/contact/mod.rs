@@ -12,6 +12,7 @@ mod folds;
 mod impact;
 mod lines;
 mod lines_alone;
+mod multipliers;
 mod pairs;
 mod polyhedra;
 mod rubbing;

@@ -155,6 +155,7 @@ fn law(friction: f64, loss: Loss) -> ContactLaw {
         duration: 0.0,
         near: 1.0,
         touching: 0.0,
+        tolerance: None,
         dynamic: true,
     }
 }

@@ -65,7 +65,8 @@ impl ElementBlock for Contacts {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        if now.history.is_empty() {
+        // Multipliers do no work.
+        if now.history.is_empty() || self.law.tolerance.is_some() {
             return 0.0;
         }
         let k = self.law.stiffness;
@@ -77,9 +78,12 @@ impl ElementBlock for Contacts {
     }
 
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
-        now.history.is_empty()
-            || now.dt < history::of(self, e, now.history).safe_time()
-            || self.kinematics(&self.points[e], now.nodes).gap > self.law.touching
+        if now.history.is_empty() {
+            return true;
+        }
+        let old = history::of(self, e, now.history);
+        now.dt < old.safe_time()
+            || self.kinematics(&self.points[e], now.nodes).gap - old.lift(&self.law) > self.law.touching
     }
 
     fn as_any(&self) -> Option<&dyn std::any::Any> {

@@ -36,7 +36,7 @@ pub(super) fn contact_force(
         true => old.rate().max(rate),
         false => rate,
     };
-    let normal = normal_force(law.stiffness, &law.loss, (-at.gap).max(0.0), rate, speed);
+    let normal = normal_force(law.stiffness, &law.loss, (old.lift(law) - at.gap).max(0.0), rate, speed);
     let n = &at.closest.n;
     if law.friction == 0.0 || !known {
         return ContactForce { normal, friction: None, F: normal.force * n, M: Vec3::zeros() };
@@ -74,7 +74,7 @@ pub(super) fn touch(contacts: &Contacts, e: usize, now: &Configuration) -> Optio
     }
     let at = contacts.kinematics(&contacts.points[e], now.nodes);
     // At zero gap there is no force yet, but stiffness.
-    if at.gap > contacts.law.touching {
+    if at.gap - old.lift(&contacts.law) > contacts.law.touching {
         return None;
     }
     let force = contact_force(contacts, &contacts.points[e], &at, old, now.nodes);

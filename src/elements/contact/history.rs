@@ -1,8 +1,9 @@
 //! The history variables of a point: a typed view of its numbers in [`crate::state::State::history`]. All points of a
 //! block have the same count of them: those of the normal force, then those of friction where there is any, then the
-//! rotations of the point's nodes where friction turns them.
+//! rotations of the point's nodes where friction turns them, then the multiplier where there is one.
 
 use super::kinematics::Contacts;
+use super::law::ContactLaw;
 use super::point::ContactPoint;
 use crate::math::Vec3;
 use crate::math::rotation::{log, renormalise};
@@ -91,6 +92,15 @@ impl<'a> PointHistory<'a> {
         Vec3::from_column_slice(&self.0[ANCHOR..ROTATIONS])
     }
 
+    /// Depth by which the spring of the normal force is pressed in at zero gap: its multiplier over the stiffness. 0 under springs alone.
+    #[inline]
+    pub fn lift(self, law: &ContactLaw) -> f64 {
+        match law.tolerance {
+            Some(_) => self.0[self.0.len() - 1],
+            None => 0.0,
+        }
+    }
+
     /// Rotation of the k-th node relative to the surface. Where friction turns nodes.
     #[inline]
     pub fn rotation(self, k: usize) -> Quaternion<f64> {
@@ -138,6 +148,13 @@ impl<'a> PointHistoryMut<'a> {
         self.0[DAMPING_POWER] = power;
     }
 
+    /// Sets the depth by which the spring of the normal force is pressed in at zero gap, where there are multipliers.
+    pub fn set_lift(&mut self, law: &ContactLaw, lift: f64) {
+        if let (Some(_), Some(last)) = (law.tolerance, self.0.last_mut()) {
+            *last = lift;
+        }
+    }
+
     /// Sets |T|.
     pub fn set_friction_force(&mut self, force: f64) {
         self.0[FRICTION_FORCE] = force;
@@ -161,11 +178,12 @@ impl<'a> PointHistoryMut<'a> {
 
 /// Number of history variables of a point.
 pub(super) fn width(contacts: &Contacts) -> usize {
-    match (contacts.law.friction > 0.0, contacts.rolls) {
+    let of_springs = match (contacts.law.friction > 0.0, contacts.rolls) {
         (false, _) => FRICTION_FORCE,
         (true, false) => ROTATIONS,
         (true, true) => ROTATIONS + 4 * contacts.count,
-    }
+    };
+    of_springs + usize::from(contacts.law.tolerance.is_some())
 }
 
 /// The history of point `e` in that of its block, which must not be empty.

@@ -21,6 +21,9 @@ pub struct ContactLaw {
     pub near: f64,
     /// Gap up to which what lies still counts as touching: in statics what rounding leaves between parts drawn face to face, else 0.
     pub touching: f64,
+    /// How deep, and how far along the surface while it sticks, a point may be at the end of a load step where multipliers take the
+    /// place of springs; `None`: springs alone.
+    pub tolerance: Option<f64>,
     /// True where the analysis has velocities, so that a far point stays far for a while.
     pub dynamic: bool,
 }

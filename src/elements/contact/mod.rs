@@ -15,7 +15,8 @@
 //!
 //! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
-//! keep what a point remembers of the way it came; `block` is what the equations see; `steps` bounds the steps; `resultant`
+//! keep what a point remembers of the way it came; `multipliers` put
+//! numbers of their own in the place of springs where a load step asks for no depth; `block` is what the equations see; `steps` bounds the steps; `resultant`
 //! sums what is shown. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
 
 mod block;
@@ -27,6 +28,7 @@ mod grid;
 mod history;
 mod kinematics;
 mod law;
+mod multipliers;
 mod normal_motion;
 mod point;
 pub mod restitution;
@@ -41,6 +43,7 @@ pub use convex::{ConvexBody, ConvexHeap, ConvexPairs};
 pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
+pub use multipliers::augment;
 pub use point::{ContactPoint, MOST_NODES};
 pub use resultant::{ContactAction, each_pair_touch, each_touch, last_gap, last_pair_gap, least_gap, pair_gap};
 pub use steps::{longest_step, misses};

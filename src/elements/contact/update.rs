@@ -25,10 +25,12 @@ pub(super) fn update_point(
         return spent;
     }
     let at = contacts.kinematics(point, now.nodes);
-    let acting = (at.gap <= law.touching).then(|| contact_force(contacts, point, &at, old, now.nodes));
+    let touches = at.gap - old.lift(law) <= law.touching;
+    let acting = touches.then(|| contact_force(contacts, point, &at, old, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let motion = NormalMotion { gap: at.gap, rate: at.rate(), force, speed };
     let mut spent = Dissipation { impact: update_normal(law, &motion, now, part, old, new), ..Dissipation::default() };
+    new.set_lift(law, if now.dt > 0.0 { force / law.stiffness } else { old.lift(law) });
     if law.friction > 0.0 {
         spent.friction = update_friction(contacts, point, (&at, acting.as_ref()), now, way(old, part), old, new);
     }
@@ -63,7 +65,8 @@ fn update_friction(
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {
             new.set_friction_force(stretch * begun.norm());
-            (p - held, 0.5 * pull * (pull / law.stiffness))
+            let stored = if law.tolerance.is_some() { 0.0 } else { 0.5 * pull * (pull / law.stiffness) };
+            (p - held, stored)
         }
     };
     let mut anchor = held + part * shift - stretch / law.stiffness * begun;

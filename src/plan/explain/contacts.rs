@@ -27,7 +27,8 @@ fn contact_in_words(model: &Model, contact: &Contact) -> String {
     let pair = format!("`{}`: {}", contact.name, sides_in_words(model, contact));
     let Some(law) = &contact.law else { return format!("{pair}; clearance monitor, no force acts") };
     let chosen = contact.chosen.as_ref().map_or(String::new(), |reason| format!(" (chosen: {reason})"));
-    let stiffness = format!("penalty stiffness {}{chosen}", short(law.stiffness));
+    let left = law.tolerance.map_or(String::new(), |left| format!("; multipliers leave a depth of {}", short(left)));
+    let stiffness = format!("penalty stiffness {}{chosen}{left}", short(law.stiffness));
     match law.resolution {
         limit if limit < f64::INFINITY => {
             format!("{pair}; {stiffness}; steps during impacts at most {}", short(limit))

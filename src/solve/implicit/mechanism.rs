@@ -6,9 +6,9 @@ use crate::elements::Moduli;
 use crate::linear::Solver;
 use crate::math::{Vec6, angular, linear};
 use crate::model::Model;
+use crate::names::short;
 use crate::state::Configuration;
-use crate::system::TangentWeights;
-use crate::system::{DofMap, Group, System};
+use crate::system::{DofMap, Group, System, TangentWeights, open_gap};
 
 /// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred
 /// times the rounding of the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.
@@ -101,7 +101,7 @@ pub fn open_elements(system: &System, now: &Configuration) -> usize {
     system.groups.iter().map(open).sum()
 }
 
-/// The name of a part that is open or slack `now`, and was not `before`, where that is given.
+/// The name, in quotes, of a part that is open or slack `now`, and was not `before`, where that is given.
 pub fn opened_part(
     model: &Model,
     system: &System,
@@ -113,11 +113,11 @@ pub fn opened_part(
         let (before, now) = (before.map(|before| group.configuration(before)), group.configuration(now));
         let was_open = |e: usize| before.as_ref().is_some_and(|before| block.is_inactive(e, before));
         let e = (0..block.len()).find(|&e| block.is_inactive(e, &now) && !was_open(e))?;
-        Some(group.part_of(e, model).name().to_owned())
+        Some(format!("`{}`", group.part_of(e, model).name()))
     })
 }
 
-/// The name of a part at a node, or at a node that follows it, which neither pushes nor pulls as it lies: a link whose gap is open, a rope
+/// The name, in quotes, of a part at a node, or at a node that follows it, with the gap of a contact, which neither pushes nor pulls as it lies: a link whose gap is open, a rope
 /// that is slack, a contact that does not touch.
 pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usize) -> Option<String> {
     let follows = |of: usize| system.rigid_links.iter().any(|link| link.node == of && link.master == node);
@@ -138,6 +138,7 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
             K.iter().all(|&k| k == 0.0)
         };
         let e = (0..block.len()).find(|e| is_open(e))?;
-        Some(group.part_of(e, model).name().to_owned())
+        let gap = open_gap(group, now.history).map_or_else(String::new, |gap| format!(" (its gap is {})", short(gap)));
+        Some(format!("`{}`{gap}", group.part_of(e, model).name()))
     })
 }

@@ -3,6 +3,7 @@
 mod accept;
 mod anderson;
 mod arc_length;
+mod augmentation;
 mod beam_trees;
 mod composite;
 mod convergence;

@@ -4,6 +4,7 @@
 use super::accept::accept;
 use super::anderson::Anderson;
 use super::arc_length::{ArcLengthConstraint, Condition};
+use super::augmentation::Augmentation;
 use super::convergence::{Convergence, Judgement};
 use super::correction::{correct, is_rounding, relative, size_of_correction};
 use super::ending::Ending;
@@ -59,6 +60,8 @@ pub struct Newton {
     massless: MasslessNodes,
     /// The watch over the stability of equilibria in statics.
     stability: Option<Stability>,
+    /// What closes contacts without depth in load steps.
+    augmentation: Option<Box<Augmentation>>,
     /// True where loads grow along the path at the equilibrium at hand; a path of given arc length may go back.
     pub grows: bool,
 }
@@ -77,7 +80,7 @@ keep!(Newton {
     massless,
     stability,
     grows,
-} without { ahead });
+} without { ahead, augmentation });
 
 /// The progress of the iteration of a step.
 struct Progress {
@@ -160,6 +163,7 @@ impl Newton {
             ahead: if cx.system.yields() && !cx.is_dynamic() { vec![0.0; cx.plan.dofs.unknowns()] } else { Vec::new() },
             massless: MasslessNodes::new(cx),
             stability: Stability::for_statics(cx, update != Update::Iteration || method == Method::InitialLoad)?,
+            augmentation: Augmentation::of(cx).map(Box::new),
             grows: true,
         })
     }
@@ -177,8 +181,18 @@ impl Newton {
         to: f64,
     ) -> Result<StepReport, Failure> {
         let report = self.find(cx, ws, state, stage, to)?;
-        self.accept(cx, ws, state, stage, to)?;
-        Ok(report)
+        let Some(mut augmentation) = self.augmentation.take() else {
+            self.accept(cx, ws, state, stage, to)?;
+            return Ok(report);
+        };
+        augmentation.begin(state);
+        let found = augmentation.find(self, cx, ws, state, stage, report);
+        let accepted = found.and_then(|report| self.accept(cx, ws, state, stage, to).map(|()| report));
+        if accepted.is_err() {
+            augmentation.take_back(state);
+        }
+        self.augmentation = Some(augmentation);
+        accepted
     }
 
     /// Finds the equilibrium of a stage, from its prediction; `state` is only read.
@@ -311,7 +325,35 @@ impl Newton {
         to: f64,
         constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
-        let found = self.iterate(cx, ws, state, stage, to, constraint);
+        let found = self.iterate(cx, ws, state, stage, (to, true), constraint);
+        self.arrive(cx, ws, state, found)
+    }
+
+    /// Finds the equilibrium anew from the one at hand, under contact forces that have been changed.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn equilibrate_again(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        to: f64,
+    ) -> Result<StepReport, Failure> {
+        self.forget_corrections();
+        let found = self.iterate(cx, ws, state, stage, (to, false), None);
+        self.arrive(cx, ws, state, found)
+    }
+
+    /// What an equilibrium, or that there is none, tells those to come.
+    fn arrive(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        found: Result<StepReport, Failure>,
+    ) -> Result<StepReport, Failure> {
         let found = found.and_then(|report| jump::check_motion(cx, ws, state, report.to).map(|()| report));
         match &found {
             Ok(report) => {
@@ -330,7 +372,7 @@ impl Newton {
         ws: &mut Workspace,
         state: &State,
         stage: &Stage,
-        to: f64,
+        (to, predicted): (f64, bool),
         mut constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
         motion::excite(cx, ws, state.time, to, stage.scheme.instant);
@@ -338,6 +380,7 @@ impl Newton {
             ws.load_steps.peak.begin_step(&ws.loads.instant, &ws.prescribed.end, cx.length);
         }
         let mut progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none(), &self.ending);
+        progress.predicted = predicted;
         loop {
             let to = progress.report.to;
             progress.report.residual = match std::mem::take(&mut progress.predicted) {

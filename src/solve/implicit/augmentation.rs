@@ -1,0 +1,71 @@
+//! Load steps with contacts that end without depth: the equilibrium is found again and again, each time with the contact forces of the
+//! last as multipliers, until nothing is pressed in by more than its tolerance.
+
+use super::newton::Newton;
+use crate::model::Contact;
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::Stage;
+use crate::solve::report::StepReport;
+use crate::solve::workspace::Workspace;
+use crate::state::{Configuration, State};
+
+/// Equilibria of a step after which it is given up. One leaves a half where the spring is as soft as what it presses: enough for 1e-30.
+const MOST: usize = 100;
+
+/// What changes the multipliers of contacts.
+pub struct Augmentation {
+    /// The history at the start of the step, which a step that fails leaves as it was.
+    start: Vec<f64>,
+    /// The history to be, while it is written.
+    next: Vec<f64>,
+}
+
+impl Augmentation {
+    /// `None` where no contact has multipliers.
+    pub fn of(cx: &Context) -> Option<Augmentation> {
+        let has = |contact: &Contact| contact.law.is_some_and(|law| law.tolerance.is_some());
+        let any = !cx.is_dynamic() && cx.model.each::<Contact>().any(has);
+        any.then(|| Augmentation { start: vec![0.0; cx.system.history], next: vec![0.0; cx.system.history] })
+    }
+
+    /// Begins a step at a state.
+    pub fn begin(&mut self, state: &State) {
+        self.start.copy_from_slice(&state.history);
+    }
+
+    /// Gives a state back the history that it began the step with.
+    pub fn take_back(&mut self, state: &mut State) {
+        state.history.copy_from_slice(&self.start);
+    }
+
+    /// Finds the equilibrium without depth from the one at hand; the history of `state` then has its multipliers.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    pub fn find(
+        &mut self,
+        newton: &mut Newton,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        stage: &Stage,
+        mut report: StepReport,
+    ) -> Result<StepReport, Failure> {
+        let to = report.to;
+        for count in 1.. {
+            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: to - state.time, lead: None };
+            self.next.copy_from_slice(&state.history);
+            let (out, part) = cx.system.augment_contacts(&state.nodes, &now, &mut self.next);
+            if out <= 1.0 {
+                break;
+            }
+            if count > MOST {
+                return Err(Failure::ContactNotClosed { name: cx.model.parts[part].name().to_owned(), out });
+            }
+            std::mem::swap(&mut state.history, &mut self.next);
+            report = report.then(newton.equilibrate_again(cx, ws, state, stage, to)?);
+        }
+        Ok(report)
+    }
+}
