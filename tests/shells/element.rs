@@ -163,6 +163,7 @@ fn corners_may_come_in_any_order() {
 #[test]
 fn layers_have_the_tangent_of_their_stress() {
     let mut rng = StdRng::seed_from_u64(3);
+    let mut worst = 0.0f64;
     for triangle in [false, true] {
         for round in 0..10 {
             let mesh = Mesh::one(&mut rng, triangle);
@@ -200,7 +201,7 @@ fn layers_have_the_tangent_of_their_stress() {
                 let (plus, minus) = (at(h), at(-h));
                 for row in 0..n {
                     let k = (plus[row / 6][row % 6] - minus[row / 6][row % 6]) / (2.0 * h);
-                    assert!((K[row * n + column] - k).abs() < 1e-6 * scale, "{round} {row} {column}");
+                    worst = worst.max((K[row * n + column] - k).abs() / scale);
                 }
             }
             // The elastic matrix is that of the elastic section with the stress of the layers.
@@ -208,6 +209,8 @@ fn layers_have_the_tangent_of_their_stress() {
             assert!(K.iter().all(|k| k.is_finite()));
         }
     }
+    println!("{worst:e}");
+    assert!(worst < 1e-7, "{worst:e}");
 }
 
 /// Eight elements side by side have the bits of one after the other, forces and history, whole packs and parts of one.

@@ -12,14 +12,14 @@ use rdsolve::math::{Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
 
 /// A mesh of elements of one kind, with the normals of its nodes.
-struct Sheet {
-    x: Vec<Vec3>,
+pub struct Sheet {
+    pub x: Vec<Vec3>,
     elements: Vec<Vec<usize>>,
     normals: Vec<Vec3>,
 }
 
 impl Sheet {
-    fn flat(x: Vec<Vec3>, elements: Vec<Vec<usize>>) -> Sheet {
+    pub fn flat(x: Vec<Vec3>, elements: Vec<Vec<usize>>) -> Sheet {
         let normals = vec![Vec3::z(); x.len()];
         Sheet { x, elements, normals }
     }
@@ -37,7 +37,7 @@ impl Sheet {
         Sheet { x, elements: elements.collect(), normals }
     }
 
-    fn block(&self, plate: &Plate) -> Box<dyn ElementBlock> {
+    pub fn block(&self, plate: &Plate) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
         let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry::new(nodes, normals));
@@ -47,12 +47,12 @@ impl Sheet {
         }
     }
 
-    fn rest(&self) -> Vec<Node> {
+    pub fn rest(&self) -> Vec<Node> {
         self.x.iter().map(|&x| Node::at_rest(x)).collect()
     }
 }
 
-fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
+pub fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
     let mut K = DMatrix::zeros(6 * nodes.len(), 6 * nodes.len());
     for e in 0..block.len() {
         let of = block.nodes(e);
@@ -69,12 +69,12 @@ fn stiffness(block: &dyn ElementBlock, nodes: &[Node]) -> DMatrix<f64> {
 }
 
 /// The rows and columns `of` a matrix.
-fn part(K: &DMatrix<f64>, of: &[usize]) -> DMatrix<f64> {
+pub fn part(K: &DMatrix<f64>, of: &[usize]) -> DMatrix<f64> {
     DMatrix::from_fn(of.len(), of.len(), |i, j| K[(of[i], of[j])])
 }
 
 /// A convex quadrilateral or a triangle in the plane, squeezed by `thin` along a direction at random.
-fn shape(rng: &mut StdRng, corners: usize, thin: f64) -> Vec<Vec3> {
+pub fn shape(rng: &mut StdRng, corners: usize, thin: f64) -> Vec<Vec3> {
     loop {
         let start: f64 = rng.random_range(0.0..6.3);
         let x: Vec<[f64; 2]> = (0..corners)

@@ -15,6 +15,7 @@ mod membrane;
 mod plastic_beams;
 mod pressure;
 mod results;
+mod slivers;
 mod stretched;
 mod symmetry;
 mod sze;
