@@ -1,4 +1,5 @@
-//! What a step of a large shell costs against its size: forces, tangents, factorisation, substitution, the plan, memory.
+//! What a step of a large shell costs against its size: forces, tangents, factorisation, substitution, the plan, memory; and the
+//! tangent of an element in microseconds, one after the other and eight side by side.
 //! Each scene runs in a process of its own, whose peak of memory it is; times are the least of many.
 //!
 //! `cargo bench --bench shells` takes all scenes; arguments keep those whose names contain all of them, for instance
@@ -103,6 +104,31 @@ fn least<T>(subject: &mut T, mut prepare: impl FnMut(&mut T), mut call: impl FnM
     least
 }
 
+/// Least seconds for the tangent of an element, one after the other and side by side, without their places in the matrix.
+fn element_tangents(system: &System, now: &Configuration, rate: f64) -> [f64; 2] {
+    const CHUNK: usize = 256;
+    let block = &system.groups[0].block;
+    let (count, length) = (block.len(), (6 * block.nodes(0).len()).pow(2));
+    let mut K = vec![0.0; CHUNK * length];
+    let firsts = || (0..count).step_by(CHUNK);
+    let room = |first: usize| (count - first).min(CHUNK) * length;
+    let mut times = [f64::INFINITY; 2];
+    for _ in 0..10 {
+        let alone = timed(|| {
+            for first in firsts() {
+                for (k, K) in K[..room(first)].chunks_mut(length).enumerate() {
+                    block.tangent(first + k, now, rate, Moduli::Algorithmic, K);
+                }
+            }
+        });
+        let eight = timed(|| {
+            firsts().for_each(|first| block.tangents(first, now, rate, Moduli::Algorithmic, &mut K[..room(first)]))
+        });
+        times = [times[0].min(alone.0), times[1].min(eight.0)];
+    }
+    times.map(|seconds| seconds / count as f64)
+}
+
 fn timed<T>(call: impl FnOnce() -> T) -> (f64, T) {
     let began = Instant::now();
     let out = call();
@@ -134,6 +160,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&now, &loading, f)));
     let both = &mut (&mut assembly, &mut solver);
     let tangent = least(both, |_| (), |(a, s)| a.tangent(&system, &now, &loading, &mut forces, weights, s));
+    let [alone, eight] = element_tangents(&system, &now, rate);
     // A factorisation overwrites the matrix.
     let fill = |(a, s): &mut (&mut _, &mut _)| {
         let a: &mut rdsolve::system::assembly::Assembly = a;
@@ -147,8 +174,10 @@ fn measure(name: &str, text: String, threads: usize) {
     let planning = [reading, system_s, plan_s, build_s].map(|s| format!("{s:>7.2}")).concat();
     let times = [force, tangent, factor, solve].map(|s| format!("{:>9.2}", 1e3 * s)).concat();
     println!(
-        "{name:36} {:>7} {threads} {times} {:>6.2} {:>6.1}{planning} {:>7.0} {:>7.0} {:>5.2} {}",
+        "{name:36} {:>7} {threads} {times} {:>6.2} {:>6.2} {:>6.2} {:>6.1}{planning} {:>7.0} {:>7.0} {:>5.2} {}",
         plan.dofs.unknowns(),
+        1e6 * alone,
+        1e6 * eight,
         tangent / factor,
         stats.flops / factor / 1e9,
         bytes / 1e6,
@@ -170,13 +199,15 @@ fn main() {
         return measure(name, deck(form, kind, material, elements), threads);
     }
     println!(
-        "{:36} {:>7} t {:>9}{:>9}{:>9}{:>9} {:>6} {:>6}{:>7}{:>7}{:>7}{:>7} {:>7} {:>7} {:>5} order",
+        "{:36} {:>7} t {:>9}{:>9}{:>9}{:>9} {:>6} {:>6} {:>6} {:>6}{:>7}{:>7}{:>7}{:>7} {:>7} {:>7} {:>5} order",
         "scene (milliseconds)",
         "rows",
         "forces",
         "tangents",
         "factor",
         "solve",
+        "one µs",
+        "eight",
         "t/f",
         "GF/s",
         "read s",

@@ -50,6 +50,13 @@ pub trait ElementBlock: Send + Sync {
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
+    /// Tangents of the elements from `first` on, one after the other, as many as `K` holds: those of [`ElementBlock::tangent`] but for
+    /// rounding.
+    fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let length = (self.dofs() * self.nodes(first).len()).pow(2);
+        let each = K.chunks_mut(length).enumerate();
+        each.for_each(|(k, K)| self.tangent(first + k, now, rate_weight, moduli, K));
+    }
     /// The elastic tangent of element `e` in the configuration `now` with the stresses that it has where its nodes are those `stressed`: what
     /// stresses add to stiffness, apart from what displacements do. By default all is that of the nodes `stressed`.
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {

@@ -55,6 +55,49 @@ impl<S: StressState<N>, const N: usize> EightPoints<S, N> {
         (end.stress, end.spent)
     }
 
+    /// Stress at `strain`, and what the derivative of the stress has lost against the elastic stiffness; `None` where no point yields.
+    #[inline(always)]
+    pub fn linearise(
+        &self,
+        strain: &[Lanes; N],
+        dt: f64,
+        history: PointsHistory,
+    ) -> ([Lanes; N], Option<[[Lanes; N]; N]>) {
+        let own: [&[f64]; LANES] = from_fn(|lane| &history.old[history.at[lane]..history.at[lane] + N + 1]);
+        let plastic = from_fn(|i| lanes(|lane| own[lane][i]));
+        let (mut stress, tangent) = self.plain.linearise::<S>(strain, &plastic, lanes(|lane| own[lane][N]));
+        let Some(tangent) = tangent else { return (stress, None) };
+        let elastic = self.law.stiffness(self.state);
+        let mut lost = from_fn(|i| {
+            from_fn(|j| tangent.yields.select(Lanes::splat(elastic[i][j]) - tangent.stiffness[i][j], Lanes::ZERO))
+        });
+        if tangent.left != 0 {
+            self.linearise_one_by_one(strain, dt, (own, tangent.left), &mut stress, &mut lost);
+        }
+        (stress, Some(lost))
+    }
+
+    /// Linearises the points that are left by themselves.
+    #[cold]
+    fn linearise_one_by_one(
+        &self,
+        strain: &[Lanes; N],
+        dt: f64,
+        (own, left): ([&[f64]; LANES], u32),
+        stress: &mut [Lanes; N],
+        lost: &mut [[Lanes; N]; N],
+    ) {
+        let (strain, elastic) = (strain.map(Lanes::to_array), self.law.stiffness(self.state));
+        for lane in (0..LANES).filter(|lane| left >> lane & 1 == 1) {
+            let (sigma, C) = self.law.stress_and_tangent(self.state, &from_fn(|i| strain[i][lane]), dt, own[lane]);
+            let put = |of: &mut Lanes, value: f64| of.as_mut_array()[lane] = value;
+            for i in 0..N {
+                put(&mut stress[i], sigma[i]);
+                (0..N).for_each(|j| put(&mut lost[i][j], elastic[i][j] - C[i][j]));
+            }
+        }
+    }
+
     /// Computes the points that are left by themselves.
     #[cold]
     fn one_by_one(&self, strain: &[Lanes; N], dt: f64, mut history: PointsHistory, end: &mut PointsAdvanced<N>) {
@@ -97,11 +140,24 @@ mod tests {
                 let (mut new, mut alone) = (old.clone(), old.clone());
                 let history =
                     PointsHistory { at: from_fn(|lane| lane * size), count: LANES, old: &old, new: Some(&mut new) };
+                let before = PointsHistory { at: from_fn(|lane| lane * size), count: LANES, old: &old, new: None };
+                let (linear, lost) = eight.linearise(&strain.map(Lanes::new), 1e-6, before);
                 let (stress, spent) = eight.advance(&strain.map(Lanes::new), 1e-6, history);
                 let (stress, spent) = (stress.map(Lanes::to_array), spent.to_array());
                 for lane in 0..LANES {
                     let at = lane * size..(lane + 1) * size;
                     let one = from_fn(|i| strain[i][lane]);
+                    let (tau, C) = law.stress_and_tangent(state, &one, 1e-6, &old[at.clone()]);
+                    let elastic = law.stiffness(state);
+                    for i in 0..N {
+                        assert_eq!(linear[i].to_array()[lane], tau[i], "{scale:e}, lane {lane}");
+                        for j in 0..N {
+                            let lost = lost.map_or(0.0, |lost| lost[i][j].to_array()[lane]);
+                            // Rounding of a few products of the size of the stiffness.
+                            let error = (lost - (elastic[i][j] - C[i][j])).abs();
+                            assert!(error < 1e-14 * elastic[0][0], "{scale:e}, lane {lane}: {error:e}");
+                        }
+                    }
                     let (sigma, own) = law.advance(state, &one, (1e-6, 1.0), &old[at.clone()], &mut alone[at]);
                     assert_eq!(from_fn::<f64, N, _>(|i| stress[i][lane]), sigma, "{scale:e}, lane {lane}");
                     assert_eq!(spent[lane], own.plastic, "{scale:e}, lane {lane}");

@@ -34,12 +34,55 @@ pub struct PointsAdvanced<const N: usize> {
     pub left: u32,
 }
 
+/// The derivative of the stress of eight points.
+pub struct PointsTangent<const N: usize> {
+    /// Derivative of the stress by the strain, in the lanes that yield.
+    pub stiffness: [[Lanes; N]; N],
+    /// All bits set in the lanes that yield.
+    pub yields: Lanes,
+    /// A bit for each lane that is left to be computed by itself.
+    pub left: u32,
+}
+
+/// The return of eight points.
+struct Answer<const N: usize> {
+    /// ξ*, by modes.
+    relative: [Lanes; N],
+    /// R at the beginning of the step.
+    radius: Lanes,
+    /// All bits set in the lanes that yield.
+    yields: Lanes,
+    /// The multipliers and the points of the return, where one yields.
+    end: Option<(Lanes, Return)>,
+    /// A bit for each lane that is left to be computed by itself.
+    left: u32,
+}
+
+impl<const N: usize> Answer<N> {
+    /// Stress in components, of the lanes that yield as well as of the others.
+    #[inline(always)]
+    fn stress<S: StressState<N>>(&self) -> [Lanes; N] {
+        let trial = S::modes_side_by_side(self.relative);
+        let Some((_, at)) = &self.end else { return trial };
+        let stress = S::modes_side_by_side(from_fn(|i| self.relative[i] * (at.S / at.T(i))));
+        from_fn(|i| self.yields.select(stress[i], trial[i]))
+    }
+}
+
 /// A point of the return, see [`super::return_mapping`].
 struct Return {
     T: [Lanes; 2],
     S: Lanes,
     sum: Lanes,
     slope: Lanes,
+}
+
+impl Return {
+    /// T of a mode.
+    #[inline(always)]
+    fn T(&self, mode: usize) -> Lanes {
+        self.T[usize::from(mode > 0)]
+    }
 }
 
 /// The number of iterations after which a lane is left.
@@ -66,14 +109,9 @@ impl<const N: usize> PlainPlasticity<N> {
         Return { T, S, sum: part[0] + part[1], slope: slope[0] + slope[1] }
     }
 
-    /// Stress and history variables at `strain`, from the plastic strains and their accumulated value before.
+    /// The return at `strain`, from the plastic strains and their accumulated value before.
     #[inline(always)]
-    pub fn advance<S: StressState<N>>(
-        &self,
-        strain: &[Lanes; N],
-        plastic: &[Lanes; N],
-        accumulated: Lanes,
-    ) -> PointsAdvanced<N> {
+    fn answer<S: StressState<N>>(&self, strain: &[Lanes; N], plastic: &[Lanes; N], accumulated: Lanes) -> Answer<N> {
         let elastic = S::modes_side_by_side(from_fn(|i| strain[i] - plastic[i]));
         // The sum with a back stress of zero, as a law that may have one takes it.
         let relative: [Lanes; N] = from_fn(|i| Lanes::splat(self.moduli[i]) * elastic[i]);
@@ -82,14 +120,8 @@ impl<const N: usize> PlainPlasticity<N> {
         parts[1..].iter().for_each(|part| square += *part);
         let radius = self.radius(accumulated);
         let yields = square.simd_gt(radius * radius);
-        let mut out = PointsAdvanced {
-            stress: S::modes_side_by_side(relative),
-            plastic: *plastic,
-            accumulated,
-            spent: Lanes::ZERO,
-            left: 0,
-        };
         let yielding = yields.to_bitmask();
+        let mut out = Answer { relative, radius, yields, end: None, left: 0 };
         if yielding == 0 {
             return out;
         }
@@ -100,16 +132,58 @@ impl<const N: usize> PlainPlasticity<N> {
         let share = [first, Lanes::ONE - first];
         let (multiplier, at, hard) = self.root(accumulated, rho, &share, (radius, yielding & !out.left));
         out.left |= hard;
+        out.end = Some((multiplier, at));
+        out
+    }
+
+    /// Stress and history variables at `strain`, from the plastic strains and their accumulated value before.
+    #[inline(always)]
+    pub fn advance<S: StressState<N>>(
+        &self,
+        strain: &[Lanes; N],
+        plastic: &[Lanes; N],
+        accumulated: Lanes,
+    ) -> PointsAdvanced<N> {
+        let answer = self.answer::<S>(strain, plastic, accumulated);
+        let (stress, left) = (answer.stress::<S>(), answer.left);
+        let mut out = PointsAdvanced { stress, plastic: *plastic, accumulated, spent: Lanes::ZERO, left };
+        let Answer { relative, radius, yields, end: Some((multiplier, at)), .. } = answer else { return out };
         let end = self.radius(accumulated + multiplier);
         let half = Lanes::splat(0.5);
         out.spent = yields.select(half * (radius + end) * multiplier, Lanes::ZERO);
-        let T = |i: usize| at.T[usize::from(i > 0)];
-        let stress = S::modes_side_by_side(from_fn(|i| relative[i] * (at.S / T(i))));
-        let more = S::modes_side_by_side(from_fn(|i| Lanes::splat(S::P[i]) * multiplier * (relative[i] / T(i))));
-        out.stress = from_fn(|i| yields.select(stress[i], out.stress[i]));
+        let more = S::modes_side_by_side(from_fn(|i| Lanes::splat(S::P[i]) * multiplier * (relative[i] / at.T(i))));
         out.plastic = from_fn(|i| yields.select(plastic[i] + more[i], plastic[i]));
         out.accumulated = yields.select(accumulated + multiplier, accumulated);
         out
+    }
+
+    /// Stress at `strain` and its derivative, as [`super::MaterialLaw::linearise`] has them; `None` where no lane yields.
+    #[inline(always)]
+    pub fn linearise<S: StressState<N>>(
+        &self,
+        strain: &[Lanes; N],
+        plastic: &[Lanes; N],
+        accumulated: Lanes,
+    ) -> ([Lanes; N], Option<PointsTangent<N>>) {
+        let answer = self.answer::<S>(strain, plastic, accumulated);
+        let stress = answer.stress::<S>();
+        let Some((multiplier, at)) = &answer.end else { return (stress, None) };
+        let e = self.moduli.map(Lanes::splat);
+        let ratio: [Lanes; N] = from_fn(|i| at.S / at.T(i));
+        let Sb: [Lanes; N] = from_fn(|i| Lanes::splat(S::P[i]) * e[i] * (answer.relative[i] / at.T(i)) * ratio[i]);
+        let change = *multiplier - *multiplier * (Lanes::splat(self.modulus) * *multiplier / at.S);
+        // Nothing changes with the unknown at the very onset.
+        let turn = at.slope.simd_gt(Lanes::ZERO).select(change / (at.slope * at.S), Lanes::ZERO);
+        let modes: [[Lanes; N]; N] = from_fn(|i| {
+            from_fn(|j| {
+                let across = Lanes::ZERO - turn * Sb[i] * Sb[j];
+                if i == j { across + e[i] * ratio[i] } else { across }
+            })
+        });
+        let transposed = |C: [[Lanes; N]; N]| -> [[Lanes; N]; N] { from_fn(|i| from_fn(|j| C[j][i])) };
+        let once = transposed(modes.map(S::modes_side_by_side));
+        let stiffness = transposed(once.map(S::modes_side_by_side));
+        (stress, Some(PointsTangent { stiffness, yields: answer.yields, left: answer.left }))
     }
 
     /// The multipliers at which the yield condition holds, with the point there, and the lanes of `wanted` in which they are not found.

@@ -13,11 +13,12 @@ use super::tangent_weights::TangentWeights;
 use crate::elements::pressure::MOST_NODES;
 use crate::elements::{ElementBlock, Partners};
 use crate::linear::Solver;
+use crate::math::lanes::LANES;
 use crate::math::{Mat3, Mat6};
 use crate::state::{Configuration, Node};
 use rayon::prelude::*;
 
-/// Number of elements whose matrices are formed side by side before they are added, one after the other, in deck order.
+/// Number of elements whose matrices are formed before they are added, one after the other, in deck order: a multiple of [`LANES`].
 const CHUNK: usize = 256;
 
 /// The destination of every matrix. All but `scratch` is constant over a run.
@@ -434,15 +435,23 @@ impl Assembly {
                 let local = &mut local[..length * (last - first)];
                 let (sparse, of_stresses) = (group.kind.is_unilateral(), self.of_stresses);
                 let inactive = |e: usize| sparse && block.is_inactive(e, now);
-                let fill = |(k, K): (usize, &mut [f64])| match now.lead {
-                    _ if inactive(first + k) => {}
-                    Some(stressed) if of_stresses => block.stressed_tangent(first + k, now, stressed, K),
-                    _ => block.tangent(first + k, now, rate, moduli, K),
+                let one = |(e, K): (usize, &mut [f64])| match now.lead {
+                    _ if inactive(e) => {}
+                    Some(stressed) if of_stresses => block.stressed_tangent(e, now, stressed, K),
+                    _ => block.tangent(e, now, rate, moduli, K),
+                };
+                let fill = |(k, K): (usize, &mut [f64])| {
+                    let from = first + LANES * k;
+                    if sparse || of_stresses {
+                        (from..).zip(K.chunks_mut(length)).for_each(one);
+                    } else {
+                        block.tangents(from, now, rate, moduli, K);
+                    }
                 };
                 if self.threads {
-                    local.par_chunks_mut(length).enumerate().for_each(fill);
+                    local.par_chunks_mut(LANES * length).enumerate().for_each(fill);
                 } else {
-                    local.chunks_mut(length).enumerate().for_each(fill);
+                    local.chunks_mut(LANES * length).enumerate().for_each(fill);
                 }
                 let width = d * block.nodes(0).len();
                 let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };

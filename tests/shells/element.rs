@@ -213,6 +213,56 @@ fn layers_have_the_tangent_of_their_stress() {
     assert!(worst < 1e-7, "{worst:e}");
 }
 
+/// Tangents of elements side by side are those of one after the other, whole packs and parts of one, from any element on: elastic, with
+/// layers that yield after having yielded, of flat and of curved surfaces. Bound: rounding of the
+/// largest entry, now or before anything yields: yielding leaves little of that.
+#[test]
+fn tangents_side_by_side_are_those_of_one_element() {
+    let mut rng = StdRng::seed_from_u64(12);
+    for (round, triangle) in (0..8).flat_map(|round| [(round, false), (round, true)]) {
+        let mut mesh = Mesh::patch(triangle);
+        if round % 2 == 1 {
+            mesh.x.iter_mut().for_each(|x| x.z = 2.0 * x.x * x.x + x.y * x.x);
+            mesh.normals = mesh.x.iter().map(|x| Vec3::new(-4.0 * x.x - x.y, -x.x, 1.0).normalize()).collect();
+        }
+        mesh.elements = (0..5).flat_map(|_| mesh.elements.clone()).collect();
+        let plate = Plate { thickness: [0.1, 0.003][round / 2 % 2], ..PLATE };
+        let model = LayerModel { law: law(), layers: 5, logarithmic: round % 4 == 3 };
+        let block = if round < 4 { mesh.block(&plate) } else { mesh.layered(&plate, &model) };
+        let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
+        let R: Mat3 = rotation::matrix(&q);
+        let mut moved = |strain: f64| -> Vec<Node> {
+            let node = |x: &Vec3| Node {
+                rotation: rotation::exp(&vector(&mut rng, 3.0 * strain)) * q,
+                ..Node::at_rest(R * (x + vector(&mut rng, 0.1 * strain)) + shift)
+            };
+            mesh.x.iter().map(node).collect()
+        };
+        let (first, second) = (moved(0.05), moved(0.05));
+        let (past, mut history) = (vec![0.0; block.history()], vec![0.0; block.history()]);
+        let before = Configuration { nodes: &first, history: &past, dt: 1.0, lead: None };
+        block.update_history(&before, 1.0, &mut history);
+        let now = Configuration { nodes: &second, history: &history, dt: 1.0, lead: None };
+        let (count, length) = (block.len(), (6 * block.nodes(0).len()).pow(2));
+        let mut elastic = vec![0.0; length];
+        for moduli in [Moduli::Algorithmic, Moduli::Elastic] {
+            for from in [0, 8, count - 3] {
+                let mut all = vec![f64::NAN; (count - from) * length];
+                block.tangents(from, &now, 0.0, moduli, &mut all);
+                for (e, together) in (from..).zip(all.chunks(length)) {
+                    let mut alone = vec![f64::NAN; length];
+                    block.tangent(e, &now, 0.0, moduli, &mut alone);
+                    block.tangent(e, &now, 0.0, Moduli::Elastic, &mut elastic);
+                    let scale = elastic.iter().chain(&alone).fold(0.0f64, |m, k| m.max(k.abs()));
+                    for (k, (a, b)) in alone.iter().zip(together).enumerate() {
+                        assert!((a - b).abs() < 1e-14 * scale, "{round} {triangle} {e} {k}: {a} {b}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Eight elements side by side have the bits of one after the other, forces and history, whole packs and parts of one.
 #[test]
 fn packs_have_the_bits_of_their_elements() {

@@ -3,7 +3,7 @@
 use super::interpolation::Interpolation;
 use super::kinematics::{NodalVectors, Shell, Shells, Strains};
 use super::packed::PackedSections;
-use super::packing::pack;
+use super::packing::{pack, shell_pack};
 use super::results;
 use super::section::{InPlane, ShellSection};
 use super::tangent::tangent;
@@ -11,7 +11,9 @@ use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::elements::results::ShellResultants;
 use crate::materials::{Dissipation, FAILED_STIFFNESS};
 use crate::math::Vec3;
+use crate::math::lanes::LANES;
 use crate::state::{Configuration, Node};
+use std::array::from_fn;
 
 impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Shells<K, N, V, P, E, S>
 where
@@ -44,6 +46,14 @@ where
             subtract(f, 3, &moment);
         }
     }
+}
+
+/// The sections of eight elements; lanes beyond the last repeat it.
+#[inline(always)]
+fn eight<const N: usize, const V: usize, const P: usize, const E: usize, S>(
+    elements: &[Shell<N, V, P, E, S>],
+) -> [&S; LANES] {
+    from_fn(|lane| &elements[lane.min(elements.len() - 1)].section)
 }
 
 /// The elastic energy that is left in an element that fails; what its layers had stored is booked by then.
@@ -84,7 +94,7 @@ where
     fn pack(&mut self) {
         // Damping needs the rates of the strains too.
         if self.damping == 0.0 {
-            self.packs = pack(&self.elements);
+            self.packs = pack::<K, N, V, P, E, S>(&self.elements);
         }
     }
 
@@ -95,6 +105,14 @@ where
             });
         }
         if !self.packs.is_empty() {
+            return;
+        }
+        if S::FORCES_SIDE_BY_SIDE && self.damping == 0.0 && !self.can_fail() {
+            for elements in self.elements.chunks(LANES) {
+                let sections = eight(elements);
+                let stress = |(): &(), strain: &_, _| S::stress_eight(sections, strain, now);
+                shell_pack::<K, N, V, P, E, S, ()>(elements, ()).subtract_forces::<K>(now.nodes, F, stress);
+            }
             return;
         }
         for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
@@ -149,6 +167,27 @@ where
         }
         if self.elements[e].section.has_failed(now.history) {
             K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+        }
+    }
+
+    fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, out: &mut [f64]) {
+        let length = 36 * N * N;
+        if self.damping > 0.0 {
+            let each = out.chunks_mut(length).enumerate();
+            each.for_each(|(k, out)| self.tangent(first + k, now, rate_weight, moduli, out));
+            return;
+        }
+        for (elements, out) in self.elements[first..].chunks(LANES).zip(out.chunks_mut(LANES * length)) {
+            let elements = &elements[..out.len() / length];
+            let pack = shell_pack::<K, N, V, P, E, S, ()>(elements, ());
+            let sections = eight(elements);
+            let linearise = |strain: &_| S::linearise_eight(sections, strain, now, moduli);
+            pack.tangents::<K>(&pack.gather(now.nodes), linearise, out);
+            for (element, out) in elements.iter().zip(out.chunks_mut(length)) {
+                if element.section.has_failed(now.history) {
+                    out.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+                }
+            }
         }
     }
 

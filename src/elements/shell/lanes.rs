@@ -32,22 +32,22 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
 }
 
 /// Positions of the nodes from the first, and their directors and tangents.
-struct Motion<const N: usize> {
-    x: [LaneVec3; N],
-    turning: [[LaneVec3; N]; 3],
+pub(super) struct Motion<const N: usize> {
+    pub x: [LaneVec3; N],
+    pub turning: [[LaneVec3; N]; 3],
 }
 
 /// Slopes of positions and directors, and the lengthened ones of [`super::arc`].
-struct Slopes<const V: usize> {
-    v: [LaneVec3; V],
-    w: [LaneVec3; V],
-    long: [LaneVec3; V],
-    y: [LaneVec3; 2],
-    H: [[Lanes; 2]; 2],
+pub(super) struct Slopes<const V: usize> {
+    pub v: [LaneVec3; V],
+    pub w: [LaneVec3; V],
+    pub long: [LaneVec3; V],
+    pub y: [LaneVec3; 2],
+    pub H: [[Lanes; 2]; 2],
 }
 
 #[inline(always)]
-fn sum<const V: usize>(factors: &[Lanes; V], v: &[LaneVec3; V]) -> LaneVec3 {
+pub(super) fn sum<const V: usize>(factors: &[Lanes; V], v: &[LaneVec3; V]) -> LaneVec3 {
     let mut sum = LaneVec3::ZERO;
     for i in 0..V {
         sum += factors[i] * v[i];
@@ -56,7 +56,7 @@ fn sum<const V: usize>(factors: &[Lanes; V], v: &[LaneVec3; V]) -> LaneVec3 {
 }
 
 #[inline(always)]
-fn total<const N: usize>(v: &[LaneVec3; N]) -> LaneVec3 {
+pub(super) fn total<const N: usize>(v: &[LaneVec3; N]) -> LaneVec3 {
     let mut sum = v[0];
     for v in &v[1..] {
         sum += *v;
@@ -79,7 +79,7 @@ fn turned([w, x, y, z]: [Lanes; 4], axes: &[LaneVec3; 3]) -> [LaneVec3; 3] {
 
 impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPack<N, V, P, E, B> {
     #[inline(always)]
-    fn gather(&self, nodes: &[Node]) -> Motion<N> {
+    pub fn gather(&self, nodes: &[Node]) -> Motion<N> {
         let mut motion = Motion { x: [LaneVec3::ZERO; N], turning: [[LaneVec3::ZERO; N]; 3] };
         let mut first = [LaneVec3::ZERO; 2];
         for a in 0..N {
@@ -102,7 +102,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
     }
 
     #[inline(always)]
-    fn slopes(&self, motion: &Motion<N>) -> Slopes<V> {
+    pub fn slopes(&self, motion: &Motion<N>) -> Slopes<V> {
         let v: [LaneVec3; V] = from_fn(|i| sum(&self.slopes[i], &motion.x));
         let w: [LaneVec3; V] = from_fn(|i| sum(&self.slopes[i], &motion.turning[0]));
         let S = &self.arc;
@@ -117,14 +117,14 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
 
     /// The vector of edge `e` by the tangents of its ends, see [`super::edge`].
     #[inline(always)]
-    fn bulging(&self, e: usize, [a, b]: [usize; 2], [_, t1, t2]: &[[LaneVec3; N]; 3]) -> LaneVec3 {
+    pub fn bulging(&self, e: usize, [a, b]: [usize; 2], [_, t1, t2]: &[[LaneVec3; N]; 3]) -> LaneVec3 {
         let [at_a, at_b] = self.edges[e];
         (at_a[0] * t1[a] + at_a[1] * t2[a]) + (at_b[0] * t1[b] + at_b[1] * t2[b])
     }
 
     /// Strains from t = 0, in the plane and of transverse shear.
     #[inline(always)]
-    fn strains<K: Interpolation<N, V, P>>(
+    pub fn strains<K: Interpolation<N, V, P>>(
         &self,
         motion: &Motion<N>,
         Slopes { v, long: w, .. }: &Slopes<V>,
@@ -157,9 +157,39 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
         (plane, shear)
     }
 
+    /// The derivative of energy by the numbers of bending, see [`super::kinematics::Shell::bending_stress`].
+    #[inline(always)]
+    pub fn bending_stress<K: Interpolation<N, V, P>>(
+        &self,
+        plane: &InPlaneLanes<P, E>,
+        slopes: &Slopes<V>,
+    ) -> [Lanes; P] {
+        let mut bending = plane.bending;
+        if K::CAMBERED {
+            let more = self.camber.moments(&plane.membrane, &slopes.first_bending());
+            (0..3).for_each(|n| bending[n] += more[n]);
+        }
+        bending
+    }
+
+    /// The derivative of energy by the numbers of shear, see [`super::kinematics::Shell::edge_stress`].
+    #[inline(always)]
+    pub fn edge_stress<K: Interpolation<N, V, P>>(&self, shear: &[Lanes; N], plane: &InPlaneLanes<P, E>) -> [Lanes; N] {
+        let mut stress: [Lanes; N] = from_fn(|i| {
+            let mut sum = self.shear[i][0] * shear[0];
+            (1..N).for_each(|j| sum += self.shear[i][j] * shear[j]);
+            sum
+        });
+        if K::EDGES_BEND {
+            let more = self.bent.stress(&plane.bending);
+            (0..N).for_each(|e| stress[e] += more[e]);
+        }
+        stress
+    }
+
     /// The gradient Bᵀσ by positions, directors and tangents.
     #[inline(always)]
-    fn gradient<K: Interpolation<N, V, P>>(
+    pub fn gradient<K: Interpolation<N, V, P>>(
         &self,
         (plane, shear): (&InPlaneLanes<P, E>, &[Lanes; N]),
         Motion { x, turning }: &Motion<N>,
@@ -167,12 +197,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
     ) -> Motion<N> {
         let [d, t1, t2] = turning;
         let Slopes { v, long, .. } = slopes;
-        let mut bending = plane.bending;
-        if K::CAMBERED {
-            let bent = [v[0].dot(&long[0]), v[1].dot(&long[1]), v[0].dot(&long[1]) + v[1].dot(&long[0])];
-            let more = self.camber.moments(&plane.membrane, &bent);
-            (0..3).for_each(|n| bending[n] += more[n]);
-        }
+        let bending = self.bending_stress::<K>(plane, slopes);
         let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &bending));
         let mut along: [LaneVec3; V] = from_fn(|i| sum(&Q[i], v));
         let bent: [LaneVec3; V] = from_fn(|i| sum(&M[i], v));
@@ -216,15 +241,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
         let slopes = self.slopes(&motion);
         let (plane, shear) = self.strains::<K>(&motion, &slopes);
         let plane = stress(&self.sections, &plane, self.count);
-        let mut shear: [Lanes; N] = from_fn(|i| {
-            let mut sum = self.shear[i][0] * shear[0];
-            (1..N).for_each(|j| sum += self.shear[i][j] * shear[j]);
-            sum
-        });
-        if K::EDGES_BEND {
-            let more = self.bent.stress(&plane.bending);
-            (0..N).for_each(|e| shear[e] += more[e]);
-        }
+        let shear = self.edge_stress::<K>(&shear, &plane);
         let g = self.gradient::<K>((&plane, &shear), &motion, &slopes);
         let f: [[[f64; LANES]; 6]; N] = from_fn(|a| {
             let mut moment = LaneVec3::ZERO;
@@ -245,7 +262,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
 
 /// A stress as symmetric coefficients of pairs of slopes.
 #[inline(always)]
-fn by_pairs<const V: usize, const P: usize>(pairs: &[[usize; 2]; P], stress: &[Lanes]) -> [[Lanes; V]; V] {
+pub(super) fn by_pairs<const V: usize, const P: usize>(pairs: &[[usize; 2]; P], stress: &[Lanes]) -> [[Lanes; V]; V] {
     let mut Q = [[Lanes::ZERO; V]; V];
     for (&[i, j], s) in pairs.iter().zip(stress) {
         Q[i][j] = *s;
@@ -255,9 +272,16 @@ fn by_pairs<const V: usize, const P: usize>(pairs: &[[usize; 2]; P], stress: &[L
 }
 
 impl<const V: usize> Slopes<V> {
+    /// The first three numbers of bending.
+    #[inline(always)]
+    pub fn first_bending(&self) -> [Lanes; 3] {
+        let Slopes { v, long, .. } = self;
+        [v[0].dot(&long[0]), v[1].dot(&long[1]), v[0].dot(&long[1]) + v[1].dot(&long[0])]
+    }
+
     /// ∂(p·w′)/∂w, see [`super::arc`].
     #[inline(always)]
-    fn gradient(&self, p: &[LaneVec3; V]) -> [LaneVec3; V] {
+    pub fn gradient(&self, p: &[LaneVec3; V]) -> [LaneVec3; V] {
         let P: [[Lanes; 2]; 2] = from_fn(|k| from_fn(|b| p[b].dot(&self.y[k])));
         let mut g = *p;
         for k in 0..2 {

@@ -1,14 +1,15 @@
 //! The layers of eight shell elements side by side, with the bits of [`super::layers`].
 
 use super::packed::InPlaneLanes;
+use super::plane_strains::PointStrains;
 use super::stretch::Stretch;
 use crate::materials::{Dissipation, EightPoints, PlaneStress, PointsHistory};
-use crate::math::lanes::{LANES, Lanes};
+use crate::math::lanes::{LANES, Lanes, lanes};
 use crate::state::Configuration;
 use std::array::from_fn;
 
 /// The number of history variables of a layer: plastic strains and their accumulated value.
-const VARIABLES: usize = 4;
+pub(super) const VARIABLES: usize = 4;
 
 /// The layered sections of eight elements.
 pub struct LayerLanes<const P: usize, const E: usize> {
@@ -38,9 +39,21 @@ pub struct PointLanes<const P: usize, const E: usize> {
     pub weight: Lanes,
 }
 
+impl<const P: usize, const E: usize> PointLanes<P, E> {
+    /// Of a point of each of eight elements.
+    #[inline(always)]
+    pub fn new<'a>(point: impl Fn(usize) -> &'a PointStrains<P, E>) -> Self {
+        PointLanes {
+            membrane: from_fn(|i| from_fn(|m| lanes(|lane| point(lane).membrane[(i, m)]))),
+            bending: from_fn(|i| from_fn(|m| lanes(|lane| point(lane).bending[(i, m)]))),
+            weight: lanes(|lane| point(lane).weight),
+        }
+    }
+}
+
 /// Σ aᵢ bᵢ.
 #[inline(always)]
-fn product<const N: usize>(a: &[Lanes; N], b: &[Lanes; N]) -> Lanes {
+pub(super) fn product<const N: usize>(a: &[Lanes; N], b: &[Lanes; N]) -> Lanes {
     let mut sum = a[0] * b[0];
     (1..N).for_each(|i| sum += a[i] * b[i]);
     sum

@@ -2,14 +2,17 @@
 //! logarithmic, see [`super::stretch`], and curvature adds to it. Transverse shear stays elastic until all layers have failed.
 
 use super::layer_lanes::{LayerLanes, PointLanes};
-use super::packed::{InPlaneLanes, PackedSections};
+use super::layer_tangent::EightSections;
+use super::packed::{InPlaneLanes, LinearisedLanes, PackedSections};
 use super::plane_strains::PointStrains;
-use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
+use super::section::{
+    Drilling, InPlane, ShellSection, ShellStiffness, linearise_one_by_one, stiffness_side_by_side, stress_one_by_one,
+};
 use super::stretch::Stretch;
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::{Dissipation, EightPoints, MaterialLaw, PlaneStress};
-use crate::math::lanes::lanes;
+use crate::math::lanes::{LANES, lanes};
 use crate::math::quadrature;
 use crate::state::Configuration;
 use nalgebra::SMatrix;
@@ -35,6 +38,7 @@ impl LayerModel {
         let half = 0.5 * thickness;
         Arc::new(Layers {
             law: self.law.clone(),
+            eight: EightPoints::new(&self.law, PlaneStress),
             at: points.iter().zip(weights).map(|(z, w)| [half * z, half * w]).collect(),
             variables: self.law.history(PlaneStress),
             stiffness: self.law.stiffness(PlaneStress),
@@ -47,6 +51,8 @@ impl LayerModel {
 /// The layers and their law, shared by all elements of a part.
 pub struct Layers {
     law: MaterialLaw,
+    /// The law for eight points at once, where there is one.
+    eight: Option<EightPoints<PlaneStress, 3>>,
     /// Height above the reference surface, and thickness, of each layer.
     at: Vec<[f64; 2]>,
     /// The number of history variables of a layer.
@@ -87,6 +93,23 @@ impl<const P: usize, const E: usize> LayeredSection<P, E> {
         first: usize,
     ) -> Self {
         LayeredSection { layers: Arc::clone(layers), elastic, drilling, points, first }
+    }
+
+    /// Eight of them side by side; `None` where they must be computed one by one.
+    #[inline(always)]
+    fn side_by_side<'a>(sections: &[&'a Self; LANES]) -> Option<EightSections<'a, P, E>> {
+        let Layers { eight, at, logarithmic, .. } = &*sections[0].layers;
+        let points = sections.map(|section| &section.points[..]);
+        // The flat elements of a part have more points than the others.
+        let alike = points.iter().all(|own| own.len() == points[0].len());
+        Some(EightSections {
+            law: eight.as_ref().filter(|_| alike)?,
+            at,
+            logarithmic: *logarithmic,
+            points,
+            drilling: sections.map(|section| &section.drilling),
+            first: sections.map(|section| section.first),
+        })
     }
 
     /// The range of the history of the group that the element has.
@@ -198,17 +221,13 @@ fn subtract<const R: usize, const Q: usize>(
 impl<const P: usize, const E: usize> PackedSections<LayeredSection<P, E>, P, E> for LayerLanes<P, E> {
     fn pack(sections: &[&LayeredSection<P, E>]) -> Option<Self> {
         let first = sections.first()?;
-        let law = EightPoints::new(&first.layers.law, PlaneStress)?;
+        let law = first.layers.eight.clone()?;
         let at = |lane: usize| sections[lane.min(sections.len() - 1)];
         // The flat elements of a part have more points than the others.
         if sections.iter().any(|section| section.points.len() != first.points.len()) {
             return None;
         }
-        let point = |g: usize| PointLanes {
-            membrane: from_fn(|i| from_fn(|m| lanes(|lane| at(lane).points[g].membrane[(i, m)]))),
-            bending: from_fn(|i| from_fn(|m| lanes(|lane| at(lane).points[g].bending[(i, m)]))),
-            weight: lanes(|lane| at(lane).points[g].weight),
-        };
+        let point = |g: usize| PointLanes::new(|lane| &at(lane).points[g]);
         Some(LayerLanes {
             law,
             logarithmic: first.layers.logarithmic,
@@ -303,6 +322,35 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
             }
         }
         (stress, if changed { tangent } else { &self.elastic })
+    }
+
+    const FORCES_SIDE_BY_SIDE: bool = true;
+
+    #[inline(always)]
+    fn stress_eight(sections: [&Self; LANES], strain: &InPlaneLanes<P, E>, now: &Configuration) -> InPlaneLanes<P, E> {
+        match Self::side_by_side(&sections) {
+            Some(eight) => eight.stress(strain, now, None),
+            None => stress_one_by_one(sections, strain, now),
+        }
+    }
+
+    #[inline(always)]
+    fn linearise_eight(
+        sections: [&Self; LANES],
+        strain: &InPlaneLanes<P, E>,
+        now: &Configuration,
+        moduli: Moduli,
+    ) -> LinearisedLanes<P, E> {
+        let logarithmic = sections[0].layers.logarithmic;
+        match Self::side_by_side(&sections) {
+            Some(eight) if !logarithmic || moduli == Moduli::Elastic => {
+                let mut out = stiffness_side_by_side(InPlaneLanes::ZERO, sections.map(|section| &section.elastic));
+                let tangent = (moduli == Moduli::Algorithmic).then_some(&mut out);
+                out.stress = eight.stress(strain, now, tangent);
+                out
+            }
+            _ => linearise_one_by_one(sections, strain, now, moduli),
+        }
     }
 
     fn surface_strain(&self, strain: &InPlane<P, E>) -> (f64, bool) {

@@ -18,6 +18,20 @@ impl<const P: usize, const E: usize> InPlaneLanes<P, E> {
     pub const ZERO: Self = InPlaneLanes { membrane: [Lanes::ZERO; E], bending: [Lanes::ZERO; P] };
 }
 
+/// Stress of eight elements in their planes, and the stiffness C.
+pub struct LinearisedLanes<const P: usize, const E: usize> {
+    /// Stress.
+    pub stress: InPlaneLanes<P, E>,
+    /// Membrane.
+    pub N: [[Lanes; E]; E],
+    /// Bending.
+    pub M: [[Lanes; P]; P],
+    /// Rows of the membrane, columns of bending; nothing unless `coupled`.
+    pub NM: [[Lanes; P]; E],
+    /// `NM` is not zero.
+    pub coupled: bool,
+}
+
 /// Sections of eight elements side by side.
 pub trait PackedSections<S, const P: usize, const E: usize>: Send + Sync + Sized {
     /// Those of up to eight elements; `None` where they must be computed one by one.

@@ -2,15 +2,25 @@
 
 use super::camber::Camber;
 use super::edge_bending::EdgeBending;
+use super::interpolation::Interpolation;
 use super::kinematics::Shell;
 use super::lanes::ShellPack;
 use super::packed::{InPlaneLanes, PackedSections};
 use super::section::ShellSection;
-use crate::math::lanes::{LANES, LaneVec3, lanes};
+use crate::math::lanes::{LANES, LaneVec3, Lanes, lanes};
 use std::array::from_fn;
 
 /// Up to eight elements, with their sections side by side.
-fn shell_pack<const N: usize, const V: usize, const P: usize, const E: usize, S, B>(
+#[inline(always)]
+pub(super) fn shell_pack<
+    K: Interpolation<N, V, P>,
+    const N: usize,
+    const V: usize,
+    const P: usize,
+    const E: usize,
+    S,
+    B,
+>(
     elements: &[Shell<N, V, P, E, S>],
     sections: B,
 ) -> ShellPack<N, V, P, E, B> {
@@ -28,7 +38,11 @@ fn shell_pack<const N: usize, const V: usize, const P: usize, const E: usize, S,
         }),
         slopes: from_fn(|i| from_fn(|a| of(&|e| e.slopes[i][a]))),
         arc: from_fn(|i| from_fn(|j| of(&|e| e.arc[i][j]))),
-        camber: Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber.0[m][n][k]))))),
+        camber: if K::CAMBERED {
+            Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber.0[m][n][k])))))
+        } else {
+            Camber([[[Lanes::ZERO; 3]; 3]; 3])
+        },
         edges: from_fn(|i| from_fn(|j| from_fn(|k| of(&|e| e.edges[i].0[j][k])))),
         start: InPlaneLanes {
             membrane: from_fn(|i| of(&|e| e.start.plane.membrane[i])),
@@ -36,18 +50,29 @@ fn shell_pack<const N: usize, const V: usize, const P: usize, const E: usize, S,
         },
         start_shear: from_fn(|i| of(&|e| e.start.shear[i])),
         shear: from_fn(|i| from_fn(|j| of(&|e| e.shear[i][j]))),
-        bent: EdgeBending(from_fn(|i| from_fn(|j| of(&|e| e.bent.0[i][j])))),
+        bent: if K::EDGES_BEND {
+            EdgeBending(from_fn(|i| from_fn(|j| of(&|e| e.bent.0[i][j]))))
+        } else {
+            EdgeBending([[Lanes::ZERO; N]; 3])
+        },
         sections,
     }
 }
 
 /// Elements in packs of eight; none where their sections must be computed one by one.
-pub(super) fn pack<const N: usize, const V: usize, const P: usize, const E: usize, S: ShellSection<P, E>>(
+pub(super) fn pack<
+    K: Interpolation<N, V, P>,
+    const N: usize,
+    const V: usize,
+    const P: usize,
+    const E: usize,
+    S: ShellSection<P, E>,
+>(
     elements: &[Shell<N, V, P, E, S>],
 ) -> Vec<ShellPack<N, V, P, E, S::Packed>> {
     let of = |elements: &[Shell<N, V, P, E, S>]| {
         let sections: Vec<&S> = elements.iter().map(|element| &element.section).collect();
-        S::Packed::pack(&sections).map(|sections| shell_pack(elements, sections))
+        S::Packed::pack(&sections).map(|sections| shell_pack::<K, N, V, P, E, S, _>(elements, sections))
     };
     elements.chunks(LANES).map(of).collect::<Option<_>>().unwrap_or_default()
 }

@@ -1,11 +1,11 @@
 //! What a shell asks of its sections; a section that stays elastic. Those that yield stand in [`super::layers`].
 
-use super::packed::{InPlaneLanes, PackedSections};
+use super::packed::{InPlaneLanes, LinearisedLanes, PackedSections};
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::Dissipation;
 use crate::math::fma;
-use crate::math::lanes::{self, Lanes, lanes};
+use crate::math::lanes::{self, LANES, Lanes, lanes};
 use crate::state::Configuration;
 use std::array::from_fn;
 
@@ -31,6 +31,81 @@ impl<const P: usize, const E: usize> InPlane<P, E> {
     }
 }
 
+impl<const P: usize, const E: usize> InPlaneLanes<P, E> {
+    /// Those of one element.
+    #[inline(always)]
+    fn lane(&self, lane: usize) -> InPlane<P, E> {
+        let of = |numbers: &Lanes| numbers.as_array()[lane];
+        InPlane { membrane: from_fn(|i| of(&self.membrane[i])), bending: from_fn(|i| of(&self.bending[i])) }
+    }
+}
+
+/// The stresses of eight elements.
+#[inline(always)]
+fn stress_side_by_side<const P: usize, const E: usize>(stress: &[InPlane<P, E>; LANES]) -> InPlaneLanes<P, E> {
+    InPlaneLanes {
+        membrane: from_fn(|i| lanes(|lane| stress[lane].membrane[i])),
+        bending: from_fn(|i| lanes(|lane| stress[lane].bending[i])),
+    }
+}
+
+/// The stiffnesses of eight elements, with their stress.
+#[inline(always)]
+pub(super) fn stiffness_side_by_side<const P: usize, const E: usize>(
+    stress: InPlaneLanes<P, E>,
+    C: [&ShellStiffness<P, E>; LANES],
+) -> LinearisedLanes<P, E> {
+    let coupled = C.iter().any(|C| C.coupled);
+    LinearisedLanes {
+        stress,
+        N: symmetric(|lane, i, j| C[lane].N[i][j]),
+        M: symmetric(|lane, i, j| C[lane].M[i][j]),
+        NM: if coupled { from_fn(|i| from_fn(|j| lanes(|lane| C[lane].NM[i][j]))) } else { [[Lanes::ZERO; P]; E] },
+        coupled,
+    }
+}
+
+/// A symmetric matrix whose lower half need not be read.
+#[inline(always)]
+fn symmetric<const R: usize>(entry: impl Fn(usize, usize, usize) -> f64) -> [[Lanes; R]; R] {
+    let mut K = [[Lanes::ZERO; R]; R];
+    for i in 0..R {
+        for j in i..R {
+            K[i][j] = lanes(|lane| entry(lane, i, j));
+            K[j][i] = K[i][j];
+        }
+    }
+    K
+}
+
+/// Stress of eight sections, each by itself.
+pub(super) fn stress_one_by_one<const P: usize, const E: usize, S: ShellSection<P, E>>(
+    sections: [&S; LANES],
+    strain: &InPlaneLanes<P, E>,
+    now: &Configuration,
+) -> InPlaneLanes<P, E> {
+    stress_side_by_side(&from_fn(|lane| sections[lane].stress(&strain.lane(lane), now)))
+}
+
+/// Stress and its derivative of eight sections, each by itself.
+pub(super) fn linearise_one_by_one<const P: usize, const E: usize, S: ShellSection<P, E>>(
+    sections: [&S; LANES],
+    strain: &InPlaneLanes<P, E>,
+    now: &Configuration,
+    moduli: Moduli,
+) -> LinearisedLanes<P, E> {
+    let mut places = [ShellStiffness::ZERO; LANES];
+    let mut stress = [InPlane::ZERO; LANES];
+    let mut lane = 0;
+    let C = places.each_mut().map(|place| {
+        let (s, C) = sections[lane].linearise(&strain.lane(lane), now, moduli, place);
+        stress[lane] = s;
+        lane += 1;
+        C
+    });
+    stiffness_side_by_side(stress_side_by_side(&stress), C)
+}
+
 /// The sections of one element.
 pub trait ShellSection<const P: usize, const E: usize>: Send + Sync + Sized {
     /// The sections of eight elements side by side.
@@ -47,6 +122,20 @@ pub trait ShellSection<const P: usize, const E: usize>: Send + Sync + Sized {
         moduli: Moduli,
         tangent: &'a mut ShellStiffness<P, E>,
     ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>);
+    /// True where forces of eight elements that are gathered as they are needed cost less than those of one after the other.
+    const FORCES_SIDE_BY_SIDE: bool = false;
+    /// Stress of eight elements side by side, with the bits of [`ShellSection::stress`].
+    #[inline(always)]
+    fn stress_eight(sections: [&Self; LANES], strain: &InPlaneLanes<P, E>, now: &Configuration) -> InPlaneLanes<P, E> {
+        stress_one_by_one(sections, strain, now)
+    }
+    /// Stress and its derivative of eight elements side by side.
+    fn linearise_eight(
+        sections: [&Self; LANES],
+        strain: &InPlaneLanes<P, E>,
+        now: &Configuration,
+        moduli: Moduli,
+    ) -> LinearisedLanes<P, E>;
     /// Elastic energy.
     fn energy(&self, strain: &InPlane<P, E>, now: &Configuration) -> f64;
     /// Writes the history variables of the element at `part` of the way to `now` into its range of `new`, the history of the
@@ -191,21 +280,30 @@ impl<const P: usize, const E: usize> PackedSections<ShellStiffness<P, E>, P, E> 
         _: Option<(&mut [f64], &mut Dissipation)>,
         _: usize,
     ) -> InPlaneLanes<P, E> {
-        let mut stress = InPlaneLanes::ZERO;
-        for i in 0..E {
-            for j in 0..E {
-                // The matrices are symmetric to the last bit: their lower halves are not read.
-                let entry = self.N[i.min(j)][i.max(j)];
-                stress.membrane[j] = lanes::fma(entry, strain.membrane[i], stress.membrane[j]);
-            }
-        }
-        for i in 0..P {
-            for j in 0..P {
-                stress.bending[j] = lanes::fma(self.M[i.min(j)][i.max(j)], strain.bending[i], stress.bending[j]);
-            }
-        }
-        stress
+        elastic_side_by_side(&self.N, &self.M, strain)
     }
+}
+
+/// σ = C ε of eight elements without coupling, as [`ShellStiffness::stress`] has it.
+#[inline(always)]
+fn elastic_side_by_side<const P: usize, const E: usize>(
+    N: &[[Lanes; E]; E],
+    M: &[[Lanes; P]; P],
+    strain: &InPlaneLanes<P, E>,
+) -> InPlaneLanes<P, E> {
+    let mut stress = InPlaneLanes::ZERO;
+    for i in 0..E {
+        for j in 0..E {
+            // The matrices are symmetric to the last bit: their lower halves are not read.
+            stress.membrane[j] = lanes::fma(N[i.min(j)][i.max(j)], strain.membrane[i], stress.membrane[j]);
+        }
+    }
+    for i in 0..P {
+        for j in 0..P {
+            stress.bending[j] = lanes::fma(M[i.min(j)][i.max(j)], strain.bending[i], stress.bending[j]);
+        }
+    }
+    stress
 }
 
 impl<const P: usize, const E: usize> ShellSection<P, E> for ShellStiffness<P, E> {
@@ -230,6 +328,18 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for ShellStiffness<P, E>
         _: &'a mut ShellStiffness<P, E>,
     ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>) {
         (ShellStiffness::stress(self, strain), self)
+    }
+
+    #[inline(always)]
+    fn linearise_eight(
+        sections: [&Self; LANES],
+        strain: &InPlaneLanes<P, E>,
+        _: &Configuration,
+        _: Moduli,
+    ) -> LinearisedLanes<P, E> {
+        let mut out = stiffness_side_by_side(InPlaneLanes::ZERO, sections);
+        out.stress = elastic_side_by_side(&out.N, &out.M, strain);
+        out
     }
 
     fn energy(&self, strain: &InPlane<P, E>, _: &Configuration) -> f64 {

@@ -1,0 +1,80 @@
+//! The matrices of eight shell elements side by side: how a half of them becomes whole, and how each is written by itself.
+
+use crate::math::lanes::{LANES, LaneVec3, Lanes};
+
+/// The matrices of eight elements: node and component of the row, then of the column.
+pub(super) type Matrix<const N: usize> = [[[[Lanes; 6]; N]; 6]; N];
+
+/// Σ over so many indices.
+#[inline(always)]
+pub(super) fn product(of: impl Fn(usize) -> Lanes, count: usize) -> Lanes {
+    let mut sum = of(0);
+    (1..count).for_each(|i| sum += of(i));
+    sum
+}
+
+/// Subtracts the matrix of c × at the position of `a` and the rotation of `b`.
+#[inline(always)]
+pub(super) fn subtract_skew<const N: usize>(LaneVec3([x, y, z]): &LaneVec3, a: usize, b: usize, H: &mut Matrix<N>) {
+    for (i, j, s) in [(1, 2, *x), (2, 0, *y), (0, 1, *z)] {
+        H[a][i][b][3 + j] += s;
+        H[a][j][b][3 + i] -= s;
+    }
+}
+
+/// The whole matrix from its upper half without the position of the first node.
+#[inline(always)]
+pub(super) fn complete<const N: usize>(H: &mut Matrix<N>) {
+    for i in 0..3 {
+        for b in 1..N {
+            for j in 0..3 {
+                // Of positions the half with a ≤ b stands.
+                let column = |a: usize| if a <= b { H[a][i][b][j] } else { H[b][j][a][i] };
+                let first = Lanes::ZERO - product(|a| column(a + 1), N - 1);
+                H[0][i][b][j] = first;
+            }
+        }
+        for b in 0..N {
+            for j in 3..6 {
+                H[0][i][b][j] = Lanes::ZERO - product(|a| H[a + 1][i][b][j], N - 1);
+            }
+        }
+    }
+    for i in 0..3 {
+        for j in 0..3 {
+            H[0][i][0][j] = Lanes::ZERO - product(|b| H[0][i][b + 1][j], N - 1);
+        }
+    }
+    for a in 0..N {
+        for i in 0..6 {
+            for b in 0..N {
+                for j in 0..6 {
+                    let is_lower = match (i < 3, j < 3) {
+                        (true, true) | (false, false) => (a, i) > (b, j),
+                        (row, _) => !row,
+                    };
+                    if is_lower {
+                        H[a][i][b][j] = H[b][j][a][i];
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Writes numbers of eight elements, all those of one element together.
+#[inline(always)]
+pub(super) fn store(numbers: &[Lanes], count: usize, out: &mut [f64]) {
+    let length = numbers.len();
+    let (tiles, rest) = numbers.as_chunks::<LANES>();
+    for (t, tile) in tiles.iter().enumerate() {
+        let of = Lanes::transpose(*tile);
+        for (lane, of) in of.iter().enumerate().take(count) {
+            out[lane * length + LANES * t..][..LANES].copy_from_slice(&of.to_array());
+        }
+    }
+    for (k, numbers) in (LANES * tiles.len()..).zip(rest) {
+        let numbers = numbers.to_array();
+        (0..count).for_each(|lane| out[lane * length + k] = numbers[lane]);
+    }
+}
