@@ -108,7 +108,10 @@ fn failure_follows_stress_and_rate() {
         let late = (YIELD + HARDENING * strain) * AREA * SPEED * step;
         for part in ["bar", "beam", "shell"] {
             for share in [0.0, 1.0] {
-                let (v, energy) = after(&torn_by(part, "newmark", step, share, &more));
+                // With several points in an element one that trembles, and so fails first, would decide.
+                let deck =
+                    torn_by(part, "newmark", step, share, &more).replace("elements = 1\n", "elements = 1\norder = 1\n");
+                let (v, energy) = after(&deck);
                 let what = format!("{part}, {share}, {more}: {v}, {energy:?}");
                 let taken = (plastic + elastic) * volume;
                 assert!((energy.plastic + energy.eroded - taken).abs() < 1.5 * late, "{what} for {taken}");
@@ -123,7 +126,7 @@ fn failure_follows_stress_and_rate() {
 #[test]
 fn compression_does_no_harm_where_the_table_says_so() {
     let more = "failure_triaxiality = [[-0.3333333333333333, 1e6], [0.0, 1.0]]";
-    let pushed = torn_by("bar", "newmark", 2e-6, 0.0, more).replace("velocity = [10.0", "velocity = [-10.0");
+    let pushed = torn_by("bar", "newmark", 2e-6, 0.0, more).replace("velocity = [10", "velocity = [-10");
     let (_, energy) = after(&pushed);
     assert!(energy.eroded == 0.0 && energy.plastic > 800.0, "{energy:?}");
 }

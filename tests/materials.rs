@@ -1,7 +1,7 @@
 //! The material law against exact solutions, through its public face only.
 
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
-use rdsolve::materials::failure::{FactorTable, Failure};
+use rdsolve::materials::failure::{FactorTable, FailureCriterion};
 use rdsolve::materials::{
     Dissipation, FibreStress, Hardening, MaterialLaw, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
 };
@@ -603,7 +603,7 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
 #[test]
 fn a_layer_fails_by_its_triaxiality() {
     let table = FactorTable::new(vec![[0.0, 2.0], [1.0 / 3.0, 1.0], [2.0 / 3.0, 0.5]]).expect("a table");
-    let failure = Failure { strain: 0.05, triaxiality: Some(table), rate: None };
+    let failure = FailureCriterion { strain: 0.05, triaxiality: Some(table), rate: None };
     for share in [0.0, 0.5] {
         let law = MaterialLaw::new(E, NU, linear(1e3), share, None).failing_at(failure.clone());
         for (unit, factor) in [([0.0, 0.0, 1.0], 2.0), ([1.0, 1.0, 0.0], 0.5), ([-1.0, -1.0, 0.0], 2.0)] {

@@ -13,7 +13,8 @@ fn plan(model: &Model) -> Plan {
 }
 
 /// Statics, dynamics, plane and space, bodies, beams, shells, contacts, constitutive histories, fields. Numbers have sixteen or
-/// seventeen digits, or few; which of them stay zero is guessed from what moves.
+/// seventeen digits, or few; which of them stay zero is guessed from what moves. Grids are predicted as they were without compression, which takes
+/// a third to a half of them.
 #[test]
 fn tables_become_as_large_as_predicted() {
     for (name, end) in [
@@ -28,10 +29,17 @@ fn tables_become_as_large_as_predicted() {
         ("two_bodies_on_springs", 1.0),
     ] {
         let model = read(name, &[format!("analysis.end_time={end}"), "expect=[]".to_owned()]);
-        let predicted: f64 = expected_sizes(&model, &plan(&model)).unwrap().iter().map(|(_, size)| size).sum();
-        let written = tables_of(&model).bytes();
-        let ratio = predicted / written as f64;
-        assert!((0.8..1.25).contains(&ratio), "{name}: {predicted} predicted, {written} written");
+        let sizes = expected_sizes(&model, &plan(&model)).unwrap();
+        let sum = |fields: bool| {
+            sizes.iter().filter(|(file, _)| (*file == "fields") == fields).map(|(_, size)| size).sum::<f64>()
+        };
+        let tables = tables_of(&model);
+        for (predicted, written, bounds) in
+            [(sum(false), tables.bytes(false), 0.8..1.25), (sum(true), tables.bytes(true), 1.25..2.5)]
+        {
+            let ratio = predicted / written as f64;
+            assert!(written == 0 || bounds.contains(&ratio), "{name}: {predicted} predicted, {written} written");
+        }
     }
 }
 

@@ -123,7 +123,7 @@ impl<S: StressState<N>, const N: usize> EightPoints<S, N> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::materials::{Failure, FibreStress, Hardening, PlaneStress, Uniaxial};
+    use crate::materials::{FailureCriterion, FibreStress, Hardening, PlaneStress, Uniaxial};
     use rand::{RngExt, SeedableRng};
 
     /// Strains from far below yield to far beyond, from histories of earlier steps, with hardening and without: the same bits.
@@ -183,7 +183,7 @@ mod tests {
         let law = |share| MaterialLaw::new(1.0, 0.3, linear.clone(), share, None);
         assert!(EightPoints::new(&law(0.0), Uniaxial).is_some());
         assert!(EightPoints::new(&law(0.5), Uniaxial).is_none());
-        assert!(EightPoints::new(&law(0.0).failing_at(Failure::at(0.1)), Uniaxial).is_none());
+        assert!(EightPoints::new(&law(0.0).failing_at(FailureCriterion::at(0.1)), Uniaxial).is_none());
         let table = Hardening::table(vec![[0.0, 1.0], [1.0, 2.0]]).unwrap();
         assert!(EightPoints::new(&MaterialLaw::new(1.0, 0.3, table, 0.0, None), Uniaxial).is_none());
     }

@@ -12,7 +12,7 @@
 
 /// The failure of a material.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Failure {
+pub struct FailureCriterion {
     /// ε_f, above 0.
     pub strain: f64,
     /// f by the stress triaxiality η; `None` for 1.
@@ -21,10 +21,10 @@ pub struct Failure {
     pub rate: Option<FactorTable>,
 }
 
-impl Failure {
-    /// Failure at an accumulated plastic strain, above 0, whatever the stress and the rate.
-    pub fn at(strain: f64) -> Failure {
-        Failure { strain, triaxiality: None, rate: None }
+impl FailureCriterion {
+    /// FailureCriterion at an accumulated plastic strain, above 0, whatever the stress and the rate.
+    pub fn at(strain: f64) -> FailureCriterion {
+        FailureCriterion { strain, triaxiality: None, rate: None }
     }
 
     /// True where damage is a number of its own in the history.
@@ -95,7 +95,7 @@ mod tests {
     #[test]
     fn damage_follows_stress_and_rate() {
         let table = |points: &[[f64; 2]]| FactorTable::new(points.to_vec()).ok();
-        let failure = Failure {
+        let failure = FailureCriterion {
             strain: 0.2,
             triaxiality: table(&[[0.0, 2.0], [1.0 / 3.0, 1.0]]),
             rate: table(&[[0.0, 1.0], [100.0, 1.5]]),

@@ -4,7 +4,7 @@
 
 use super::constants::ElasticConstants;
 use super::dissipation::Dissipation;
-use super::failure::Failure;
+use super::failure::FailureCriterion;
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
 use super::return_mapping::{ReturnPoint, Trial, Yielding};
@@ -17,7 +17,7 @@ pub struct MaterialLaw {
     elastic: ElasticConstants,
     yielding: Yielding,
     /// When a point carries nothing more; `None` for a material that does not fail.
-    failure: Option<Failure>,
+    failure: Option<FailureCriterion>,
 }
 
 /// Part of the elastic stiffness that the tangent keeps where a material has failed. Its stress is zero; a node that nothing else holds
@@ -62,7 +62,7 @@ impl MaterialLaw {
     }
 
     /// The same material, which fails.
-    pub fn failing_at(self, failure: Failure) -> MaterialLaw {
+    pub fn failing_at(self, failure: FailureCriterion) -> MaterialLaw {
         MaterialLaw { failure: Some(failure), ..self }
     }
 
@@ -94,7 +94,7 @@ impl MaterialLaw {
     /// Numbers of history per point: plastic strains, accumulated plastic strain, back stresses if there is a kinematic
     /// share, damage if failure depends on stress or rate, overstress of the last state if viscous.
     pub fn history<const N: usize, S: StressState<N>>(&self, _: S) -> usize {
-        let damage = self.failure.as_ref().is_some_and(Failure::sums_damage);
+        let damage = self.failure.as_ref().is_some_and(FailureCriterion::sums_damage);
         self.damage_place::<N>() + usize::from(damage) + usize::from(self.yielding.viscosity.is_some())
     }
 

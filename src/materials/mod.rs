@@ -19,7 +19,7 @@ pub mod stress_state;
 pub use constants::ElasticConstants;
 pub use dissipation::Dissipation;
 pub use eight_points::{EightPoints, PointsHistory};
-pub use failure::Failure;
+pub use failure::FailureCriterion;
 pub use hardening::Hardening;
 pub use law::{FAILED_STIFFNESS, MaterialLaw};
 pub use overstress::{Overstress, Viscosity};

@@ -183,7 +183,7 @@ impl Derived {
         if is_wanted(Wanted::SHELLS) {
             results::shell_states(system, model, now, &mut self.shear_balance, &mut self.shells);
         }
-        if is_wanted(Wanted::NODAL_RESULTANTS) {
+        if drawn && is_wanted(Wanted::NODAL_RESULTANTS) {
             results::nodal_resultants(system, model, now, &mut self.nodal_resultants);
         }
         if is_wanted(Wanted::ENERGY) {

@@ -335,14 +335,7 @@ impl Failure {
                                       each other, or the step is too long); the widest gaps are"
                     .to_owned()
             }
-            Failure::ContactNotResolved { name } => format!(
-                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
-                 resolved; where shorter steps do not help, `stiffness` is too low for the speed"
-            ),
-            Failure::ContactNotClosed { name, out } => format!(
-                "contact `{name}` is still out by {out:.1e} times its `penetration_tolerance` after a hundred equilibria: where its \
-                 `stiffness` is far below that of what it presses, each brings it little nearer (a larger one, or a larger tolerance)"
-            ),
+            Failure::ContactNotResolved { .. } | Failure::ContactNotClosed { .. } => self.message_of_contact(),
             Failure::BushingTurnedOver { name } => format!(
                 "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \
                  defined; about an axis whose stiffness differs from the other two they may turn on without limit"
@@ -358,6 +351,21 @@ impl Failure {
             | Failure::TurnedOver { .. }
             | Failure::EquilibriumJumps { .. } => self.message_of_path(),
             _ => self.message_of_length(),
+        }
+    }
+
+    /// The message where a contact is not resolved.
+    fn message_of_contact(&self) -> String {
+        match self {
+            Failure::ContactNotResolved { name } => format!(
+                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
+                 resolved; where shorter steps do not help, `stiffness` is too low for the speed"
+            ),
+            Failure::ContactNotClosed { name, out } => format!(
+                "contact `{name}` is still out by {out:.1e} times its `penetration_tolerance` after a hundred equilibria: where its \
+                 `stiffness` is far below that of what it presses, each brings it little nearer (a larger one, or a larger tolerance)"
+            ),
+            _ => String::new(),
         }
     }
 

@@ -167,6 +167,12 @@ impl System {
             .map(|(group, _)| group.part)
     }
 
+    /// True where a contact has multipliers.
+    pub fn has_contact_multipliers(&self) -> bool {
+        let has = |block| matches!(block, ContactBlock::Points(points) if points.has_multipliers());
+        self.contact_groups().any(|(_, block)| has(block))
+    }
+
     /// Writes into `history`, that of the start of a step, multipliers of contacts by the forces in the equilibrium `now`; `start` are the
     /// nodes at the start of the step. Returns the largest length by which one was out, over its tolerance, and the contact by its index
     /// in [`Model::parts`].

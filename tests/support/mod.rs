@@ -349,9 +349,11 @@ impl Tables {
         Tables(folder)
     }
 
-    /// Bytes of all files.
-    pub fn bytes(&self) -> u64 {
-        fs::read_dir(self.0.path()).unwrap().map(|entry| entry.unwrap().metadata().unwrap().len()).sum()
+    /// Bytes of all grids, or of all other files.
+    pub fn bytes(&self, of_grids: bool) -> u64 {
+        let entries = fs::read_dir(self.0.path()).unwrap().map(|entry| entry.unwrap());
+        let entries = entries.filter(|entry| entry.path().extension().is_some_and(|kind| kind == "vtu") == of_grids);
+        entries.map(|entry| entry.metadata().unwrap().len()).sum()
     }
 
     pub fn rows(&self, file: &str) -> Vec<Row> {

@@ -3,7 +3,7 @@
 use crate::math::lanes::{LANES, LaneVec3, Lanes};
 
 /// The matrices of eight elements: node and component of the row, then of the column.
-pub(super) type Matrix<const N: usize> = [[[[Lanes; 6]; N]; 6]; N];
+pub(super) type LaneMatrix<const N: usize> = [[[[Lanes; 6]; N]; 6]; N];
 
 /// Σ over so many indices.
 #[inline(always)]
@@ -15,7 +15,7 @@ pub(super) fn product(of: impl Fn(usize) -> Lanes, count: usize) -> Lanes {
 
 /// Subtracts the matrix of c × at the position of `a` and the rotation of `b`.
 #[inline(always)]
-pub(super) fn subtract_skew<const N: usize>(LaneVec3([x, y, z]): &LaneVec3, a: usize, b: usize, H: &mut Matrix<N>) {
+pub(super) fn subtract_skew<const N: usize>(LaneVec3([x, y, z]): &LaneVec3, a: usize, b: usize, H: &mut LaneMatrix<N>) {
     for (i, j, s) in [(1, 2, *x), (2, 0, *y), (0, 1, *z)] {
         H[a][i][b][3 + j] += s;
         H[a][j][b][3 + i] -= s;
@@ -24,7 +24,7 @@ pub(super) fn subtract_skew<const N: usize>(LaneVec3([x, y, z]): &LaneVec3, a: u
 
 /// The whole matrix from its upper half without the position of the first node.
 #[inline(always)]
-pub(super) fn complete<const N: usize>(H: &mut Matrix<N>) {
+pub(super) fn complete<const N: usize>(H: &mut LaneMatrix<N>) {
     for i in 0..3 {
         for b in 1..N {
             for j in 0..3 {

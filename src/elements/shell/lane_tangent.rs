@@ -5,7 +5,7 @@
 //! differs from that of the element by itself by rounding.
 
 use super::interpolation::Interpolation;
-use super::lane_matrix::{Matrix, complete, product, store, subtract_skew};
+use super::lane_matrix::{LaneMatrix, complete, product, store, subtract_skew};
 use super::lanes::{Motion, ShellPack, Slopes, by_pairs, sum, total};
 use super::packed::{InPlaneLanes, LinearisedLanes};
 use crate::math::lanes::{LaneVec3, Lanes, fma};
@@ -106,7 +106,7 @@ impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
     /// The upper half of BᵀX, without the position of the first node: rows of positions by positions, rows of rotations by positions,
     /// which stand in the upper half too, and by rotations.
     #[inline(always)]
-    fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(&self, X: &Self, H: &mut Matrix<N>) {
+    fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(&self, X: &Self, H: &mut LaneMatrix<N>) {
         for a in 0..N {
             for k in 0..3 {
                 if a > 0 {
@@ -268,7 +268,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
         &self,
         (C, shear): (&LinearisedLanes<P, E>, &[Lanes; N]),
         motion: &Motion<N>,
-        H: &mut Matrix<N>,
+        H: &mut LaneMatrix<N>,
     ) {
         let membrane = &C.stress.membrane;
         let [d, t1, t2] = &motion.turning;
@@ -307,7 +307,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
         C: &LinearisedLanes<P, E>,
         motion: &Motion<N>,
         slopes: &Slopes<V>,
-        H: &mut Matrix<N>,
+        H: &mut LaneMatrix<N>,
     ) {
         let (d, Slopes { v, w, y, .. }) = (&motion.turning[0], slopes);
         let Q = by_pairs::<V, P>(&K::PAIRS, &self.bending_stress::<K>(&C.stress, slopes));

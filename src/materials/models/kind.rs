@@ -1,6 +1,6 @@
 //! What a model of material says of itself, and what several models share.
 
-use crate::materials::failure::{FactorTable, Failure};
+use crate::materials::failure::{FactorTable, FailureCriterion};
 use crate::materials::hardening::Hardening;
 use crate::materials::law::MaterialLaw;
 use crate::materials::overstress::Viscosity;
@@ -89,7 +89,7 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
     if rate.as_ref().is_some_and(|rate| rate.first() < 0.0) {
         given.error::<()>("failure_rate", "rates of plastic strain are not negative");
     }
-    Some(law.failing_at(Failure { strain, triaxiality, rate }))
+    Some(law.failing_at(FailureCriterion { strain, triaxiality, rate }))
 }
 
 /// The table of factors behind a key, where it is written.

@@ -1,12 +1,8 @@
 //! Load steps with contacts that end without depth: the equilibrium is found again and again, each time with the contact forces of the
 //! last as multipliers, until nothing is pressed in by more than its tolerance.
 
-use super::newton::Newton;
-use crate::model::Contact;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::motion::Stage;
-use crate::solve::report::StepReport;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, State};
 
@@ -24,8 +20,7 @@ pub struct Augmentation {
 impl Augmentation {
     /// `None` where no contact has multipliers.
     pub fn of(cx: &Context) -> Option<Augmentation> {
-        let has = |contact: &Contact| contact.law.is_some_and(|law| law.tolerance.is_some());
-        let any = !cx.is_dynamic() && cx.model.each::<Contact>().any(has);
+        let any = !cx.is_dynamic() && cx.system.has_contact_multipliers();
         any.then(|| Augmentation { start: vec![0.0; cx.system.history], next: vec![0.0; cx.system.history] })
     }
 
@@ -39,33 +34,29 @@ impl Augmentation {
         state.history.copy_from_slice(&self.start);
     }
 
-    /// Finds the equilibrium without depth from the one at hand; the history of `state` then has its multipliers.
+    /// Gives the history of `state` multipliers by the contact forces of the equilibrium `count` at the time `to`; false where nothing was out by
+    /// more than its tolerance, and nothing is changed.
     ///
     /// # Errors
-    /// See [`Failure`].
-    pub fn find(
+    /// [`Failure::ContactNotClosed`] where that was the last one.
+    pub fn augment(
         &mut self,
-        newton: &mut Newton,
         cx: &Context,
-        ws: &mut Workspace,
+        ws: &Workspace,
         state: &mut State,
-        stage: &Stage,
-        mut report: StepReport,
-    ) -> Result<StepReport, Failure> {
-        let to = report.to;
-        for count in 1.. {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: to - state.time, lead: None };
-            self.next.copy_from_slice(&state.history);
-            let (out, part) = cx.system.augment_contacts(&state.nodes, &now, &mut self.next);
-            if out <= 1.0 {
-                break;
-            }
-            if count > MOST {
-                return Err(Failure::ContactNotClosed { name: cx.model.parts[part].name().to_owned(), out });
-            }
-            std::mem::swap(&mut state.history, &mut self.next);
-            report = report.then(newton.equilibrate_again(cx, ws, state, stage, to)?);
+        to: f64,
+        count: usize,
+    ) -> Result<bool, Failure> {
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: to - state.time, lead: None };
+        self.next.copy_from_slice(&state.history);
+        let (out, part) = cx.system.augment_contacts(&state.nodes, &now, &mut self.next);
+        if out <= 1.0 {
+            return Ok(false);
         }
-        Ok(report)
+        if count > MOST {
+            return Err(Failure::ContactNotClosed { name: cx.model.parts[part].name().to_owned(), out });
+        }
+        std::mem::swap(&mut state.history, &mut self.next);
+        Ok(true)
     }
 }

@@ -186,13 +186,34 @@ impl Newton {
             return Ok(report);
         };
         augmentation.begin(state);
-        let found = augmentation.find(self, cx, ws, state, stage, report);
+        let found = self.close_contacts(&mut augmentation, cx, ws, state, stage, report);
         let accepted = found.and_then(|report| self.accept(cx, ws, state, stage, to).map(|()| report));
         if accepted.is_err() {
             augmentation.take_back(state);
         }
         self.augmentation = Some(augmentation);
         accepted
+    }
+
+    /// Finds the equilibrium without depth from the one at hand; the history of `state` then has its multipliers.
+    ///
+    /// # Errors
+    /// See [`Failure`].
+    fn close_contacts(
+        &mut self,
+        augmentation: &mut Augmentation,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &mut State,
+        stage: &Stage,
+        mut report: StepReport,
+    ) -> Result<StepReport, Failure> {
+        let (to, mut count) = (report.to, 1);
+        while augmentation.augment(cx, ws, state, to, count)? {
+            report = report.then(self.equilibrate_again(cx, ws, state, stage, to)?);
+            count += 1;
+        }
+        Ok(report)
     }
 
     /// Finds the equilibrium of a stage, from its prediction; `state` is only read.
@@ -333,7 +354,7 @@ impl Newton {
     ///
     /// # Errors
     /// See [`Failure`].
-    pub fn equilibrate_again(
+    fn equilibrate_again(
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
