@@ -164,8 +164,11 @@ pub struct Request<'a> {
 impl Derived {
     /// Empty quantities, with room for all contacts.
     pub fn new(model: &Model) -> Self {
+        let contacts = model.parts.iter().filter(|part| part.kind().is_unilateral()).count();
         Derived {
-            contacts: Vec::with_capacity(model.parts.iter().filter(|part| part.kind().is_unilateral()).count()),
+            contacts: Vec::with_capacity(contacts),
+            // A box lies on four corners, or is among others.
+            contact_touches: Vec::with_capacity(8 * contacts),
             ..Derived::default()
         }
     }

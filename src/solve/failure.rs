@@ -296,6 +296,11 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
+    /// True where a shorter step would end alike: a signal, and contacts whose multipliers come nearer at a pace that no step changes.
+    pub fn is_final(&self) -> bool {
+        matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. })
+    }
+
     /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
     fn message(&self) -> String {
         match self {

@@ -234,3 +234,36 @@ fn ten_balls_stand_as_drawn() {
         near(last[z], first[z], 1.1e-9, "height");
     }
 }
+
+/// A block let down in load steps, of which a spring takes each in a tenth of the tolerance, or in ten times of it: contacts.csv has its weight.
+#[test]
+fn forces_are_those_of_the_equilibrium_whatever_the_tolerance() {
+    for tolerance in [1e-3, 1e-5] {
+        let text = format!(
+            r#"
+            analysis = {{ kind = "static", end_time = 1.0, time_step = 0.1 }}
+            environment = {{ gravity = [0.0, 0.0, -10.0] }}
+            [[bodies]]
+            name = "block"
+            center = [0.0, 0.0, 0.01]
+            mass = 4.0
+            shape = {{ kind = "box", size = [0.4, 0.2, 0.02] }}
+            [[supports]]
+            at = "block"
+            fix = ["ux", "uy", "rz"]
+            [[contacts]]
+            name = "floor"
+            surface = {{ shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }}
+            with = "block"
+            stiffness = 1e5
+            method = "augmented-lagrangian"
+            penetration_tolerance = {tolerance}
+            "#
+        );
+        let rows = rows(&text);
+        // Four corners carry 40 N: a spring each would be pressed in by 1e-4. The force errs as the equilibrium, 1e-8.
+        let last = rows.last().expect("rows");
+        near(last[FORCE + 2], -40.0, 1e-5, "force");
+        assert!(last[GAP].abs() <= 1e-4 * (1.0 + 1e-6), "{}", last[GAP]);
+    }
+}

@@ -30,7 +30,8 @@ pub(super) fn update_point(
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let motion = NormalMotion { gap: at.gap, rate: at.rate(), force, speed };
     let mut spent = Dissipation { impact: update_normal(law, &motion, now, part, old, new), ..Dissipation::default() };
-    new.set_lift(law, if now.dt > 0.0 { force / law.stiffness } else { old.lift(law) });
+    // The multiplier stays that of the equilibrium, under which the gap at hand gives its force; the next step begins from there.
+    new.set_lift(law, old.lift(law));
     if law.friction > 0.0 {
         spent.friction = update_friction(contacts, point, (&at, acting.as_ref()), now, way(old, part), old, new);
     }

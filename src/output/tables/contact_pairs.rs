@@ -64,6 +64,8 @@ enum Touched {
     Part(usize),
     /// Each of some bodies, by the others.
     EachOther,
+    /// A part by itself.
+    Itself,
 }
 
 impl NodeOwners {
@@ -93,7 +95,8 @@ impl NodeOwners {
                     Touched::Shape
                 }
                 TouchedSurface::Facets(faces) => match names.iter().position(|name| *name == faces.part) {
-                    Some(part) => Touched::Part(part),
+                    Some(part) if faces.has_sides() => Touched::Part(part),
+                    Some(_) => Touched::Itself,
                     None => Touched::EachOther,
                 },
             });
@@ -112,16 +115,16 @@ impl NodeOwners {
         self.names.get(owner).unwrap_or_else(|| &model.nodes[owner - self.names.len()].label)
     }
 
-    /// The two sides of a touch, the first one the surface; `None` within one part. True where they are exchanged.
+    /// The two sides of a touch, the first one the surface, and whether they are exchanged; `None` where a part touches itself.
     fn sides(&self, touch: &ContactTouch) -> Option<([usize; 2], bool)> {
         let [on, by] = touch.nodes.map(|node| self.of_node[node]);
-        let (sides, exchanged) = match self.touched[touch.contact] {
-            Touched::Shape => ([on, by], false),
-            Touched::Part(part) => ([part, by], false),
-            Touched::EachOther if on < by => ([on, by], false),
-            Touched::EachOther => ([by, on], true),
-        };
-        (sides[0] != sides[1]).then_some((sides, exchanged))
+        match self.touched[touch.contact] {
+            Touched::Shape => Some(([on, by], false)),
+            Touched::Part(part) => Some(([part, by], false)),
+            Touched::EachOther if on < by => Some(([on, by], false)),
+            Touched::EachOther => Some(([by, on], true)),
+            Touched::Itself => None,
+        }
     }
 }
 

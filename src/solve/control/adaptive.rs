@@ -113,7 +113,7 @@ impl<C: StepController> CoverInterval for C {
                 Ok(None) => {}
                 Err(failure) => {
                     // The difference of two times is a length only to rounding.
-                    if length <= least || dt <= least || matches!(failure, Failure::Stopped) {
+                    if length <= least || dt <= least || failure.is_final() {
                         return Err(march.failed(failure));
                     }
                     if !matches!(failure, Failure::ErrorTooLarge { .. }) {

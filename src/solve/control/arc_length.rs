@@ -165,7 +165,7 @@ impl ArcLengthController {
             Err(failure) => {
                 let unrestrained =
                     cx.system.history == 0 && matches!(failure, Failure::Singular { at_start: true, .. });
-                if !may_cut || unrestrained || matches!(failure, Failure::Stopped) {
+                if !may_cut || unrestrained || failure.is_final() {
                     return Err(march.failed(failure));
                 }
             }

@@ -271,7 +271,7 @@ impl Substeps {
         if violated && self.violated_at_full_length.is_none() {
             self.violated_at_full_length = Some(failure.clone());
         }
-        let stops = matches!(failure, Failure::Stopped);
+        let stops = failure.is_final();
         if self.length == 1 || 0.5 * dt < analysis.least_step || unrestrained || stops {
             let first = self.violated_at_full_length.take().filter(|_| violated);
             return Err(march.failed(first.unwrap_or(failure)));

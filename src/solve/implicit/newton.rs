@@ -213,6 +213,9 @@ impl Newton {
             report = report.then(self.equilibrate_again(cx, ws, state, stage, to)?);
             count += 1;
         }
+        if count > 1 {
+            contacts::check_passage(cx, ws, state, to - state.time)?;
+        }
         Ok(report)
     }
 
