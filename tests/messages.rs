@@ -967,6 +967,8 @@ fn contacts() {
     assert_snapshot!("contact_zone", contact(plane, "with = \"portal\"\nstiffness = 0.0\nfriction = 0.1"));
     let multipliers = "with = \"portal\"\nstiffness = 1e5\nmethod = \"augmented-lagrangian\"\npenetration_tolerance = 0.0\nrestitution = 0.5";
     assert_snapshot!("contact_multipliers_in_motion", contact(plane, multipliers));
+    let loose = "with = \"portal\"\nmethod = \"augmented-lagrangian\"\npenetration_tolerance = 0.5";
+    assert_snapshot!("contact_loose_multipliers", contact(plane, loose));
     let springs = "with = \"portal\"\nstiffness = 1e5\npenetration_tolerance = 1e-6\nmethod = \"penalty\"";
     assert_snapshot!("contact_springs", contact(plane, springs));
     assert_snapshot!("contact_method", contact(plane, "with = \"portal\"\nmethod = \"uzawa\""));

@@ -38,7 +38,7 @@ pub struct Contact {
     pub stiffness: Maybe<f64>,
     /// What keeps things apart. Default: "penalty".
     pub method: Maybe<ContactMethod>,
-    /// With "augmented-lagrangian": the largest depth, and elastic slip of a load step, that are left, in units of length. Default: 1e-8 of
+    /// With "augmented-lagrangian": the largest depth, and elastic slip of a load step, that are left, in units of length, at most 1e-4 and by default 1e-8 of
     /// the smallest size of what touches.
     pub penetration_tolerance: Maybe<f64>,
     /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1. Default: 1, nothing is

@@ -82,6 +82,8 @@ impl Cholesky {
         memory::require(graph.unknowns(), elimination.nonzeros + triangle.entries())?;
         let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
         let too_large = |_| TooLarge { unknowns: graph.unknowns(), needed: bytes };
+        // Places of entries are counted in 32 bits.
+        u32::try_from(triangle.entries()).map_err(|_| too_large(FaerError::IndexOverflow))?;
         let symbolic = symbolic(upper_pattern(&triangle).as_ref()).map_err(too_large)?;
         let threads = if elimination.flops > WORTH_THREADS { threads } else { 1 };
         let layout = Layout::new(&symbolic, &triangle);

@@ -18,6 +18,9 @@ pub(super) fn is_augmented(contact: &Contact) -> bool {
     contact.method.as_ref().is_some_and(|at| at.value == ContactMethod::AugmentedLagrangian)
 }
 
+/// The largest tolerance, over the size of what touches.
+const MOST: f64 = 1e-4;
+
 /// Checks the keys of the method, of what touches by points alone or not, and returns the tolerance of the depth; `None` for springs alone.
 /// `size` is that of what touches, `extent` that of the scene.
 pub(super) fn tolerance(
@@ -49,6 +52,14 @@ pub(super) fn tolerance(
             let message = format!(
                 "`penetration_tolerance` must be above {}, to which positions are rounded",
                 short(LEAST * extent)
+            );
+            report.error(&given.span, message)
+        }
+        Some(given) if size > 0.0 && given.value > MOST * size => {
+            let message = format!(
+                "`penetration_tolerance` must be at most {}, a ten-thousandth of the smallest size of what touches: the work lost in a larger \
+                 depth would be taken for a jump of the equilibrium",
+                short(MOST * size)
             );
             report.error(&given.span, message)
         }

@@ -62,6 +62,8 @@ pub struct GridText {
     /// An array before it is compressed.
     bytes: Vec<u8>,
     coder: Compress,
+    /// The first array that could not be compressed, if there is one.
+    fault: Option<io::Error>,
 }
 
 impl GridText {
@@ -69,7 +71,7 @@ impl GridText {
     pub fn new() -> GridText {
         // The fastest level: the others gain 2 % on numbers that a solver has computed.
         let coder = Compress::new(Compression::fast(), true);
-        GridText { text: String::new(), data: Vec::new(), kept: 0, bytes: Vec::new(), coder }
+        GridText { text: String::new(), data: Vec::new(), kept: 0, bytes: Vec::new(), coder, fault: None }
     }
 
     /// Compresses an array whose numbers are the same in every grid, and returns the tag that stands for it. It must come before
@@ -111,7 +113,7 @@ impl GridText {
     /// Appends the array to the data: the number of blocks, the bytes of a block, those of the last one where they are fewer, then the
     /// compressed bytes of each block, each of these a UInt64; then the blocks.
     fn compress(&mut self) {
-        let GridText { data, bytes, coder, .. } = self;
+        let GridText { data, bytes, coder, fault, .. } = self;
         let blocks = bytes.chunks(BLOCK);
         for number in [blocks.len(), BLOCK, bytes.len() % BLOCK] {
             data.extend_from_slice(&(number as u64).to_le_bytes());
@@ -125,8 +127,13 @@ impl GridText {
                 // What cannot be compressed becomes longer by a few bytes in ten thousand.
                 data.reserve(block.len() + block.len() / 64 + 256);
                 let rest = &block[coder.total_in() as usize..];
-                if let Ok(Status::StreamEnd) | Err(_) = coder.compress_vec(rest, data, FlushCompress::Finish) {
-                    break;
+                match coder.compress_vec(rest, data, FlushCompress::Finish) {
+                    Ok(Status::StreamEnd) => break,
+                    Ok(_) => {}
+                    Err(error) => {
+                        fault.get_or_insert(io::Error::other(error));
+                        break;
+                    }
                 }
             }
             let length = (data.len() - begins) as u64;
@@ -140,6 +147,9 @@ impl GridText {
     /// # Errors
     /// The file cannot be written; the error names it.
     pub fn write(&mut self, path: &Path) -> io::Result<()> {
+        if let Some(fault) = self.fault.take() {
+            return Err(at(path, fault));
+        }
         self.text.push_str(APPENDED);
         let parts = [self.text.as_bytes(), &self.data, CLOSE.as_bytes()];
         create(path)

@@ -218,14 +218,19 @@ impl Grid {
 fn inflate(data: &[u8]) -> Option<Vec<u8>> {
     let head = data.as_chunks::<8>().0;
     let number = |k: usize| head.get(k).map(|&eight| u64::from_le_bytes(eight) as usize);
-    let (count, most) = (number(0)?, number(1)?);
+    let [count, size, last] = [number(0)?, number(1)?, number(2)?];
     let mut blocks = data.get(8_usize.checked_mul(count.checked_add(3)?)?..)?;
     let mut bytes = Vec::new();
     for k in 0..count {
         let (block, rest) = blocks.split_at_checked(number(3 + k)?)?;
         blocks = rest;
+        let whole = if k + 1 == count && last > 0 { last } else { size };
+        let before = bytes.len();
         // No more than a block holds, whatever the file says.
-        ZlibDecoder::new(block).take(most.min(LARGEST_BLOCK) as u64).read_to_end(&mut bytes).ok()?;
+        ZlibDecoder::new(block).take(whole.min(LARGEST_BLOCK) as u64).read_to_end(&mut bytes).ok()?;
+        if bytes.len() - before != whole {
+            return None;
+        }
     }
     Some(bytes)
 }

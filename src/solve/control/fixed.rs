@@ -126,6 +126,8 @@ impl<'a> FixedController<'a> {
         let March { cx, ws, state, stop_watch, .. } = march;
         let watch = stop_watch.as_deref_mut()?;
         let mut last = (report, watch.passed(cx, state)?);
+        // A step has been found: a signal waits until it is shown.
+        ws.matrix.loses_nothing = false;
         // The Illinois form of the regula falsi.
         let (mut low, mut high) = ((from, watch.left_before(cx)), (to, last.1));
         for _ in 0..TRIED {
