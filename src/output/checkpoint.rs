@@ -143,16 +143,16 @@ impl Checkpoint {
         if snapshot.is_used_up() { Ok(Some(checkpoint)) } else { Err(torn()) }
     }
 
-    /// Takes the checkpoint of a folder away, if there is one.
+    /// Takes the checkpoint of a folder away, if there is one, and what a run that was killed while it wrote one has left.
     ///
     /// # Errors
     /// It cannot be removed.
     pub fn remove(dir: &Path) -> io::Result<()> {
-        let path = Checkpoint::path(dir);
-        match fs::remove_file(&path) {
+        let unfinished = dir.join(format!("{NAME}{UNFINISHED}"));
+        [Checkpoint::path(dir), unfinished].iter().try_for_each(|path| match fs::remove_file(path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            removed => removed.map_err(|error| at(&path, error)),
-        }
+            removed => removed.map_err(|error| at(path, error)),
+        })
     }
 }
 
