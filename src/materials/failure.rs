@@ -22,7 +22,7 @@ pub struct FailureCriterion {
 }
 
 impl FailureCriterion {
-    /// FailureCriterion at an accumulated plastic strain, above 0, whatever the stress and the rate.
+    /// Failure at an accumulated plastic strain, above 0, whatever the stress and the rate.
     pub fn at(strain: f64) -> FailureCriterion {
         FailureCriterion { strain, triaxiality: None, rate: None }
     }

@@ -71,11 +71,6 @@ impl MaterialLaw {
         self.failure.is_some()
     }
 
-    /// True where failure depends on the rate of plastic strain.
-    pub fn fails_by_rate(&self) -> bool {
-        self.failure.as_ref().is_some_and(|failure| failure.rate.is_some())
-    }
-
     /// True where a point has failed by its history: its stress is zero from then on.
     #[inline(always)]
     pub fn has_failed<const N: usize, S: StressState<N>>(&self, _: S, history: &[f64]) -> bool {
