@@ -72,7 +72,7 @@ impl<'a> TimeStepper<'a> {
     /// Forgets the iterates of the step that was taken last, which is taken back.
     pub fn forget_iterates(&mut self) {
         if let TimeStepper::Implicit(stepper) = self {
-            stepper.newton.forget_iterates();
+            stepper.solver.newton.forget_iterates();
         }
     }
 

@@ -8,7 +8,7 @@ use crate::model::{ArcLength, DisplacementTarget};
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::implicit::{ArcLengthConstraint, Condition, Newton, StepMotion};
+use crate::solve::implicit::{ArcLengthConstraint, Condition, EquilibriumSolver, StepMotion};
 use crate::solve::march::March;
 use crate::solve::motion::Stage;
 use crate::solve::outcome::Outcome;
@@ -38,7 +38,7 @@ const MOST_TARGETS: usize = 8;
 
 /// Leads a static analysis along its equilibrium path.
 pub struct ArcLengthController {
-    newton: Newton,
+    solver: EquilibriumSolver,
     constraint: ArcLengthConstraint,
     path: ArcLength,
     targets: Targets,
@@ -56,7 +56,7 @@ pub struct ArcLengthController {
     pub short_of_stop: Option<f64>,
 }
 
-keep!(ArcLengthController { newton, constraint, targets, unit, size, cuts, bent, short_of_stop } without { path, begin, least });
+keep!(ArcLengthController { solver, constraint, targets, unit, size, cuts, bent, short_of_stop } without { path, begin, least });
 
 /// An equilibrium that was found, with the target that it lies at.
 struct Found {
@@ -67,9 +67,9 @@ struct Found {
 
 impl ArcLengthController {
     /// A controller of the deck's path.
-    pub fn new(cx: &Context, ws: &mut Workspace, newton: Newton, path: &ArcLength) -> ArcLengthController {
+    pub fn new(cx: &Context, ws: &mut Workspace, solver: EquilibriumSolver, path: &ArcLength) -> ArcLengthController {
         ArcLengthController {
-            newton,
+            solver,
             constraint: ArcLengthConstraint::new(cx, ws),
             targets: Targets::new(cx.model, path),
             begin: cx.excitation.begin(),
@@ -108,7 +108,7 @@ impl ArcLengthController {
         let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         if residual::gather(cx, ws, &scale) > cx.model.solution.iteration.tolerance {
             let scheme = load_steps::coefficients();
-            let settled = self.newton.stage(cx, ws, state, &Stage::from(&scheme), 0.0);
+            let settled = self.solver.stage(cx, ws, state, &Stage::from(&scheme), 0.0);
             settled.map_err(|failure| march.failed(failure))?;
         }
         Ok(())
@@ -186,7 +186,7 @@ impl ArcLengthController {
         condition: Option<Condition>,
     ) -> Result<(StepReport, Option<usize>), Failure> {
         let scheme = load_steps::coefficients();
-        self.newton.predict(cx, ws, state, &Stage::from(&scheme));
+        self.solver.newton.predict(cx, ws, state, &Stage::from(&scheme));
         let mut report = self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?;
         let mut reached = None;
         for _ in 0..MOST_TARGETS {
@@ -219,7 +219,7 @@ impl ArcLengthController {
         condition: Option<Condition>,
     ) -> Result<StepReport, Failure> {
         let constraint = condition.map(|condition| (&mut self.constraint, condition));
-        self.newton.equilibrate(cx, ws, state, stage, to, constraint)
+        self.solver.newton.equilibrate(cx, ws, state, stage, to, constraint)
     }
 
     /// Accepts the equilibrium that was found.
@@ -228,7 +228,7 @@ impl ArcLengthController {
         let to = found.report.to;
         self.targets.pass(cx, ws, state, to, found.reached);
         self.constraint.keep_motion(cx, ws, &found.motion);
-        self.newton.grows = self.constraint.loads_grow(cx, ws);
+        self.solver.grows = self.constraint.loads_grow(cx, ws);
         // A first step may have ended early at a target, even before loads begin.
         let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
         let is_one = self.unit.is_some() || to > self.begin;
@@ -236,7 +236,7 @@ impl ArcLengthController {
             let time = state.time;
             return Err(march.failed(Failure::NoLoadIncrement { time }));
         }
-        let accepted = self.newton.accept(cx, ws, state, &Stage::from(&load_steps::coefficients()), to);
+        let accepted = self.solver.accept(cx, ws, state, &Stage::from(&load_steps::coefficients()), to);
         accepted.map_err(|failure| march.failed(failure))
     }
 

@@ -64,7 +64,7 @@ impl<'a> Controller<'a> {
                 Controller::StabilityLimited(StabilityController::new(stepper, fraction))
             }
             (StepLength::ArcLength(path), TimeStepper::Implicit(stepper)) => {
-                Controller::ArcLength(Box::new(ArcLengthController::new(cx, ws, stepper.newton, path)))
+                Controller::ArcLength(Box::new(ArcLengthController::new(cx, ws, stepper.solver, path)))
             }
             (_, stepper) => Controller::Fixed(FixedController::new(stepper)),
         })

@@ -18,7 +18,7 @@ use crate::math::{Vec3, Vec6, stack};
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
-use crate::solve::implicit::{Implicit, Newton};
+use crate::solve::implicit::{Implicit, IterationMatrix};
 use crate::solve::motion::Stage;
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
@@ -185,13 +185,13 @@ impl<'a> ErrorController<'a> {
             let dt = part * run;
             let scheme = AlphaFamily::trapezoidal(RotationUpdate::Exponential).coefficients(dt);
             let to = state.time + dt;
-            match self.stepper.newton.stage(cx, ws, state, &Stage::from(&scheme), to) {
+            match self.stepper.solver.stage(cx, ws, state, &Stage::from(&scheme), to) {
                 Ok(_) => self.measure.look_ahead(cx.model, state),
                 Err(_) => run *= 0.1,
             }
         }
         state.copy_from(&self.start);
-        self.stepper.newton.discard_matrix();
+        self.stepper.solver.newton.discard_matrix();
         (ws.rotation_drift, ws.joint_violation) = (drift, violation);
         self.measure.begin(state.time);
     }
@@ -200,12 +200,12 @@ impl<'a> ErrorController<'a> {
     fn estimate(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Estimate {
         let motion = self.measure.with(self.motion, cx.model, state);
         self.write_errors(cx, state, dt);
-        let newton = &mut self.stepper.newton;
+        let matrix = &mut self.stepper.solver.newton.matrix;
         let [errors, again] = &mut self.errors;
         let relative = |errors: &[Vec6]| self.measure.relative(errors, motion, state.time);
         let mut passed = [relative(errors); 3];
         for error in &mut passed[1..] {
-            filter(cx, ws, state, newton, errors);
+            filter(cx, ws, state, matrix, errors);
             *error = relative(errors);
         }
         // Unresolved motion leaves the first filter with about its amplitude.
@@ -213,11 +213,11 @@ impl<'a> ErrorController<'a> {
         let allowed = self.tolerance * dt / cx.model.analysis.duration();
         if amplitude < SLIGHT * self.tolerance && error > allowed && error < RESOLVED * raw {
             again.copy_from_slice(errors);
-            filter(cx, ws, state, newton, again);
+            filter(cx, ws, state, matrix, again);
             if relative(again) < RESOLVED.sqrt() * error {
                 // Unresolved motion is left alone; other motion has to show.
                 for _ in 0..FILTERS {
-                    filter(cx, ws, state, newton, again);
+                    filter(cx, ws, state, matrix, again);
                 }
                 error = relative(again);
                 std::mem::swap(errors, again);
@@ -250,13 +250,13 @@ fn third_derivative(start: &State, end: &State, node: usize) -> Vec6 {
 }
 
 /// Filters the errors by node, e ← (K + w M)⁻¹ w M e, with w the weight of the mass in the matrix at hand.
-fn filter(cx: &Context, ws: &mut Workspace, state: &State, newton: &mut Newton, errors: &mut [Vec6]) {
+fn filter(cx: &Context, ws: &mut Workspace, state: &State, matrix: &mut IterationMatrix, errors: &mut [Vec6]) {
     cx.system.apply_mass(&state.nodes, errors, &mut ws.forces);
     for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-        *r = newton.mass_weight * ws.forces.on_nodes[node][dof];
+        *r = matrix.mass_weight * ws.forces.on_nodes[node][dof];
     }
     ws.r[cx.nodal_unknowns()..].fill(0.0);
-    newton.solve_at(ws, &state.nodes);
+    matrix.solve_at(ws, &state.nodes);
     for &node in &cx.independent_nodes {
         let rows = cx.plan.dofs.of(node);
         errors[node] = rows.gather(&ws.r);
@@ -268,7 +268,7 @@ impl FollowTolerance for ErrorController<'_> {
     /// The motion of earlier runs stays known: errors at the start are small against it, whatever they are against the motion so far.
     fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
         self.tolerance = tolerance;
-        self.stepper.newton.ending.follow(tolerance);
+        self.stepper.solver.newton.ending.follow(tolerance);
         // A trial has a longer first step too, or what that decides would be the same in both runs.
         self.length = self.first * (tolerance / self.asked).powf(1.0 / f64::from(self.order)).clamp(1.0, 2.0);
         self.longest = longest.unwrap_or(self.most);
@@ -344,6 +344,6 @@ impl StepController for ErrorController<'_> {
 
     fn take_back(&mut self, state: &mut State) {
         state.copy_from(&self.start);
-        self.stepper.newton.forget_iterates();
+        self.stepper.solver.newton.forget_iterates();
     }
 }

@@ -1,6 +1,6 @@
 //! A step in two stages, of which the second also uses the start of the step (Bathe's scheme).
 
-use super::newton::Newton;
+use super::equilibrium::EquilibriumSolver;
 use crate::integrators::TwoStages;
 use crate::math::rotation::inverse_tangent;
 use crate::math::{Vec6, angular, linear, stack};
@@ -37,17 +37,17 @@ impl<'a> Composite<'a> {
     /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
-    /// As for [`Newton::stage`].
+    /// As for [`EquilibriumSolver::stage`].
     pub fn step(
         &mut self,
-        newton: &mut Newton,
+        solver: &mut EquilibriumSolver,
         cx: &Context,
         ws: &mut Workspace,
         state: &mut State,
         to: f64,
     ) -> Result<StepReport, Failure> {
         self.start.copy_from(state);
-        let result = self.stages(newton, cx, ws, state, to);
+        let result = self.stages(solver, cx, ws, state, to);
         if result.is_err() {
             state.copy_from(&self.start);
         }
@@ -56,7 +56,7 @@ impl<'a> Composite<'a> {
 
     fn stages(
         &mut self,
-        newton: &mut Newton,
+        solver: &mut EquilibriumSolver,
         cx: &Context,
         ws: &mut Workspace,
         state: &mut State,
@@ -64,11 +64,11 @@ impl<'a> Composite<'a> {
     ) -> Result<StepReport, Failure> {
         let dt = to - state.time;
         let between = state.time + self.scheme.split() * dt;
-        let first = newton.stage(cx, ws, state, &Stage::from(&cx.model.solution.scheme.coefficients(dt)), between)?;
+        let first = solver.stage(cx, ws, state, &Stage::from(&cx.model.solution.scheme.coefficients(dt)), between)?;
         self.look_back(cx, ws, state, dt);
         let scheme = self.scheme.second(dt);
         let stage = Stage { scheme: &scheme, start_rates: Some(&self.start_rates), prediction: None };
-        let second = newton.stage(cx, ws, state, &stage, to)?;
+        let second = solver.stage(cx, ws, state, &stage, to)?;
         Ok(first.then(second))
     }
 

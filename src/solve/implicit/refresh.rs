@@ -2,8 +2,9 @@
 
 use super::convergence::Judgement;
 use crate::elements::Moduli;
-use crate::model::{Method, Update};
+use crate::model::{AnalysisKind, Iteration, Method, Update};
 use crate::snapshot::keep;
+use crate::solve::context::Context;
 
 /// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
 /// always takes the same path.
@@ -44,6 +45,21 @@ pub enum Advice {
 }
 
 impl Refresh {
+    /// Method and update of a run, where the deck leaves them open or the analysis decides.
+    pub fn rule(cx: &Context) -> (Method, Update) {
+        let Context { model, system, .. } = *cx;
+        let Iteration { method, update, .. } = model.solution.iteration;
+        // Load steps are long and few, and no mass steadies an old matrix; along a path an old one misleads.
+        if model.analysis.step_length.is_arc_length() {
+            return (Method::TangentStiffness, Update::Iteration);
+        }
+        let mixes = system.yields() && method != Method::TangentStiffness;
+        match (model.analysis.kind, update) {
+            (AnalysisKind::Static, Update::Auto) if !mixes => (method, Update::Iteration),
+            (_, update) => (method, update),
+        }
+    }
+
     /// The rule of the deck; a linear scene never needs a new matrix.
     pub fn new(method: Method, update: Update, linear: bool, cost: f64) -> Self {
         let update = if linear { Update::Never } else { update };

@@ -7,7 +7,7 @@
 //! Inside a step the motion is that of the polynomial of fifth degree through both ends, their velocities and their accelerations, of
 //! which one more stage makes an equilibrium: forces and energies there are as exact as at the ends, with stiff parts too.
 
-use super::newton::Newton;
+use super::equilibrium::EquilibriumSolver;
 use crate::integrators::{Coefficients, StageTableau};
 use crate::math::Vec6;
 use crate::math::quintic;
@@ -66,10 +66,10 @@ impl StageStepper {
     /// Takes `state` from its time to the time `to`. On failure `state` is untouched.
     ///
     /// # Errors
-    /// As for [`Newton::stage`].
+    /// As for [`EquilibriumSolver::stage`].
     pub fn step(
         &mut self,
-        newton: &mut Newton,
+        solver: &mut EquilibriumSolver,
         cx: &Context,
         ws: &mut Workspace,
         state: &mut State,
@@ -86,7 +86,7 @@ impl StageStepper {
             let time = if stage == last { to } else { state.time + self.tableau.c[stage - 1] * dt };
             self.start_stage(cx, state, stage, dt);
             let relation = self.relation(&scheme);
-            report = report.then(newton.find(cx, ws, state, &relation, time)?);
+            report = report.then(solver.find(cx, ws, state, &relation, time)?);
             differentiate(cx, ws, state, &relation);
             if cx.wants_energy {
                 self.powers[1] = self.power(cx, ws, state, &relation, time - state.time);
@@ -96,17 +96,17 @@ impl StageStepper {
         }
         self.keep_end(cx, ws);
         self.work = work;
-        newton.accept_with(cx, ws, state, &self.relation(&scheme), to, cx.wants_energy.then_some(work))?;
+        solver.accept_with(cx, ws, state, &self.relation(&scheme), to, cx.wants_energy.then_some(work))?;
         Ok(report)
     }
 
     /// Writes the state at a time inside the last step, which has led from `start` to the time `end`.
     ///
     /// # Errors
-    /// As for [`Newton::stage`].
+    /// As for [`EquilibriumSolver::stage`].
     pub fn look_inside(
         &mut self,
-        newton: &mut Newton,
+        solver: &mut EquilibriumSolver,
         cx: &Context,
         ws: &mut Workspace,
         (start, end): (&State, f64),
@@ -117,9 +117,9 @@ impl StageStepper {
         let scheme = cx.model.solution.scheme.coefficients(dt);
         state.copy_from(start);
         self.start_inside(cx, part, dt);
-        let report = newton.find_inside(cx, ws, state, &self.relation(&scheme), time)?;
+        let report = solver.find_inside(cx, ws, state, &self.relation(&scheme), time)?;
         let work = cx.wants_energy.then(|| self.work.up_to(part, dt, &self.powers));
-        newton.accept_with(cx, ws, state, &self.relation(&scheme), time, work)?;
+        solver.accept_with(cx, ws, state, &self.relation(&scheme), time, work)?;
         Ok(report)
     }
 

@@ -1,7 +1,7 @@
 //! The implicit stepper that controllers use.
 
 use super::composite::Composite;
-use super::newton::Newton;
+use super::equilibrium::EquilibriumSolver;
 use super::runge_kutta::StageStepper;
 use crate::integrators::{Coefficients, Stepping, load_steps};
 use crate::linear::TooLarge;
@@ -15,12 +15,12 @@ use crate::state::State;
 
 /// Takes load steps of a static analysis, and time steps of one stage or several.
 pub struct Implicit<'a> {
-    /// The equilibrium iteration.
-    pub newton: Newton,
+    /// What takes their stages.
+    pub solver: EquilibriumSolver,
     stages: Stages<'a>,
 }
 
-keep!(Implicit<'_> { newton, stages });
+keep!(Implicit<'_> { solver, stages });
 
 /// The stages of a step, with what they need besides the iteration.
 enum Stages<'a> {
@@ -52,7 +52,7 @@ impl<'a> Implicit<'a> {
             }
             _ => Stages::One,
         };
-        Ok(Implicit { newton: Newton::new(cx)?, stages })
+        Ok(Implicit { solver: EquilibriumSolver::new(cx)?, stages })
     }
 
     /// The stages of a Runge-Kutta scheme; `None` for others.
@@ -76,7 +76,7 @@ impl<'a> Implicit<'a> {
         (state, time): (&mut State, f64),
     ) -> Result<Option<StepReport>, Failure> {
         match &mut self.stages {
-            Stages::RungeKutta(stages) => stages.look_inside(&mut self.newton, cx, ws, step, (state, time)).map(Some),
+            Stages::RungeKutta(stages) => stages.look_inside(&mut self.solver, cx, ws, step, (state, time)).map(Some),
             // Steps of other schemes end wherever something is looked at.
             Stages::One | Stages::Composite(_) => Ok(None),
         }
@@ -84,7 +84,7 @@ impl<'a> Implicit<'a> {
 
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     pub fn restart(&mut self, state: &State) {
-        self.newton.discard_matrix();
+        self.solver.newton.discard_matrix();
         if let Stages::Composite(composite) = &mut self.stages {
             composite.begin(state);
         }
@@ -102,11 +102,11 @@ impl<'a> Implicit<'a> {
         to: f64,
     ) -> Result<StepReport, Failure> {
         match &mut self.stages {
-            Stages::Composite(composite) => composite.step(&mut self.newton, cx, ws, state, to),
-            Stages::RungeKutta(stages) => stages.step(&mut self.newton, cx, ws, state, to),
+            Stages::Composite(composite) => composite.step(&mut self.solver, cx, ws, state, to),
+            Stages::RungeKutta(stages) => stages.step(&mut self.solver, cx, ws, state, to),
             Stages::One => {
                 let scheme = coefficients(cx, to - state.time);
-                self.newton.stage(cx, ws, state, &Stage::from(&scheme), to)
+                self.solver.stage(cx, ws, state, &Stage::from(&scheme), to)
             }
         }
     }

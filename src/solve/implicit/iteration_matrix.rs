@@ -1,0 +1,148 @@
+//! The matrix of the iteration: formed where it is due, carried along with a scene that turns.
+
+use super::mechanism_watch::MechanismWatch;
+use super::refresh::Refresh;
+use super::turning::Turning;
+use crate::elements::Moduli;
+use crate::integrators::Coefficients;
+use crate::model::Update;
+use crate::snapshot::keep;
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::motion::Stage;
+use crate::solve::report::StepReport;
+use crate::solve::workspace::Workspace;
+use crate::state::{Configuration, Node, State};
+use crate::system::TangentWeights;
+
+/// The matrix at hand; its numbers are in the workspace.
+pub struct IterationMatrix {
+    /// The rule by which it is renewed.
+    pub refresh: Refresh,
+    /// What carries it along with a scene that turns.
+    turning: Option<Turning>,
+    mechanisms: MechanismWatch,
+    /// The factor of the mass in it.
+    pub mass_weight: f64,
+}
+
+keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight });
+
+impl IterationMatrix {
+    /// No matrix yet, with the rule of the deck.
+    pub fn new(cx: &Context) -> IterationMatrix {
+        let (method, update) = Refresh::rule(cx);
+        IterationMatrix {
+            refresh: Refresh::new(method, update, cx.plan.linear, cx.plan.refresh_cost),
+            turning: Turning::new(cx).filter(|_| update != Update::Iteration),
+            mechanisms: MechanismWatch::default(),
+            mass_weight: 0.0,
+        }
+    }
+
+    /// Forms and factorizes the matrix for the trial motion where that is due; returns whether it was. `lead` is the iterate from which
+    /// stresses are extrapolated.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where it cannot be factorised, [`Failure::Stopped`] where a signal came meanwhile.
+    pub fn refresh(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        lead: Option<&[Node]>,
+        report: &mut StepReport,
+    ) -> Result<bool, Failure> {
+        let dt = report.to - state.time;
+        let key = key(stage.scheme, dt);
+        if !self.refresh.due(report.iterations, key) {
+            return Ok(false);
+        }
+        self.form(cx, ws, state, stage.scheme, (stage.scheme.instant * dt, lead))?;
+        if let Some(turning) = &mut self.turning {
+            turning.note(&ws.trial);
+        }
+        self.refresh.done(key);
+        report.factorizations += 1;
+        Ok(true)
+    }
+
+    /// Forms and factorizes the matrix. It may be singular where everything that resists has yielded; the elastic
+    /// matrix then leads on.
+    fn form(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        (ahead, lead): (f64, Option<&[Node]>),
+    ) -> Result<(), Failure> {
+        let (rate, acceleration) = scheme.weights();
+        self.mass_weight = acceleration;
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead };
+        ws.matrix.make_room(cx, &now);
+        let openings = self.mechanisms.look(cx, state, &ws.prescribed.instant, &now);
+        let mut moduli = self.refresh.moduli();
+        loop {
+            let weights = TangentWeights { stiffness: true, rate, acceleration, turning: scheme.turning, moduli };
+            let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
+            matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
+            ws.factorizations += 1;
+            match matrix.factor(cx) {
+                Ok(false) => return Err(Failure::Stopped),
+                Ok(true) => return self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings),
+                Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => moduli = Moduli::Elastic,
+                Err(singular) => return Err(self.mechanisms.singular(cx, &now, singular.row, openings)),
+            }
+        }
+    }
+
+    /// Solves for the correction, which takes the place of the residual in `ws.r`.
+    pub fn solve(&mut self, ws: &mut Workspace) {
+        let Workspace { matrix, forces, r, trial, .. } = ws;
+        turned(&mut self.turning, trial, r, |r| matrix.solve_augmented(&forces.multipliers, r));
+        ws.solves += 1;
+    }
+
+    /// Solves with the matrix carried along to the configuration `nodes`, for right-hand sides without gaps in `ws.r`.
+    pub fn solve_at(&mut self, ws: &mut Workspace, nodes: &[Node]) {
+        let Workspace { matrix, r, .. } = ws;
+        turned(&mut self.turning, nodes, r, |r| matrix.solver.solve(r));
+        ws.solves += 1;
+    }
+
+    /// Discards the matrix, which belongs to a motion that was not taken or to other loads.
+    pub fn discard(&mut self) {
+        self.refresh.rejected();
+        if let Some(turning) = &mut self.turning {
+            turning.rest();
+        }
+    }
+
+    /// Notes that an iteration beside the steps, with a rule of its own, has formed the matrix for a step of `dt`.
+    pub fn note_formed(&mut self, scheme: &Coefficients, dt: f64) {
+        self.refresh.done(key(scheme, dt));
+    }
+
+    /// The name of the part that has opened or gone slack last, in quotes.
+    pub fn opened_part(&self) -> Option<String> {
+        self.mechanisms.opened()
+    }
+}
+
+/// Solves in the configuration of the matrix at hand for right-hand sides in that of `nodes`.
+fn turned(turning: &mut Option<Turning>, nodes: &[Node], r: &mut [f64], solve: impl FnOnce(&mut [f64])) {
+    let Some(turning) = turning else { return solve(r) };
+    let turns = turning.take_back(nodes, r);
+    solve(r);
+    if turns {
+        turning.carry_along(nodes, r);
+    }
+}
+
+/// The quantity on which the matrix of a step depends besides the motion: the length of the step, or the time over
+/// which its rates are taken.
+fn key(scheme: &Coefficients, dt: f64) -> f64 {
+    if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
+}

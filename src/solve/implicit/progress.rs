@@ -1,0 +1,93 @@
+//! How far the iteration of a step has come.
+
+use super::convergence::{Convergence, Judgement};
+use super::correction::is_rounding;
+use super::ending::Ending;
+use crate::solve::context::Context;
+use crate::solve::report::StepReport;
+use crate::solve::size::Size;
+use crate::solve::warning::Warning;
+use crate::solve::workspace::Workspace;
+
+/// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
+const UNBALANCED: f64 = 1e3;
+
+/// The progress of the iteration of a step.
+pub struct Progress {
+    pub report: StepReport,
+    pub convergence: Convergence,
+    /// True where the matrix was formed for the iterate at hand.
+    pub new_matrix: bool,
+    /// Number of iterations after which the step is given up.
+    pub limit: usize,
+    /// True where the increments at hand are the prediction.
+    pub predicted: bool,
+    /// Relative error of the time where it is unknown; loads are curves over it.
+    time_error: f64,
+}
+
+impl Progress {
+    /// Begins the iteration of a step to the time `to`, with a matrix that is `exact` or not, from the prediction.
+    pub fn begin(cx: &Context, to: f64, exact: bool, ending: &Ending) -> Progress {
+        Progress {
+            report: StepReport::begin(to),
+            convergence: Convergence::new([ending.tolerance, ending.residual], exact, ending.usual()),
+            new_matrix: false,
+            limit: cx.model.solution.iteration.limit,
+            predicted: true,
+            time_error: 0.0,
+        }
+    }
+
+    /// The same where the increments at hand are those of an equilibrium under other forces.
+    pub fn at_equilibrium(self) -> Progress {
+        Progress { predicted: false, ..self }
+    }
+
+    /// Moves the end of the step. A correction δt of the time leaves an error of the loads of order δt², whatever the
+    /// motion.
+    pub fn move_time(&mut self, cx: &Context, to: f64) {
+        self.time_error = ((to - self.report.to) / cx.model.analysis.duration()).powi(2);
+        self.report.to = to;
+    }
+
+    /// True where the matrix at hand was formed in this step.
+    pub fn has_own_matrix(&self) -> bool {
+        self.report.factorizations > 0
+    }
+
+    /// True where the step has used up its iterations.
+    pub fn is_exhausted(&self) -> bool {
+        self.report.iterations >= self.limit
+    }
+
+    /// Judges convergence to this relative `tolerance`. Where material yields, one contraction says little of the next, and what is small
+    /// against positions may be large against elastic strains: the residual must have decreased as well, or nothing but rounding be left.
+    pub fn has_converged(
+        &self,
+        cx: &Context,
+        ws: &mut Workspace,
+        correction: Size,
+        tolerance: f64,
+        judgement: &Judgement,
+    ) -> bool {
+        if self.time_error > tolerance {
+            return false;
+        }
+        let residual = self.report.residual;
+        let sure = cx.system.history == 0 || residual <= (1e3 * judgement.tolerance).min(1e-3);
+        let small = is_rounding(cx, ws, correction, self.has_own_matrix() && sure);
+        let rounding = judgement.stalled() && small;
+        if sure && judgement.converged() {
+            return true;
+        }
+        // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
+        let precise =
+            cx.is_dynamic() || residual <= UNBALANCED * tolerance || ws.load_steps.peak.is_unstressed(residual);
+        if small && !precise && (self.is_exhausted() || rounding && judgement.is_stagnant()) {
+            ws.warnings.add(Warning::Unbalanced { residual });
+            return true;
+        }
+        rounding && precise
+    }
+}
