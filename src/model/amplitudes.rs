@@ -1,8 +1,8 @@
 //! `[amplitudes.x]`: functions of time.
 
-use super::course::CurrentStage;
 use super::records::Record;
 use super::report::{Owner, Report};
+use super::stages::CurrentStage;
 use super::values::span;
 use crate::amplitude::{self, Amplitude};
 use crate::deck::Deck;

@@ -1,10 +1,10 @@
 //! `[analysis]`, `[integrator]`, `[iteration]`.
 
-use super::course::CurrentStage;
 use super::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use super::data::{ERROR_TOLERANCE, FIRST_STEP};
 use super::modes::modes;
 use super::report::{Owner, Report};
+use super::stages::CurrentStage;
 use super::values::{chosen, span};
 use crate::deck::Deck;
 use crate::deck::analysis as words;

@@ -16,7 +16,6 @@ use super::choose_scheme::choose_scheme;
 use super::contact_points::connect_touching_points;
 use super::contacts::contacts;
 use super::control::{control, iterate_along};
-use super::course::{self, Course, CurrentStage};
 use super::data::{
     Analysis, AnalysisKind, ArcLength, Cadence, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part,
     Rigid, Solution, StepLength,
@@ -49,6 +48,7 @@ use super::sections::Sections;
 use super::shell_edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::slivers::check_slivers;
+use super::stages::{self, CurrentStage, StageSequence};
 use super::stops;
 use super::study::study;
 use super::supports::supports;
@@ -130,23 +130,23 @@ fn build_stages(
     records: &[Option<Record>],
 ) -> (Vec<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
-    let mut course = Course::new(deck, reached, &mut report);
-    course.check_expected(&mut report);
+    let mut sequence = StageSequence::new(deck, reached, &mut report);
+    stages::check(&sequence, &mut report);
     if let Some(planned) = planned {
-        course.bulges = bulges(planned);
+        sequence.bulges = bulges(planned);
     }
-    let (mut models, mut said) = each_stage(&course, reached.len(), input, records);
+    let (mut models, mut said) = each_stage(&sequence, reached.len(), input, records);
     if planned.is_none()
         && let Some(least) = least_bulges(&models)
     {
-        course.bulges = least;
-        (models, said) = each_stage(&course, 0, input, records);
+        sequence.bulges = least;
+        (models, said) = each_stage(&sequence, 0, input, records);
     }
     if let Some(Model { loading, .. }) = models.first() {
-        check_amplitude_ends(deck, &loading.amplitudes, course.end(), &mut report);
+        check_amplitude_ends(deck, &loading.amplitudes, sequence.end(), &mut report);
     }
     let mut problems = report.into_problems();
-    problems.extend(course::merge(said));
+    problems.extend(stages::merge(said));
     if problems.iter().any(Diagnostic::is_error) {
         models.clear();
     }
@@ -156,13 +156,13 @@ fn build_stages(
 
 /// The models of all stages, or of the next one after the first few that have ended, and what there is to say about each.
 fn each_stage(
-    course: &Course,
+    sequence: &StageSequence,
     ended: usize,
     input: Option<&Input>,
     records: &[Option<Record>],
 ) -> (Vec<Model>, Vec<(String, Vec<Diagnostic>)>) {
     let count = if ended == 0 { usize::MAX } else { 1 };
-    let built = CurrentStage::all(course).skip(ended).take(count).map(|stage| {
+    let built = CurrentStage::all(sequence).skip(ended).take(count).map(|stage| {
         let (own, expected) = stage.deck();
         let mut report = Report::new(&own);
         let mut built = model(&own, Some(stage), (input, records), &mut report);
@@ -199,7 +199,7 @@ fn share_contact_laws(models: &mut [Model]) {
 pub fn build(deck: &Deck, input: Option<&Input>, records: &[Option<Record>]) -> (Option<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
     if !report.is_spoiled(&ROOT, "stages") {
-        course::check_names(deck, &mut report);
+        stages::check_names(deck, &mut report);
     }
     let model = model(deck, None, (input, records), &mut report);
     let sound = !report.has_errors();
@@ -227,7 +227,7 @@ fn model<'d>(
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
     let fields = environment(deck, stage, report);
     let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
-    set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.course.bulges));
+    set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.sequence.bulges));
     let contacts = contacts(&scene, &masses, &joints, fields.gravity, &mut topology, report);
     let loads = loads(&scene, [efforts, std::mem::take(&mut links.pulls)].concat(), &topology, &mut actors, report);
     let damping = damping(&scene, &topology, report);
@@ -339,12 +339,12 @@ fn check(
     check_content(deck, report);
     // A part left out by an error may have been the only one to use it.
     if deck.spoiled.is_empty() && !report.has_errors() {
-        check_use(scene.stage.map_or(deck, |stage| stage.course.whole), topology, report);
+        check_use(scene.stage.map_or(deck, |stage| stage.sequence.whole), topology, report);
         check_joints(deck, joints, amplitudes, topology, report);
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);
-    check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.course.whole), report);
+    check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.sequence.whole), report);
     if scene.analysis.modes.is_some() {
         check_modal(deck, report);
     } else if kind == AnalysisKind::Static {

@@ -144,14 +144,14 @@ impl Meets<'_, '_> {
     /// The time that the run lasts, all of its stages together: a stage by itself does not choose.
     fn duration(&self) -> f64 {
         match self.scene.stage {
-            Some(stage) => stage.course.end(),
+            Some(stage) => stage.sequence.end(),
             None => self.scene.analysis.duration(),
         }
     }
 
     /// The deck with what begins in any stage.
     fn whole_deck(&self) -> &Deck {
-        self.scene.stage.map_or(self.scene.deck, |stage| stage.course.whole)
+        self.scene.stage.map_or(self.scene.deck, |stage| stage.sequence.whole)
     }
 
     /// The velocity and the angular velocity with which the deck lets a node begin, in whatever stage that is.

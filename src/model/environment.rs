@@ -1,11 +1,11 @@
 //! `[environment]` and `[damping]`: what acts on all of a scene.
 
-use super::course::CurrentStage;
 use super::data::{BaseAcceleration, Damping, Loading, NodalDamping};
 use super::loads::Loads;
 use super::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
+use super::stages::CurrentStage;
 use super::values::vec3_or_zero;
 use crate::amplitude::Amplitude;
 use crate::deck::Deck;

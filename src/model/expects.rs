@@ -355,8 +355,8 @@ impl<'d> Expects<'_, 'd> {
             return self.report.error_with(&stage.span, message, hint);
         }
         let end = match self.scene.stage {
-            Some(stage) if stage.course.is_shortened => f64::INFINITY,
-            Some(stage) => stage.course.end(),
+            Some(stage) if stage.sequence.is_shortened => f64::INFINITY,
+            Some(stage) => stage.sequence.end(),
             None => self.scene.analysis.end_time,
         };
         match (&expect.time, &expect.peak) {

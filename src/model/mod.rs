@@ -24,7 +24,6 @@ mod contact_stiffness;
 mod contact_surface;
 mod contacts;
 mod control;
-mod course;
 mod data;
 mod displacement_targets;
 
@@ -71,6 +70,7 @@ mod sight;
 mod slivers;
 mod spot;
 mod spread_loads;
+mod stages;
 mod stops;
 pub mod study;
 mod supports;

@@ -3,13 +3,13 @@
 
 use std::collections::HashSet;
 
-use super::course::CurrentStage;
 use super::data::{Analysis, Body};
 use super::names::Names;
 use super::parts::Parts;
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::spot::{Label, Spot};
+use super::stages::CurrentStage;
 use crate::deck::Deck;
 use crate::deck::words::Maybe;
 use crate::deck::words::Names as List;

@@ -1,10 +1,10 @@
 //! `stop` of `[[stages]]`: what ends a stage before its time.
 
-use super::course::CurrentStage;
 use super::data::{Actors, DIRECTIONS, RunStage, Stop, StopQuantity};
 use super::place::Place;
 use super::report::{Owner, Report};
 use super::scene::Scene;
+use super::stages::CurrentStage;
 use super::values::span;
 use crate::deck::stages as words;
 use crate::deck::words::Table;

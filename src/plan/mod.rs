@@ -13,7 +13,8 @@ mod unreachable_targets;
 use crate::elements::Partners;
 use crate::linear::{self, Solver, Structure, TooLarge};
 use crate::model::{AnalysisKind, Model};
-use crate::system::assembly::{self, Assembly};
+use crate::system::assembly::Assembly;
+use crate::system::connectivity::connectivity;
 use crate::system::{DofMap, NodeRows, System};
 use dof_status::DofStatus;
 pub use sideways::{Sideways, deforms_in_plane};
@@ -179,7 +180,7 @@ fn structure(system: &System, dofs: &DofMap) -> Structure {
 /// The same with room for pairs of elements that wander.
 fn structure_with(system: &System, dofs: &DofMap, partners: &[(usize, Partners)]) -> Structure {
     let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
-    grouped(&sizes, assembly::connectivity(system, sizes.len(), partners), system.joints.len())
+    grouped(&sizes, connectivity(system, sizes.len(), partners), system.joints.len())
 }
 
 /// The structure from the number of unknowns of each node, of which the last `multipliers` stand for joints, and from

@@ -4,7 +4,7 @@ use super::dof_status::DofStatus;
 use super::{Plan, grouped};
 use crate::linear::{Factorization, Structure, operations};
 use crate::model::{AnalysisKind, Model};
-use crate::system::assembly::{connectivity, connectivity_with_multipliers};
+use crate::system::connectivity::{connectivity, connectivity_with_multipliers};
 use crate::system::{NodeRows, System};
 
 /// Ratios below this are not worth a line.

@@ -3,7 +3,8 @@
 //! rigid bodies.
 
 use super::block_scatter::BlockScatter;
-use super::dependents::{Arms, Followers, Projection, independent_nodes, update_projections};
+use super::dependents::{Arms, Followers, update_projections};
+use super::destinations::{Destination, Destinations, Places, Scatter};
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::group::Group;
@@ -52,173 +53,12 @@ struct WanderingPairs {
     destinations: Vec<Destination>,
 }
 
-/// The destination of a local matrix.
-struct Destination {
-    /// The projection that comes first; none where no node is dependent.
-    projection: Option<Projection>,
-    entries: Entries,
-    /// A range of [`BlockScatter`] in place of entries, where the matrix is scattered by blocks.
-    blocks: [u32; 2],
-}
-
-/// The entries of a local matrix that reach the system's: ranges of [`Scatter`].
-#[derive(Clone, Copy)]
-struct Entries {
-    from: usize,
-    /// Start of the entries that meet their transposes in one slot of a symmetric matrix: each adds half.
-    halves: usize,
-    to: usize,
-}
-
-/// Pairs of a position in the local matrix and a slot of the system's.
-struct Scatter(Vec<[u32; 2]>);
-
-impl Scatter {
-    /// Adds the slots of a local matrix; `entry(k)` gives the row and the column of its k-th number, where both are
-    /// unknowns.
-    fn push(&mut self, solver: &Solver, length: usize, entry: impl Fn(usize) -> Option<(usize, usize)>) -> Entries {
-        let from = self.0.len();
-        let mut add = |half: bool| {
-            for k in 0..length {
-                let Some((i, j)) = entry(k) else { continue };
-                if (solver.is_symmetric() && i != j) != half {
-                    continue;
-                }
-                if let Some(slot) = solver.slot(i, j) {
-                    self.0.push([k as u32, slot as u32]);
-                }
-            }
-            self.0.len()
-        };
-        let halves = add(false);
-        let to = add(true);
-        Entries { from, halves, to }
-    }
-
-    #[inline]
-    fn add(&self, local: &[f64], entries: Entries, values: &mut [f64]) {
-        for &[k, slot] in &self.0[entries.from..entries.halves] {
-            values[slot as usize] += local[k as usize];
-        }
-        for &[k, slot] in &self.0[entries.halves..entries.to] {
-            values[slot as usize] += 0.5 * local[k as usize];
-        }
-    }
-}
-
-/// Finds the destinations of local matrices, one after the other.
-struct Destinations<'a> {
-    dofs: &'a DofMap,
-    solver: &'a Solver,
-    followers: &'a Followers,
-    scatter: Scatter,
-    blocks: BlockScatter,
-    arms: Arms,
-    /// Largest number of entries of a matrix that is projected.
-    most: usize,
-}
-
-impl<'a> Destinations<'a> {
-    fn new(dofs: &'a DofMap, solver: &'a Solver, followers: &'a Followers) -> Self {
-        let (scatter, blocks, arms) = (Scatter(Vec::new()), BlockScatter::new(), Arms::new());
-        Destinations { dofs, solver, followers, scatter, blocks, arms, most: 0 }
-    }
-
-    /// The destination of a matrix with `d` degrees of freedom a node, row-major.
-    fn local(&mut self, of: &[usize], d: usize) -> Destination {
-        self.square(of, d, |k, size| (k / size, k % size))
-    }
-
-    /// The destinations of pairs of a group of elements that wander.
-    fn pairs(&mut self, group: usize, partners: &Partners) -> WanderingPairs {
-        let destinations = (0..partners.pairs.len()).map(|pair| self.local(partners.nodes(pair), 6)).collect();
+impl WanderingPairs {
+    fn new(group: usize, partners: &Partners, find: &mut Destinations) -> WanderingPairs {
+        let destinations = (0..partners.pairs.len()).map(|pair| find.local(partners.nodes(pair), 6)).collect();
         WanderingPairs { group, partners: partners.clone(), destinations }
     }
-
-    /// The destination of a matrix whose k-th entry, of so many rows, stands where `place` says.
-    fn square(&mut self, of: &[usize], d: usize, place: fn(usize, usize) -> (usize, usize)) -> Destination {
-        let dofs = self.dofs;
-        let (projection, rows) = if of.iter().all(|&n| self.followers.is_independent(n)) {
-            (None, of.iter().flat_map(|&n| (0..d).map(move |i| (n, i))).collect())
-        } else {
-            let (projection, rows) = self.arms.push(self.followers, dofs, of, d);
-            self.most = self.most.max(rows.len().pow(2));
-            (Some(projection), rows)
-        };
-        if let Some(blocks) = self.whole_blocks(&rows) {
-            return Destination { projection, entries: Entries { from: 0, halves: 0, to: 0 }, blocks };
-        }
-        let size = rows.len();
-        let row = |i: usize| dofs.row(rows[i].0, rows[i].1);
-        let entry = |k: usize| {
-            let (i, j) = place(k, size);
-            row(i).zip(row(j))
-        };
-        let entries = self.scatter.push(self.solver, size * size, entry);
-        Destination { projection, entries, blocks: [0; 2] }
-    }
-
-    /// The blocks of a matrix whose rows are those of different nodes with six unknowns each.
-    fn whole_blocks(&mut self, rows: &[(usize, usize)]) -> Option<[u32; 2]> {
-        let is_whole = |six: &[(usize, usize)]| (0..6).all(|i| six.get(i) == Some(&(six[0].0, i)));
-        if !rows.chunks(6).all(is_whole) {
-            return None;
-        }
-        let firsts: Option<Vec<usize>> = rows.chunks(6).map(|six| self.dofs.of(six[0].0).first_of_six()).collect();
-        let firsts = firsts?;
-        if (1..firsts.len()).any(|k| firsts[..k].contains(&firsts[k])) {
-            return None;
-        }
-        let from = self.blocks.len() as u32;
-        self.blocks.push(self.solver, &firsts).then(|| [from, self.blocks.len() as u32])
-    }
-
-    /// The destination of a consistent mass matrix: of its entries themselves, which count for each translation, or of the
-    /// matrix of translations that is made of them.
-    fn mass(&mut self, of: &[usize]) -> Destination {
-        if of.iter().any(|&n| !self.followers.is_independent(n)) {
-            return self.local(of, 3);
-        }
-        let (n, dofs) = (of.len(), self.dofs);
-        let entry = |k: usize| {
-            let (pair, axis) = (k / 3, k % 3);
-            dofs.row(of[pair / n], axis).zip(dofs.row(of[pair % n], axis))
-        };
-        let entries = self.scatter.push(self.solver, 3 * n * n, entry);
-        self.scatter.0[entries.from..entries.to].iter_mut().for_each(|[k, _]| *k /= 3);
-        self.most = self.most.max(n * n);
-        Destination { projection: None, entries, blocks: [0; 2] }
-    }
-
-    /// The destinations of the matrices of nodes, which inertia, nodal damping, follower loads and arms have. Inertia
-    /// and damping couple neither translations with one another nor with rotations; arms and followers do.
-    fn nodal(&mut self, system: &System) -> Vec<(usize, Destination)> {
-        let nodes = self.followers.independent_nodes.len();
-        let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
-        system.inertias.iter().for_each(|i| has_own[i.node] = true);
-        system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
-        system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
-        system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
-        let with_own = (0..nodes).filter(|&n| has_own[n] || is_full[n]);
-        with_own.map(|n| (n, self.node(n, is_full[n]))).collect()
-    }
-
-    /// The destination of the matrix of a node, column-major.
-    fn node(&mut self, node: usize, is_full: bool) -> Destination {
-        if is_full || !self.followers.is_independent(node) {
-            return self.square(&[node], 6, |k, size| (k % size, k / size));
-        }
-        let dofs = self.dofs;
-        let couples = |i: usize, j: usize| i == j || (i > 2 && j > 2);
-        let entry = |k: usize| {
-            let (i, j) = (k % 6, k / 6);
-            if couples(i, j) { dofs.row(node, i).zip(dofs.row(node, j)) } else { None }
-        };
-        let entries = self.scatter.push(self.solver, 36, entry);
-        Destination { projection: None, entries, blocks: [0; 2] }
-    }
 }
-
 /// Buffers that every tangent writes.
 struct Scratch {
     /// Matrices of the elements of a chunk.
@@ -229,56 +69,6 @@ struct Scratch {
     /// A projected matrix, or one that is made of few numbers.
     projected: Vec<f64>,
 }
-
-/// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by
-/// their independent nodes. `nodes` counts the joints too: their multipliers are nodes after all others;
-/// `partners` are pairs of elements that wander.
-pub fn connectivity(system: &System, nodes: usize, partners: &[(usize, Partners)]) -> Vec<Vec<usize>> {
-    let independent = independent_nodes(&system.rigid_links, nodes);
-    let mut connectivity = coupled(system, nodes, &independent);
-    for (_, partners) in partners {
-        for pair in 0..partners.pairs.len() {
-            let mut all: Vec<usize> =
-                partners.nodes(pair).iter().flat_map(|&n| independent[n].iter().copied()).collect();
-            all.sort_unstable();
-            all.dedup();
-            connectivity.push(all);
-        }
-    }
-    connectivity
-}
-
-/// The connectivity with multipliers in place of elimination: every dependent node moves by itself, tied to its master
-/// by one more node, which stands after all others.
-pub fn connectivity_with_multipliers(system: &System, nodes: usize) -> Vec<Vec<usize>> {
-    let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
-    let mut connectivity = coupled(system, nodes, &alone);
-    connectivity.extend(
-        system.rigid_links.iter().enumerate().map(|(k, dependent)| vec![dependent.master, dependent.node, nodes + k]),
-    );
-    connectivity
-}
-
-fn coupled(system: &System, nodes: usize, independent_nodes: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let mut connectivity: Vec<Vec<usize>> = Vec::new();
-    let mut add = |nodes: &[usize]| {
-        let mut all: Vec<usize> = nodes.iter().flat_map(|&n| independent_nodes[n].iter().copied()).collect();
-        all.sort_unstable();
-        all.dedup();
-        connectivity.push(all);
-    };
-    for group in &system.groups {
-        (0..group.block.len()).for_each(|e| add(group.block.nodes(e)));
-    }
-    system.consistent_masses().iter().for_each(|m| add(&m.nodes));
-    system.pressures.iter().flat_map(|load| &load.faces).for_each(|face| add(face.nodes()));
-    (0..nodes).filter(|&n| independent_nodes[n] != [n]).for_each(|n| add(&[n]));
-    // The multipliers of a joint stand for one more of its nodes.
-    let joints = system.joints.iter().zip(nodes - system.joints.len()..);
-    joints.for_each(|(joint, own)| add(&joint.matrix_nodes().chain([own]).collect::<Vec<_>>()));
-    connectivity
-}
-
 impl Assembly {
     /// Finds the destinations of all matrices.
     pub fn new(system: &System, dofs: &DofMap, solver: &Solver, threads: usize) -> Self {
@@ -301,7 +91,8 @@ impl Assembly {
             (0..block.len()).map(|e| find.local(block.nodes(e), d)).collect()
         };
         let groups: Vec<Vec<Destination>> = system.groups.iter().map(group).collect();
-        let wanderers = partners.iter().map(|(group, partners)| find.pairs(*group, partners)).collect();
+        let wanderers =
+            partners.iter().map(|(group, partners)| WanderingPairs::new(*group, partners, &mut find)).collect();
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
         let faces: Vec<Destination> = faces.map(|face| find.local(face.nodes(), 3)).collect();
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
@@ -592,37 +383,6 @@ impl Assembly {
                 }
             }
             how.add((K, 3 * n), destination, projected, values);
-        }
-    }
-}
-
-/// The places of local matrices in the system's.
-struct Places<'a> {
-    scatter: &'a Scatter,
-    blocks: &'a BlockScatter,
-    arms: &'a Arms,
-    projections: &'a [Vec<Mat6>],
-}
-
-impl Places<'_> {
-    /// Adds a local matrix of this number of rows, row-major. It is used up where it has dependent nodes.
-    #[inline]
-    fn add(
-        &self,
-        (K, width): (&mut [f64], usize),
-        destination: &Destination,
-        projected: &mut [f64],
-        values: &mut [f64],
-    ) {
-        let (K, width) = match &destination.projection {
-            None => (&*K, width),
-            Some(projection) => {
-                (self.arms.project(projection, self.projections, (K, width), projected), projection.width())
-            }
-        };
-        match destination.blocks {
-            [from, to] if from < to => self.blocks.add(K, width, from as usize..to as usize, values),
-            _ => self.scatter.add(K, destination.entries, values),
         }
     }
 }

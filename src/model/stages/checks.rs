@@ -1,0 +1,194 @@
+//! What is reported of stages: tables that name them, and what goes with some kinds of them only.
+
+use super::current::CurrentStage;
+use super::sequence::{StageSequence, buckles, name_of, responds};
+use crate::deck::Deck;
+use crate::deck::words::{Maybe, Names};
+use crate::diagnostic::At;
+use crate::model::data::AnalysisKind;
+use crate::model::report::Report;
+use crate::model::response::names_harmonic;
+use crate::model::values::span;
+use std::collections::{HashMap, HashSet};
+
+/// Reports what is wrong with the stages of a deck, and with the tables that name them.
+pub fn check<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    check_rest(sequence, report);
+    check_initial(sequence, report);
+    check_modes(sequence, report);
+    check_names(sequence.whole, report);
+    check_tables(sequence, report);
+    check_expected(sequence, report);
+}
+
+/// Reports what goes with a run without stages only.
+fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    if let Some(study) = &sequence.whole.study {
+        report.error::<()>(&study.span, "a study does not go over stages");
+    }
+    let Some(analysis) = &sequence.whole.analysis else { return };
+    let keys = [
+        ("kind", span(&analysis.kind)),
+        ("control", span(&analysis.control)),
+        ("end_time", span(&analysis.end_time)),
+        ("time_step", span(&analysis.time_step)),
+        ("stop", span(&analysis.stop)),
+        ("steps", span(&analysis.steps)),
+        ("growth", span(&analysis.growth)),
+        ("modes", span(&analysis.modes)),
+        ("up_to", span(&analysis.up_to)),
+        ("damped", span(&analysis.damped)),
+        ("frequencies", span(&analysis.frequencies)),
+        ("method", span(&analysis.method)),
+        ("damping_ratio", span(&analysis.damping_ratio)),
+    ];
+    report.reject_unused("a deck with `[[stages]]`, which have kinds, durations and steps of their own", &keys);
+}
+
+/// Reports what there is too much or too little of for stages of modes.
+fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    let of_modes: Vec<usize> = (0..sequence.stages.len()).filter(|&index| sequence.stages[index].has_modes).collect();
+    if let (Some(&first), None) = (of_modes.first(), sequence.in_time().next()) {
+        let message = "no stage is static or dynamic, so nothing leads to a state about which modes are found";
+        let hint = "`kind` of `[analysis]` finds those about the equilibrium under the loads of the deck";
+        report.error_with::<()>(&sequence.stages[first].table.span, message, hint);
+        return;
+    }
+    of_modes.iter().for_each(|&index| check_new(sequence, index, report));
+    for expect in sequence.whole.expect.iter().filter(|expect| expect.mode.is_some() && expect.stage.is_none()) {
+        if of_modes.len() > 1 {
+            let hint = "several stages have modes";
+            report.error_with::<()>(&expect.span, "an expected value of a mode needs `stage` here", hint);
+        }
+    }
+    let responses = of_modes.iter().filter(|&&index| responds(sequence.stages[index].table)).count();
+    let others = sequence.whole.expect.iter().filter(|expect| expect.mode.is_none() && expect.time.is_none());
+    for expect in others.filter(|expect| expect.stage.is_none()) {
+        let is_open = if expect.frequency.is_some() { responses > 1 } else { responses > 0 };
+        if is_open {
+            let hint = "it may be that of a response over frequencies, or of a motion over time";
+            report.error_with::<()>(&expect.span, "an expected value needs `stage` here", hint);
+        }
+    }
+}
+
+/// Reports what first acts in a stage of modes and has no meaning there, or nothing that a buckling stage seeks the factor of.
+fn check_new<'d>(sequence: &StageSequence<'d>, index: usize, report: &mut Report<'d>) {
+    let stage = &sequence.stages[index];
+    let before = sequence.before(index);
+    let buckles = buckles(stage.table);
+    let is_new = |stages: &Maybe<Names>| {
+        let all = buckles && before.is_none();
+        (all || stages.is_some())
+            && sequence.holds(index, stages)
+            && !before.is_some_and(|before| sequence.holds(before, stages))
+    };
+    let new: Vec<_> = sequence.whole.loads.iter().filter(|load| is_new(&load.stages)).collect();
+    for support in sequence.whole.supports.iter().filter(|support| is_new(&support.stages)) {
+        if let Some(motion) = support.motion.as_ref().filter(|_| !responds(stage.table)) {
+            let message = format!("nothing moves in stage `{}`", stage.name);
+            report.error_with::<()>(&motion.span, message, "let the motion first act in a static or dynamic stage");
+        }
+    }
+    if buckles && new.is_empty() {
+        let message = format!("no load first acts in stage `{}`, so none has a factor at which it buckles", stage.name);
+        let hint = format!("give a load `stages = [\"{}\"]`; those of the stage before stay as they are", stage.name);
+        report.error_with::<()>(&stage.table.span, message, hint);
+    }
+    for load in new {
+        match &load.amplitude {
+            Some(amplitude) if !buckles && names_harmonic(sequence.whole, amplitude.as_str()) => {}
+            _ if !buckles => {
+                let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
+                let hint = "they are those about the state that has been reached: name a static stage before it";
+                report.error_with::<()>(&load.span, message, hint);
+            }
+            Some(amplitude) => {
+                let message = format!("a load of the buckling stage `{}` has no amplitude", stage.name);
+                report.error_with::<()>(&amplitude.span, message, "it is multiplied by the factor that is sought");
+            }
+            None => {}
+        }
+    }
+}
+
+/// Reports initial motions in stages without motion.
+fn check_initial<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    let first_dynamic = sequence.first_dynamic();
+    for table in &sequence.whole.initial {
+        for name in table.stages.iter().flat_map(|names| &names.values) {
+            if sequence.position(name).is_some_and(|index| sequence.stages[index].kind == AnalysisKind::Static) {
+                let message = format!("nothing moves in stage `{}`", name.value);
+                report.error_with::<()>(&name.span, message, "name a dynamic stage");
+            }
+        }
+        if table.stages.is_none() && first_dynamic.is_none() {
+            report.warn(&table.span, "this has no effect", "no stage is dynamic");
+        }
+    }
+}
+
+/// Reports tables of one name in stages apart: what a stage finds of the one before is known by its name. Two in one stage are
+/// reported with the names of that stage.
+fn check_tables<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    let deck = sequence.whole;
+    let joints = deck.joints.iter().map(|table| (&table.name, &table.stages));
+    let links = deck.links.iter().map(|table| (&table.name, &table.stages));
+    let contacts = deck.contacts.iter().map(|table| (&table.name, &table.stages));
+    let mut known: HashMap<&str, Vec<&Maybe<Names>>> = HashMap::new();
+    for (name, stages) in joints.chain(links).chain(contacts) {
+        let Some(name) = name else { continue };
+        let others = known.entry(name.as_str()).or_default();
+        let meets = |other: &&Maybe<Names>| {
+            (0..sequence.stages.len()).any(|index| sequence.holds(index, other) && sequence.holds(index, stages))
+        };
+        if !others.is_empty() && !others.iter().any(meets) {
+            let message = format!("the name `{}` is taken", name.value);
+            let hint = "a table of other stages has it, and what is carried over is known by its name";
+            report.error_with::<()>(&name.span, message, hint);
+        }
+        others.push(stages);
+    }
+}
+
+/// Reports expected values that no stage has.
+fn check_expected<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    let known: HashSet<usize> = CurrentStage::all(sequence).flat_map(|stage| stage.expected()).collect();
+    for (index, expect) in sequence.whole.expect.iter().enumerate().filter(|(index, _)| !known.contains(index)) {
+        let named = name_of(&expect.stage).and_then(|name| sequence.position(name));
+        if expect.stage.is_some() && named.is_none() {
+            // That there is no such stage has been said.
+            continue;
+        }
+        let has_modes = named.is_some_and(|named| sequence.stages[named].has_modes);
+        let (message, hint) = match (&expect.mode, &expect.frequency) {
+            (Some(_), _) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
+            (_, Some(_)) => ("no response is found there", "`frequency` is expected of a stage of frequency response"),
+            _ if has_modes => ("no time passes in this stage", "expect a `mode`, or name another stage"),
+            _ => ("what this is expected of is not there", "name a stage in which it is"),
+        };
+        report.error_with::<()>(&sequence.whole.expect[index].span, message, hint);
+    }
+}
+
+/// Reports names of stages that there are not, in any table.
+pub fn check_names<'d>(deck: &'d Deck, report: &mut Report<'d>) {
+    let lists = deck.supports.iter().map(|table| &table.stages);
+    let lists = lists.chain(deck.joints.iter().map(|table| &table.stages));
+    let lists = lists.chain(deck.links.iter().map(|table| &table.stages));
+    let lists = lists.chain(deck.contacts.iter().map(|table| &table.stages));
+    let lists = lists.chain(deck.loads.iter().map(|table| &table.stages));
+    let lists = lists.chain(deck.initial.iter().map(|table| &table.stages)).flatten();
+    let lists: Vec<&At<Names>> = lists.collect();
+    for list in lists.iter().filter(|list| list.values.is_empty()) {
+        report.error_with::<()>(&list.span, "`stages` is empty", "leave it out for all stages");
+    }
+    let single = deck.expect.iter().map(|table| &table.stage);
+    let single = single.chain(deck.amplitudes.0.iter().map(|(_, table)| &table.stage)).flatten();
+    let known: Vec<&str> = deck.stages.iter().filter_map(|stage| name_of(&stage.name)).collect();
+    for name in lists.iter().flat_map(|list| &list.values).chain(single) {
+        if !known.contains(&name.as_str()) {
+            report.unknown::<()>("stage", name, known.iter().copied());
+        }
+    }
+}

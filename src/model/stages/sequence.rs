@@ -1,0 +1,232 @@
+//! The stages of a deck, one after the other: their times, and which tables are there in which of them.
+
+use crate::amplitude::{Amplitude, StraightLines};
+use crate::deck::Deck;
+use crate::deck::expect::Expect;
+use crate::deck::stages::{Stage, StageKind};
+use crate::deck::words::{Maybe, Names, Table};
+use crate::diagnostic::{At, Span};
+use crate::model::data::AnalysisKind;
+use crate::model::report::{Owner, Report};
+use crate::model::shell_edges::Bulges;
+use crate::model::values::span;
+use crate::names::short;
+
+/// The stages of a deck, one after the other.
+pub struct StageSequence<'d> {
+    /// The deck with all that is there in any stage.
+    pub whole: &'d Deck,
+    /// True after stages of which one has ended before its time: what the deck expects later is missed then, but no error.
+    pub is_shortened: bool,
+    /// The most that each edge of each shell may bulge; empty where only the stage itself holds edges straight.
+    pub bulges: Vec<Bulges>,
+    /// They themselves.
+    pub stages: Vec<PlannedStage<'d>>,
+}
+
+/// A stage of less than this part of the time at its end is lost in the rounding of times: events that are no farther than 1e-9 of it apart
+/// are one, and a stage needs sixteen at which runs are compared.
+const SHORTEST: f64 = 1e-7;
+
+/// A stage with its times, which are those of the run.
+pub struct PlannedStage<'d> {
+    pub table: &'d At<Table<Stage>>,
+    pub name: String,
+    pub kind: AnalysisKind,
+    /// True where modes are found, and no time passes.
+    pub has_modes: bool,
+    pub begin: f64,
+    pub duration: f64,
+    /// The time at which it has ended, or will if nothing stops it.
+    pub end: f64,
+}
+
+impl PlannedStage<'_> {
+    /// True where an expected value, of a mode, at a frequency or at a time, can be read: the peak over frequencies where it names the stage.
+    pub fn reads(&self, expect: &Expect) -> bool {
+        let kind = self.table.kind.as_ref().map(|kind| kind.value);
+        match (expect.mode.is_some(), expect.frequency.is_some()) {
+            (true, _) => self.has_modes,
+            (_, true) => kind == Some(StageKind::FrequencyResponse),
+            _ if kind == Some(StageKind::FrequencyResponse) => name_of(&expect.stage) == Some(self.name.as_str()),
+            _ => !self.has_modes,
+        }
+    }
+}
+
+impl<'d> StageSequence<'d> {
+    /// Reads `[[stages]]`; the first stages have ended at the times `reached`.
+    pub fn new(deck: &'d Deck, reached: &[f64], report: &mut Report<'d>) -> StageSequence<'d> {
+        let mut sequence =
+            StageSequence { whole: deck, is_shortened: !reached.is_empty(), bulges: Vec::new(), stages: Vec::new() };
+        let mut begin = 0.0;
+        for (index, table) in deck.stages.iter().enumerate() {
+            let stage = sequence.stage(table, begin, reached.get(index).copied(), report);
+            begin = stage.end;
+            sequence.stages.push(stage);
+        }
+        sequence
+    }
+
+    fn stage(
+        &self,
+        table: &'d At<Table<Stage>>,
+        begin: f64,
+        reached: Option<f64>,
+        report: &mut Report<'d>,
+    ) -> PlannedStage<'d> {
+        let owner = Owner::new("`[[stages]]`", &table.span);
+        let name = report.require(&owner, "name", &table.name);
+        if let Some(name) = name {
+            if name.is_empty() {
+                report.error::<()>(&name.span, "a name must not be empty");
+            } else if self.stages.iter().any(|other| other.name == name.as_str()) {
+                report.error::<()>(&name.span, format!("two stages have the name `{}`", name.value));
+            }
+        }
+        let kind = report.require(&owner, "kind", &table.kind);
+        let is_static = kind.is_some_and(|kind| kind.value == StageKind::Static);
+        let of_modes = kind.and_then(|kind| match kind.value {
+            StageKind::Static | StageKind::Dynamic => None,
+            StageKind::Modal => Some("a modal stage"),
+            StageKind::Buckling => Some("a buckling stage"),
+            StageKind::FrequencyResponse => Some("a stage of a frequency response"),
+        });
+        let has_modes = of_modes.is_some();
+        if let Some(what) = of_modes.or(is_static.then_some("a static stage")) {
+            report.reject_unused(what, &[("integrator", span(&table.integrator))]);
+        }
+        if let Some(what) = of_modes {
+            report.reject_unused(what, &keys_of_time(table));
+        }
+        let duration = match of_modes {
+            Some(_) => 0.0,
+            None => report.require_positive(&owner, "duration", &table.duration).unwrap_or(1.0),
+        };
+        let end = match reached {
+            Some(reached) => reached,
+            None if has_modes => begin,
+            None => self.end_of(table, begin, duration, report),
+        };
+        if reached.is_none() && !has_modes && end - begin <= SHORTEST * end {
+            let message = format!("the stage goes from {begin} to {end}, too short a time to be told from none");
+            let hint = format!("it must be longer than {} of the time at its end", short(SHORTEST));
+            report.error_with::<()>(&table.span, message, hint);
+        }
+        PlannedStage {
+            table,
+            name: name.map_or_else(|| format!("stages.{}", self.stages.len()), |name| name.value.clone()),
+            kind: if is_static || has_modes { AnalysisKind::Static } else { AnalysisKind::Dynamic },
+            has_modes,
+            begin,
+            duration,
+            end,
+        }
+    }
+
+    /// The time at which a stage ends if nothing but time stops it.
+    fn end_of(&self, table: &'d At<Table<Stage>>, begin: f64, duration: f64, report: &mut Report<'d>) -> f64 {
+        let end = begin + duration;
+        let Some(time) = table.stop.as_ref().and_then(|stop| stop.time.as_ref()) else { return end };
+        if time.value > end && !self.is_shortened {
+            let message = format!("the stage ends at {} before it comes to this", short(end));
+            report.error_with::<()>(&time.span, message, "`time` is that of the run");
+        }
+        if time.value <= begin {
+            let message = format!("the stage begins at {begin} already");
+            report.error_with::<()>(&time.span, message, "`time` is that of the run");
+            return end;
+        }
+        end.min(time.value)
+    }
+
+    /// Reports what goes with a run without stages only.
+    /// The end of the last stage.
+    pub fn end(&self) -> f64 {
+        self.stages.last().map_or(0.0, |stage| stage.end)
+    }
+
+    pub fn first_dynamic(&self) -> Option<usize> {
+        self.stages.iter().position(|stage| stage.kind == AnalysisKind::Dynamic)
+    }
+
+    pub fn position(&self, name: &str) -> Option<usize> {
+        self.stages.iter().position(|stage| stage.name == name)
+    }
+
+    /// True where a table with these `stages` is there in a stage.
+    pub fn holds(&self, index: usize, stages: &Maybe<Names>) -> bool {
+        stages.as_ref().is_none_or(|names| names.values.iter().any(|name| name.value == self.stages[index].name))
+    }
+
+    /// The first stage in which time passes and a table with these `stages` is there, or the first of all where it is there.
+    pub fn first(&self, stages: &Maybe<Names>) -> usize {
+        let there = |index: &usize| self.holds(*index, stages);
+        self.in_time().find(there).or_else(|| (0..self.stages.len()).find(there)).unwrap_or(0)
+    }
+
+    /// The stages in which time passes.
+    pub fn in_time(&self) -> impl DoubleEndedIterator<Item = usize> {
+        (0..self.stages.len()).filter(|&index| !self.stages[index].has_modes)
+    }
+
+    /// The last stage before this one in which time has passed.
+    pub fn before(&self, index: usize) -> Option<usize> {
+        self.in_time().rfind(|&before| before < index)
+    }
+
+    /// Which tables that may be limited to stages are there in one, in the order of the deck.
+    pub fn held(&self, index: usize) -> Vec<bool> {
+        let deck = self.whole;
+        let supports = deck.supports.iter().map(|table| &table.stages);
+        let joints = deck.joints.iter().map(|table| &table.stages);
+        let links = deck.links.iter().map(|table| &table.stages);
+        let contacts = deck.contacts.iter().map(|table| &table.stages);
+        let loads = deck.loads.iter().map(|table| &table.stages);
+        let all = supports.chain(joints).chain(links).chain(contacts).chain(loads);
+        all.map(|stages| self.holds(index, stages)).collect()
+    }
+
+    /// The functions of time of loads without an amplitude, one for each stage in which they may first act: over a static stage they grow,
+    /// and stay at what they have reached.
+    pub fn own_amplitudes(&self) -> impl Iterator<Item = Amplitude> {
+        self.stages.iter().map(|stage| {
+            let planned = stage.begin + stage.duration;
+            match stage.kind {
+                AnalysisKind::Dynamic => Amplitude::Constant,
+                AnalysisKind::Static if stage.has_modes => Amplitude::Constant,
+                AnalysisKind::Static if stage.end >= planned => Amplitude::Ramp { start: stage.begin, end: planned },
+                AnalysisKind::Static => {
+                    let reached = (stage.end - stage.begin) / stage.duration;
+                    Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [stage.end, reached]]))
+                }
+            }
+        })
+    }
+}
+
+/// True for a stage that seeks factors of loads.
+pub fn buckles(table: &Stage) -> bool {
+    table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::Buckling)
+}
+
+/// True for a stage that finds a response over frequencies.
+pub fn responds(table: &Stage) -> bool {
+    table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::FrequencyResponse)
+}
+
+/// The keys of a stage in which time passes.
+fn keys_of_time(table: &Stage) -> [(&'static str, Option<&Span>); 6] {
+    [
+        ("duration", span(&table.duration)),
+        ("time_step", span(&table.time_step)),
+        ("error_tolerance", span(&table.error_tolerance)),
+        ("least_step", span(&table.least_step)),
+        ("stop", span(&table.stop)),
+        ("iteration", span(&table.iteration)),
+    ]
+}
+
+pub fn name_of(name: &Maybe<String>) -> Option<&str> {
+    name.as_ref().map(|name| name.as_str())
+}
