@@ -9,8 +9,8 @@ use super::iteration_matrix::IterationMatrix;
 use super::jump;
 use super::lead::Lead;
 use super::line_search::LineSearch;
-use super::progress::Progress;
 use super::refresh::{Advice, Refresh};
+use super::step_progress::StepProgress;
 use crate::model::Method;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
@@ -96,7 +96,7 @@ impl Newton {
         to: f64,
         constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
-        let progress = Progress::begin(cx, to, cx.plan.linear && constraint.is_none(), &self.ending);
+        let progress = StepProgress::begin(cx, to, cx.plan.linear && constraint.is_none(), &self.ending);
         let found = self.iterate(cx, ws, state, stage, progress, constraint);
         self.arrive(cx, ws, state, found)
     }
@@ -114,7 +114,7 @@ impl Newton {
         to: f64,
     ) -> Result<StepReport, Failure> {
         self.forget_corrections();
-        let progress = Progress::begin(cx, to, cx.plan.linear, &self.ending).at_equilibrium();
+        let progress = StepProgress::begin(cx, to, cx.plan.linear, &self.ending).at_equilibrium();
         let found = self.iterate(cx, ws, state, stage, progress, None);
         self.arrive(cx, ws, state, found)
     }
@@ -168,7 +168,7 @@ impl Newton {
         ws: &mut Workspace,
         state: &State,
         stage: &Stage,
-        mut progress: Progress,
+        mut progress: StepProgress,
         mut constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
         motion::excite(cx, ws, state.time, progress.report.to, stage.scheme.instant);
@@ -257,7 +257,7 @@ impl Newton {
         shortened
     }
     /// Solves for the correction, which takes the place of the residual in `ws.r`.
-    fn solve(&mut self, cx: &Context, ws: &mut Workspace, progress: &Progress) {
+    fn solve(&mut self, cx: &Context, ws: &mut Workspace, progress: &StepProgress) {
         if progress.new_matrix {
             self.forget_corrections();
         }
@@ -298,7 +298,7 @@ impl Newton {
         ws: &mut Workspace,
         correction: Size,
         motion: Size,
-        progress: &mut Progress,
+        progress: &mut StepProgress,
     ) -> Result<Verdict, Failure> {
         progress.report.iterations += 1;
         let size = relative(cx, correction, motion);
@@ -333,7 +333,7 @@ impl Newton {
         Ok(if misled { Verdict::Restart } else { Verdict::GoOn })
     }
 
-    fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut Progress) {
+    fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, progress: &mut StepProgress) {
         self.lead.restart();
         self.predict(cx, ws, state, stage);
         progress.convergence.forget();
@@ -348,7 +348,7 @@ impl Newton {
         ws: &mut Workspace,
         state: &State,
         stage: &Stage,
-        progress: &mut Progress,
+        progress: &mut StepProgress,
     ) -> bool {
         let again = self.matrix.refresh.require_fresh_matrix();
         if again {

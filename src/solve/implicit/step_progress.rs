@@ -13,7 +13,7 @@ use crate::solve::workspace::Workspace;
 const UNBALANCED: f64 = 1e3;
 
 /// The progress of the iteration of a step.
-pub struct Progress {
+pub struct StepProgress {
     pub report: StepReport,
     pub convergence: Convergence,
     /// True where the matrix was formed for the iterate at hand.
@@ -26,10 +26,10 @@ pub struct Progress {
     time_error: f64,
 }
 
-impl Progress {
+impl StepProgress {
     /// Begins the iteration of a step to the time `to`, with a matrix that is `exact` or not, from the prediction.
-    pub fn begin(cx: &Context, to: f64, exact: bool, ending: &Ending) -> Progress {
-        Progress {
+    pub fn begin(cx: &Context, to: f64, exact: bool, ending: &Ending) -> StepProgress {
+        StepProgress {
             report: StepReport::begin(to),
             convergence: Convergence::new([ending.tolerance, ending.residual], exact, ending.usual()),
             new_matrix: false,
@@ -40,8 +40,8 @@ impl Progress {
     }
 
     /// The same where the increments at hand are those of an equilibrium under other forces.
-    pub fn at_equilibrium(self) -> Progress {
-        Progress { predicted: false, ..self }
+    pub fn at_equilibrium(self) -> StepProgress {
+        StepProgress { predicted: false, ..self }
     }
 
     /// Moves the end of the step. A correction δt of the time leaves an error of the loads of order δt², whatever the
