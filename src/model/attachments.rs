@@ -1,14 +1,14 @@
 //! `[[attachments]]`: points and bodies that move with a body, nodes that move with a beam.
 
 use super::data::Joint;
+use super::doubts::long_chains::hold_long_chains;
 use super::joints::equations;
-use super::long_chains::hold_long_chains;
-use super::nearest_nodes::NodesAlongAxis;
-use super::nodes::Nodes;
-use super::place::Place;
+use super::places::nearest_nodes::NodesAlongAxis;
+use super::places::nodes::Nodes;
+use super::places::place::Place;
+use super::places::spot::Spot;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
-use super::spot::Spot;
 use crate::deck::attachments::{Attachment, AttachmentMethod};
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::{At, Diagnostic};

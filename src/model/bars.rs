@@ -1,8 +1,8 @@
 //! `[[bars]]`: paths → nodes and elements that resist stretching alone.
 
+use super::beams::paths::{counts, path, segments};
 use super::data::{Bar, MassKind, Part, PartIndex, PartKind};
 use super::part_context::PartContext;
-use super::paths::{counts, path, segments};
 use super::report::Owner;
 use super::values::{chosen, flag, span};
 use crate::deck::bars as words;

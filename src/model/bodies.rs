@@ -1,7 +1,7 @@
 //! `[[bodies]]`: mass, inertia and shape of what is rigid, or the parts that make it up.
 
 use super::data::Body;
-use super::nodes::Nodes;
+use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::values::{span, vec3, vec3_or_zero};
 use crate::deck::Deck;

@@ -2,7 +2,7 @@
 
 use super::data::{BaseAcceleration, Damping, Loading, NodalDamping};
 use super::loads::Loads;
-use super::nodes::Topology;
+use super::places::nodes::Topology;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::stages::CurrentStage;

@@ -1,9 +1,9 @@
 //! `[[expect]]`: values that a run must reach.
 
 use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, Tolerance, When, quantities_of};
-use super::displacement_targets::displacement_target;
-use super::nodes::Topology;
-use super::place::Place;
+use super::places::nodes::Topology;
+use super::places::place::Place;
+use super::procedure::displacement_targets::displacement_target;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;

@@ -2,7 +2,7 @@
 
 use super::bodies::read_inertia;
 use super::data::Mass;
-use super::nodes::Nodes;
+use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use crate::math::Mat3;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use super::nodes::Nodes;
+use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
 use crate::deck::Deck;
 use crate::diagnostic::{Diagnostic, Excerpt};

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 use super::bodies::Bodies;
 use super::mesh_file::MeshNodes;
 use super::parts::Parts;
-use super::place::Place;
+use super::places::place::Place;
 use super::report::Report;
 use crate::deck::Deck;
 use crate::deck::parts::{DeckPart, PartIndex};

@@ -3,8 +3,8 @@
 use super::groups::Groups;
 use super::materials::Materials;
 use super::names::Names;
-use super::nodes::Nodes;
 use super::parts::Parts;
+use super::places::nodes::Nodes;
 use super::report::Report;
 use super::sections::Sections;
 use crate::deck::Deck;

@@ -6,8 +6,8 @@
 
 use super::bodies::{Bodies, title};
 use super::data::{Body, MassIntegrals, Rigid};
-use super::nodes::Nodes;
 use super::parts::Parts;
+use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
 use crate::deck::Deck;
 use crate::deck::parts::PartIndex;

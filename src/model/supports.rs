@@ -2,11 +2,11 @@
 
 use super::data::{Actors, AnalysisKind, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
-use super::nodes::Topology;
+use super::places::nodes::Topology;
+use super::places::spot::Spot;
+use super::procedure::stops::NamedActors;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
-use super::spot::Spot;
-use super::stops::NamedActors;
 use super::values::chosen;
 use crate::amplitude::Amplitude;
 use crate::deck::supports as words;

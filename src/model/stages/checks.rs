@@ -6,8 +6,8 @@ use crate::deck::Deck;
 use crate::deck::words::{Maybe, Names};
 use crate::diagnostic::At;
 use crate::model::data::AnalysisKind;
+use crate::model::procedure::response::names_harmonic;
 use crate::model::report::Report;
-use crate::model::response::names_harmonic;
 use crate::model::values::span;
 use std::collections::{HashMap, HashSet};
 

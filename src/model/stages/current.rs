@@ -10,7 +10,7 @@ use crate::deck::stages::{Stage, StageKind};
 use crate::deck::words::{Maybe, Names, Table};
 use crate::diagnostic::{At, Span};
 use crate::model::data::AnalysisKind;
-use crate::model::response::names_harmonic;
+use crate::model::procedure::response::names_harmonic;
 use crate::model::values::span;
 use std::collections::HashSet;
 

@@ -8,7 +8,7 @@ use crate::deck::words::{Maybe, Names, Table};
 use crate::diagnostic::{At, Span};
 use crate::model::data::AnalysisKind;
 use crate::model::report::{Owner, Report};
-use crate::model::shell_edges::Bulges;
+use crate::model::shells::edges::Bulges;
 use crate::model::values::span;
 use crate::names::short;
 

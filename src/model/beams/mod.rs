@@ -1,0 +1,320 @@
+//! `[[beams]]`: paths or groups of the mesh → nodes and elements.
+
+pub mod grading;
+pub mod paths;
+
+use crate::deck::Deck;
+use crate::deck::beams as words;
+use crate::deck::words::Vector;
+use crate::diagnostic::At;
+use crate::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
+use crate::math::quadrature::lobatto;
+use crate::math::{Mat3, Vec3};
+use crate::mesh::MeshElement;
+use crate::model::beams::grading::{cuts, gradings};
+use crate::model::beams::paths::{counts, path, segments};
+use crate::model::data::{Beam, BeamElement, Part, PartIndex, PartKind};
+use crate::model::part_context::PartContext;
+use crate::model::report::Owner;
+use crate::model::sections;
+use crate::model::values::{chosen, flag, span, vec3};
+use std::collections::HashSet;
+
+/// Sine of the angle between orientation and axis below which they count as parallel.
+const PARALLEL: f64 = 1e-6;
+
+/// Part of a segment by which its node between may miss the middle.
+const HALF_WAY: f64 = 1e-6;
+
+/// Reads `[[beams]]`: divides each path into elements, or takes those of a group of the mesh.
+pub fn beams(cx: &mut PartContext) {
+    for (index, beam) in cx.deck.beams.iter().enumerate() {
+        let name = beam.name.as_ref().or(beam.group.as_ref());
+        let name = name.map_or_else(|| format!("beams.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("beam `{name}`"), &beam.span);
+        if beam.group.is_none() {
+            cx.report.require(&owner, "name", &beam.name);
+        }
+        let at = PartIndex { kind: PartKind::Beam, index };
+        cx.parts.begin(at);
+        cx.parts.entry_mut(at).contact_radius = half_depth(cx.deck, beam);
+        let made = read_beam(at, name, &owner, beam, cx);
+        cx.parts.add(at, made.map(Part::from));
+    }
+}
+
+/// Half the smaller side of a beam's section; 0 where the section does not say it.
+fn half_depth(deck: &Deck, beam: &words::Beam) -> f64 {
+    let index = beam.section.as_ref().and_then(|name| deck.sections.position(name));
+    index.map_or(0.0, |index| sections::half_depth(&deck.sections.0[index].1))
+}
+
+/// Reads one beam as far as it can, so that all errors of the beam are found; `None` means there were some.
+fn read_beam<'d>(
+    at: PartIndex,
+    name: String,
+    owner: &Owner<'d>,
+    beam: &'d words::Beam,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Beam> {
+    let order = cx.report.count("order", &beam.order, DEFAULT_ORDER);
+    if let Some(at) = &beam.order
+        && order > 4
+    {
+        cx.report.error::<()>(&at.span, "`order` can be 1, 2, 3 or 4");
+    }
+    let mass = chosen(&beam.mass);
+    let section = cx.sections.beam_section(owner, [&beam.section, &beam.material], mass, cx.report);
+    let yielding = yielding(owner, beam, order, section.is_some(), cx);
+    let orientation = cx.report.require(owner, "orientation", &beam.orientation);
+    let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
+    let elements = match &beam.group {
+        Some(group) => line.along_group(group, cx),
+        None if cx.report.is_spoiled(owner.span, "group") => None,
+        None => line.along_path(section.is_some() && yielding.is_some() && order <= 4, cx),
+    };
+    let (section, yielding, mut elements) = (section?, yielding?, elements?);
+    if order > 4 {
+        return None;
+    }
+    elements.iter_mut().for_each(|element| element.section = section);
+    let graded = beam.grading.as_ref().is_some_and(|grading| grading.values.iter().any(|part| part.value < 1.0));
+    Some(Beam { name, order, mass, rotary_inertia: flag(&beam.rotary_inertia, true), yielding, graded, elements })
+}
+
+/// A beam whose nodes and elements are to be made.
+struct Line<'b, 'd> {
+    at: PartIndex,
+    name: &'b str,
+    owner: &'b Owner<'d>,
+    beam: &'d words::Beam,
+    order: usize,
+    /// `None` where it is missing, which has been said.
+    orientation: Option<&'d At<Vector>>,
+}
+
+impl<'d> Line<'_, 'd> {
+    /// Makes elements along the segments of a group of the mesh, as yet without their sections.
+    fn along_group(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
+        let unused = [
+            ("path", span(&self.beam.path)),
+            ("elements", span(&self.beam.elements)),
+            ("grading", span(&self.beam.grading)),
+            ("offset_start", span(&self.beam.offset_start)),
+            ("offset_end", span(&self.beam.offset_end)),
+        ];
+        cx.report.reject_unused("a beam made of a group of the mesh", &unused);
+        let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
+        // The group is read also without an orientation, whose lack has been reported.
+        let frame = |along: Vec3| frame(&along, &toward.unwrap_or_else(|| Vec3::ith(along.iamin(), 1.0)));
+        let segments = cx.groups.take(&self.owner.what, group, false, cx.report)?;
+        let first = cx.groups.mesh.first;
+        let (inner, _) = lobatto(self.order + 1);
+        let (mut made, mut nodes, mut seen) = (Vec::new(), Vec::new(), HashSet::new());
+        let (mut inside, mut parallel, mut curved) = (0, 0, 0);
+        for segment in &segments {
+            let ends = [0, 1].map(|k| first + segment.nodes()[k] as usize);
+            for end in ends {
+                cx.nodes.connect(end, true);
+                if seen.insert(end) {
+                    nodes.push(end);
+                }
+            }
+            let [x0, x1] = ends.map(|end| cx.nodes.x(end));
+            let Some(frame) = frame(x1 - x0) else {
+                parallel += 1;
+                continue;
+            };
+            let mut ids = [ends[1]; 5];
+            ids[0] = ends[0];
+            if segment.kind.order() == 2 {
+                let middle = first + segment.nodes()[2] as usize;
+                curved += usize::from(!self.takes_middle(middle, [x0, x1], cx));
+                (ids[1], ids[2]) = (middle, ends[1]);
+                nodes.extend(seen.insert(middle).then_some(middle));
+                made.push(BeamElement { nodes: ids, frame, section: 0 });
+                continue;
+            }
+            for (i, xi) in inner.iter().enumerate().take(inner.len() - 1).skip(1) {
+                inside += 1;
+                ids[i] = self.add_node(inside, x0 + (x1 - x0) * (0.5 * (1.0 + xi)), cx);
+                nodes.push(ids[i]);
+            }
+            made.push(BeamElement { nodes: ids, frame, section: 0 });
+        }
+        cx.parts.entry_mut(self.at).nodes = nodes;
+        if parallel > 0 {
+            let place = self.orientation.map_or(self.owner.span, |at| &at.span);
+            let message = format!("`orientation` is parallel to {parallel} segments of group `{}`", group.value);
+            return cx.report.error_with(place, message, "it must point to the side, where local y is to lie");
+        }
+        self.takes_segments(group, &segments, curved, cx)?;
+        toward.map(|_| made)
+    }
+
+    /// Reports segments of three nodes that no element of the beam can take; `curved`: how many are not straight.
+    fn takes_segments(
+        &self,
+        group: &'d At<String>,
+        segments: &[&MeshElement],
+        curved: usize,
+        cx: &mut PartContext<'_, 'd>,
+    ) -> Option<()> {
+        if curved > 0 {
+            let message =
+                format!("group `{}` has {curved} curved segments, and elements of beams are straight", group.value);
+            let hint = "mesh it with segments of two nodes, or with their nodes between half-way along straight lines";
+            return cx.report.error_with(&group.span, message, hint);
+        }
+        if self.order != 2 && segments.iter().any(|segment| segment.kind.order() == 2) {
+            let place = self.beam.order.as_ref().map_or(&group.span, |at| &at.span);
+            let message = format!("group `{}` has segments of three nodes", group.value);
+            return cx.report.error_with(place, message, "give the beam `order = 2`");
+        }
+        Some(())
+    }
+
+    /// Connects the node of the mesh between the ends of a segment; false where it is not half-way between them.
+    fn takes_middle(&self, middle: usize, [x0, x1]: [Vec3; 2], cx: &mut PartContext<'_, 'd>) -> bool {
+        cx.nodes.connect(middle, true);
+        (cx.nodes.x(middle) - 0.5 * (x0 + x1)).norm() <= HALF_WAY * (x1 - x0).norm()
+    }
+
+    /// Makes elements along a path of points, as yet without their sections, where the rest of the beam is `sound`.
+    fn along_path(&self, sound: bool, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
+        let elements = cx.report.require(self.owner, "elements", &self.beam.elements);
+        let mut path = path(self.owner, &self.beam.path, true, cx)?;
+        self.offset_ends(&mut path, cx);
+        let points = &self.beam.path.as_ref()?.values;
+        let lengths = segments(self.owner, points, &path, cx);
+        let frames = self.orientation.and_then(|orientation| frames(points, &path, orientation, cx));
+        let counts = elements.and_then(|elements| counts(elements, path.len() - 1, cx))?;
+        let gradings = gradings(&self.beam.grading, &counts, cx)?;
+        lengths?;
+        let frames = frames.filter(|_| sound)?;
+        let (inner, _) = lobatto(self.order + 1);
+        let mut nodes = vec![path[0]];
+        let mut made = Vec::new();
+        for (segment, (&count, &grading)) in counts.iter().zip(&gradings).enumerate() {
+            let cuts = (grading < 1.0).then(|| cuts(count, grading));
+            let [start, end] = [path[segment], path[segment + 1]];
+            let [x0, x1] = [cx.nodes.x(start), cx.nodes.x(end)];
+            for element in 0..count {
+                let mut ids = [*nodes.last()?; 5];
+                for (i, xi) in inner.iter().enumerate().skip(1) {
+                    let last = element + 1 == count && i == self.order;
+                    let part = 0.5 * (1.0 + xi);
+                    let s = match &cuts {
+                        Some(cuts) => cuts[element] + (cuts[element + 1] - cuts[element]) * part,
+                        None => (element as f64 + part) / count as f64,
+                    };
+                    ids[i] = if last { end } else { self.add_node(nodes.len(), x0 + (x1 - x0) * s, cx) };
+                    nodes.push(ids[i]);
+                }
+                made.push(BeamElement { nodes: ids, frame: frames[segment], section: 0 });
+            }
+        }
+        cx.parts.entry_mut(self.at).nodes = nodes;
+        Some(made)
+    }
+
+    /// Replaces the ends of a path by nodes that are rigidly attached to them, where the beam has offsets.
+    fn offset_ends(&self, path: &mut [usize], cx: &mut PartContext) {
+        let last = path.len() - 1;
+        let offsets = [(0, "start", &self.beam.offset_start), (last, "end", &self.beam.offset_end)];
+        for (at, which, offset) in offsets {
+            if let Some(offset) = offset
+                && offset.value.0 != [0.0; 3]
+            {
+                let x = cx.nodes.x(path[at]) + vec3(offset);
+                path[at] = cx.nodes.add_dependent(format!("{}.{which}", self.name), x, path[at], &offset.span);
+                cx.nodes.connect(path[at], true);
+            }
+        }
+    }
+
+    /// A node between the ends, with its number in the beam.
+    fn add_node(&self, number: usize, x: Vec3, cx: &mut PartContext) -> usize {
+        let node = cx.nodes.add(format!("{}[{number}]", self.name), false, x);
+        cx.nodes.connect(node, true);
+        node
+    }
+}
+
+/// Reads how the beam yields: `Some(None)` where its material is elastic, `None` where there are errors. `section` tells whether
+/// its section is sound.
+fn yielding<'d>(
+    owner: &Owner<'d>,
+    beam: &'d words::Beam,
+    order: usize,
+    section: bool,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Option<FibreModel>> {
+    let unused = [
+        ("integration", span(&beam.integration)),
+        ("points", span(&beam.points)),
+        ("shear_yields", span(&beam.shear_yields)),
+    ];
+    let Some(law) = cx.materials.yielding_of(&beam.material)? else {
+        cx.report.reject_unused(&format!("{}, whose material is elastic", owner.what), &unused);
+        return Some(None);
+    };
+    let points = cx.report.count("points", &beam.points, order);
+    if let Some(at) = &beam.points
+        && order == 1
+        && points > 1
+    {
+        let message = "elements of order 1 take one point: with more they lock in shear";
+        return cx.report.error_with(&at.span, message, "take a higher `order`");
+    }
+    if let Some(at) = &beam.points
+        && !(order..=MOST_POINTS).contains(&points)
+    {
+        let message = format!("`points` must lie between the order of the elements, {order}, and {MOST_POINTS}");
+        return cx.report.error(&at.span, message);
+    }
+    let rule = match &beam.integration {
+        Some(at) if at.value == IntegrationRule::Lobatto && points < 3 => {
+            let message = "a Lobatto rule needs three points";
+            return cx.report.error_with(&at.span, message, "take elements of order 3 or 4");
+        }
+        rule => chosen(rule),
+    };
+    let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
+    // A wrong section has been reported.
+    let fibres = if section { cx.sections.fibres(beam.section.as_ref()?, cx.report)? } else { return None };
+    Some(Some(FibreModel { law, fibres, shear, rule, points }))
+}
+
+/// Section frame of each segment: x along it, y towards the orientation, z = x × y.
+fn frames<'d>(
+    points: &'d [At<String>],
+    path: &[usize],
+    orientation: &At<Vector>,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Vec<Mat3>> {
+    let toward = cx.report.unit("orientation", orientation)?;
+    let mut frames = Vec::new();
+    for (i, pair) in path.windows(2).enumerate() {
+        let along = cx.nodes.x(pair[1]) - cx.nodes.x(pair[0]);
+        if along.try_normalize(0.0).is_none() {
+            continue;
+        }
+        let Some(frame) = frame(&along, &toward) else {
+            let message =
+                format!("`orientation` is parallel to segment `{}` - `{}`", points[i].value, points[i + 1].value);
+            let hint = "it must point to the side, where local y is to lie";
+            cx.report.error_with::<()>(&orientation.span, message, hint);
+            continue;
+        };
+        frames.push(frame);
+    }
+    (frames.len() + 1 == path.len()).then_some(frames)
+}
+
+/// Section axes: x along a segment, y towards the orientation, z = x × y. `None` where the two are parallel.
+fn frame(along: &Vec3, toward: &Vec3) -> Option<Mat3> {
+    let x = along.try_normalize(0.0)?;
+    let z = x.cross(toward).try_normalize(PARALLEL)?;
+    Some(Mat3::from_columns(&[x, z.cross(&x), z]))
+}

@@ -1,0 +1,332 @@
+//! Contacts of faces of shells, of beams by their radius, and of balls among themselves.
+
+use crate::deck::contacts as words;
+use crate::deck::parts::PartIndex;
+use crate::deck::words::kinds::OneOf;
+use crate::diagnostic::At;
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface};
+use crate::math::curved_faces;
+use crate::model::contacts::points::Finder;
+use crate::model::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
+use crate::model::places::place::Place;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::model::values::span;
+use crate::solids::Touching;
+
+/// The word for a shell that touches itself.
+pub const ITSELF: &str = "itself";
+
+/// True where a contact is one of faces, or of balls among themselves.
+pub fn is_of_facets(contact: &words::Contact) -> bool {
+    contact.among.is_some() || contact.surface.as_ref().is_some_and(|table| table.part.is_some())
+}
+
+/// The contact as far as its law does not matter; its size is that of the law's reader.
+pub fn read_facets<'d>(
+    finder: &mut Finder<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+) -> Option<Contact> {
+    if finder.scene.analysis.modes.is_some() {
+        let hint = "leave it out with `stages`, or rest what touches on supports";
+        return finder.report.error_with(owner.span, "modes do not know contacts of faces or balls", hint);
+    }
+    let (surface, points) = match (&contact.among, &contact.surface) {
+        (Some(among), _) => balls(finder, owner, contact, among)?,
+        (None, Some(table)) => faces(finder, owner, name, contact, table)?,
+        (None, None) => return None,
+    };
+    let touchers = std::mem::take(&mut finder.sight.touchers);
+    let surface = TouchedSurface::Facets(surface);
+    let (law, chosen, joined, convex) = (None, None, Vec::new(), std::mem::take(&mut finder.convex));
+    Some(Contact { name: name.to_owned(), surface, points, convex, joined, touchers, law, size: 0.0, chosen })
+}
+
+/// The faces of a part and the points that touch them.
+fn faces<'d>(
+    finder: &mut Finder<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+    table: &'d At<OneOf<words::Surface>>,
+) -> Option<(FacetSurface, Vec<ContactPoint>)> {
+    let part = table.part.as_ref()?;
+    let Sides { place, surface, half } = sides(finder, contact, table)?;
+    let scene = finder.scene;
+    let is_line = surface.kind.is_line();
+    if is_line {
+        refuse_friction(finder, contact)?;
+    }
+    let elements = scene.parts.elements(surface);
+    let facets = facets_of(&elements, half, is_line);
+    if facets.is_empty() {
+        // A part with errors of its own has no faces, and these have been said.
+        return None;
+    }
+    let names = finder.report.require_nodes(owner, "with", &contact.with)?;
+    let (touchers, solids, back) = (FacetTouchers::Others, Vec::new(), Vec::new());
+    let mut faces = FacetSurface { part: part.value.clone(), facets, touchers, solids, back };
+    if names.values.iter().any(|at| at.value == ITSELF) {
+        if let [_, _, ..] = names.values[..] {
+            let hint = "give what else touches it a contact of its own";
+            return finder.report.error_with(&names.span, "`itself` stands alone in `with`", hint);
+        }
+        faces.touchers = FacetTouchers::Itself;
+        let radius = contact.radius.as_ref().map_or(half, |at| at.value);
+        if is_line {
+            let lines = finder.lines_at(&elements, radius, contact);
+            return Some((faces, lines));
+        }
+        let points = finder.points_at(&own_nodes(&faces.facets), radius, contact);
+        return Some((faces, points));
+    }
+    if let Some(at) = names.values.iter().find(|at| scene.names.place(&at.value) == Some(place)) {
+        let message = format!("`{}` is the part whose surface it would touch", at.value);
+        let hint = format!("for a part that touches itself, give with = \"{ITSELF}\"");
+        return finder.report.error_with(&at.span, message, hint);
+    }
+    // What is attached to the body that carries rigid faces does not touch them.
+    let root = finder.topology.root(faces.facets[0].nodes[0]);
+    let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
+    finder.on_lines = is_line;
+    let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
+    faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
+    if !faces.solids.is_empty() {
+        faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
+    }
+    Some((faces, points))
+}
+
+/// The facets of elements by their nodes, half as thick as given: lines from node to node, or faces.
+fn facets_of(elements: &[Vec<usize>], half: f64, is_line: bool) -> Vec<Facet> {
+    let facet = |nodes: &[usize], corners: &[usize]| {
+        let corners: Vec<usize> = corners.iter().map(|&k| nodes[k]).collect();
+        Facet::new(&corners, half)
+    };
+    let of_element = |nodes: &Vec<usize>| -> Vec<Facet> {
+        match is_line {
+            true => nodes.windows(2).map(|ends| Facet::new(ends, half)).collect(),
+            false => curved_faces::facets(nodes.len()).iter().map(|corners| facet(nodes, corners)).collect(),
+        }
+    };
+    elements.iter().flat_map(of_element).collect()
+}
+
+/// Lines that touch lines do not rub: what is nearest slides along both, which is not the way of the material.
+fn refuse_friction<'d>(finder: &mut Finder<'_, 'd>, contact: &'d words::Contact) -> Option<()> {
+    let scene = finder.scene;
+    let touches_as_line = |at: &At<String>| {
+        let places = scene.names.place(&at.value).into_iter().flat_map(|place| scene.names.leaves(place));
+        at.value == ITSELF || places.into_iter().any(|place| scene.names.line_of(place).is_some())
+    };
+    match (contact.friction.as_ref().filter(|at| at.value > 0.0), &contact.with) {
+        (Some(friction), Some(names)) if names.values.iter().any(touches_as_line) => {
+            let message = "there is no friction between beams or bars that touch by their radius";
+            let hint = "name a set of the nodes of one of them in `with`, which rub as points";
+            finder.report.error_with(&friction.span, message, hint)
+        }
+        _ => Some(()),
+    }
+}
+
+/// The part that is a surface.
+struct Sides {
+    place: Place,
+    surface: PartIndex,
+    /// Half its thickness, or its radius.
+    half: f64,
+}
+
+/// Finds the part that is a surface, and how thick it is.
+fn sides<'d>(
+    finder: &mut Finder<'_, 'd>,
+    contact: &'d words::Contact,
+    table: &'d At<OneOf<words::Surface>>,
+) -> Option<Sides> {
+    let part = table.part.as_ref()?;
+    let what = "a surface that is a part";
+    finder.report.reject_unused(what, &[("shape", span(&table.kind)), ("body", span(&table.body))]);
+    let scene = finder.scene;
+    let place = scene.names.find(part, finder.report)?;
+    let (surface, line) = (scene.names.surface_of(place), scene.names.line_of(place));
+    let Some(surface) = surface.or(line) else {
+        let message = format!("`{}` is {}, and has no surface", part.value, place.kind());
+        let hint = "a surface is a `part` that is a shell, a beam or a bar, or a `shape`";
+        return finder.report.error_with(&part.span, message, hint);
+    };
+    let radius_place = table.values.place("radius").filter(|_| line.is_some());
+    for place in table.values.places().filter(|&place| Some(place) != radius_place) {
+        finder.report.error::<()>(place, "this is a dimension of shapes, and does not apply to a part");
+    }
+    let half = match radius_place {
+        Some(_) => table.values.numbers("radius").first().copied().unwrap_or(0.0),
+        None => finder.contact_radius(surface),
+    };
+    if line.is_some() && half <= 0.0 {
+        let hint = format!("surface = {{ part = \"{}\", radius = ... }}", part.value);
+        let message = match radius_place {
+            Some(_) => "`radius` must be above zero".to_owned(),
+            None => format!("`{}` is {} without a radius", part.value, Place::Part(surface).kind()),
+        };
+        return finder.report.error_with(radius_place.unwrap_or(&part.span), message, hint);
+    }
+    let friction = contact.friction.as_ref().filter(|at| at.value > 0.0);
+    if let Some(friction) = friction.filter(|_| line.is_some() && !surface.kind.has_sections()) {
+        let hint = "make it a beam";
+        let message = "nothing rubs on a bar, which has no rotations to take a moment";
+        return finder.report.error_with(&friction.span, message, hint);
+    }
+    Some(Sides { place, surface, half })
+}
+
+/// The surfaces of all bodies in a list that are boxes, hulls or capsules.
+fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64) -> Vec<CarriedSurface> {
+    let places = names.iter().filter_map(|at| scene.names.place(&at.value));
+    let leaves = places.flat_map(|place| scene.names.leaves(place));
+    let bodies = leaves.filter_map(|place| if let Place::Body(body) = place { Some(body) } else { None });
+    bodies.filter_map(|body| solid_of(scene, body, inflated)).collect()
+}
+
+/// All nodes of facets, each once.
+fn own_nodes(facets: &[Facet]) -> Vec<usize> {
+    let mut nodes: Vec<usize> = facets.iter().flat_map(Facet::nodes).copied().collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+/// The surface of a body that is drawn as a box, a hull or a capsule.
+fn solid_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface> {
+    scene.deck.bodies.get(body)?.shape.as_ref()?;
+    let body = &scene.bodies[body];
+    let surface = Surface::of_convex(&body.shape.as_convex()?, inflated);
+    Some(CarriedSurface { node: body.node, surface })
+}
+
+/// Balls, boxes, hulls and capsules among themselves.
+fn balls<'d>(
+    finder: &mut Finder<'_, 'd>,
+    owner: &Owner<'d>,
+    contact: &'d words::Contact,
+    among: &'d At<crate::deck::words::Names>,
+) -> Option<(FacetSurface, Vec<ContactPoint>)> {
+    let what = "a contact of bodies `among` themselves";
+    let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
+    finder.report.reject_unused(what, &keys);
+    let given = contact.radius.as_ref().map(|_| finder.report.not_negative("radius", &contact.radius, 0.0));
+    let Members { mut balls, mut convex } = members(finder, among, given)?;
+    balls.sort_unstable_by_key(|(node, _)| *node);
+    balls.dedup_by_key(|(node, _)| *node);
+    convex.sort_unstable_by_key(|one| one.node);
+    convex.dedup_by_key(|one| one.node);
+    if balls.len() + convex.len() < 2 {
+        let message = format!("{} has fewer than two bodies or balls `among` which anything could touch", owner.what);
+        return finder.report.error(&among.span, message);
+    }
+    finder.convex = convex;
+    finder.inflate(given.unwrap_or(0.0), contact)?;
+    let mut points = Vec::new();
+    for &(node, radius) in &balls {
+        points.extend(finder.points_at(&[node], radius, contact));
+    }
+    let facet = |point: &ContactPoint| Facet::ball(point.nodes[0], point.radius, point.rolling_radius);
+    let facets = points.iter().map(facet).collect();
+    let touchers = FacetTouchers::Among;
+    let carried = |one: &ConvexBody| CarriedSurface { node: one.node, surface: Surface::of_convex(&one.shape, 0.0) };
+    let solids = if points.is_empty() { Vec::new() } else { finder.convex.iter().map(carried).collect() };
+    let back = if solids.is_empty() { Vec::new() } else { points.clone() };
+    Some((FacetSurface { part: String::new(), facets, touchers, solids, back }, points))
+}
+
+/// What is to touch among itself.
+#[derive(Default)]
+struct Members {
+    /// Nodes and radii of balls.
+    balls: Vec<(usize, f64)>,
+    /// Boxes, hulls and capsules.
+    convex: Vec<ConvexBody>,
+}
+
+/// True for a body of the deck whose shape could not be read, which has been said.
+fn is_unread(scene: &Scene, place: Place) -> bool {
+    let Place::Body(body) = place else { return false };
+    let has_shape = scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+    has_shape && matches!(scene.bodies[body].shape.touching(0), Touching::Nodes)
+}
+
+/// The bodies and points that a list names; `None` where one of them is neither.
+fn members<'d>(
+    finder: &mut Finder<'_, 'd>,
+    among: &'d At<crate::deck::words::Names>,
+    given: Option<f64>,
+) -> Option<Members> {
+    let (scene, report) = (finder.scene, &mut *finder.report);
+    let (mut members, mut sound) = (Members::default(), true);
+    for at in &among.values {
+        let place = scene.names.find(at, report)?;
+        for leaf in scene.names.leaves(place) {
+            if let Some(one) = convex_of(scene, leaf) {
+                members.convex.push(one);
+                continue;
+            }
+            let radius = given.or_else(|| radius_of(scene, leaf)).filter(|radius| *radius > 0.0);
+            let nodes = match leaf {
+                Place::Body(body) => vec![scene.bodies.get(body)?.node],
+                Place::Part(_) | Place::Edge(..) | Place::Joint(_) => Vec::new(),
+                _ => scene.nodes_of(leaf),
+            };
+            match radius {
+                Some(radius) if !nodes.is_empty() => members.balls.extend(nodes.into_iter().map(|node| (node, radius))),
+                _ if is_unread(scene, leaf) => {
+                    sound = false;
+                    break;
+                }
+                _ => {
+                    refuse_ball(report, at, leaf, nodes.is_empty());
+                    sound = false;
+                    break;
+                }
+            }
+        }
+    }
+    sound.then_some(members)
+}
+
+/// A body that is drawn as a box, a hull or a capsule.
+fn convex_of(scene: &Scene, place: Place) -> Option<ConvexBody> {
+    let Place::Body(body) = place else { return None };
+    scene.deck.bodies.get(body)?.shape.as_ref()?;
+    let body = &scene.bodies[body];
+    Some(ConvexBody { node: body.node, shape: body.shape.as_convex()? })
+}
+
+/// The radius of a body that is drawn as a sphere.
+fn radius_of(scene: &Scene, place: Place) -> Option<f64> {
+    let Place::Body(body) = place else { return None };
+    scene.deck.bodies.get(body)?.shape.as_ref()?;
+    match scene.bodies[body].shape.touching(0) {
+        Touching::Ball(radius) => Some(radius),
+        Touching::Nodes | Touching::Points { .. } => None,
+    }
+}
+
+fn refuse_ball(report: &mut Report, at: &At<String>, leaf: Place, has_no_nodes: bool) {
+    let name = &at.value;
+    match has_no_nodes {
+        true => {
+            let message =
+                format!("`among` takes bodies, points and sets of them, and `{name}` is or holds {}", leaf.kind());
+            report.error::<()>(&at.span, message);
+        }
+        false => {
+            let message = format!("`{name}` is or holds {} without a radius", leaf.kind());
+            report.error_with::<()>(
+                &at.span,
+                message,
+                "draw bodies as spheres, boxes, hulls or capsules, or give `radius`",
+            );
+        }
+    }
+}

@@ -1,0 +1,267 @@
+//! The numbers of a contact law, from the deck and the masses that meet.
+
+use crate::deck::contacts as words;
+use crate::elements::contact::restitution::{self, Loss};
+use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES};
+use crate::math::Vec3;
+use crate::model::contacts::method::{self, is_augmented};
+use crate::model::contacts::opposite::Opposite;
+use crate::model::contacts::stiffness::{ChosenStiffness, Meets};
+use crate::model::data::{AnalysisKind, Mass, StepLength};
+use crate::model::places::nodes::Topology;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::names::short;
+use std::f64::consts::{PI, TAU};
+
+/// Fraction of 1/√(k/m) that a step of an impact may reach ahead: an impact then takes nine steps or more.
+const RESOLUTION: f64 = 0.5;
+/// Gap, as a part of the size of the scene, that counts as closed in statics: the rounding of positions.
+const TOUCHING: f64 = 1e-12;
+/// Steps that an impact should last where nothing cuts them, by the chapter on contact stiffness.
+const STEPS: f64 = 10.0;
+
+/// Reads the numbers of a contact law.
+pub struct LawReader<'a, 'd> {
+    /// The scene so far.
+    pub scene: &'a Scene<'d>,
+    /// The point masses of the deck.
+    pub masses: &'a [Mass],
+    /// For each node the mass that it moves.
+    pub at_nodes: &'a [f64],
+    /// The acceleration of gravity, global.
+    pub gravity: Vec3,
+    /// The nodes and how they are connected.
+    pub topology: &'a Topology,
+}
+
+/// The masses that points meet.
+struct Other {
+    /// The largest.
+    mass: f64,
+    /// The least.
+    least: f64,
+    /// True where there are bodies, point masses and the ground alone.
+    rigid: bool,
+}
+
+/// The masses that meet at the points of a contact.
+struct Meeting {
+    /// The largest mass that takes part in an impact.
+    mean: f64,
+    /// The least such mass, with the rotation of bodies.
+    least: f64,
+    /// True where only bodies and point masses are in contact.
+    rigid: bool,
+}
+
+impl LawReader<'_, '_> {
+    /// The law, and why its stiffness was chosen where the deck leaves it open.
+    pub fn contact_law(
+        &self,
+        owner: &Owner,
+        contact: &words::Contact,
+        opposite: Opposite,
+        touching: (&[ContactPoint], &[ConvexBody]),
+        report: &mut Report,
+    ) -> Option<(ContactLaw, Option<String>)> {
+        if report.is_spoiled(owner.span, "stiffness") {
+            return None;
+        }
+        let (points, levers) = with_convex(touching);
+        let meeting = self.meeting(opposite, &points, &levers);
+        let chosen = match &contact.stiffness {
+            Some(_) => None,
+            None => match self.chosen_stiffness(contact, &meeting, opposite, &points) {
+                Ok(chosen) => Some(chosen),
+                Err(hint) => return report.error_with(owner.span, format!("{} needs `stiffness`", owner.what), hint),
+            },
+        };
+        let given = contact.stiffness.as_ref().map(|at| at.value);
+        let stiffness = given.or(chosen.as_ref().map(|chosen| chosen.stiffness))?;
+        let sizes = (self.size(opposite, touching), self.extent());
+        let by_points = touching.1.is_empty() && !matches!(opposite, Opposite::Facets(_));
+        let tolerance = method::tolerance(self.scene, owner, contact, by_points, sizes, report);
+        if let Some(chosen) = chosen.as_ref().filter(|_| tolerance.is_none()) {
+            self.check_step(owner, &meeting, stiffness, report);
+            if chosen.rests_on_time {
+                let message = format!(
+                    "nothing in the deck says how fast or how hard {} is met, so its `stiffness` of {} rests on `end_time` alone",
+                    owner.what,
+                    short(stiffness)
+                );
+                report.warn(owner.span, message, "give `stiffness`: mass times the square of speed over depth");
+            }
+        }
+        let law = ContactLaw { tolerance, ..self.law(contact, &meeting, stiffness) };
+        Some((law, chosen.map(|chosen| chosen.reason)))
+    }
+
+    /// The extent of the scene from its first node.
+    fn extent(&self) -> f64 {
+        let first = self.topology.x(0);
+        self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max)
+    }
+
+    fn law(&self, contact: &words::Contact, meeting: &Meeting, stiffness: f64) -> ContactLaw {
+        let dynamic = self.scene.analysis.kind == AnalysisKind::Dynamic;
+        let mass = if meeting.least.is_finite() { meeting.least } else { meeting.mean };
+        let frequency = if mass > 0.0 { (stiffness / mass).sqrt() } else { f64::INFINITY };
+        let extent = self.extent();
+        // An approach that sinks in no deeper than the weight does is no impact. Where there is no weight, a trace of length.
+        let floor = (self.gravity.norm() / frequency).max(if mass > 0.0 { 1e-7 * extent * frequency } else { 0.0 });
+        let loss = match (&contact.restitution, &contact.damping) {
+            (Some(at), _) if at.value < 1.0 => Loss::Restitution { number: restitution::number(at.value), floor },
+            (_, Some(at)) if at.value > 0.0 => Loss::Damping(at.value),
+            _ => Loss::None,
+        };
+        let resolved = dynamic && meeting.rigid && frequency.is_finite();
+        ContactLaw {
+            stiffness,
+            loss,
+            friction: contact.friction.as_ref().map_or(0.0, |at| at.value),
+            floor,
+            resolution: if resolved { RESOLUTION / frequency } else { f64::INFINITY },
+            duration: TAU / frequency,
+            near: 0.01 * extent,
+            touching: if dynamic { 0.0 } else { TOUCHING * extent },
+            tolerance: None,
+            dynamic,
+        }
+    }
+
+    /// Warns where nothing cuts steps that are too long for an impact on the stiffness that was chosen.
+    fn check_step(&self, owner: &Owner, meeting: &Meeting, stiffness: f64, report: &mut Report) {
+        let StepLength::Fixed { step } = self.scene.analysis.step_length else { return };
+        let impact = PI * (meeting.least / stiffness).sqrt();
+        if meeting.rigid || !impact.is_finite() || step * STEPS <= impact {
+            return;
+        }
+        let message = format!(
+            "the step is too long for the stiffness chosen for {}, {}: an impact of one node lasts {}",
+            owner.what,
+            short(stiffness),
+            short(impact)
+        );
+        let hint = format!(
+            "give a `time_step` of {} or less, or a `stiffness` of {} or less",
+            short(impact / STEPS),
+            short(meeting.least * (PI / (STEPS * step)).powi(2))
+        );
+        report.warn(owner.span, message, hint);
+    }
+
+    /// The smallest dimension of bodies that touch and of what is touched.
+    pub fn size(&self, opposite: Opposite, touching: (&[ContactPoint], &[ConvexBody])) -> f64 {
+        let (points, _) = with_convex(touching);
+        self.meets(opposite, &points).size_of_bodies()
+    }
+
+    fn meets<'a>(&'a self, opposite: Opposite<'a>, points: &'a [ContactPoint]) -> Meets<'a, 'a> {
+        Meets { scene: self.scene, topology: self.topology, gravity: self.gravity.norm(), opposite, points }
+    }
+
+    /// The penetration under gravity, where the largest mass in contact rests on one point.
+    pub fn depth_at_rest(&self, opposite: Opposite, touching: (&[ContactPoint], &[ConvexBody]), stiffness: f64) -> f64 {
+        let (points, levers) = with_convex(touching);
+        self.gravity.norm() * self.meeting(opposite, &points, &levers).mean / stiffness
+    }
+
+    /// The stiffness by what touches, or why none can be chosen.
+    fn chosen_stiffness(
+        &self,
+        contact: &words::Contact,
+        meeting: &Meeting,
+        opposite: Opposite,
+        points: &[ContactPoint],
+    ) -> Result<ChosenStiffness, &'static str> {
+        if !self.scene.analysis.has_inertia() {
+            let chosen = match is_augmented(contact) {
+                true => self.meets(opposite, points).stiffness_under_loads(meeting.mean),
+                false => None,
+            };
+            return chosen.ok_or(
+                "in a static analysis nothing says how stiff it should be: give force over the penetration that may be; with \
+                 `method = \"augmented-lagrangian\"` hardly any is left, and any stiffness will do",
+            );
+        }
+        if meeting.mean <= 0.0 {
+            return Err("nothing that touches has a mass to choose it by");
+        }
+        Ok(self.meets(opposite, points).stiffness(meeting.mean))
+    }
+
+    /// The mass that resists a motion of a node. Dependent nodes have that of what they depend on.
+    fn mass(&self, node: usize) -> f64 {
+        let root = self.topology.root(node);
+        let restrained = (0..3).all(|dof| self.topology.restraint(root, dof).is_some());
+        if restrained { f64::INFINITY } else { self.at_nodes.get(root).copied().unwrap_or(0.0) }
+    }
+
+    fn meeting(&self, opposite: Opposite, points: &[ContactPoint], levers: &[f64]) -> Meeting {
+        let Other { mass: other, least: least_other, rigid: other_is_rigid } = self.other(opposite);
+        let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, other_is_rigid);
+        for (point, &lever) in points.iter().zip(levers) {
+            let own: f64 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w.abs() * self.mass(node)).sum();
+            let reduced = 1.0 / (1.0 / own + 1.0 / other);
+            let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
+            rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
+            // More than the node's own mass takes part in an impact of a body on a deformable part.
+            let taken = if is_body == other_is_rigid || !other.is_finite() { reduced } else { (own * other).sqrt() };
+            mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
+            let reduced = 1.0 / (1.0 / own + 1.0 / least_other);
+            least = if reduced > 0.0 { least.min(1.0 / (1.0 / reduced + self.ease(point, lever))) } else { least };
+        }
+        Meeting { mean, least, rigid }
+    }
+
+    /// What the points meet, as a mass.
+    fn other(&self, opposite: Opposite) -> Other {
+        let Opposite::Facets(_) = opposite else {
+            let carrier = opposite.node();
+            let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
+            let mass = if on_ground { f64::INFINITY } else { self.mass(carrier) };
+            return Other { mass, least: mass, rigid: true };
+        };
+        let nodes = opposite.nodes();
+        let masses = || nodes.iter().map(|&node| self.mass(node));
+        let rigid = nodes.iter().all(|&node| {
+            let root = self.topology.root(node);
+            self.is_lump(root) || self.is_weighted(root)
+        });
+        Other { mass: masses().fold(0.0, f64::max), least: masses().fold(f64::INFINITY, f64::min), rigid }
+    }
+
+    /// True where point masses are more than half of the mass at a node.
+    fn is_weighted(&self, node: usize) -> bool {
+        let own: f64 = self.masses.iter().filter(|mass| mass.node == node).map(|mass| mass.mass).sum();
+        own > 0.5 * self.at_nodes.get(node).copied().unwrap_or(0.0)
+    }
+
+    /// The compliance r²/J by which a body is easier to move at a point, or at a lever from it, than at its centre.
+    fn ease(&self, point: &ContactPoint, lever: f64) -> f64 {
+        let root = self.topology.root(point.nodes[0]);
+        let body = self.scene.bodies.iter().find(|body| body.node == root);
+        body.map_or(0.0, |body| {
+            let r = (self.topology.x(point.nodes[0]) - self.topology.x(root)).norm() + lever;
+            if body.inertia.trace() > 0.0 { 3.0 * r * r / body.inertia.trace() } else { 0.0 }
+        })
+    }
+
+    /// True for the node of a body or a point mass that belongs to no deformable part.
+    fn is_lump(&self, node: usize) -> bool {
+        self.scene.bodies.iter().any(|body| body.node == node)
+            || self.masses.iter().any(|mass| mass.node == node) && !self.scene.parts.has_node(node)
+    }
+}
+
+/// Points, with a ball within each box or hull for that itself, and how far beyond the point it may be touched.
+fn with_convex((points, convex): (&[ContactPoint], &[ConvexBody])) -> (Vec<ContactPoint>, Vec<f64>) {
+    let ball = |one: &ConvexBody| {
+        let (nodes, mut weights) = ([one.node; MOST_NODES], [0.0; MOST_NODES]);
+        weights[0] = 1.0;
+        ContactPoint { nodes, weights, count: 1, radius: 0.5 * one.shape.least(), rolling_radius: 0.0, is_line: false }
+    };
+    let levers = points.iter().map(|_| 0.0).chain(convex.iter().map(|one| one.shape.reach())).collect();
+    (points.iter().cloned().chain(convex.iter().map(ball)).collect(), levers)
+}

@@ -1,0 +1,83 @@
+//! How a contact keeps things apart: by springs alone, or by multipliers besides, which leave no depth.
+
+use crate::deck::contacts::{Contact, ContactMethod};
+use crate::diagnostic::Span;
+use crate::model::data::AnalysisKind;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::model::values::span;
+use crate::names::short;
+
+/// The depth that is left, as a part of the size of what touches, where the deck leaves it open: the tolerance of equilibria.
+const LEFT: f64 = 1e-8;
+/// The least that a tolerance may be, as a part of the largest coordinates: some digits above their rounding.
+const LEAST: f64 = 1e-14;
+
+/// True where a contact has multipliers.
+pub fn is_augmented(contact: &Contact) -> bool {
+    contact.method.as_ref().is_some_and(|at| at.value == ContactMethod::AugmentedLagrangian)
+}
+
+/// The largest tolerance, over the size of what touches.
+const MOST: f64 = 1e-4;
+
+/// Checks the keys of the method, of what touches by points alone or not, and returns the tolerance of the depth; `None` for springs alone.
+/// `size` is that of what touches, `extent` that of the scene.
+pub fn tolerance(
+    scene: &Scene,
+    owner: &Owner,
+    contact: &Contact,
+    by_points: bool,
+    (size, extent): (f64, f64),
+    report: &mut Report,
+) -> Option<f64> {
+    let given = &contact.penetration_tolerance;
+    let Some(at) = contact.method.as_ref().filter(|_| is_augmented(contact)) else {
+        report.reject_unused("`method = \"penalty\"`", &[("penetration_tolerance", span(given))]);
+        return None;
+    };
+    check_analysis(scene, &at.span, report);
+    if !by_points {
+        let message = format!(
+            "{} has no multipliers: it is one of faces, or of boxes, hulls and capsules on each other, and not of points",
+            owner.what
+        );
+        let hint = "points, nodes of parts and spheres have them on any shape, bodies on planes and cylinders";
+        report.error_with::<()>(&at.span, message, hint);
+    }
+    let keys = [("restitution", span(&contact.restitution)), ("damping", span(&contact.damping))];
+    report.reject_unused("`method = \"augmented-lagrangian\"`, which is of load steps", &keys);
+    let given = match given {
+        Some(given) if given.value <= LEAST * extent || !given.value.is_finite() => {
+            let message = format!(
+                "`penetration_tolerance` must be above {}, to which positions are rounded",
+                short(LEAST * extent)
+            );
+            report.error(&given.span, message)
+        }
+        Some(given) if size > 0.0 && given.value > MOST * size => {
+            let message = format!(
+                "`penetration_tolerance` must be at most {}, a ten-thousandth of the smallest size of what touches: the work lost in a larger \
+                 depth would be taken for a jump of the equilibrium",
+                short(MOST * size)
+            );
+            report.error(&given.span, message)
+        }
+        Some(given) => Some(given.value),
+        None => None,
+    };
+    Some(given.unwrap_or((LEFT * size).max(10.0 * LEAST * extent)))
+}
+
+/// Refuses analyses that are no load steps.
+fn check_analysis(scene: &Scene, place: &Span, report: &mut Report) {
+    let analysis = &scene.analysis;
+    if analysis.kind != AnalysisKind::Static || analysis.modes.is_some() {
+        let message = "`method = \"augmented-lagrangian\"` is of load steps: impacts, and modes, are those of springs";
+        let hint = match scene.stage {
+            Some(_) => "name the static stages in `stages` of this contact, or leave `method` out",
+            None => "leave `method` out, or make the analysis `static`",
+        };
+        report.error_with::<()>(place, message, hint);
+    }
+}

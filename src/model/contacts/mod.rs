@@ -1,0 +1,260 @@
+//! `[[contacts]]`: surfaces, the points that touch them, and what acts there.
+
+pub mod faces;
+pub mod law;
+pub mod method;
+pub mod opposite;
+pub mod points;
+pub mod sight;
+pub mod stiffness;
+pub mod surface;
+
+use crate::deck::contacts as words;
+use crate::elements::contact::restitution;
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, convex, least_gap, pair_gap};
+use crate::math::Vec3;
+use crate::model::contacts::faces::{is_of_facets, read_facets};
+use crate::model::contacts::law::LawReader;
+use crate::model::contacts::opposite::Opposite;
+use crate::model::contacts::points::Finder;
+use crate::model::contacts::surface::read_surface;
+use crate::model::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
+use crate::model::places::nodes::Topology;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::model::values::span;
+use crate::names::short;
+use crate::state::Node;
+use std::collections::{BTreeSet, HashMap};
+
+/// Reads `[[contacts]]`, after all constraints: nodes that depend on the surface's own body do not touch it, and
+/// restrained nodes have no mass.
+pub fn contacts<'d>(
+    scene: &Scene<'d>,
+    masses: &[Mass],
+    joints: &[Joint],
+    gravity: Vec3,
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) -> Vec<Contact> {
+    if scene.deck.contacts.is_empty() {
+        return Vec::new();
+    }
+    let at_nodes = masses_at_nodes(scene, masses, topology);
+    let setting = LawSetting { scene, masses, joints, at_nodes: &at_nodes, gravity };
+    let mut contacts = Vec::new();
+    for (index, contact) in scene.deck.contacts.iter().enumerate() {
+        let name = contact.name.as_ref().map_or_else(|| format!("contacts.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("contact `{name}`"), &contact.span);
+        report.require(&owner, "name", &contact.name);
+        let of = if is_of_facets(contact) { of_facets } else { of_shape };
+        contacts.extend(of(&setting, &owner, &name, contact, topology, report));
+    }
+    contacts
+}
+
+/// What the laws of all contacts depend on.
+struct LawSetting<'a, 'd> {
+    scene: &'a Scene<'d>,
+    masses: &'a [Mass],
+    joints: &'a [Joint],
+    at_nodes: &'a [f64],
+    gravity: Vec3,
+}
+
+/// A contact with a shape.
+fn of_shape<'d>(
+    setting: &LawSetting<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) -> Option<Contact> {
+    let &LawSetting { scene, masses, at_nodes, gravity, .. } = setting;
+    let surface = report.require(owner, "surface", &contact.surface);
+    let surface = surface.and_then(|table| read_surface(name, table, scene, topology, report));
+    let carrier = surface.as_ref().map(|(node, _)| *node);
+    let on_convex = surface.as_ref().and_then(|(node, surface)| surface.as_convex().map(|_| *node));
+    let mut finder = Finder { on_convex, ..Finder::new(scene, topology, report) };
+    let points = finder.touching(owner, name, contact, carrier);
+    let (solids, sight) = (finder.convex, finder.sight);
+    let is_zone = is_zone(owner, contact, report);
+    let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { return None };
+    sight.check(owner, contact.points.as_ref().map(|at| at.value), &surface, report);
+    let (mut law, mut chosen) = (None, None);
+    let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
+    let opposite = Opposite::Shape(node, &surface);
+    let size = chooser.size(opposite, (&points, &solids));
+    if !is_zone {
+        let (found, reason) = chooser.contact_law(owner, contact, opposite, (&points, &solids), report)?;
+        let at_rest = chooser.depth_at_rest(opposite, (&points, &solids), found.stiffness);
+        topology.connect(node, true);
+        points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
+        solids.iter().for_each(|one| topology.connect(one.node, true));
+        check_start(owner, (node, &surface), (&points, &solids), at_rest, topology, report);
+        (law, chosen) = (Some(found), reason);
+    }
+    let surface = TouchedSurface::Shape(CarriedSurface { node, surface });
+    Some(Contact {
+        name: name.to_owned(),
+        surface,
+        points,
+        convex: solids,
+        joined: Vec::new(),
+        touchers: sight.touchers,
+        law,
+        size,
+        chosen,
+    })
+}
+
+/// A contact of faces, or of bodies among themselves.
+fn of_facets<'d>(
+    setting: &LawSetting<'_, 'd>,
+    owner: &Owner<'d>,
+    name: &str,
+    contact: &'d words::Contact,
+    topology: &mut Topology,
+    report: &mut Report<'d>,
+) -> Option<Contact> {
+    let &LawSetting { scene, masses, joints, at_nodes, gravity } = setting;
+    let mut finder = Finder::new(scene, topology, report);
+    let found = read_facets(&mut finder, owner, name, contact);
+    let is_zone = is_zone(owner, contact, report);
+    let (mut found, is_zone) = (found?, is_zone?);
+    found.joined = joined(&found.convex, joints, topology);
+    let TouchedSurface::Facets(faces) = &found.surface else { return None };
+    // Boxes and hulls among others are as stiff and as heavy as the balls within.
+    let within = found.convex.iter().map(|one| Facet::ball(one.node, 0.5 * one.shape.least(), 0.0));
+    let facets: Vec<Facet> = faces.facets.iter().cloned().chain(within).collect();
+    let least = facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
+    let radii = found.points.iter().map(|point| point.radius);
+    let radius = radii.chain(found.convex.iter().map(|one| 0.5 * one.shape.least())).fold(f64::INFINITY, f64::min);
+    // What is pressed in by so much is in the middle.
+    found.size = least + radius;
+    if is_zone {
+        return Some(found);
+    }
+    let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
+    let (opposite, touching) = (Opposite::Facets(&facets), (&found.points[..], &found.convex[..]));
+    let (law, reason) = chooser.contact_law(owner, contact, opposite, touching, report)?;
+    let at_rest = chooser.depth_at_rest(opposite, touching, law.stiffness);
+    if faces.touchers != FacetTouchers::Itself {
+        let size = topology.x(opposite.node()).norm();
+        warn_closed(owner, gap_at_start(&found, faces, topology), size, at_rest, report);
+    }
+    opposite.nodes().into_iter().for_each(|node| topology.connect(node, true));
+    found.points.iter().flat_map(ContactPoint::nodes).for_each(|&node| topology.connect(node, false));
+    faces.solids.iter().for_each(|carried| topology.connect(carried.node, true));
+    (found.law, found.chosen) = (Some(law), reason);
+    Some(found)
+}
+
+/// The pairs of boxes and hulls, by number, that joints hold together or that are one body.
+fn joined(convex: &[ConvexBody], joints: &[Joint], topology: &Topology) -> Vec<[usize; 2]> {
+    let place: HashMap<usize, usize> = convex.iter().enumerate().map(|(k, one)| (topology.root(one.node), k)).collect();
+    let of_root = |node: usize| place.get(&topology.root(node)).copied();
+    let by_joints = joints.iter().filter_map(|joint| Some([of_root(joint.ends[0])?, of_root(joint.ends[1])?]));
+    let same = convex.iter().enumerate().filter_map(|(k, one)| Some([k, of_root(one.node)?]));
+    let pairs = by_joints.chain(same).filter(|[a, b]| a != b).map(|[a, b]| [a.min(b), a.max(b)]);
+    pairs.collect::<BTreeSet<_>>().into_iter().collect()
+}
+
+/// The least gap of points from facets, or of balls, boxes and hulls among themselves, at t = 0.
+fn gap_at_start(found: &Contact, faces: &FacetSurface, topology: &Topology) -> f64 {
+    let nodes: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
+    let of_points = Opposite::Facets(&faces.facets).gap(&found.points, topology);
+    let of_convex = convex::heap_gap(if faces.part.is_empty() { &found.convex } else { &[] }, &found.joined, &nodes);
+    let balls = if faces.part.is_empty() { &faces.back[..] } else { &[] };
+    let on_solids = faces.solids.iter().map(|carried| least_gap(&carried.surface, carried.node, balls, &nodes));
+    on_solids.fold(of_points.min(of_convex), f64::min)
+}
+
+/// The mass at each node, and at what it depends on.
+fn masses_at_nodes(scene: &Scene, masses: &[Mass], topology: &Topology) -> Vec<f64> {
+    let mut at = vec![0.0; topology.list.len()];
+    scene.bodies.iter().for_each(|body| at[body.node] += body.mass);
+    masses.iter().for_each(|mass| at[mass.node] += mass.mass);
+    for part in &scene.parts.list {
+        for element in 0..part.elements() {
+            let of = part.nodes(element);
+            let mass = part.element_mass(element, &topology.list, &scene.parts.stiffnesses);
+            of.iter().for_each(|&node| at[node] += mass / of.len() as f64);
+        }
+    }
+    for node in 0..at.len() {
+        let root = topology.root(node);
+        if root != node {
+            at[root] += at[node];
+        }
+    }
+    at
+}
+
+/// Checks the keys of the force; returns true for a clearance monitor, which exerts none.
+fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Option<bool> {
+    let mark = report.mark();
+    report.not_negative("stiffness", &contact.stiffness, 1.0);
+    report.not_negative("damping", &contact.damping, 0.0);
+    report.not_negative("friction", &contact.friction, 0.0);
+    let is_zone = contact.stiffness.as_ref().is_some_and(|at| at.value == 0.0);
+    if is_zone {
+        let keys = [
+            ("method", span(&contact.method)),
+            ("penetration_tolerance", span(&contact.penetration_tolerance)),
+            ("restitution", span(&contact.restitution)),
+            ("damping", span(&contact.damping)),
+            ("friction", span(&contact.friction)),
+        ];
+        report.reject_unused("a clearance monitor, a contact of stiffness 0 where nothing acts", &keys);
+    }
+    if let Some(at) = &contact.restitution {
+        if !(restitution::LEAST..=1.0).contains(&at.value) {
+            let message = format!("`restitution` lies between {} and 1", restitution::LEAST);
+            report.error_with::<()>(&at.span, message, "for restitution 0 give `damping`");
+        }
+        if let Some(damping) = &contact.damping {
+            report.error::<()>(&damping.span, format!("{} takes `restitution` or `damping`, not both", owner.what));
+        }
+    }
+    report.is_clean_since(mark).then_some(is_zone)
+}
+
+/// Warns of points that begin deeper inside a surface than weight on one point holds them, `at_rest`: they are pushed
+/// out by an impact.
+fn check_start(
+    owner: &Owner,
+    (node, surface): (usize, &Surface),
+    (points, solids): (&[ContactPoint], &[ConvexBody]),
+    at_rest: f64,
+    topology: &Topology,
+    report: &mut Report,
+) {
+    let center = topology.x(node);
+    let gap = |point: &ContactPoint| {
+        let x: Vec3 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w * topology.x(node)).sum();
+        surface.distance(&(x - center)) - point.radius
+    };
+    let at_rest_there: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
+    let of_convex = pair_gap(surface, node, solids, &at_rest_there);
+    let least = points.iter().map(gap).fold(of_convex, f64::min);
+    let nodes = points.iter().map(|point| point.nodes[0]).chain(solids.iter().map(|one| one.node));
+    let size = nodes.map(|node| topology.x(node).norm()).fold(center.norm(), f64::max);
+    warn_closed(owner, least, size, at_rest, report);
+}
+
+/// Warns where the least gap at t = 0 is deeper than weight holds things; `size` is that of coordinates.
+fn warn_closed(owner: &Owner, least: f64, size: f64, at_rest: f64, report: &mut Report) {
+    // Decks have some digits only.
+    if least < -1e-6 * size && -least > 1.001 * at_rest {
+        let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));
+        let hint = match at_rest {
+            depth if depth > 0.0 => {
+                format!("it is pushed out at t = 0; at rest its weight holds it {} inside", short(depth))
+            }
+            _ => "it is pushed out at t = 0".to_owned(),
+        };
+        report.warn(owner.span, message, hint);
+    }
+}

@@ -1,0 +1,70 @@
+//! The other side of a contact, as far as its law depends on it: a shape on a body or on the ground, or facets.
+
+use crate::elements::contact::facets::facet_gap;
+use crate::elements::contact::{ContactPoint, Facet, Surface};
+use crate::math::Vec3;
+use crate::model::places::nodes::Topology;
+use crate::state::Node;
+
+/// What points meet in a contact.
+#[derive(Clone, Copy)]
+pub enum Opposite<'a> {
+    /// A shape, and the node that carries it.
+    Shape(usize, &'a Surface),
+    /// The facets of a surface, or balls.
+    Facets(&'a [Facet]),
+}
+
+impl Opposite<'_> {
+    /// Its nodes.
+    pub fn nodes(&self) -> Vec<usize> {
+        match self {
+            Opposite::Shape(node, _) => vec![*node],
+            Opposite::Facets(facets) => {
+                let mut nodes: Vec<usize> = facets.iter().flat_map(Facet::nodes).copied().collect();
+                nodes.sort_unstable();
+                nodes.dedup();
+                nodes
+            }
+        }
+    }
+
+    /// A node whose motion is that of all, as far as a stiffness depends on it.
+    pub fn node(&self) -> usize {
+        match self {
+            Opposite::Shape(node, _) => *node,
+            Opposite::Facets(facets) => facets.first().map_or(0, |facet| facet.nodes[0]),
+        }
+    }
+
+    /// Its smallest dimension; infinite where it has none, as a sheet, which may be pressed in by more than its thickness.
+    pub fn least(&self) -> f64 {
+        match self {
+            Opposite::Shape(_, surface) => surface.least(),
+            Opposite::Facets(facets) => {
+                let balls = facets.iter().filter(|facet| facet.is_ball() || facet.is_line());
+                balls.map(|facet| 2.0 * facet.half).fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// The least gap of points at t = 0; infinite where none is told.
+    pub fn gap(&self, points: &[ContactPoint], topology: &Topology) -> f64 {
+        match self {
+            Opposite::Shape(node, surface) => {
+                let center = topology.x(*node);
+                let place = |point: &ContactPoint| -> Vec3 {
+                    point.nodes().iter().zip(point.weights).map(|(&node, w)| w * topology.x(node)).sum()
+                };
+                let gap = |point: &ContactPoint| surface.distance(&(place(point) - center)) - point.radius;
+                points.iter().map(gap).fold(f64::INFINITY, f64::min)
+            }
+            Opposite::Facets(facets) => {
+                let nodes: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
+                let may_touch =
+                    |e: usize, facet: usize| !crate::elements::contact::facets::is_own(&points[e], &facets[facet]);
+                facet_gap(facets, points, &may_touch, &nodes, &mut Vec::new())
+            }
+        }
+    }
+}

@@ -1,0 +1,333 @@
+//! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
+
+use crate::deck::contacts as words;
+use crate::deck::parts::PartIndex;
+use crate::diagnostic::At;
+use crate::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, Toucher};
+use crate::math::convex::{ConvexShape, Spherocylinder};
+use crate::math::polyhedron::Polyhedron;
+use crate::math::{Vec3, curved_faces};
+use crate::model::contacts::sight::{Opening, Sight};
+use crate::model::data::NodeWeights;
+use crate::model::places::nodes::{Nodes, Topology};
+use crate::model::places::place::Place;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::solids::Touching;
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+/// Largest number of points between two nodes; more are taken for a typing error.
+const MOST_POINTS: usize = 100;
+
+/// A point that may touch, as found.
+struct Touch {
+    nodes: NodeWeights,
+    radius: f64,
+    /// True for the whole line between its two nodes.
+    is_line: bool,
+}
+
+impl Touch {
+    fn node(node: usize, radius: f64) -> Touch {
+        Touch { nodes: vec![(node, 1.0)], radius, is_line: false }
+    }
+
+    fn line(ends: &[usize], radius: f64) -> Touch {
+        Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, is_line: true }
+    }
+}
+
+/// The lines from node to node of an element.
+fn lines_of(nodes: &[usize], radius: f64) -> Vec<Touch> {
+    nodes.windows(2).map(|ends| Touch::line(ends, radius)).collect()
+}
+
+/// Connects points that the deck names as touching something, so that supports and loads find them connected.
+pub fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
+    let lists = scene.deck.contacts.iter().filter_map(|contact| contact.with.as_ref());
+    for name in lists.flat_map(|list| &list.values) {
+        if let Some(Place::Point(node)) = scene.names.place(name) {
+            nodes.connect(node, false);
+        }
+    }
+}
+
+/// Finds the points and the convex solids of one contact.
+pub struct Finder<'a, 'd> {
+    /// The scene so far.
+    pub scene: &'a Scene<'d>,
+    /// The nodes; those that points need are added.
+    pub topology: &'a mut Topology,
+    /// The report, to which errors go.
+    pub report: &'a mut Report<'d>,
+    /// The node that carries the surface, where that is a convex shape that convex solids touch with all that they are.
+    pub on_convex: Option<usize>,
+    /// True where the surface is made of lines: beams and bars touch it with theirs.
+    pub on_lines: bool,
+    /// The boxes, hulls and capsules found.
+    pub convex: Vec<ConvexBody>,
+    /// What is seen of all that was found.
+    pub sight: Sight,
+}
+
+impl<'a, 'd> Finder<'a, 'd> {
+    /// Finds what touches anything but convex shapes and lines.
+    pub fn new(scene: &'a Scene<'d>, topology: &'a mut Topology, report: &'a mut Report<'d>) -> Self {
+        let (convex, sight) = (Vec::new(), Sight::default());
+        Finder { scene, topology, report, on_convex: None, on_lines: false, convex, sight }
+    }
+
+    /// All points that may touch, each once; convex solids are left in `convex`.
+    pub fn touching(
+        &mut self,
+        owner: &Owner<'d>,
+        name: &str,
+        contact: &'d words::Contact,
+        carrier: Option<usize>,
+    ) -> Option<Vec<ContactPoint>> {
+        let between = match &contact.points {
+            Some(at) if at.value > MOST_POINTS as u64 => {
+                let message = format!("`points` is {}: at most {MOST_POINTS} are allowed", at.value);
+                return self.report.error(&at.span, message);
+            }
+            points => points.as_ref().map_or(0, |at| at.value as usize),
+        };
+        let given = contact.radius.as_ref().map(|_| self.report.not_negative("radius", &contact.radius, 0.0));
+        self.sight.radius = given;
+        let names = self.report.require_nodes(owner, "with", &contact.with)?;
+        if names.values.is_empty() {
+            return self.report.error(&names.span, "`with` is empty, so nothing touches the surface");
+        }
+        let (mut touches, mut seen, mut sound) = (Vec::new(), HashSet::new(), true);
+        for at in &names.values {
+            let Some(found) = self.touches_of_name(at, name, between, carrier) else {
+                sound = false;
+                continue;
+            };
+            for touch in found {
+                let key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
+                if seen.insert(key) {
+                    touches.push(touch);
+                }
+            }
+        }
+        if between > 0
+            && sound
+            && !names.values.iter().any(|at| self.names_part(at))
+            && let Some(at) = &contact.points
+        {
+            let message = "`points` lie between the nodes of parts or the corners of bodies, and none is named here";
+            return self.report.error(&at.span, message);
+        }
+        if !sound {
+            return None;
+        }
+        self.inflate(given.unwrap_or(0.0), contact)?;
+        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
+    }
+
+    /// Makes convex solids larger by a contact radius, which hulls do not take.
+    pub fn inflate(&mut self, radius: f64, contact: &'d words::Contact) -> Option<()> {
+        if radius == 0.0 {
+            return Some(());
+        }
+        for one in &mut self.convex {
+            one.shape = match (&one.shape, one.shape.half_edges()) {
+                (_, Some(half)) => ConvexShape::Polyhedron(Arc::new(Polyhedron::cuboid(half.add_scalar(radius)))),
+                (ConvexShape::Spherocylinder(of), _) => {
+                    ConvexShape::Spherocylinder(Spherocylinder { radius: of.radius + radius, ..*of })
+                }
+                (ConvexShape::Polyhedron(_), None) => {
+                    let at = contact.radius.as_ref()?;
+                    let message = "hulls take no `radius` against boxes, hulls, capsules and spheres";
+                    return self.report.error_with(&at.span, message, "move their points outward");
+                }
+            };
+        }
+        Some(())
+    }
+
+    /// True where a name covers bodies or parts.
+    fn names_part(&self, name: &str) -> bool {
+        let place = self.scene.names.place(name);
+        let leaves = place.into_iter().flat_map(|place| self.scene.names.leaves(place));
+        let is_part = |place: Place| matches!(place, Place::Body(_) | Place::Part(_)) && place.has_nodes();
+        leaves.into_iter().any(is_part)
+    }
+
+    /// The points that one name of the list covers; `None` where they are not known or may not touch.
+    fn touches_of_name(
+        &mut self,
+        at: &'d At<String>,
+        name: &str,
+        between: usize,
+        carrier: Option<usize>,
+    ) -> Option<Vec<Touch>> {
+        let place = self.scene.names.find(at, self.report)?;
+        if matches!(place, Place::Part(_)) && !place.has_nodes() {
+            let message = format!("`with` takes points, bodies, sets or parts, and `{}` is {}", at.value, place.kind());
+            return self.report.error(&at.span, message);
+        }
+        let (mut found, convex) = (Vec::new(), self.convex.len());
+        for place in self.scene.names.leaves(place) {
+            self.touches_of(place, name, between, at, &mut found);
+        }
+        if found.is_empty() && self.convex.len() > convex {
+            return Some(found);
+        }
+        if found.is_empty() {
+            // A part with errors of its own has no nodes, and these have been said.
+            if self.scene.nodes_of(place).is_empty() {
+                self.scene.report_empty(place, at, self.report);
+            }
+            return None;
+        }
+        if let Some(body) = carrier.map(|carrier| self.topology.root(carrier)) {
+            found.retain(|touch| touch.nodes.iter().any(|&(node, _)| self.topology.root(node) != body));
+        }
+        if found.is_empty() && self.convex.len() == convex {
+            let message = format!("`{}` belongs to the body whose surface it would touch", at.value);
+            return self.report.error_with(&at.span, message, "a body does not touch itself");
+        }
+        Some(found)
+    }
+
+    fn contact_point(&self, touch: Touch, given: Option<f64>, friction: bool) -> ContactPoint {
+        let (mut nodes, mut weights) = ([touch.nodes[0].0; MOST_NODES], [0.0; MOST_NODES]);
+        for (k, (node, weight)) in touch.nodes.iter().enumerate() {
+            (nodes[k], weights[k]) = (*node, *weight);
+        }
+        let radius = given.unwrap_or(touch.radius);
+        // A point without rotation cannot be turned by friction.
+        let turns = touch.nodes.iter().all(|&(node, _)| self.topology.turns(self.topology.root(node)));
+        let rolling_radius = if friction && turns { radius } else { 0.0 };
+        ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius, is_line: touch.is_line }
+    }
+
+    fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        let line = self.scene.names.line_of(place).filter(|_| self.on_lines);
+        if let Some(part) = line {
+            self.sight.touchers.insert(Toucher::Ball);
+            let radius = self.contact_radius(part);
+            found.extend(self.scene.parts.elements(part).iter().flat_map(|nodes| lines_of(nodes, radius)));
+            return;
+        }
+        self.sight.touchers.insert(match place {
+            Place::Body(body) => self.toucher_of_body(body),
+            Place::Part(_) | Place::Edge(..) => Toucher::Nodes,
+            _ => Toucher::Ball,
+        });
+        match place {
+            Place::Body(body) => self.touches_of_body(body, name, between, at, found),
+            Place::Part(part) => {
+                let radius = self.contact_radius(part);
+                self.open(&self.scene.parts.elements(part), part.kind.is_surface(), radius, Some(between));
+                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
+                let between = self.scene.parts.of(part).iter().flat_map(|part| part.places_between(between));
+                found.extend(between.map(|nodes| Touch { nodes, radius, is_line: false }));
+            }
+            Place::Edge(part, _) => {
+                let radius = self.contact_radius(part);
+                self.open(&[self.scene.nodes_of(place)], false, radius, None);
+                found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
+            }
+            _ => found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0))),
+        }
+    }
+
+    fn toucher_of_body(&self, body: usize) -> Toucher {
+        let shape = &self.scene.bodies[body].shape;
+        let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+        match shape.touching(0) {
+            Touching::Nodes => Toucher::Nodes,
+            Touching::Points { .. } if is_drawn => match shape.as_convex() {
+                Some(shape) if shape.half_edges().is_some() => Toucher::Box,
+                Some(ConvexShape::Polyhedron(_)) => Toucher::Hull,
+                Some(ConvexShape::Spherocylinder(_)) => Toucher::Capsule,
+                None => Toucher::Rims,
+            },
+            Touching::Points { .. } | Touching::Ball(_) => Toucher::Ball,
+        }
+    }
+
+    /// Notes the widest opening between the nodes of elements, with so many points `between` where there may be some.
+    fn open(&mut self, elements: &[Vec<usize>], is_surface: bool, radius: f64, between: Option<usize>) {
+        let x = |node: usize| self.topology.x(node);
+        let width = |nodes: &Vec<usize>| match is_surface {
+            // What goes through a mesh of a surface is as wide as its diagonal.
+            true => {
+                let facets = curved_faces::facets(nodes.len()).iter();
+                let pairs =
+                    facets.flat_map(|of| of.iter().flat_map(|&a| of.iter().map(move |&b| (nodes[a], nodes[b]))));
+                pairs.fold(0.0, widest(&x))
+            }
+            false => nodes.windows(2).map(|pair| (pair[0], pair[1])).fold(0.0, widest(&x)),
+        };
+        let width = elements.iter().map(width).fold(0.0, f64::max) / (between.unwrap_or(0) + 1) as f64;
+        self.sight.openings.push(Opening { width, radius, divides: between.is_some() });
+    }
+
+    /// Nodes as points of this radius.
+    pub fn points_at(&self, nodes: &[usize], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
+        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        nodes.iter().map(|&node| self.contact_point(Touch::node(node, radius), Some(radius), friction)).collect()
+    }
+
+    /// The lines of elements, by the nodes of each, as what touches.
+    pub fn lines_at(&self, elements: &[Vec<usize>], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
+        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        let lines = elements.iter().flat_map(|nodes| lines_of(nodes, radius));
+        lines.map(|line| self.contact_point(line, Some(radius), friction)).collect()
+    }
+
+    /// Half the thickness of a part, or another distance from its nodes at which it is in contact.
+    pub fn contact_radius(&self, part: PartIndex) -> f64 {
+        self.scene.parts.entry(part).map_or(0.0, |entry| entry.contact_radius)
+    }
+
+    /// Finds points of a body's shape, as nodes that are rigidly attached to the body.
+    fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
+        let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
+        let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
+        if let (Some(carrier), Some(shape), true) = (self.on_convex, shape.as_convex(), is_drawn)
+            && self.topology.root(carrier) != self.topology.root(node)
+        {
+            if self.convex.iter().all(|one| one.node != node) {
+                self.convex.push(ConvexBody { node, shape });
+            }
+            return;
+        }
+        let width = shape.opening(between).filter(|_| is_drawn);
+        let (points, radius) = match shape.touching(between) {
+            Touching::Nodes => {
+                let scene = self.scene;
+                for (part, _) in scene.parts.entries().filter(|(_, entry)| entry.rigid_elements.is_some()) {
+                    let mut elements = scene.parts.elements(part);
+                    elements.retain(|nodes| nodes.iter().all(|&of| self.topology.root(of) == node));
+                    self.open(&elements, part.kind.is_surface(), 0.0, None);
+                }
+                let dependents: HashMap<usize, usize> =
+                    self.topology.dependents.iter().map(|r| (r.node, r.master)).collect();
+                let mut nodes: Vec<usize> = dependents.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
+                nodes.sort_unstable();
+                return found.extend(nodes.into_iter().map(|node| Touch::node(node, 0.0)));
+            }
+            Touching::Ball(radius) if is_drawn => return found.push(Touch::node(node, radius)),
+            Touching::Points { points, radius } if is_drawn => (points, radius),
+            Touching::Ball(_) | Touching::Points { .. } => return found.push(Touch::node(node, 0.0)),
+        };
+        self.sight.openings.extend(width.map(|width| Opening { width, radius, divides: true }));
+        let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
+        for (k, point) in points.into_iter().enumerate() {
+            let dependent = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + point, node, &at.span);
+            found.push(Touch::node(dependent, radius));
+        }
+    }
+}
+
+/// The longest of distances so far and of one more pair of nodes.
+fn widest(x: &impl Fn(usize) -> Vec3) -> impl Fn(f64, (usize, usize)) -> f64 + '_ {
+    |most, (a, b)| most.max((x(a) - x(b)).norm())
+}

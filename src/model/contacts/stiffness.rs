@@ -1,0 +1,200 @@
+//! The penalty stiffness where the deck leaves it open: by the material and size of what touches, by weight and by speed. It does
+//! not depend on the time step, so that results converge with it.
+
+use crate::deck::Deck;
+use crate::elements::contact::ContactPoint;
+use crate::math::Vec3;
+use crate::model::contacts::opposite::Opposite;
+use crate::model::places::nodes::Topology;
+use crate::model::scene::Scene;
+use crate::model::values::{vec3, vec3_or_zero};
+use crate::names::short;
+use std::collections::HashSet;
+
+/// The part of the size of what touches that weight on one point presses it in: nobody sees it.
+const SUNK: f64 = 1e-3;
+/// The part of the size that an impact presses in: it is over before anything has turned, and steps can follow it.
+const STRUCK: f64 = 1e-2;
+
+/// A penalty stiffness that the program has chosen.
+pub struct ChosenStiffness {
+    /// The force of a point per depth.
+    pub stiffness: f64,
+    /// The quantity by which it was chosen, in words.
+    pub reason: String,
+    /// True where nothing but the time that the run lasts was there to choose it by.
+    pub rests_on_time: bool,
+}
+
+/// The things that meet in a contact.
+pub struct Meets<'a, 'd> {
+    /// The scene so far.
+    pub scene: &'a Scene<'d>,
+    /// The nodes and how they are connected.
+    pub topology: &'a Topology,
+    /// The magnitude of gravity.
+    pub gravity: f64,
+    /// What the points meet.
+    pub opposite: Opposite<'a>,
+    /// The points.
+    pub points: &'a [ContactPoint],
+}
+
+impl Meets<'_, '_> {
+    /// The stiffness for the mass that meets: the largest that material, weight and speed ask for.
+    pub fn stiffness(&self, mass: f64) -> ChosenStiffness {
+        let (size, speed) = (self.size(), self.speed());
+        let mut choices = Vec::new();
+        match self.softest_part() {
+            Some((stiffness, part)) => choices.push((stiffness, format!("E A over the extent of `{part}`"))),
+            None if speed > 0.0 => {
+                let depth = format!("an impact at {} presses {} in", short(speed), short(STRUCK * size));
+                choices.push((mass * (speed / (STRUCK * size)).powi(2), depth));
+            }
+            None => {}
+        }
+        if self.gravity > 0.0 {
+            let depth = format!("a weight of {} presses {} in", short(mass * self.gravity), short(SUNK * size));
+            choices.push((mass * self.gravity / (SUNK * size), depth));
+        }
+        let rests_on_time = choices.is_empty();
+        if rests_on_time {
+            let pace = self.extent() / self.duration();
+            let reason = format!(
+                "nothing moves at t = 0; at {}, the scene in the run, {} deep",
+                short(pace),
+                short(STRUCK * size)
+            );
+            choices.push((mass * (pace / (STRUCK * size)).powi(2), reason));
+        }
+        let largest = choices.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
+        let (stiffness, reason) = largest.unwrap_or_default();
+        ChosenStiffness { stiffness, reason, rests_on_time }
+    }
+
+    /// The stiffness from which load steps find multipliers, which it does not decide: by material, or by weight and loads on the mass that
+    /// meets. `None` where the deck says nothing of these.
+    pub fn stiffness_under_loads(&self, mass: f64) -> Option<ChosenStiffness> {
+        if let Some((stiffness, part)) = self.softest_part() {
+            let reason = format!("E A over the extent of `{part}`");
+            return Some(ChosenStiffness { stiffness, reason, rests_on_time: false });
+        }
+        let forces = self.whole_deck().loads.iter().filter_map(|load| load.force.as_ref());
+        let force = mass * self.gravity + forces.map(|at| vec3(at).norm()).sum::<f64>();
+        let depth = SUNK * self.size();
+        let reason = format!("weight and loads of {} press {} in", short(force), short(depth));
+        (force > 0.0).then(|| ChosenStiffness { stiffness: force / depth, reason, rests_on_time: false })
+    }
+
+    /// The least stiffness of the deformable parts that touch, by their names.
+    fn softest_part(&self) -> Option<(f64, &str)> {
+        let mut touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();
+        if let Opposite::Facets(_) = self.opposite {
+            touching.extend(self.opposite.nodes());
+        }
+        let parts = self.scene.parts.list.iter().filter(|part| {
+            (0..part.elements()).flat_map(|element| part.nodes(element)).any(|node| touching.contains(node))
+        });
+        let stiffness =
+            |part: &crate::model::data::Part| part.stretching(&self.topology.list, &self.scene.parts.stiffnesses);
+        parts.filter_map(|part| Some((stiffness(part)?, part.name()))).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The smallest dimension of bodies that touch and of what is touched; that of the scene where neither has one. Parts count for
+    /// nothing: a sheet may be pressed in by more than its thickness and is still on its side.
+    pub fn size_of_bodies(&self) -> f64 {
+        let parts = &self.scene.parts.list;
+        let nodes = parts.iter().flat_map(|part| (0..part.elements()).flat_map(|element| part.nodes(element)));
+        let of_parts: HashSet<usize> = nodes.copied().collect();
+        self.smallest(|point| !point.nodes().iter().any(|node| of_parts.contains(node)))
+    }
+
+    /// The smallest dimension of what touches and of what is touched; that of the scene where neither has one.
+    fn size(&self) -> f64 {
+        self.smallest(|_| true)
+    }
+
+    /// The same of the points that count.
+    fn smallest(&self, counts: impl Fn(&ContactPoint) -> bool) -> f64 {
+        let body = |point: &ContactPoint| {
+            let root = self.topology.root(point.nodes[0]);
+            let body = self.scene.bodies.iter().find(|body| body.node == root)?;
+            let points = body.shape.outline().points;
+            let width = |i: usize| {
+                let side = points.iter().map(|p| p[i]);
+                side.clone().fold(f64::NEG_INFINITY, f64::max) - side.fold(f64::INFINITY, f64::min)
+            };
+            Some((0..3).map(width).fold(f64::INFINITY, f64::min)).filter(|width| *width > 0.0)
+        };
+        let of_point = |point: &ContactPoint| match point.radius {
+            radius if radius > 0.0 => 2.0 * radius,
+            _ => body(point).unwrap_or(f64::INFINITY),
+        };
+        let points = self.points.iter().filter(|point| counts(point)).map(of_point).fold(f64::INFINITY, f64::min);
+        let size = points.min(self.opposite.least());
+        if size.is_finite() { size } else { self.extent() }
+    }
+
+    /// The largest extent of the scene; of one point, a length of one.
+    fn extent(&self) -> f64 {
+        let first = self.topology.x(0);
+        let extent = self.topology.list.iter().map(|node| (node.x - first).norm()).fold(0.0, f64::max);
+        if extent > 0.0 { extent } else { 1.0 }
+    }
+
+    /// The time that the run lasts, all of its stages together: a stage by itself does not choose.
+    fn duration(&self) -> f64 {
+        match self.scene.stage {
+            Some(stage) => stage.sequence.end(),
+            None => self.scene.analysis.duration(),
+        }
+    }
+
+    /// The deck with what begins in any stage.
+    fn whole_deck(&self) -> &Deck {
+        self.scene.stage.map_or(self.scene.deck, |stage| stage.sequence.whole)
+    }
+
+    /// The velocity and the angular velocity with which the deck lets a node begin, in whatever stage that is.
+    fn begins_with(&self, node: usize) -> [Vec3; 2] {
+        let of_body = self.scene.bodies.iter().position(|body| body.node == node);
+        match of_body.and_then(|index| self.whole_deck().bodies.get(index)) {
+            Some(body) if self.scene.stage.is_some() => [&body.velocity, &body.angular_velocity].map(vec3_or_zero),
+            _ => {
+                let node = &self.topology.list[node];
+                [node.v, node.omega]
+            }
+        }
+    }
+
+    /// The speed of the impact to come, as far as the deck says: velocities at t = 0, and the fall through the gap.
+    fn speed(&self) -> f64 {
+        let carrier = self.opposite.node();
+        let velocity = |x: &Vec3, node: usize| {
+            let root = self.topology.root(node);
+            let [v, omega] = self.begins_with(root);
+            v + omega.cross(&(x - self.topology.list[root].x))
+        };
+        let mut fastest = 0.0f64;
+        for point in self.points {
+            let parts = || point.nodes().iter().zip(point.weights);
+            let x: Vec3 = parts().map(|(&node, w)| w * self.topology.x(node)).sum();
+            let v: Vec3 = parts().map(|(&node, w)| w * velocity(&x, node)).sum();
+            fastest = fastest.max((v - velocity(&x, carrier)).norm());
+        }
+        let gap = self.opposite.gap(self.points, self.topology);
+        let fall = if gap.is_finite() { 2.0 * self.gravity * gap.max(0.0) } else { 0.0 };
+        let thrown = fastest + self.given_speed();
+        (thrown * thrown + fall).sqrt()
+    }
+
+    /// The largest velocity that tables of initial motion give.
+    fn given_speed(&self) -> f64 {
+        let of = |table: &crate::deck::initial::Initial| {
+            let v = table.velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
+            let turning = table.angular_velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
+            v + table.normal_velocity.as_ref().map_or(0.0, |at| at.value.abs()) + turning * self.size()
+        };
+        self.whole_deck().initial.iter().map(|table| of(table)).fold(0.0, f64::max)
+    }
+}

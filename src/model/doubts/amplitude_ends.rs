@@ -1,0 +1,66 @@
+//! Amplitudes whose times do not fit those of the run: tables that begin after it or end before it, and what acts only later.
+
+use crate::amplitude::Amplitude;
+use crate::deck::Deck;
+use crate::model::doubts::usage::amplitudes_over_time;
+use crate::model::report::Report;
+use crate::names::short;
+
+/// Times are equal within this part of the run: tables are written with six digits or more.
+const SAME_TIME: f64 = 1e-6;
+
+/// Warns of tables that hold a value other than zero where they say nothing, unless the deck says that they are to, and of
+/// amplitudes that are zero for as long as the run lasts. The deck is sound.
+pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64, report: &mut Report) {
+    let used = amplitudes_over_time(deck);
+    let slack = SAME_TIME * end_time;
+    for ((name, words), amplitude) in deck.amplitudes.0.iter().zip(amplitudes) {
+        if !used.contains(name.as_str()) {
+            continue;
+        }
+        match amplitude {
+            Amplitude::Table(table) => {
+                let points = table.points();
+                let (Some([first, before]), Some([last, after])) = (points.first(), points.last()) else { continue };
+                if words.after.is_none() && *after != 0.0 && *last < end_time - slack {
+                    let message = format!(
+                        "the table of amplitude `{name}` ends at {}, before the run does: it holds its last value, {}, \
+                         to {}",
+                        short(*last),
+                        short(*after),
+                        short(end_time),
+                        name = name.value
+                    );
+                    let hint = "`after = \"hold\"` says that this is meant, `after = \"zero\"` that nothing follows";
+                    report.warn(&name.span, message, hint);
+                }
+                if words.before.is_none() && *before != 0.0 && *first > slack {
+                    let message = format!(
+                        "the table of amplitude `{name}` begins at {}, after the run does: it has its first value, {}, \
+                         from the start",
+                        short(*first),
+                        short(*before),
+                        name = name.value
+                    );
+                    let hint = "`before = \"hold\"` says that this is meant, `before = \"zero\"` that nothing precedes";
+                    report.warn(&name.span, message, hint);
+                }
+            }
+            Amplitude::Sine { start, .. }
+            | Amplitude::SineSquared { start, .. }
+            | Amplitude::Ramp { start, .. }
+            | Amplitude::Step { start, .. } => {
+                if *start >= end_time - slack {
+                    let message = format!(
+                        "amplitude `{}` is zero to the end of the run: it starts at {}, and the run ends at {}",
+                        name.value,
+                        short(*start),
+                        short(end_time)
+                    );
+                    report.warn(&name.span, message, "let the run last longer, or `start` come earlier");
+                }
+            }
+            Amplitude::Constant | Amplitude::Harmonic { .. } => {}
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Where the deck names each node, for what is found out about a sound model.
+
+use crate::diagnostic::Span;
+use crate::model::names::Names;
+use crate::model::parts::Parts;
+use crate::model::places::nodes::Topology;
+use crate::model::places::place::Place;
+
+/// Tells nodes where the deck names them: itself, the attachment that makes it depend on another, or its part.
+pub fn place_nodes(names: &Names, parts: &Parts, topology: &mut Topology) {
+    let place = |span: &Span| Some([span.start, span.end]);
+    for part in names.deck.parts() {
+        for &node in parts.entry(part.at).into_iter().flat_map(|entry| &entry.nodes) {
+            let node = &mut topology.list[node];
+            node.place = node.place.or(place(part.place()));
+        }
+    }
+    for index in 0..topology.dependents.len() {
+        let dependent = &topology.dependents[index];
+        let (node, place) = (dependent.node, dependent.place);
+        topology.list[node].place = place;
+    }
+    // Names of their own come before all others.
+    for (_, named, span) in names.declarations() {
+        match named {
+            Place::Point(node) => topology.list[node].place = place(span),
+            Place::Body(body) => topology.list[names.body_node(body)].place = place(span),
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! Which materials, sections and amplitudes of a deck something names.
+
+use crate::deck::Deck;
+use std::collections::HashSet;
+
+/// Materials that a part of the deck names.
+pub fn named_materials(deck: &Deck) -> HashSet<&str> {
+    deck.parts().filter_map(|part| part.table.material()).map(|name| name.as_str()).collect()
+}
+
+/// Sections that a beam of the deck names.
+pub fn named_sections(deck: &Deck) -> HashSet<&str> {
+    deck.beams.iter().filter_map(|beam| beam.section.as_ref()).map(|name| name.as_str()).collect()
+}
+
+/// Amplitudes that a load, a motion or a profile of the deck names.
+pub fn named_amplitudes(deck: &Deck) -> HashSet<&str> {
+    let profiles = deck.initial.iter().filter_map(|initial| initial.profile.as_ref()).flat_map(|at| &at.value);
+    let profiles = profiles.filter_map(|profile| profile.amplitude.as_ref()).map(|name| name.as_str());
+    amplitudes_over_time(deck).into_iter().chain(profiles).collect()
+}
+
+/// Amplitudes that are functions of time: those of loads, motions, gravity and the ground.
+pub fn amplitudes_over_time(deck: &Deck) -> HashSet<&str> {
+    let loads = deck.loads.iter().map(|load| &load.amplitude);
+    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
+        let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
+        all.into_iter().flatten().map(|motion| &motion.amplitude)
+    });
+    let drives = deck.joints.iter().filter_map(|joint| joint.motion.as_ref()).map(|motion| &motion.amplitude);
+    let motors = deck.joints.iter().filter_map(|joint| joint.effort.as_ref()).map(|effort| &effort.amplitude);
+    let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);
+    let gravity = deck.environment.iter().map(|environment| &environment.gravity_amplitude);
+    let named =
+        loads.chain(motions).chain(drives).chain(motors).chain(gravity).chain(ground.map(|base| &base.amplitude));
+    named.flatten().map(|name| name.as_str()).collect()
+}

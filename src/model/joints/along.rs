@@ -1,0 +1,502 @@
+//! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops, friction and what yields.
+
+use crate::amplitude::Amplitude;
+use crate::constraints::joints::JointKind;
+use crate::constraints::joints::kind::Coordinate;
+use crate::deck::joints as words;
+use crate::deck::words::Table;
+use crate::diagnostic::{At, Span};
+use crate::elements::contact::restitution::{LEAST, Loss, number};
+use crate::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
+use crate::elements::hysteresis::Hysteresis;
+use crate::math::{Mat3, Vec3};
+use crate::model::data::{
+    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, Node, PrescribedMotion,
+};
+use crate::model::links::ModelLinks;
+use crate::model::places::nodes::Nodes;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::model::values::{flag, span};
+use crate::names::short;
+use crate::words::kinds::{OneOf, Values};
+
+/// What `[[joints]]` make.
+#[derive(Default)]
+pub struct Joints {
+    /// The joints in deck order.
+    pub list: Vec<Joint>,
+    /// Forces and moments of motors, two of each.
+    pub efforts: Vec<Load>,
+}
+
+/// Where a joint lies.
+pub struct PlacedJoint<'v> {
+    /// Its two ends.
+    pub ends: [usize; 2],
+    /// True where it comes in a later stage, and finds its ends where they then are.
+    pub later: bool,
+    /// Its axes as columns, global at t = 0.
+    pub axes: Mat3,
+    /// The values of its kind's own keys.
+    pub values: &'v Values,
+}
+
+/// The keys of a joint that are about its coordinate.
+pub struct Along<'a, 'd> {
+    /// The joint, as messages call it.
+    pub owner: &'a Owner<'d>,
+    /// Its table.
+    pub joint: &'d OneOf<words::Joint>,
+    /// The scene.
+    pub scene: &'a Scene<'d>,
+    /// The amplitudes, to which a motion without one adds another.
+    pub amplitudes: &'a mut Vec<Amplitude>,
+    /// The problems.
+    pub report: &'a mut Report<'d>,
+}
+
+/// What ties the coordinate of a joint to that of another.
+pub struct Gear<'d> {
+    /// Name of the other joint.
+    pub other: &'d At<String>,
+    /// This coordinate per that of the other.
+    pub ratio: f64,
+}
+
+/// What acts along the coordinate of a joint.
+pub struct ActsAlong<'d> {
+    coordinate: Coordinate,
+    motion: Option<PrescribedMotion>,
+    /// The joint to which it is geared, and the ratio.
+    pub gear: Option<Gear<'d>>,
+    effort: Option<JointEffort>,
+    law: CoordinateLaw,
+    /// By how much the joint gives before friction slips, where the deck says so.
+    stick: Option<f64>,
+    /// True where its turns are counted although nothing acts.
+    counted: bool,
+}
+
+impl<'d> Along<'_, 'd> {
+    /// Reads what acts along the coordinate; `None` where the joint has none.
+    pub fn read(mut self, kind: &JointKind) -> Option<ActsAlong<'d>> {
+        let joint = self.joint;
+        let Some(&own) = kind.make.coordinates.first() else {
+            let what = format!("a joint of kind \"{}\": it has no coordinate", kind.word);
+            self.report.reject_unused(&what, &keys(joint));
+            return None;
+        };
+        let coordinate = match &joint.coordinate {
+            Some(word) if !kind.make.coordinates.contains(&word.value) => {
+                let message = format!("the coordinate of a joint of kind \"{}\" is no {}", kind.word, word.word());
+                self.report.error_with::<()>(&word.span, message, format!("it is its {}", own.word()));
+                own
+            }
+            word => word.as_ref().map_or(own, |word| word.value),
+        };
+        self.reject_if_later();
+        let motion = self.motion();
+        let gear = self.gear();
+        let effort = self.effort();
+        let law = self.law(kind, coordinate);
+        let stick = self.report.positive("stick", &joint.stick);
+        let counted = self.is_counted();
+        Some(ActsAlong { coordinate, motion, gear, effort, law, stick, counted })
+    }
+
+    /// True where the joint is not there from t = 0 on, or comes back: its coordinate has no beginning that the deck draws.
+    fn is_later(&self) -> bool {
+        is_later(self.scene, self.joint)
+    }
+
+    /// Reports keys about the coordinate of a joint that is not there from t = 0 on.
+    fn reject_if_later(&mut self) {
+        if !self.is_later() {
+            return;
+        }
+        for (key, place) in keys(self.joint) {
+            let Some(place) = place else { continue };
+            let message = format!("`{key}` needs a joint that is there from t = 0 on, without a break");
+            let hint = "leave out `stages`: a drive whose amplitude is zero holds the joint until it begins";
+            self.report.error_with::<()>(place, message, hint);
+        }
+    }
+
+    /// True where results of the coordinate are asked for; that of a joint that comes later has no turns that could be counted.
+    fn is_counted(&self) -> bool {
+        if self.is_later() {
+            return false;
+        }
+        let deck = self.scene.deck;
+        let name = self.joint.name.as_ref().map(|name| name.as_str());
+        let of_coordinate = |word: &str| ["coordinate", "rate", "effort"].contains(&word);
+        deck.output.as_ref().is_some_and(|output| flag(&output.joints, false))
+            || deck.expect.iter().any(|expect| {
+                expect.at.as_ref().map(|at| at.as_str()) == name
+                    && expect.quantity.as_ref().is_some_and(|quantity| of_coordinate(quantity.as_str()))
+            })
+    }
+
+    fn amplitude(&mut self, name: &'d Option<At<String>>) -> Option<usize> {
+        self.report.find("amplitude", &self.scene.deck.amplitudes, name.as_ref()?).map(|(index, _)| index)
+    }
+
+    fn motion(&mut self) -> Option<PrescribedMotion> {
+        let motion = self.joint.motion.as_ref()?;
+        for (key, place) in self.against_motion() {
+            let message = format!("{} has both `motion` and `{key}`", self.owner.what);
+            self.report.error_with::<()>(place, message, "the motion is prescribed, whatever acts against it");
+        }
+        let amplitude = self.amplitude(&motion.amplitude);
+        let (scale, history) = self.quantity(motion)?;
+        // Stages that are static move on with time, by which a rate says where the joint is.
+        let is_static = self.scene.analysis.kind == AnalysisKind::Static && self.scene.analysis.modes.is_none();
+        if is_static && self.scene.stage.is_none() && history != History::Displacement {
+            return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
+        }
+        let index = match (&motion.amplitude, history) {
+            (Some(_), _) => amplitude?,
+            (None, _) if self.report.is_spoiled(&motion.span, "amplitude") => return None,
+            (None, History::Displacement) => {
+                let message = format!("the motion of {} by `position` needs `amplitude`", self.owner.what);
+                let hint = "the coordinate is zero at t = 0, and goes on from there";
+                return self.report.error_with(&motion.span, message, hint);
+            }
+            (None, _) => {
+                self.amplitudes.push(Amplitude::Constant);
+                self.amplitudes.len() - 1
+            }
+        };
+        let starts = scale.value * self.amplitudes[index].value(0.0);
+        let begins = self.scene.stage.is_none_or(|stage| stage.is_first());
+        let moves = self.scene.analysis.kind == AnalysisKind::Dynamic && begins;
+        if history == History::Displacement && moves && starts != 0.0 {
+            let (what, starts) = (&self.owner.what, short(starts));
+            let message = format!("the motion of {what} begins at {starts}, but the coordinate is zero at t = 0");
+            return self.report.error_with(&motion.span, message, "let the amplitude begin at zero");
+        }
+        Some(PrescribedMotion { amplitude: index, scale: scale.value, history })
+    }
+
+    /// The one quantity that a motion gives.
+    fn quantity(&mut self, motion: &'d At<Table<words::JointMotion>>) -> Option<(&'d At<f64>, History)> {
+        let given = [
+            (&motion.position, History::Displacement),
+            (&motion.velocity, History::Velocity),
+            (&motion.acceleration, History::Acceleration),
+        ];
+        let mut given = given.into_iter().filter_map(|(value, history)| Some((value.as_ref()?, history)));
+        let Some(first) = given.next() else {
+            if !self.report.is_any_spoiled(&motion.span) {
+                let message = format!("the motion of {} says nothing", self.owner.what);
+                let hint = "give it `position`, `velocity` or `acceleration`";
+                self.report.error_with::<()>(&motion.span, message, hint);
+            }
+            return None;
+        };
+        if let Some((other, _)) = given.next() {
+            let message = format!("{} has two motions", self.owner.what);
+            return self.report.error_with(&other.span, message, "one quantity gives the other two");
+        }
+        Some(first)
+    }
+
+    /// Keys that contradict a prescribed motion, where they are written.
+    fn against_motion(&self) -> Vec<(&'static str, &'d Span)> {
+        let joint = self.joint;
+        let keys = [
+            ("gear", span(&joint.gear)),
+            ("effort", span(&joint.effort)),
+            ("limits", span(&joint.limits)),
+            ("friction", span(&joint.friction)),
+            ("friction_moment", span(&joint.friction_moment)),
+            ("friction_force", span(&joint.friction_force)),
+            ("yield_moment", span(&joint.yield_moment)),
+            ("yield_force", span(&joint.yield_force)),
+            ("backbone", span(&joint.backbone)),
+        ];
+        keys.into_iter().filter_map(|(key, place)| Some((key, place?))).collect()
+    }
+
+    fn gear(&mut self) -> Option<Gear<'d>> {
+        let gear = self.joint.gear.as_ref()?;
+        let owner = Owner::new(format!("the gear of {}", self.owner.what), &gear.span);
+        let other = self.report.require(&owner, "joint", &gear.joint);
+        let ratio = self.report.require(&owner, "ratio", &gear.ratio);
+        if let Some(ratio) = ratio.filter(|ratio| ratio.value == 0.0) {
+            let hint = "a `motion` by a velocity of 0 holds a coordinate";
+            return self.report.error_with(&ratio.span, "`ratio` must not be zero", hint);
+        }
+        Some(Gear { other: other?, ratio: ratio?.value })
+    }
+
+    fn effort(&mut self) -> Option<JointEffort> {
+        let joint = self.joint;
+        let effort: &'d words::Effort = &self.joint.effort.as_ref()?.value;
+        let span = &self.joint.effort.as_ref()?.span;
+        let owner = Owner::new(format!("the effort of {}", self.owner.what), span);
+        let value = self.report.require(&owner, "value", &effort.value).map(|value| value.value);
+        let amplitude = match self.scene.stage.filter(|_| effort.amplitude.is_none()) {
+            Some(stage) => {
+                return Some(JointEffort { value: value?, amplitude: Some(stage.own_amplitude(&joint.stages)) });
+            }
+            None => self.amplitude(&effort.amplitude),
+        };
+        (effort.amplitude.is_none() || amplitude.is_some()).then_some(JointEffort { value: value?, amplitude })
+    }
+
+    fn law(&mut self, kind: &JointKind, coordinate: Coordinate) -> CoordinateLaw {
+        let joint = self.joint;
+        if let (Some(rest), None) = (&joint.rest, &joint.stiffness)
+            && !self.report.is_spoiled(self.owner.span, "stiffness")
+        {
+            self.report.error_with::<()>(
+                &rest.span,
+                "`rest` needs `stiffness`",
+                "without a spring nothing rests there",
+            );
+        }
+        let hysteresis = self.hysteresis(coordinate);
+        // What yields has the stiffness in it.
+        let spring = self.report.not_negative("stiffness", &joint.stiffness, 0.0);
+        CoordinateLaw {
+            stiffness: if hysteresis.is_some() { 0.0 } else { spring },
+            rest: joint.rest.as_ref().map_or(0.0, |rest| rest.value),
+            damping: self.report.not_negative("damping", &joint.damping, 0.0),
+            stops: self.stops(),
+            friction: self.friction(kind, coordinate),
+            hysteresis,
+        }
+    }
+
+    fn stops(&mut self) -> Option<Stops> {
+        let joint = self.joint;
+        let Some(limits) = &joint.limits else {
+            let of_stops =
+                [("limit_stiffness", span(&joint.limit_stiffness)), ("restitution", span(&joint.restitution))];
+            if !self.report.is_spoiled(self.owner.span, "limits") {
+                self.report.reject_unused("a joint without `limits`", &of_stops);
+            }
+            return None;
+        };
+        let [low, high] = limits.0;
+        if low >= high {
+            let message = format!("the limits of {} are reversed", self.owner.what);
+            self.report.error_with::<()>(&limits.span, message, "the least coordinate comes first");
+        } else if low > 0.0 || high < 0.0 {
+            let message = format!("{} starts outside its limits", self.owner.what);
+            self.report.error_with::<()>(
+                &limits.span,
+                message,
+                "the coordinate is zero at t = 0, as the deck draws the joint",
+            );
+        }
+        let stiffness = self.report.require_positive(self.owner, "limit_stiffness", &joint.limit_stiffness);
+        let loss = match &joint.restitution {
+            Some(e) if !(LEAST..=1.0).contains(&e.value) => {
+                let hint = format!("from {LEAST} to 1");
+                return self.report.error_with(&e.span, "`restitution` lies out of its range", hint);
+            }
+            Some(e) if e.value < 1.0 => Loss::Restitution { number: number(e.value), floor: 0.0 },
+            _ => Loss::None,
+        };
+        Some(Stops { limits: [low, high], stiffness: stiffness?, loss })
+    }
+
+    /// What yields, by its yield moment or force, or by its backbone.
+    fn hysteresis(&mut self, coordinate: Coordinate) -> Option<Hysteresis> {
+        let joint = self.joint;
+        let (moment, force) = (("yield_moment", &joint.yield_moment), ("yield_force", &joint.yield_force));
+        let ((key, value), other) = match coordinate {
+            Coordinate::Angle => (moment, force),
+            Coordinate::Distance => (force, moment),
+        };
+        let what = format!("a joint whose coordinate is its {}", coordinate.word());
+        self.report.reject_unused(&what, &[(other.0, span(other.1))]);
+        let after = ("post_yield_stiffness", span(&joint.post_yield_stiffness));
+        let rest = ("rest", span(&joint.rest));
+        if let Some(backbone) = &joint.backbone {
+            let others = [("stiffness", span(&joint.stiffness)), rest, (key, span(value)), after];
+            self.report.reject_unused("a joint with a `backbone`", &others);
+            let points: Vec<[f64; 2]> = backbone.value.iter().map(|point| point.value.0).collect();
+            return self.yielding(&backbone.span, &points, 0.0);
+        }
+        let Some(limit) = value else {
+            if !self.report.is_spoiled(self.owner.span, key) {
+                self.report.reject_unused("a joint that does not yield", &[after]);
+            }
+            return None;
+        };
+        self.report.reject_unused("a joint that yields", &[rest]);
+        let limit = self.report.positive(key, value).map(|value| (value, &limit.span));
+        let stiffness = self.report.require_positive(self.owner, "stiffness", &joint.stiffness);
+        let after = self.report.not_negative("post_yield_stiffness", &joint.post_yield_stiffness, 0.0);
+        let ((limit, place), stiffness) = (limit?, stiffness?);
+        if let (Some(given), false) = (&joint.post_yield_stiffness, after < stiffness) {
+            return self.report.error(&given.span, "`post_yield_stiffness` must be below `stiffness`");
+        }
+        self.yielding(place, &[[limit / stiffness, limit]], after)
+    }
+
+    fn yielding(&mut self, place: &'d Span, points: &[[f64; 2]], after: f64) -> Option<Hysteresis> {
+        match Hysteresis::new(points, after) {
+            Ok(hysteresis) => Some(hysteresis),
+            Err(reason) => self.report.error(place, format!("the backbone of {}: {reason}", self.owner.what)),
+        }
+    }
+
+    /// Friction, the way on which it sticks yet to be found.
+    fn friction(&mut self, kind: &JointKind, coordinate: Coordinate) -> Option<JointFriction> {
+        let joint = self.joint;
+        let moment = ("friction_moment", &joint.friction_moment);
+        let force = ("friction_force", &joint.friction_force);
+        let ((key, value), other) = match coordinate {
+            Coordinate::Angle => (moment, force),
+            Coordinate::Distance => (force, moment),
+        };
+        let what = format!("a joint whose coordinate is its {}", coordinate.word());
+        self.report.reject_unused(&what, &[(other.0, span(other.1))]);
+        let slips = value.is_some() || other.1.is_some() || joint.friction.is_some();
+        let unread =
+            self.report.is_spoiled(self.owner.span, key) || self.report.is_spoiled(self.owner.span, "friction");
+        if !slips && !unread {
+            self.report.reject_unused("a joint without friction", &[("stick", span(&joint.stick))]);
+        }
+        let limit = self.report.not_negative(key, value, 0.0);
+        let per_load = self.friction_per_load(kind, coordinate);
+        (limit > 0.0 || per_load > 0.0).then_some(JointFriction { limit, per_load, stick: 0.0 })
+    }
+
+    /// Friction by a coefficient follows the load of the step before.
+    fn judge_steps(&mut self, friction: &'d At<f64>) {
+        let analysis = &self.scene.analysis;
+        if analysis.modes.is_some() {
+            return;
+        }
+        if analysis.kind == AnalysisKind::Static {
+            let message = "`friction` follows the load of the load step before, and the first has none";
+            self.report.warn(
+                &friction.span,
+                message,
+                "take several load steps, the last of them small, or a limit that is given",
+            );
+        } else if analysis.step_length.is_automatic() {
+            let message = "`friction` needs a `time_step` that is given: it follows the load of the step before, which errors of steps do not tell";
+            self.report.error_with::<()>(&friction.span, message, "or a limit that the joint's load does not change");
+        }
+    }
+
+    /// By how much the limit of friction grows with the force that the joint carries across its axis.
+    fn friction_per_load(&mut self, kind: &JointKind, coordinate: Coordinate) -> f64 {
+        let joint = self.joint;
+        let Some(friction) = &joint.friction else {
+            self.report.reject_unused("a joint without `friction`", &[("radius", span(&joint.radius))]);
+            return 0.0;
+        };
+        let (coefficient, turns) =
+            (self.report.not_negative("friction", &joint.friction, 0.0), coordinate == Coordinate::Angle);
+        if !kind.make.carries_across {
+            let message = format!("`friction` does not apply to a joint of kind \"{}\"", kind.word);
+            let limit = if turns { "`friction_moment`" } else { "`friction_force`" };
+            self.report.error_with::<()>(
+                &friction.span,
+                message,
+                format!("{limit} is one that the joint's load does not change"),
+            );
+            return 0.0;
+        }
+        self.judge_steps(friction);
+        if !turns {
+            self.report.reject_unused("friction against a distance", &[("radius", span(&joint.radius))]);
+            return coefficient;
+        }
+        self.report.require_positive(self.owner, "radius", &joint.radius).map_or(0.0, |radius| coefficient * radius)
+    }
+}
+
+impl ActsAlong<'_> {
+    /// Gives a joint its coordinate and what acts along it.
+    pub fn set_up(
+        mut self,
+        placed: &PlacedJoint,
+        joint: &mut Joint,
+        (nodes, links): (&mut Nodes, &mut ModelLinks),
+        efforts: &mut Vec<Load>,
+    ) {
+        let [from, to] = placed.ends;
+        let d = nodes.x(from) - nodes.x(to);
+        let axis = placed.axes.column(0).into_owned();
+        let lock = self.coordinate.lock(&placed.axes, &d);
+        if let Some(friction) = &mut self.law.friction {
+            friction.stick = self.stick.unwrap_or_else(|| match self.coordinate {
+                Coordinate::Angle => 1e-4,
+                Coordinate::Distance => 1e-5 * size(nodes),
+            });
+        }
+        let drive = self.motion.map(|motion| {
+            let drive = nodes.add_number(format!("{}.motion", joint.name), from);
+            nodes.restrain(drive, 0, Some(motion));
+            JointDrive { node: drive, ratio: 1.0, is_free: false }
+        });
+        if let Some(effort) = &self.effort {
+            let pull = effort.value * axis;
+            let (force, moment) = match self.coordinate {
+                Coordinate::Angle => (Vec3::zeros(), pull),
+                Coordinate::Distance => (pull, Vec3::zeros()),
+            };
+            let load = |node, sign: f64| Load {
+                node,
+                force: sign * force,
+                moment: sign * moment,
+                follower: true,
+                amplitude: effort.amplitude,
+                along: None,
+            };
+            efforts.extend([load(from, -1.0), load(to, 1.0)]);
+        }
+        let spring = (self.counted || self.law != CoordinateLaw::FREE)
+            .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law)));
+        joint.coordinate = Some(JointCoordinate { lock, axis, drive: None, effort: self.effort, spring });
+        if let Some(drive) = drive {
+            joint.lead(drive);
+        }
+    }
+}
+
+/// True where a joint is not there from t = 0 on, or comes back.
+pub fn is_later(scene: &Scene, joint: &words::Joint) -> bool {
+    scene.stage.is_some_and(|stage| !stage.is_carried(&joint.stages))
+}
+
+/// The size of the scene, or 1 for a single point.
+pub fn size(nodes: &Nodes) -> f64 {
+    let first = nodes.list.first().map_or(Vec3::zeros(), |node| node.x);
+    let size = nodes.list.iter().map(|node: &Node| (node.x - first).norm()).fold(0.0, f64::max);
+    if size > 0.0 { size } else { 1.0 }
+}
+
+/// The keys about the coordinate, with the places where they stand.
+fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 19] {
+    [
+        ("coordinate", span(&joint.coordinate)),
+        ("motion", span(&joint.motion)),
+        ("gear", span(&joint.gear)),
+        ("effort", span(&joint.effort)),
+        ("stiffness", span(&joint.stiffness)),
+        ("rest", span(&joint.rest)),
+        ("damping", span(&joint.damping)),
+        ("limits", span(&joint.limits)),
+        ("limit_stiffness", span(&joint.limit_stiffness)),
+        ("restitution", span(&joint.restitution)),
+        ("friction", span(&joint.friction)),
+        ("radius", span(&joint.radius)),
+        ("friction_moment", span(&joint.friction_moment)),
+        ("friction_force", span(&joint.friction_force)),
+        ("stick", span(&joint.stick)),
+        ("yield_moment", span(&joint.yield_moment)),
+        ("yield_force", span(&joint.yield_force)),
+        ("post_yield_stiffness", span(&joint.post_yield_stiffness)),
+        ("backbone", span(&joint.backbone)),
+    ]
+}

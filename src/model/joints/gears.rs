@@ -1,0 +1,88 @@
+//! Gears: joints whose coordinates are multiples of each other follow one number that they share.
+
+use crate::model::data::{Joint, JointDrive};
+use crate::model::joints::along::{Gear, is_later, size};
+use crate::model::places::nodes::Nodes;
+use crate::model::report::Report;
+use crate::model::scene::Scene;
+
+/// Lets geared joints, known by their places in the list, follow the joint that their gears lead to. Where that one is driven they follow its
+/// drive, elsewhere a number that all of them share.
+pub fn connect<'d>(
+    scene: &Scene<'d>,
+    gears: &[(usize, Gear<'d>)],
+    joints: &mut [Joint],
+    nodes: &mut Nodes,
+    report: &mut Report<'d>,
+) {
+    let mut towards: Vec<Option<(usize, f64)>> = vec![None; joints.len()];
+    for (index, gear) in gears {
+        towards[*index] = partner(scene, gear, joints, report).map(|other| (other, gear.ratio));
+    }
+    for (index, gear) in gears {
+        let Some((first, ratio)) = first(&towards, *index) else {
+            let message = format!("the gears of joint `{}` lead back to it", joints[*index].name);
+            report.error_with::<()>(&gear.other.span, message, "leave one of them out");
+            continue;
+        };
+        if first == *index {
+            continue;
+        }
+        let drive = drive_of(&mut joints[first], nodes);
+        if let Some(drive) = drive {
+            joints[*index].lead(JointDrive { ratio: ratio * drive.ratio, ..drive });
+        }
+    }
+}
+
+/// The place of the joint to which a gear leads, if it has a coordinate all the time.
+fn partner<'d>(scene: &Scene<'d>, gear: &Gear<'d>, joints: &[Joint], report: &mut Report<'d>) -> Option<usize> {
+    let name = gear.other;
+    let Some(other) = joints.iter().position(|joint| joint.name == name.value) else {
+        let named = || scene.deck.joints.iter().filter_map(|joint| joint.name.as_ref());
+        // What is wrong with one that could not be made has been said.
+        return match named().any(|known| known.value == name.value) {
+            true => None,
+            false => report.unknown("joint", name, named().map(|known| known.value.as_str())),
+        };
+    };
+    if joints[other].coordinate.is_none() {
+        let message = format!("joint `{}` has no coordinate that a gear could follow", name.value);
+        return report.error_with(
+            &name.span,
+            message,
+            "a revolute, prismatic, cylindrical, screw, planar or in-line joint has",
+        );
+    }
+    let table =
+        scene.deck.joints.iter().find(|joint| joint.name.as_ref().is_some_and(|known| known.value == name.value));
+    if table.is_some_and(|joint| is_later(scene, joint)) {
+        let message = format!("joint `{}` is not there from t = 0 on, without a break", name.value);
+        return report.error_with(&name.span, message, "a gear needs both of its joints all the time");
+    }
+    Some(other)
+}
+
+/// The last joint on the way over gears from one, and the coordinate of that one per its own; `None` where the way leads back to the first.
+fn first(towards: &[Option<(usize, f64)>], index: usize) -> Option<(usize, f64)> {
+    let (mut at, mut ratio) = (index, 1.0);
+    for _ in 0..towards.len() {
+        let Some((next, of_next)) = towards[at] else { return Some((at, ratio)) };
+        (at, ratio) = (next, ratio * of_next);
+    }
+    None
+}
+
+/// What the coordinate of a joint without a gear follows; where it is not driven, a number that is made for it: its coordinate, as a length
+/// of the size of the scene, so that efforts along it compare with forces.
+fn drive_of(joint: &mut Joint, nodes: &mut Nodes) -> Option<JointDrive> {
+    let coordinate = joint.coordinate.as_ref()?;
+    if let Some(drive) = coordinate.drive {
+        return Some(drive);
+    }
+    let ratio = if coordinate.lock.is_rotational() { 1.0 / size(nodes) } else { 1.0 };
+    let node = nodes.add_number(format!("{}.gear", joint.name), joint.ends[0]);
+    let drive = JointDrive { node, ratio, is_free: true };
+    joint.lead(drive);
+    Some(drive)
+}

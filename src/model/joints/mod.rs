@@ -1,0 +1,178 @@
+//! `[[joints]]`: constraint equations between two nodes, held by multipliers.
+
+pub mod along;
+pub mod gears;
+
+use crate::amplitude::Amplitude;
+use crate::constraints::joint::{ConstraintEquation, rotations, translations};
+use crate::constraints::joints::JointKind;
+use crate::deck::Deck;
+use crate::diagnostic::Diagnostic;
+use crate::math::{Mat3, Vec3};
+use crate::model::data::{History, Joint, Node, PrescribedMotion};
+use crate::model::joints::along::{Along, Joints, PlacedJoint};
+use crate::model::links::ModelLinks;
+use crate::model::places::ends::EndTable;
+use crate::model::places::nodes::Nodes;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::names::short;
+use crate::state;
+
+/// Reads `[[joints]]`; what acts along their coordinates comes after the `links` of the deck, and motions without an amplitude add one.
+pub fn joints<'d>(
+    scene: &Scene<'d>,
+    links: &mut ModelLinks,
+    amplitudes: &mut Vec<Amplitude>,
+    nodes: &mut Nodes,
+    report: &mut Report<'d>,
+) -> Joints {
+    let mut joints = Joints::default();
+    let mut gears = Vec::new();
+    for (index, joint) in scene.deck.joints.iter().enumerate() {
+        let name = joint.name.as_ref().map_or_else(|| format!("joints.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("joint `{name}`"), &joint.span);
+        report.require(&owner, "name", &joint.name);
+        let kind = report.require(&owner, "kind", &joint.kind).map(|kind| kind.value);
+        let mut end = |key, end, default| {
+            let table = EndTable { owner: &owner, key, end, label: format!("{name}.{key}"), rotations: true, default };
+            let node = table.node(scene, nodes, report);
+            (node, node.map(|node| nodes.x(node)))
+        };
+        let (from, place) = end("from", &joint.from, None);
+        let (to, _) = end("to", &joint.to, place.filter(|_| kind.is_none_or(|kind| kind.make.ends_meet)));
+        let axes = kind.and_then(|kind| {
+            let what = format!("a joint of kind \"{}\"", kind.word);
+            report.read(&owner, &what, &joint.values, kind, kind.make.axes)
+        });
+        let acts = kind.map(|kind| Along { owner: &owner, joint, scene, amplitudes, report }.read(kind));
+        let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
+        let ends = [ends.0, ends.1];
+        // What comes later finds its ends where they then are.
+        let later = scene.stage.is_some_and(|stage| stage.comes_later(&joint.stages));
+        let placed = PlacedJoint { ends, later, axes, values: &joint.values };
+        let Some(equations) = joint_equations(&owner, kind, &placed, nodes, report) else { continue };
+        let mut made = Joint::new(name, ends, equations, false);
+        if let Some(mut acts) = acts.flatten() {
+            gears.extend(acts.gear.take().map(|gear| (joints.list.len(), gear)));
+            acts.set_up(&placed, &mut made, (nodes, links), &mut joints.efforts);
+        }
+        joints.list.push(made);
+    }
+    gears::connect(scene, &gears, &mut joints.list, nodes, report);
+    joints
+}
+
+/// The constraint equations between two ends, of which messages speak as `owner`; with `later` they need not meet at t = 0.
+fn joint_equations<'d>(
+    owner: &Owner<'d>,
+    kind: &JointKind,
+    &PlacedJoint { ends, later, axes, values }: &PlacedJoint,
+    nodes: &Nodes,
+    report: &mut Report<'d>,
+) -> Option<Vec<ConstraintEquation>> {
+    if ends[0] == ends[1] {
+        let node = nodes.label(ends[0]);
+        return report.error(owner.span, format!("{} joins `{node}` to itself", owner.what));
+    }
+    let d = nodes.x(ends[0]) - nodes.x(ends[1]);
+    if !kind.make.ends_meet && d.norm() == 0.0 {
+        let message = format!("the ends of {} lie at the same place, so there is no distance", owner.what);
+        return report.error_with(owner.span, message, "a \"spherical\" joint holds two points together");
+    }
+    if kind.make.ends_meet && !later && is_rounded(owner, ends.map(|end| nodes.x(end)), nodes, report)? {
+        let message = format!("the ends of {} are {} apart, as rounded coordinates are", owner.what, short(d.norm()));
+        let hint = "they are joined as they are; a body's `point` in `to` may be left out";
+        report.push(Diagnostic::note(message).at(owner.span).hint(hint));
+    }
+    Some((kind.make.equations)(&axes, &d, values))
+}
+
+/// How far the ends of a joint that meet are apart: `true` where as far as coordinates of six digits are, `false` where no
+/// farther than rounding. Farther is an error.
+fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &mut Report<'d>) -> Option<bool> {
+    /// Coordinates written with six digits are off by half a unit of the sixth, at either end.
+    const SIX_DIGITS: f64 = 1e-5;
+    /// In a scene far from the origin that may be no more than this part of its size.
+    const MOST: f64 = 1e-4;
+    /// Coordinates that are computed rather than written are off by no more than this part of the size of the scene.
+    const COMPUTED: f64 = 1e-9;
+    let (gap, rounding) = ((a - b).amax(), 4.0 * f64::EPSILON * a.amax());
+    // Most ends meet; the size of the scene costs a look at all nodes.
+    if gap <= rounding {
+        return Some(false);
+    }
+    let far = |reach: f64, node: &Node| reach.max((node.x - a).amax());
+    let size = nodes.list.iter().fold(0.0, far);
+    let written = (SIX_DIGITS * a.amax().max(b.amax())).clamp(1e-6 * size, MOST * size);
+    if gap > written.max(rounding) {
+        let message = format!("the ends of {} must lie at the same place", owner.what);
+        let far = format!("they are {} apart; a body's `point` in `to` may be left out", short((a - b).norm()));
+        return report.error_with(owner.span, message, far);
+    }
+    Some(gap > rounding.max(COMPUTED * size))
+}
+
+/// Reports joints of the deck between things that cannot move against each other. The deck is sound otherwise.
+pub fn check_joints(deck: &Deck, joints: &[Joint], amplitudes: &[Amplitude], nodes: &Nodes, report: &mut Report) {
+    let is_fixed =
+        |node: usize| (0..6).all(|dof| nodes.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none()));
+    for joint in &deck.joints {
+        // A joint is found by name: one may have been left out for what is wrong elsewhere, as in a mesh that could not be read.
+        let named = |made: &&Joint| joint.name.as_ref().is_some_and(|name| name.value == made.name);
+        let Some(made) = joints.iter().find(named) else { continue };
+        let (ends, name) = (made.ends.map(|node| nodes.carrier(node)), &made.name);
+        if ends[0] == ends[1] {
+            let label = nodes.label(ends[0]);
+            let message = format!("both ends of joint `{name}` lie on `{label}`, so it holds nothing");
+            report.error::<()>(&joint.span, message);
+        } else if ends.iter().all(|&end| is_fixed(end)) {
+            report.error::<()>(&joint.span, format!("both ends of joint `{name}` are fixed, so it holds nothing"));
+        } else if let Some((given, driven)) = initial_rates(made, ends.map(is_fixed), amplitudes, nodes)
+            && let Some(motion) = &joint.motion
+        {
+            let (given, driven) = (short(given), short(driven));
+            let message =
+                format!("the motion of joint `{name}` begins at the rate {driven}, but its ends have {given}");
+            report.error_with::<()>(&motion.span, message, "the velocities of what it joins contradict it");
+        }
+    }
+}
+
+/// The rate of a driven coordinate by the velocities that the deck gives both of its ends, and by its motion, where they differ. An
+/// end at rest may be taken along, unless it is fixed.
+fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], nodes: &Nodes) -> Option<(f64, f64)> {
+    /// Velocities are written with six digits.
+    const DIGITS: f64 = 1e-5;
+    let coordinate = joint.coordinate.as_ref()?;
+    let drive = coordinate.drive?;
+    let PrescribedMotion { amplitude, scale, history } = nodes.restraint(drive.node, 0)?.motion.clone()?;
+    let amplitude = &amplitudes[amplitude];
+    let driven = drive.ratio
+        * scale
+        * match history {
+            History::Displacement => amplitude.rate(0.0),
+            History::Velocity => amplitude.value(0.0),
+            History::Acceleration => 0.0,
+        };
+    let [from, to] = joint.ends.map(|end| {
+        let node = &nodes.list[end];
+        state::Node { v: node.v, omega: node.omega, ..state::Node::at_rest(node.x) }
+    });
+    let moves = |node: &state::Node| node.v.amax() > 0.0 || node.omega.amax() > 0.0;
+    let [_, given, _] = coordinate.lock.gap(&from, &to);
+    let known = (moves(&from) || fixed[0]) && (moves(&to) || fixed[1]);
+    // The rate is the difference of what both ends have, which rounds.
+    let size = |node: &state::Node| match coordinate.lock.is_rotational() {
+        true => node.omega.amax(),
+        false => node.v.amax() + node.omega.amax() * node.x.amax(),
+    };
+    let size = size(&from).max(size(&to)).max(driven.abs());
+    (known && (given - driven).abs() > DIGITS * size).then_some((given, driven))
+}
+
+/// Rows between nodes at one place, about global axes at t = 0.
+pub fn equations(dofs: [bool; 6]) -> Vec<ConstraintEquation> {
+    let [x, y, z, rx, ry, rz] = dofs;
+    translations([x, y, z], &Vec3::zeros()).chain(rotations([rx, ry, rz], &Mat3::identity())).collect()
+}

@@ -1,0 +1,208 @@
+//! `[[links]]`: their ends and laws.
+
+pub mod pretension;
+
+use crate::constraints::joint::ConstraintEquation;
+use crate::deck::links as words;
+use crate::deck::words::{Maybe, Numbers, Table};
+use crate::diagnostic::At;
+use crate::elements::coordinate_law::CoordinateLaw;
+use crate::elements::link::LinkLaw;
+use crate::elements::link_failure::LinkFailure;
+use crate::math::Mat3;
+use crate::model::data::{Link, LinkKind, Load};
+use crate::model::links::pretension::pretension;
+use crate::model::places::axes::axes;
+use crate::model::places::ends::EndTable;
+use crate::model::places::nodes::Nodes;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::model::values::span;
+
+/// The links of a model: those of the deck, then those along coordinates of joints.
+#[derive(Default)]
+pub struct ModelLinks {
+    /// All of them.
+    pub list: Vec<Link>,
+    /// The forces that pretension links.
+    pub pulls: Vec<Load>,
+}
+
+impl ModelLinks {
+    /// Adds what acts along the coordinate of a joint; returns its index.
+    pub fn add_along(
+        &mut self,
+        joint: &str,
+        ends: [usize; 2],
+        (lock, law): (ConstraintEquation, CoordinateLaw),
+    ) -> usize {
+        let kind = LinkKind::Joint { lock, law };
+        self.list.push(Link { name: joint.to_owned(), ends, kind, failure: None, take_up: None });
+        self.list.len() - 1
+    }
+}
+
+/// Reads `[[links]]`, and adds the nodes at their ends.
+pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> ModelLinks {
+    let mut links = ModelLinks::default();
+    for (index, link) in scene.deck.links.iter().enumerate() {
+        let name = link.name.as_ref().map_or_else(|| format!("links.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("link `{name}`"), &link.span);
+        report.require(&owner, "name", &link.name);
+        let rotations = link.bushing.is_some();
+        let mut end = |key, end| {
+            let end = EndTable { owner: &owner, key, end, label: format!("{name}.{key}"), rotations, default: None };
+            end.node(scene, nodes, report)
+        };
+        let (from, to) = (end("from", &link.from), end("to", &link.to));
+        let ends = from.zip(to).map(|(from, to)| [from, to]);
+        let kind = if link.bushing.is_some() { bushing(link, report) } else { line(&owner, link, ends, nodes, report) };
+        if let Some([from, to]) = ends
+            && from == to
+        {
+            report.error::<()>(owner.span, format!("{} joins `{}` to itself", owner.what, nodes.label(from)));
+        }
+        let failure = link.failure.as_ref().and_then(|table| failure(table, rotations, report));
+        let pretension = pretension(&owner, link, kind.as_ref(), scene, report);
+        if let (Some(ends), Some(kind)) = (ends, kind) {
+            let take_up = pretension.map(|pretension| {
+                let node = nodes.add_number(format!("{name}.take_up"), ends[0]);
+                match pretension.pull(node) {
+                    Some(pull) => links.pulls.push(pull),
+                    None => nodes.restrain(node, 0, None),
+                }
+                node
+            });
+            links.list.push(Link { name, ends, kind, failure, take_up });
+        }
+    }
+    links
+}
+
+fn line<'d>(
+    owner: &Owner<'d>,
+    link: &'d words::Link,
+    ends: Option<[usize; 2]>,
+    nodes: &Nodes,
+    report: &mut Report<'d>,
+) -> Option<LinkKind> {
+    let unused = [("bushing_damping", span(&link.bushing_damping)), ("axes", span(&link.axes))];
+    report.reject_unused("a link without `bushing`", &unused);
+    let law = law(owner, link, report);
+    let damping = report.not_negative("damping", &link.damping, 0.0);
+    let free_length = link.free_length.as_ref().map(|length| length.value);
+    let direction = match &link.direction {
+        Some(direction) => Some(report.unit("direction", direction)?),
+        None if report.is_spoiled(owner.span, "direction") => return None,
+        None => {
+            report.not_negative("free_length", &link.free_length, 0.0);
+            None
+        }
+    };
+    let arm = ends.map(|[from, to]| nodes.x(to) - nodes.x(from))?;
+    let initial = match direction {
+        Some(direction) => direction.dot(&arm),
+        None if arm.norm() == 0.0 => {
+            let message = format!("the ends of {} lie at the same place, so there is no line between them", owner.what);
+            return report.error_with(owner.span, message, "give it a `direction`, from `from` to `to`");
+        }
+        None => arm.norm(),
+    };
+    let law = law?;
+    Some(LinkKind::Line { law, damping, direction, free_length: free_length.unwrap_or(initial) })
+}
+
+fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkLaw> {
+    let law = match &link.law {
+        Some(law) => law.value,
+        None if report.is_spoiled(owner.span, "law") => return None,
+        None => words::LinkLaw::Linear,
+    };
+    let [stiffness, gap] = [("stiffness", span(&link.stiffness)), ("gap", span(&link.gap))];
+    let [preload, points] = [("preload", span(&link.preload)), ("points", span(&link.points))];
+    match law {
+        words::LinkLaw::Linear => {
+            report.reject_unused("the law \"linear\"", &[gap, points]);
+            if link.damping.is_none() {
+                report.require(owner, "stiffness", &link.stiffness)?;
+            }
+            let stiffness = report.not_negative("stiffness", &link.stiffness, 0.0);
+            Some(LinkLaw::Linear { stiffness, preload: link.preload.as_ref().map_or(0.0, |force| force.value) })
+        }
+        words::LinkLaw::Table => {
+            report.reject_unused("the law \"table\"", &[stiffness, gap, preload]);
+            let points = report.require(owner, "points", &link.points)?;
+            report.rising("points", "elongation", points).map(|points| LinkLaw::Table { points })
+        }
+        words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {
+            let one_sided = "a law that acts one way only";
+            report.reject_unused(one_sided, &[preload, points]);
+            let stiffness = report.require_positive(owner, "stiffness", &link.stiffness);
+            let gap = report.not_negative("gap", &link.gap, 0.0);
+            let stiffness = stiffness?;
+            Some(match law {
+                words::LinkLaw::CompressionOnly => LinkLaw::CompressionOnly { stiffness, gap },
+                _ => LinkLaw::TensionOnly { stiffness, gap },
+            })
+        }
+    }
+}
+
+fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKind> {
+    let unused = [
+        ("law", span(&link.law)),
+        ("stiffness", span(&link.stiffness)),
+        ("damping", span(&link.damping)),
+        ("gap", span(&link.gap)),
+        ("preload", span(&link.preload)),
+        ("free_length", span(&link.free_length)),
+        ("direction", span(&link.direction)),
+        ("points", span(&link.points)),
+    ];
+    report.reject_unused("a bushing", &unused);
+    let stiffness = six("bushing", &link.bushing, report);
+    let damping = six("bushing_damping", &link.bushing_damping, report);
+    let axes = match &link.axes {
+        Some(table) => axes(table, report)?,
+        None => Mat3::identity(),
+    };
+    Some(LinkKind::Bushing { stiffness: stiffness?, damping: damping?, axes })
+}
+
+/// The forces at which a link fails. Along a line there is no shear.
+fn failure<'d>(
+    At { value: table, span }: &'d At<Table<words::Failure>>,
+    is_bushing: bool,
+    report: &mut Report<'d>,
+) -> Option<LinkFailure> {
+    let [normal, shear] = [("normal", &table.normal), ("shear", &table.shear)]
+        .map(|(key, force)| if force.is_some() { report.positive(key, force) } else { Some(f64::INFINITY) });
+    if let (Some(shear), false) = (&table.shear, is_bushing) {
+        let message = "`shear` of `failure` does not apply to a link without `bushing`: its force lies along the line of its ends";
+        return report.error_with(
+            &shear.span,
+            message,
+            "a `bushing` resists along three axes, of which the first is normal",
+        );
+    }
+    if table.normal.is_none() && table.shear.is_none() {
+        return report.error(span, "`failure` needs `normal`, `shear` or both");
+    }
+    let exponents = table.exponents.as_ref().map_or([2.0; 2], |exponents| exponents.0);
+    if let Some(given) = &table.exponents
+        && exponents.iter().any(|&exponent| exponent <= 0.0)
+    {
+        return report.error(&given.span, "the `exponents` of `failure` must be above 0");
+    }
+    Some(LinkFailure { normal: normal?, shear: shear?, exponents })
+}
+
+fn six(key: &str, values: &Maybe<Numbers<6>>, report: &mut Report) -> Option<[f64; 6]> {
+    match values {
+        Some(values) if values.0.iter().any(|&value| value < 0.0) => {
+            report.error(&values.span, format!("the values of `{key}` must not be negative"))
+        }
+        Some(values) => Some(values.0),
+        None => Some([0.0; 6]),
+    }
+}

@@ -1,0 +1,100 @@
+//! Links that are pulled to a force in a static stage, and then keep the length that was taken up.
+
+use crate::deck::links as words;
+use crate::elements::link::LinkLaw;
+use crate::math::Vec3;
+use crate::model::data::{AnalysisKind, LinkKind, Load};
+use crate::model::report::{Owner, Report};
+use crate::model::scene::Scene;
+use crate::model::values::span;
+
+/// The pretension of a link in one stage.
+pub struct Pretension {
+    force: f64,
+    /// The amplitude of the force where the stage pulls, `None` for that of loads without one; otherwise the length is kept.
+    pulls: Option<Option<usize>>,
+}
+
+impl Pretension {
+    /// The force on the node that takes up the length; `None` where that is kept.
+    pub fn pull(&self, node: usize) -> Option<Load> {
+        self.pulls.map(|amplitude| Load {
+            node,
+            force: Vec3::new(self.force, 0.0, 0.0),
+            moment: Vec3::zeros(),
+            follower: false,
+            amplitude,
+            along: None,
+        })
+    }
+}
+
+/// Reads the pretension of a link; `None` where it has none.
+pub fn pretension<'d>(
+    owner: &Owner<'d>,
+    link: &'d words::Link,
+    kind: Option<&LinkKind>,
+    scene: &Scene<'d>,
+    report: &mut Report<'d>,
+) -> Option<Pretension> {
+    let force = link.pretension.as_ref()?;
+    let mut wrong = |message: &str, hint: &str| report.error_with::<()>(&force.span, message, hint);
+    match kind {
+        Some(LinkKind::Line { law: LinkLaw::CompressionOnly { .. }, .. }) => {
+            wrong(
+                "a link that is \"compression-only\" cannot be pulled",
+                "a `linear` link or a `tension-only` one can",
+            );
+        }
+        Some(LinkKind::Line { law: LinkLaw::TensionOnly { gap, .. }, .. }) if *gap > 0.0 => {
+            wrong("a link with a `gap` cannot be pretensioned", "leave the gap out: what is taken up is found");
+        }
+        Some(LinkKind::Line { law: LinkLaw::TensionOnly { .. }, .. }) if force.value < 0.0 => {
+            wrong("a link that is \"tension-only\" needs a `pretension` above 0", "a `linear` link can be pushed");
+        }
+        Some(LinkKind::Line { law: LinkLaw::Linear { stiffness: 0.0, .. }, .. }) => {
+            wrong("a link without stiffness cannot be pretensioned", "give it `stiffness`");
+        }
+        Some(LinkKind::Bushing { .. }) => {
+            wrong("a bushing cannot be pretensioned", "put a link with `pretension` beside it");
+        }
+        _ if force.value == 0.0 => {
+            wrong("`pretension` must not be 0", "leave it out");
+        }
+        _ => {}
+    }
+    if let (Some(preload), Some(_)) = (span(&link.preload), &link.pretension) {
+        report.error_with::<()>(
+            preload,
+            "a link has `preload` or `pretension`",
+            "one pulls from t = 0 on, the other is reached",
+        );
+    }
+    pulls(owner, link, scene, report).map(|pulls| Pretension { force: force.value, pulls })
+}
+
+/// Whether the stage pulls, with the amplitude of the force. A link that comes when nothing can pull it is an error.
+fn pulls<'d>(
+    owner: &Owner<'d>,
+    link: &'d words::Link,
+    scene: &Scene<'d>,
+    report: &mut Report<'d>,
+) -> Option<Option<Option<usize>>> {
+    let place = span(&link.pretension).unwrap_or(owner.span);
+    let needs = "`pretension` needs a static stage, the first in which the link is there";
+    let hint = "`[[stages]]` of kind \"static\" pull it, or give `preload`, the force at zero elongation";
+    let Some(stage) = scene.stage else {
+        return match scene.analysis.kind {
+            AnalysisKind::Static if scene.analysis.modes.is_none() => Some(Some(None)),
+            _ => report.error_with(place, needs, hint),
+        };
+    };
+    if !stage.begins_pulling(&link.stages) {
+        return report.error_with(place, needs, hint);
+    }
+    if !stage.is_there_once(&link.stages) {
+        let message = format!("{} goes and comes back, and so cannot keep its length", owner.what);
+        return report.error_with(place, message, "name its `stages` without a break");
+    }
+    Some(stage.is_pulled(&link.stages).then(|| Some(stage.own_amplitude(&link.stages))))
+}

@@ -1,0 +1,109 @@
+//! `[[loads]]`: forces and moments at nodes.
+
+pub mod per_length;
+pub mod spread;
+
+use crate::deck::loads as words;
+use crate::deck::words::Table;
+use crate::diagnostic::At;
+use crate::model::data::{Actors, Load, Pressure};
+use crate::model::loads::spread::spread_load;
+use crate::model::places::nodes::Topology;
+use crate::model::procedure::stops::NamedActors;
+use crate::model::report::{Owner, Report};
+use crate::model::scene::{Reach, Scene};
+use crate::model::values::{directions, flag, span, vec3_or_zero};
+
+/// Loads of the scene, in the order of the deck.
+#[derive(Default)]
+pub struct Loads {
+    /// Forces and moments on nodes.
+    pub nodal: Vec<Load>,
+    /// Follower pressures.
+    pub pressures: Vec<Pressure>,
+}
+
+/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Those with names are added to `actors`. The
+/// `efforts` of joints come after them.
+pub fn loads<'d>(
+    scene: &Scene<'d>,
+    efforts: Vec<Load>,
+    topology: &Topology,
+    actors: &mut NamedActors<'d>,
+    report: &mut Report<'d>,
+) -> Loads {
+    let mut loads = Loads::default();
+    for load in &scene.deck.loads {
+        let first = [loads.nodal.len(), loads.pressures.len()];
+        let amplitude = amplitude(scene, load, report);
+        if is_spread(load) {
+            let (nodal, pressure) = spread_load(scene, load, amplitude, topology, report);
+            loads.nodal.extend(nodal);
+            loads.pressures.extend(pressure);
+        } else {
+            loads.nodal.extend(nodal_load(scene, load, amplitude, topology, report));
+        }
+        if let Some(name) = &load.name {
+            let (nodal, pressures) = (first[0]..loads.nodal.len(), first[1]..loads.pressures.len());
+            let are_new = scene.stage.is_some_and(|stage| stage.is_new(&load.stages));
+            actors.push((name, Actors { nodal, pressures, motions: Vec::new(), are_new }));
+        }
+    }
+    loads.nodal.extend(efforts);
+    loads
+}
+
+/// True for a load that is spread over parts or edges.
+fn is_spread(load: &words::Load) -> bool {
+    let over_lines = load.force_per_length.is_some() || load.local.is_some();
+    over_lines || load.force_per_area.is_some() || load.pressure.is_some()
+}
+
+fn nodal_load<'d>(
+    scene: &Scene<'d>,
+    load: &'d At<Table<words::Load>>,
+    amplitude: Option<usize>,
+    topology: &Topology,
+    report: &mut Report<'d>,
+) -> Vec<Load> {
+    let owner = Owner::new("`[[loads]]`", &load.span);
+    // Of a load that names a part in place of nodes this alone is said.
+    let names_part = load.part.is_some() && load.at.is_none();
+    let spots = if names_part { Vec::new() } else { scene.spots(&owner, "at", &load.at, Reach::Nodes, report) };
+    let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
+    let keys = ["force", "moment", "force_per_length", "local", "force_per_area", "pressure"];
+    let unused = [("part", span(&load.part)), ("projected", span(&load.projected)), ("profile", span(&load.profile))];
+    let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
+    if load.force.is_none() && load.moment.is_none() && !unread {
+        report.error_with::<()>(
+            owner.span,
+            "this load is empty",
+            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`",
+        );
+    } else if !unread {
+        report.reject_unused("a load at nodes", &unused);
+    }
+    let follower = flag(&load.follower, false);
+    let mut loads = Vec::new();
+    for spot in spots {
+        if topology.is_loose(&spot, "this load", report) {
+            continue;
+        }
+        for (first, part, place) in [(0, &force, span(&load.force)), (3, &moment, span(&load.moment))] {
+            let lost = (0..3).filter(|&i| part[i] != 0.0 && !topology.is_taken(spot.node, first + i));
+            let lost = directions(lost.map(|i| first + i));
+            if let Some(place) = place.filter(|_| topology.is_complete() && !lost.is_empty()) {
+                let message = format!("nothing connected to `{}` takes a load in {lost}", spot.name);
+                report.error_with::<()>(place, message, "bars, springs and point masses have no rotations");
+            }
+        }
+        loads.push(Load { node: spot.node, force, moment, follower, amplitude, along: None });
+    }
+    loads
+}
+
+/// The index of the amplitude of a load.
+fn amplitude<'d>(scene: &Scene<'d>, load: &'d words::Load, report: &mut Report<'d>) -> Option<usize> {
+    let Some(name) = &load.amplitude else { return scene.stage.map(|stage| stage.own_amplitude(&load.stages)) };
+    report.find("amplitude", &scene.deck.amplitudes, name).map(|(index, _)| index)
+}

@@ -1,0 +1,12 @@
+//! Axes of a frame, given by two vectors.
+
+use crate::deck::words::{Numbers, kinds};
+use crate::diagnostic::At;
+use crate::math::{Mat3, Vec3};
+use crate::model::report::Report;
+
+/// The frame whose x lies along the first vector of `axes` and whose x-y plane holds the second.
+pub fn axes(axes: &At<Vec<Numbers<3>>>, report: &mut Report) -> Option<Mat3> {
+    let vectors: Vec<Vec3> = axes.iter().map(|vector| Vec3::from(vector.0)).collect();
+    kinds::axes(&vectors).map_or_else(|wrong| report.error(&axes.span, wrong), Some)
+}

@@ -1,0 +1,219 @@
+//! The nodes of a scene as the tables of the deck bring them in: where they are, what acts on them, which of them depend on
+//! others and which are restrained.
+
+use std::collections::{BTreeMap, HashMap};
+use std::ops::{Deref, DerefMut};
+
+use crate::diagnostic::Span;
+use crate::math::Vec3;
+use crate::model::data::{DependentNode, Node, PrescribedMotion, Restraint};
+use crate::model::places::spot::Spot;
+use crate::model::report::Report;
+
+/// The nodes of a model that is being built.
+#[derive(Default)]
+pub struct Nodes {
+    /// The nodes.
+    pub list: Vec<Node>,
+    /// The directions in which an element, a mass, a body or a link acts on each node.
+    connected: Vec<[bool; 6]>,
+    /// Nodes that depend on others, in the order in which they were attached.
+    pub dependents: Vec<DependentNode>,
+    /// The index of each dependent node in `dependents`, and the place in the deck that made it depend.
+    attachments: HashMap<usize, (usize, Span)>,
+    restraints: Restraints,
+}
+
+/// The restraints by node and degree of freedom.
+pub type Restraints = BTreeMap<(usize, usize), Restraint>;
+
+impl Nodes {
+    /// A new node at rest.
+    pub fn add(&mut self, label: String, named: bool, x: Vec3) -> usize {
+        self.list.push(Node {
+            label,
+            named,
+            x,
+            v: Vec3::zeros(),
+            omega: Vec3::zeros(),
+            is_number: false,
+            given: [None, None],
+            place: None,
+        });
+        self.connected.push([false; 6]);
+        self.list.len() - 1
+    }
+
+    /// A new node that moves with another one in every direction.
+    pub fn add_dependent(&mut self, label: String, x: Vec3, master: usize, place: &Span) -> usize {
+        let node = self.add(label, false, x);
+        self.attach(node, master, [true; 6], place);
+        node
+    }
+
+    /// Adds a node whose displacement along x is a number rather than a way in space.
+    pub fn add_number(&mut self, label: String, near: usize) -> usize {
+        let node = self.add(label, false, self.x(near));
+        self.list[node].is_number = true;
+        node
+    }
+
+    /// Makes a node depend on another one in some directions, which it must not do yet on any.
+    pub fn attach(&mut self, node: usize, master: usize, dofs: [bool; 6], place: &Span) {
+        self.attachments.insert(node, (self.dependents.len(), place.clone()));
+        self.dependents.push(DependentNode { node, master, dofs, place: Some([place.start, place.end]) });
+    }
+
+    /// Frees the nodes of the attachments that `frees` says; returns these with their places in the deck.
+    pub fn detach(&mut self, frees: impl Fn(&DependentNode) -> bool) -> Vec<(DependentNode, Span)> {
+        let (freed, kept): (Vec<_>, Vec<_>) = std::mem::take(&mut self.dependents).into_iter().partition(frees);
+        let places = &mut self.attachments;
+        let mut place = |link: &DependentNode| places.remove(&link.node).map_or(0..0, |(_, place)| place);
+        let freed = freed.into_iter().map(|link| (link.clone(), place(&link))).collect();
+        for (index, link) in kept.iter().enumerate() {
+            if let Some((known, _)) = places.get_mut(&link.node) {
+                *known = index;
+            }
+        }
+        self.dependents = kept;
+        freed
+    }
+
+    /// Notes that something acts on a node, on its translations or also on its rotations.
+    pub fn connect(&mut self, node: usize, rotations: bool) {
+        self.connected[node][..3].fill(true);
+        if rotations {
+            self.connected[node][3..].fill(true);
+        }
+    }
+
+    /// Gives the motion of a node in a direction, or none for rest. It must not be given yet.
+    pub fn restrain(&mut self, node: usize, dof: usize, motion: Option<PrescribedMotion>) {
+        self.restraints.insert((node, dof), Restraint { node, dof, motion });
+    }
+
+    /// The initial position of a node.
+    pub fn x(&self, node: usize) -> Vec3 {
+        self.list[node].x
+    }
+
+    /// The name of a node.
+    pub fn label(&self, node: usize) -> &str {
+        &self.list[node].label
+    }
+
+    /// The restraint of a node in a direction.
+    pub fn restraint(&self, node: usize, dof: usize) -> Option<&Restraint> {
+        self.restraints.get(&(node, dof))
+    }
+
+    /// All restraints, by node and direction.
+    pub fn restraints(&self) -> impl Iterator<Item = &Restraint> {
+        self.restraints.values()
+    }
+
+    /// True where something acts on a degree of freedom of a node.
+    pub fn is_connected(&self, node: usize, dof: usize) -> bool {
+        self.connected[node][dof]
+    }
+
+    /// True where something acts on the rotations of a node.
+    pub fn turns(&self, node: usize) -> bool {
+        self.connected[node][3..].contains(&true)
+    }
+
+    /// The index of a node in `dependents`, if it depends on another.
+    pub fn attachment(&self, node: usize) -> Option<usize> {
+        self.attachments.get(&node).map(|(index, _)| *index)
+    }
+
+    /// The place in the deck that makes a node depend on another one.
+    pub fn attachment_place(&self, node: usize) -> Option<&Span> {
+        self.attachments.get(&node).map(|(_, place)| place)
+    }
+
+    /// The node that another one depends on, in whatever directions.
+    pub fn master(&self, node: usize) -> Option<usize> {
+        self.attachment(node).map(|index| self.dependents[index].master)
+    }
+
+    /// The node that another one depends on in a direction.
+    pub fn master_in(&self, node: usize, dof: usize) -> Option<usize> {
+        let dependent = &self.dependents[self.attachment(node)?];
+        dependent.dofs[dof].then_some(dependent.master)
+    }
+
+    /// The node that a node moves with in every direction, in the end.
+    pub fn carrier(&self, mut node: usize) -> usize {
+        while let Some(index) = self.attachment(node)
+            && self.dependents[index].dofs == [true; 6]
+        {
+            node = self.dependents[index].master;
+        }
+        node
+    }
+
+    /// The node that a node depends on, in whatever directions, in the end. A deck may attach nodes in a circle, so the steps
+    /// are counted.
+    pub fn root(&self, mut node: usize) -> usize {
+        for _ in 0..self.list.len() {
+            let Some(master) = self.master(node) else { break };
+            node = master;
+        }
+        node
+    }
+}
+
+/// Nodes after all parts, links, joints and attachments have connected them, so that what is loose can be told.
+pub struct Topology {
+    nodes: Nodes,
+    /// Everything that connects nodes could be read: a loose node is an error of its own.
+    complete: bool,
+}
+
+impl Topology {
+    /// The nodes once all tables that connect them have been read.
+    pub fn new(nodes: Nodes, report: &Report) -> Self {
+        Topology { nodes, complete: report.connections_known() }
+    }
+
+    /// True where everything that connects nodes could be read.
+    pub fn is_complete(&self) -> bool {
+        self.complete
+    }
+
+    /// True where something takes up a load or a motion of a node in a direction.
+    pub fn is_taken(&self, node: usize, dof: usize) -> bool {
+        self.is_connected(node, dof) || self.master_in(node, dof).is_some()
+    }
+
+    /// Reports a point to which nothing is connected at all, while `what` acts on it.
+    pub fn is_loose(&self, spot: &Spot, what: &str, report: &mut Report) -> bool {
+        let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
+        if loose && self.complete {
+            let message = format!("nothing is connected to `{}`, so {what} acts on nothing", spot.name);
+            report.error_with::<()>(spot.span, message, "connect a beam, bar, shell, link, mass or body to it");
+        }
+        loose
+    }
+
+    /// Node list, attachments and restraints, for the model.
+    pub fn into_parts(self) -> (Vec<Node>, Vec<DependentNode>, Vec<Restraint>) {
+        let Nodes { list, dependents, restraints, .. } = self.nodes;
+        (list, dependents, restraints.into_values().collect())
+    }
+}
+
+impl Deref for Topology {
+    type Target = Nodes;
+
+    fn deref(&self) -> &Nodes {
+        &self.nodes
+    }
+}
+
+impl DerefMut for Topology {
+    fn deref_mut(&mut self) -> &mut Nodes {
+        &mut self.nodes
+    }
+}

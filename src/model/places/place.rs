@@ -1,0 +1,49 @@
+//! What a name of the deck can stand for.
+
+use crate::deck::parts::PartIndex;
+
+/// The thing that a name of the deck stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// A point by its node.
+    Point(usize),
+    // The others stand by their index in the deck, which is their index in a sound model.
+    Body(usize),
+    Set(usize),
+    Joint(usize),
+    Part(PartIndex),
+    /// An edge of a surface, counted from 0.
+    Edge(PartIndex, usize),
+    /// A group of the mesh.
+    Group(usize),
+}
+
+impl Place {
+    /// "a shell", "an edge of a shell".
+    pub fn kind(self) -> String {
+        let noun = self.noun();
+        format!("{} {noun}", if noun.starts_with('e') { "an" } else { "a" })
+    }
+
+    /// The noun for it in messages.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Place::Point(_) => "point",
+            Place::Body(_) => "body",
+            Place::Set(_) => "set",
+            Place::Joint(_) => "joint",
+            Place::Part(part) => part.kind.word(),
+            Place::Edge(..) => "edge of a shell",
+            Place::Group(_) => "group of the mesh",
+        }
+    }
+
+    /// False for what only joins or touches nodes that stand elsewhere.
+    pub fn has_nodes(self) -> bool {
+        match self {
+            Place::Part(part) => part.kind.is_deformable(),
+            Place::Joint(_) => false,
+            Place::Point(_) | Place::Body(_) | Place::Set(_) | Place::Edge(..) | Place::Group(_) => true,
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! The scheme of automatic steps where the deck names none: an explicit one of high order where nothing is stiff, otherwise an
+//! implicit one.
+
+use crate::integrators::{Scheme, automatic_scheme};
+use crate::model::data::{LinearSpring, Model};
+use std::sync::Arc;
+
+/// Largest phase ω T of the fastest vibration over a run for which explicit steps are worth their number: they resolve it with some two
+/// evaluations a radian.
+const PHASE: f64 = 3000.0;
+/// Largest number of constraint equations of joints, which explicit schemes solve by a dense matrix.
+const EQUATIONS: usize = 60;
+
+/// The scheme for automatic steps of this model.
+pub fn choose_scheme(model: &Model) -> Arc<dyn Scheme> {
+    automatic_scheme(!is_soft(model))
+}
+
+/// True for rigid bodies alone, on joints and soft linear links.
+fn is_soft(model: &Model) -> bool {
+    let equations: usize = model.constraints.joints.iter().map(|joint| joint.equations.len()).sum();
+    if model.bodies.is_empty() || !model.masses.is_empty() || equations > EQUATIONS || !all_move_as_bodies(model) {
+        return false;
+    }
+    let mut fastest = vec![0.0; model.nodes.len()];
+    for part in &model.parts {
+        let Some(LinearSpring { ends, stiffness, damping }) = part.linear_spring() else { return false };
+        for end in ends {
+            let master = master(model, end);
+            let Some(body) = model.bodies.iter().find(|body| body.node == master) else { continue };
+            let arm = (model.nodes[end].x - model.nodes[master].x).norm();
+            let least = body.inertia.symmetric_eigenvalues().min();
+            let flexibility = 1.0 / body.mass + if arm > 0.0 { arm * arm / least } else { 0.0 };
+            // Both ends may move against each other; damping alone leads to rates of c/m.
+            fastest[master] += 2.0 * stiffness * flexibility + (2.0 * damping * flexibility).powi(2);
+        }
+    }
+    let square = fastest.into_iter().fold(0.0, f64::max);
+    square.sqrt() * model.analysis.duration() < PHASE
+}
+
+/// True where every node is a body, fixed on one, or held: others may have no mass.
+fn all_move_as_bodies(model: &Model) -> bool {
+    let held = |node: usize| model.constraints.restraints.iter().filter(|held| held.node == node).count();
+    let follows = |node: usize| {
+        let of_node = model.constraints.dependents.iter().find(|dependent| dependent.node == node);
+        of_node.is_some_and(|dependent| dependent.dofs[..3].iter().all(|follows| *follows))
+    };
+    let is_body = |node: usize| model.bodies.iter().any(|body| body.node == node);
+    let is_place = |node: &usize| !model.nodes[*node].is_number;
+    (0..model.nodes.len()).filter(is_place).all(|node| is_body(node) || follows(node) || held(node) >= 3)
+}
+
+/// The node that this one is fixed on, or the node itself.
+fn master(model: &Model, node: usize) -> usize {
+    model.constraints.dependents.iter().find(|dependent| dependent.node == node).map_or(node, |of| of.master)
+}

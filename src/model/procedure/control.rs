@@ -1,0 +1,123 @@
+//! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
+
+use crate::amplitude::Amplitude;
+use crate::deck::Deck;
+use crate::deck::analysis as words;
+use crate::diagnostic::At;
+use crate::model::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
+use crate::model::doubts::usage::named_amplitudes;
+use crate::model::places::nodes::Topology;
+use crate::model::procedure::displacement_targets::displacement_target;
+use crate::model::report::Report;
+use crate::model::scene::Scene;
+use crate::model::values::span;
+use crate::names::short;
+
+/// The steps along a path of equilibria, where the deck asks for them; `None`: the time leads on. A displacement to stop at must
+/// be an unknown, so supports are known.
+pub fn control<'d>(
+    scene: &Scene<'d>,
+    amplitudes: &[Amplitude],
+    topology: &Topology,
+    report: &mut Report<'d>,
+) -> Option<ArcLength> {
+    let analysis = scene.deck.analysis.as_ref()?;
+    // The step of the deck becomes the first of the path.
+    let first = scene.analysis.nominal_step();
+    if report.is_spoiled(&analysis.span, "control") {
+        // Whatever it was to be, it is not held against the words that go with it.
+        return Some(ArcLength { first, stop: None, steps: None, growth: 1.0 });
+    }
+    let Some(at) = analysis.control.as_ref().filter(|at| at.value == words::Control::ArcLength) else {
+        let keys =
+            [("stop", span(&analysis.stop)), ("steps", span(&analysis.steps)), ("growth", span(&analysis.growth))];
+        report.reject_unused("`control = \"time\"`", &keys);
+        return None;
+    };
+    if scene.analysis.kind != AnalysisKind::Static {
+        return report.error(&at.span, "arc-length control needs `kind = \"static\"`, and this analysis is dynamic");
+    }
+    check_iteration(scene.deck, report);
+    check_history(scene, amplitudes, topology, report);
+    let stop = analysis.stop.as_ref().and_then(|stop| displacement_target("`stop`", stop, scene, topology, report));
+    let steps = analysis.steps.as_ref().map(|_| report.count("steps", &analysis.steps, 1));
+    let growth = report.positive("growth", &analysis.growth).unwrap_or(f64::INFINITY);
+    if let Some(at) = analysis.growth.as_ref().filter(|at| at.value > 0.0 && at.value < 1.0) {
+        report.error::<()>(
+            &at.span,
+            "`growth` must be at least 1: `time_step` sets the first step, which is the shortest",
+        );
+    }
+    Some(ArcLength { first, stop, steps, growth })
+}
+
+/// The iteration along a path, which needs the tangent at hand: only it shows where the path goes.
+pub fn iterate_along(deck: &Deck, iteration: Iteration) -> Iteration {
+    match deck.iteration {
+        Some(_) => Iteration { method: Method::TangentStiffness, update: Update::Iteration, ..iteration },
+        None => iteration,
+    }
+}
+
+fn check_iteration(deck: &Deck, report: &mut Report) {
+    let Some(iteration) = &deck.iteration else { return };
+    let reason = "arc-length control forms the tangent stiffness at every iteration";
+    if let Some(at) = iteration.method.as_ref().filter(|at| at.value == Method::InitialLoad) {
+        report.error_with::<()>(&at.span, "`method = \"initial-load\"` does not go with arc-length control", reason);
+    }
+    let kept = |at: &&At<Update>| matches!(at.value, Update::Step | Update::Never);
+    if let Some(at) = iteration.update.as_ref().filter(kept) {
+        report.error_with::<()>(&at.span, "`update` must be \"auto\" or \"iteration\" with arc-length control", reason);
+    }
+}
+
+/// A path goes on where loads and materials do; neither jumps nor rates of a time that may fall belong to it.
+fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, report: &mut Report) {
+    for contact in &scene.deck.contacts {
+        if contact.stiffness.as_ref().is_none_or(|at| at.value != 0.0) {
+            let message =
+                "arc-length control does not go with contacts: the path of equilibria has a kink where they close";
+            let hint = "use `control = \"time\"`, or `stiffness = 0` to monitor the clearance only";
+            report.error_with::<()>(&contact.span, message, hint);
+        }
+    }
+    for (name, material) in &scene.deck.materials.0 {
+        if let Some(at) = &material.viscosity {
+            let message = format!(
+                "material `{}` is viscous, and with arc-length control time is the load factor only",
+                name.value
+            );
+            report.error::<()>(&at.span, message);
+        }
+        if let Some(place) = material.values.place("failure_rate") {
+            let message = format!(
+                "material `{}` fails by the rate of its strain, and with arc-length control time is the load factor only",
+                name.value
+            );
+            report.error::<()>(place, message);
+        }
+    }
+    let used = named_amplitudes(scene.deck);
+    for (index, (name, amplitude)) in scene.deck.amplitudes.0.iter().enumerate() {
+        let jumps = amplitudes.get(index).is_some_and(|amplitude| !amplitude.jumps().is_empty());
+        if jumps && used.contains(name.as_str()) {
+            let message = format!("amplitude `{}` jumps, which arc-length control cannot follow", name.value);
+            report.error_with::<()>(&amplitude.span, message, "let it rise over a finite time");
+        }
+        // A velocity that turns leaves a motion that may not.
+        let moves = |restraint: &Restraint| {
+            let motion = restraint.motion.as_ref().filter(|motion| motion.amplitude == index);
+            motion.is_some_and(|motion| motion.history != History::Displacement)
+        };
+        let turn = amplitudes.get(index).and_then(|read| read.turn(scene.analysis.end_time));
+        if let Some(time) = turn
+            && used.contains(name.as_str())
+            && !topology.restraints().any(moves)
+        {
+            let message = format!("amplitude `{}` turns at t = {}", name.value, short(time));
+            let hint =
+                "with arc-length control a load that turns leads back along its path: let it only rise or only fall";
+            report.error_with::<()>(&amplitude.span, message, hint);
+        }
+    }
+}

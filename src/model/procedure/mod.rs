@@ -1,0 +1,250 @@
+//! `[analysis]`, `[integrator]`, `[iteration]`.
+
+pub mod choose_scheme;
+pub mod control;
+pub mod displacement_targets;
+pub mod modes;
+pub mod response;
+pub mod stops;
+pub mod study;
+
+use crate::deck::Deck;
+use crate::deck::analysis as words;
+use crate::deck::read::ROOT;
+use crate::deck::words::kinds::OneOf;
+use crate::deck::words::{NumberOrAuto, Table};
+use crate::diagnostic::{At, Diagnostic, Span};
+use crate::integrators::{SCHEMES, Scheme, Stepping, default_scheme};
+use crate::model::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
+use crate::model::data::{ERROR_TOLERANCE, FIRST_STEP};
+use crate::model::procedure::modes::modes;
+use crate::model::report::{Owner, Report};
+use crate::model::stages::CurrentStage;
+use crate::model::values::{chosen, span};
+use crate::names::short;
+use std::sync::Arc;
+
+/// Largest number of halvings of a step, unless the deck says otherwise.
+const HALVINGS: i32 = 20;
+/// Largest number of steps; more are taken for a typing error.
+const MOST_STEPS: f64 = 1e9;
+/// Expected number of steps of a run whose error is to be τ, times τ^(1/p), with p the order of the scheme.
+const STEPS: f64 = 20.0;
+
+/// The analysis and its solution, before the supports say how a path is followed.
+pub struct Procedure {
+    /// The analysis.
+    pub analysis: Analysis,
+    /// The scheme.
+    pub scheme: Arc<dyn Scheme>,
+    /// The iteration.
+    pub iteration: Iteration,
+}
+
+/// Reads `[analysis]`, `[integrator]` and `[iteration]`, which do not refer to other tables.
+pub fn analysis<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, report: &mut Report<'d>) -> Procedure {
+    let analysis = match &deck.analysis {
+        Some(analysis) => {
+            let what = stage.map_or_else(|| "`[analysis]`".to_owned(), |stage| format!("stage `{}`", stage.name()));
+            let read = times(&analysis.value, Owner::new(what, &analysis.span), report);
+            match stage.map(|stage| stage.times()) {
+                Some([begin, end_time]) => Analysis { begin, end_time, ..read },
+                None => read,
+            }
+        }
+        None => {
+            if !report.is_spoiled(&ROOT, "analysis") {
+                let example = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-3";
+                report.push(Diagnostic::error("the deck has no table `[analysis]`").hint(example));
+            }
+            Analysis {
+                kind: AnalysisKind::Dynamic,
+                begin: 0.0,
+                end_time: 0.0,
+                stage: None,
+                step_length: StepLength::Fixed { step: 0.0 },
+                least_step: 0.0,
+                plane: true,
+                modes: None,
+            }
+        }
+    };
+    let scheme = deck.integrator.as_ref().map_or_else(default_scheme, |integrator| self::scheme(integrator, report));
+    if let (StepLength::ErrorControlled { tolerance, .. }, Some(table)) = (&analysis.step_length, &deck.analysis) {
+        check_error_control(*tolerance, table, &*scheme, report);
+    }
+    Procedure { analysis, scheme, iteration: iteration(deck.iteration.as_ref(), report) }
+}
+
+fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Report<'d>) -> Analysis {
+    let word = report.require(&owner, "kind", &analysis.kind).map(|kind| kind.value).unwrap_or_default();
+    if let Some(analysis) = modes(analysis, owner.span, word, report) {
+        return analysis;
+    }
+    let kind = if word == words::AnalysisKind::Static { AnalysisKind::Static } else { AnalysisKind::Dynamic };
+    let end_time = report.require_positive(&owner, "end_time", &analysis.end_time);
+    let (time_step, error_tolerance) = time_step(&owner, analysis, kind, report);
+    let least_step = report.positive("least_step", &analysis.least_step);
+    if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
+        && step > end
+    {
+        report.error::<()>(&at.span, format!("`time_step` is longer than the run, which ends at {end}"));
+    }
+    if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
+        && end / step > MOST_STEPS
+    {
+        let message = format!("`time_step` asks for {:.1e} steps", end / step);
+        report.error_with::<()>(&at.span, message, format!("at most {MOST_STEPS:.0e} are allowed"));
+    }
+    if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
+        && least > step
+    {
+        report.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
+    }
+    if let (Some(least), Some(end), Some(_), Some(at)) = (least_step, end_time, error_tolerance, &analysis.least_step)
+        && least > FIRST_STEP * end
+    {
+        let longest = short(FIRST_STEP * end);
+        report.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
+    }
+    let end_time = end_time.unwrap_or(f64::MAX);
+    let (step_length, least) = match error_tolerance {
+        Some(tolerance) => {
+            (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * end_time }, end_time / MOST_STEPS)
+        }
+        None => {
+            let step = time_step.unwrap_or(1.0);
+            (StepLength::Fixed { step }, step * 0.5_f64.powi(HALVINGS))
+        }
+    };
+    Analysis {
+        kind,
+        begin: 0.0,
+        end_time,
+        stage: None,
+        step_length,
+        least_step: least_step.unwrap_or(least),
+        plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto),
+        modes: None,
+    }
+}
+
+/// The length of the steps, or the error that it follows.
+fn time_step<'d>(
+    owner: &Owner,
+    analysis: &'d words::Analysis,
+    kind: AnalysisKind,
+    report: &mut Report<'d>,
+) -> (Option<f64>, Option<f64>) {
+    let Some(at) = report.require(owner, "time_step", &analysis.time_step) else { return (None, None) };
+    let tolerance = &analysis.error_tolerance;
+    match at.value {
+        NumberOrAuto::Number(step) => {
+            report.reject_unused("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
+            (report.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
+        }
+        NumberOrAuto::Auto if kind == AnalysisKind::Static => {
+            let hint = "load steps have no error in time: give a number";
+            report.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
+            (None, None)
+        }
+        NumberOrAuto::Auto => {
+            if let Some(at) = tolerance
+                && !(at.value > 0.0 && at.value < 1.0)
+            {
+                let hint = "it is relative to the largest displacement";
+                report.error_with::<()>(&at.span, "`error_tolerance` must lie between 0 and 1", hint);
+            }
+            (None, Some(tolerance.as_ref().map_or(ERROR_TOLERANCE, |at| at.value)))
+        }
+    }
+}
+
+/// Checks that an error can be controlled: its estimate holds for schemes of second order, and rounding bounds the
+/// tolerance from below.
+fn check_error_control(tolerance: f64, table: &words::Analysis, scheme: &dyn Scheme, report: &mut Report) {
+    if scheme.order() < 2
+        && let Some(at) = &table.time_step
+    {
+        let message = format!("`time_step` is \"auto\", but {} is of first order", scheme.in_words());
+        report.error_with::<()>(&at.span, message, "take a scheme of second order, such as \"generalized-alpha\"");
+    }
+    if let Some(at) = &table.error_tolerance {
+        can_be_kept("error_tolerance", tolerance, scheme, &at.span, report);
+    }
+}
+
+/// Warns of a tolerance below rounding. Each step rounds, and shorter ones are more: beyond ε n = τ, n = 20/τ^(1/p),
+/// the sum may exceed the tolerance. (A mass on a spring ends at 7e-11, whatever is asked of a scheme of second order.)
+pub fn can_be_kept(key: &str, tolerance: f64, scheme: &dyn Scheme, place: &Span, report: &mut Report) {
+    let order = scheme.order() as f64;
+    let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
+    if tolerance > 0.0 && tolerance < least {
+        let message = format!("`{key}` is below what the digits of numbers hold with \"{}\"", scheme.word());
+        let hint = format!("rounding of so many steps may add up to more than {least:.0e}");
+        report.warn(place, message, hint);
+    }
+}
+
+/// The scheme that a table like `[integrator]` asks for.
+pub fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Report<'d>) -> Arc<dyn Scheme> {
+    let kind = integrator.kind.as_ref().map_or(SCHEMES[0], |kind| kind.value);
+    let owner = Owner::new(format!("the scheme \"{}\"", kind.word), &integrator.span);
+    if !kind.make.rotation_update {
+        report.reject_unused(&owner.what, &[("rotation_update", span(&integrator.rotation_update))]);
+    }
+    let rotation = chosen(&integrator.rotation_update);
+    report.read(&owner, &owner.what, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))
+}
+
+/// Checks that a scheme, named at `place`, goes with material that yields.
+pub fn check_yielding(scheme: &dyn Scheme, place: &Span, yields: bool, report: &mut Report) {
+    if yields && matches!(scheme.stepping(), Stepping::RungeKutta(_)) {
+        let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
+        let message = format!("\"{}\" does not go with material that yields", scheme.word());
+        report.error_with::<()>(place, message, hint);
+    }
+}
+
+/// Reports what an explicit scheme cannot do, once all parts are known.
+pub fn check_explicit(deck: &Deck, kind: AnalysisKind, scheme: &dyn Scheme, parts: &[Part], report: &mut Report) {
+    let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.kind.as_ref()) else { return };
+    if kind == AnalysisKind::Static || !scheme.is_explicit() {
+        return;
+    }
+    check_yielding(scheme, &at.span, parts.iter().any(Part::yields), report);
+    if parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
+        let hint = "mass = \"lumped\" needs no matrix at all";
+        report.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
+    }
+    let tolerance = deck.analysis.as_ref().and_then(|analysis| analysis.error_tolerance.as_ref());
+    if let (Stepping::Verlet, Some(tolerance)) = (scheme.stepping(), tolerance) {
+        let message = format!("`error_tolerance` does not apply to the scheme \"{}\"", scheme.word());
+        report.error_with::<()>(&tolerance.span, message, "its steps are as long as is stable");
+    }
+}
+
+fn iteration(table: Option<&At<Table<words::Iteration>>>, report: &mut Report) -> Iteration {
+    let mut iteration = Iteration {
+        method: Method::Auto,
+        update: Update::Auto,
+        gyroscopic: Gyroscopic::Auto,
+        tolerance: 1e-8,
+        follows_step: true,
+        limit: 20,
+    };
+    let Some(table) = table else { return iteration };
+    if let Some(at) = &table.tolerance {
+        if !(at.value > 0.0 && at.value < 1.0) {
+            report.error_with::<()>(&at.span, "`tolerance` must lie between 0 and 1", "it is relative");
+        }
+        (iteration.tolerance, iteration.follows_step) = (at.value, false);
+    }
+    iteration.method = chosen(&table.method);
+    iteration.gyroscopic = chosen(&table.gyroscopic);
+    iteration.update = chosen(&table.update);
+    // An elastic matrix converges slowly while material yields, at little cost per iteration.
+    let default = if iteration.method == Method::InitialLoad { 10 } else { 1 } * iteration.limit;
+    iteration.limit = report.count("limit", &table.limit, default);
+    iteration
+}

@@ -1,0 +1,170 @@
+//! Modes: `kind = "modal"`, `"buckling"` and `"frequency-response"` of `[analysis]`.
+//!
+//! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
+//! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
+
+use crate::amplitude::Amplitude;
+use crate::deck::Deck;
+use crate::deck::analysis::{self as words, AnalysisKind as Word};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::model::data::{Analysis, AnalysisKind, History, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
+use crate::model::procedure::response::{is_harmonic, keys_of_response, response};
+use crate::model::report::Report;
+use crate::model::values::{flag, span};
+
+/// Number of modes unless the deck says otherwise.
+const MODES: usize = 10;
+/// Most modes that are computed at once.
+const MOST: usize = 2000;
+/// The static analysis in which loads are brought on ends at this time, as if it were their factor.
+const END: f64 = 1.0;
+/// Load steps; they are halved where they fail.
+const STEP: f64 = 0.1;
+/// Shortest load step.
+const LEAST_STEP: f64 = STEP / 1024.0;
+
+/// Reads the keys of modes; `None` where the deck does not ask for any.
+pub fn modes<'d>(
+    analysis: &'d words::Analysis,
+    place: &'d Span,
+    word: Word,
+    report: &mut Report<'d>,
+) -> Option<Analysis> {
+    let of_modal = [("up_to", span(&analysis.up_to)), ("damped", span(&analysis.damped))];
+    let kind = match word {
+        Word::Modal | Word::FrequencyResponse => ModeKind::Natural,
+        Word::Buckling => ModeKind::Buckling,
+        Word::Static | Word::Dynamic => {
+            let what = if word == Word::Static { "a static analysis" } else { "a dynamic analysis" };
+            report.reject_unused(what, &[("modes", span(&analysis.modes))]);
+            report.reject_unused(what, &of_modal);
+            report.reject_unused(what, &keys_of_response(analysis));
+            return None;
+        }
+    };
+    let what = match word {
+        Word::Modal => "a modal analysis",
+        Word::Buckling => "a buckling analysis",
+        _ => "a frequency response",
+    };
+    let of_paths = [
+        ("control", span(&analysis.control)),
+        ("stop", span(&analysis.stop)),
+        ("steps", span(&analysis.steps)),
+        ("growth", span(&analysis.growth)),
+    ];
+    report.reject_unused(what, &of_paths);
+    if kind == ModeKind::Buckling {
+        report.reject_unused(what, &of_modal);
+    }
+    let is_response = word == Word::FrequencyResponse;
+    if !is_response {
+        report.reject_unused(what, &keys_of_response(analysis));
+    }
+    note_times(analysis, what, report);
+    let plane = analysis.plane.as_ref().is_some_and(|plane| plane.value == words::Plane::Auto);
+    let response = is_response.then(|| response(analysis, place, report));
+    let (response, of_response) = response.map_or((None, None), |(asked, extent)| (Some(asked), extent));
+    let extent = of_response.unwrap_or_else(|| extent(analysis, report));
+    // Bodies that spin excite and are excited with their gyroscopic moments.
+    let damped = is_response || flag(&analysis.damped, false);
+    let modes = Some(ModesAsked { kind, extent, damped, response });
+    let (end_time, least_step) = (END, LEAST_STEP);
+    let step_length = StepLength::Fixed { step: STEP };
+    Some(Analysis {
+        kind: AnalysisKind::Static,
+        begin: 0.0,
+        end_time,
+        stage: None,
+        step_length,
+        least_step,
+        plane,
+        modes,
+    })
+}
+
+/// Says of the keys of times that they have no effect.
+fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
+    for (key, place) in [
+        ("end_time", span(&analysis.end_time)),
+        ("time_step", span(&analysis.time_step)),
+        ("error_tolerance", span(&analysis.error_tolerance)),
+        ("least_step", span(&analysis.least_step)),
+    ] {
+        if let Some(place) = place {
+            let message = format!("`{key}` has no effect in {what}");
+            let hint = "loads are those at t = 0, brought on in load steps of the program's own";
+            report.push(Diagnostic::note(message).at(place).hint(hint));
+        }
+    }
+}
+
+fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
+    if let (Some(_), Some(up_to)) = (&analysis.modes, &analysis.up_to) {
+        let hint = "the number of modes follows from the frequency";
+        report.error_with::<()>(&up_to.span, "`modes` or `up_to` is given, not both", hint);
+    }
+    if let Some(frequency) = report.positive("up_to", &analysis.up_to) {
+        return ModeExtent::UpTo(frequency);
+    }
+    let count = report.count("modes", &analysis.modes, MODES);
+    if let Some(at) = analysis.modes.as_ref().filter(|_| count > MOST) {
+        report.error_with::<()>(&at.span, "`modes` asks for too many", format!("at most {MOST} are computed at once"));
+    }
+    ModeExtent::Count(count)
+}
+
+/// Warns of what has no effect on modes.
+pub fn check_modal(deck: &Deck, report: &mut Report) {
+    let Some(integrator) = &deck.integrator else { return };
+    for place in span(&integrator.kind).into_iter().chain(integrator.values.places()) {
+        let message = "this has no effect on modes";
+        report.push(Diagnostic::note(message).at(place).hint("nothing is integrated in time"));
+    }
+}
+
+/// Replaces loads and motions by those that act at t = 0, without amplitudes, so that they grow over the static analysis.
+pub fn hold_at_start(model: &mut Model) {
+    let loading = &mut model.loading;
+    // What excites a response keeps its amplitude, which is zero over time.
+    let excites = model.analysis.modes.as_ref().is_some_and(|asked| asked.response.is_some());
+    let amplitudes = &loading.amplitudes;
+    let at_start = |amplitude: &mut Option<usize>| match *amplitude {
+        Some(_) if excites && is_harmonic(amplitudes, *amplitude) => 1.0,
+        _ => amplitude.take().map_or(1.0, |i| amplitudes[i].value(0.0)),
+    };
+    for load in &mut loading.nodal {
+        let factor = at_start(&mut load.amplitude);
+        load.force *= factor;
+        load.moment *= factor;
+    }
+    for load in &mut loading.pressures {
+        load.pressure *= at_start(&mut load.amplitude);
+    }
+    loading.gravity *= at_start(&mut loading.gravity_amplitude);
+    loading.base_accelerations.retain(|base| {
+        let keeps = excites && is_harmonic(&loading.amplitudes, Some(base.amplitude));
+        if !keeps {
+            loading.gravity -= loading.amplitudes[base.amplitude].value(0.0) * base.direction;
+        }
+        keeps
+    });
+    for restraint in &mut model.constraints.restraints {
+        let Some(motion) = &mut restraint.motion else { continue };
+        if excites && is_harmonic(&loading.amplitudes, Some(motion.amplitude)) {
+            continue;
+        }
+        let displaced = match motion.history {
+            History::Displacement => motion.scale * loading.amplitudes[motion.amplitude].value(0.0),
+            // Velocities and accelerations begin undisplaced.
+            _ => 0.0,
+        };
+        if displaced == 0.0 {
+            restraint.motion = None;
+            continue;
+        }
+        motion.scale = displaced;
+        motion.amplitude = loading.amplitudes.len();
+        loading.amplitudes.push(Amplitude::Ramp { start: 0.0, end: END });
+    }
+}

@@ -1,0 +1,318 @@
+//! `[[shells]]`: patches or groups of the mesh → nodes, normals and elements.
+
+pub mod edges;
+pub mod patch;
+pub mod surface_map;
+
+use crate::deck::shells as words;
+use crate::deck::words::OneOrMany;
+use crate::diagnostic::At;
+use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plate};
+use crate::math::{Vec3, curved_faces};
+use crate::mesh;
+use crate::model::data::{MassKind, Part, PartIndex, PartKind, Shell, ShellElement};
+use crate::model::part_context::PartContext;
+use crate::model::places::nodes::Nodes;
+use crate::model::report::Owner;
+use crate::model::shells::patch::{Edges, Patch};
+use crate::model::shells::surface_map::Map;
+use crate::model::values::{chosen, span};
+use std::collections::HashSet;
+
+/// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
+const MOST_ELEMENTS: u64 = 10_000;
+const MOST_IN_ALL: usize = 1_000_000;
+const DEFAULT_LAYERS: usize = 5;
+
+/// Reads `[[shells]]`: divides each patch into elements, or takes those of a group of the mesh.
+pub fn shells(cx: &mut PartContext) {
+    let mut edges = Edges::default();
+    for (index, shell) in cx.deck.shells.iter().enumerate() {
+        let name = shell.name.as_ref().or(shell.group.as_ref());
+        let name = name.map_or_else(|| format!("shells.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("shell `{name}`"), &shell.span);
+        if shell.group.is_none() {
+            cx.report.require(&owner, "name", &shell.name);
+        }
+        let at = PartIndex { kind: PartKind::Shell, index };
+        cx.parts.begin(at);
+        let made = read_shell(at, name, &owner, shell, &mut edges, cx);
+        cx.parts.add(at, made.unwrap_or_default().into_iter().map(Part::from));
+    }
+}
+
+/// Reads one shell as far as it can, so that all errors of the shell are found; `None` means there were some. A shell of triangles and
+/// quadrilaterals becomes two.
+fn read_shell<'d>(
+    at: PartIndex,
+    name: String,
+    owner: &Owner<'d>,
+    shell: &'d words::Shell,
+    edges: &mut Edges,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Vec<Shell>> {
+    let mass = chosen(&shell.mass);
+    let part = plate(owner, shell, mass, cx).map(|(plate, density, yielding, axis)| {
+        cx.parts.entry_mut(at).contact_radius = 0.5 * plate.thickness;
+        let (elements, numbers) = (Vec::new(), Vec::new());
+        Shell { name: name.clone(), plate, density, mass, yielding, axis, corners: 0, order: 1, elements, numbers }
+    });
+    if let Some(group) = &shell.group {
+        let unused = [
+            ("corners", span(&shell.corners)),
+            ("elements", span(&shell.elements)),
+            ("kind", span(&shell.kind)),
+            ("surface", span(&shell.surface)),
+            ("order", span(&shell.order)),
+        ];
+        cx.report.reject_unused("a shell made of a group of the mesh", &unused);
+        return of_group(at, owner, group, part, cx);
+    }
+    if cx.report.is_spoiled(owner.span, "group") {
+        return None;
+    }
+    let corners = corners(owner, shell, cx);
+    let counts = cx.report.require(owner, "elements", &shell.elements).and_then(|counts| read_counts(counts, cx));
+    let order = cx.report.count("order", &shell.order, 1);
+    if let Some(at) = shell.order.as_ref().filter(|_| !(1..=2).contains(&order)) {
+        cx.report.error::<()>(&at.span, "`order` of a shell can be 1 or 2");
+    }
+    let corners = corners?;
+    let triangles = match &shell.kind {
+        Some(at) if at.value == words::ElementKind::Quadrilateral && corners.len() == 3 => {
+            return cx.report.error(&at.span, "a patch of three corners is made of triangles");
+        }
+        Some(at) => at.value == words::ElementKind::Triangle,
+        None => corners.len() == 3,
+    };
+    let map = Map::read(owner, &shell.surface, &corners, cx.nodes, cx.report)?;
+    let counts = counts?;
+    if corners.len() == 3 && counts[0] != counts[1] {
+        let place = span(&shell.elements).unwrap_or(owner.span);
+        let message = "a patch of three corners needs the same number of elements along each edge: give one number";
+        return cx.report.error(place, message);
+    }
+    let part = part?;
+    // Patches that share its edges would only repeat the error.
+    let order = if order == 2 { 2 } else { 1 };
+    let counts = counts.map(|count| order * count);
+    let patch = Patch { name: &name, owner, map, corners, counts, order, made: 0 };
+    let elements = of_patch(at, patch, triangles, edges, cx)?;
+    Some(vec![Shell { corners: if triangles { 3 } else { 4 }, order, elements, ..part }])
+}
+
+/// The elements of a patch; its nodes are noted in its entry.
+fn of_patch<'d>(
+    at: PartIndex,
+    mut patch: Patch<'_, 'd>,
+    triangles: bool,
+    edges: &mut Edges,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Vec<ShellElement>> {
+    let mut grid = patch.grid(cx.report)?;
+    let sound = patch.make_nodes(&mut grid, edges, cx.nodes, cx.report);
+    let entry = cx.parts.entry_mut(at);
+    entry.edges = std::mem::take(&mut grid.edges);
+    sound?;
+    entry.nodes = grid.nodes.iter().copied().flatten().collect();
+    let elements = patch.elements(&grid, triangles);
+    let corners = if triangles { 3 } else { 4 };
+    if elements.iter().any(|element| folds(element, corners, cx.nodes)) {
+        let message = format!("{} folds back on itself", patch.owner.what);
+        let hint = "list the corners in order round the patch, each at a place of its own";
+        return cx.report.error_with(patch.owner.span, message, hint);
+    }
+    Some(elements)
+}
+
+/// The faces of a group, each shape apart, in copies of a shell without elements.
+fn of_group<'d>(
+    at: PartIndex,
+    owner: &Owner<'d>,
+    name: &'d At<String>,
+    shell: Option<Shell>,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Vec<Shell>> {
+    let faces = cx.groups.take(&owner.what, name, true, cx.report)?;
+    let first = cx.groups.mesh.first;
+    let (own, local) = cx.groups.own_nodes(&faces)?;
+    for &node in &own {
+        cx.nodes.connect(first + node as usize, true);
+        cx.parts.entry_mut(at).nodes.push(first + node as usize);
+    }
+    let shell = shell?;
+    let mesh = &cx.groups.mesh.input?.mesh;
+    let x: Vec<Vec3> = own.iter().map(|&node| mesh.nodes[node as usize].x).collect();
+    let sizes = faces.iter().map(|face| face.nodes().len());
+    let all = local.iter().zip(sizes).map(|(nodes, size)| &nodes[..size]);
+    let (shells, against) = if faces.iter().all(|face| face.kind.order() == 1) {
+        let (normals, against) = mesh::normals::<4>(&x, all);
+        (of_faces(&faces, &normals, &shell, first), against)
+    } else {
+        let apart = edges_of_two_orders(&faces);
+        if apart > 0 {
+            cx.report.lose_connections();
+            let message = format!("{} has elements of order 1 beside those of order 2: at {apart} edges", owner.what);
+            return cx.report.error_with(&name.span, message, "mesh it with elements of one order");
+        }
+        let (normals, against) = mesh::normals::<MOST_NODES>(&x, all);
+        let mut shells = of_faces(&faces, &normals, &shell, first);
+        add_middles(at, &mut shells, &faces, cx);
+        (shells, against)
+    };
+    if against > 0 {
+        let message = format!("neighbouring elements of {} have opposite normals: at {against} edges", owner.what);
+        cx.report.warn(&name.span, message, "pressure acts against the normal of each element");
+    }
+    Some(shells)
+}
+
+/// The number of edges at which a face with straight sides meets one with sides of second degree.
+fn edges_of_two_orders(faces: &[&mesh::MeshElement]) -> usize {
+    let edges = |order: usize| {
+        let of = faces.iter().filter(move |face| face.kind.order() == order);
+        of.flat_map(|face| {
+            let (nodes, n) = (face.nodes(), face.kind.corners());
+            (0..n).map(move |k| {
+                let (a, b) = (nodes[k], nodes[(k + 1) % n]);
+                [a.min(b), a.max(b)]
+            })
+        })
+    };
+    let straight: HashSet<[u32; 2]> = edges(1).collect();
+    edges(2).filter(|edge| straight.contains(edge)).count()
+}
+
+/// The faces of a group by their shapes, in copies of a shell without elements. The middles of those of eight nodes are still missing.
+fn of_faces<const N: usize>(
+    faces: &[&mesh::MeshElement],
+    normals: &[[Vec3; N]],
+    shell: &Shell,
+    first: usize,
+) -> Vec<Shell> {
+    let mut shells = Vec::new();
+    for (corners, order) in [(4, 1), (3, 1), (4, 2), (3, 2)] {
+        let of = |(number, (face, normals)): (usize, (&&mesh::MeshElement, &[Vec3; N]))| {
+            let element = || {
+                let nodes: Vec<usize> = face.nodes().iter().map(|&node| first + node as usize).collect();
+                let size = if nodes.len() == 8 { MOST_NODES } else { nodes.len() };
+                ShellElement::new(&nodes, &normals[..size])
+            };
+            ((face.kind.corners(), face.kind.order()) == (corners, order)).then(|| (number as u32, element()))
+        };
+        let of = faces.iter().zip(normals).enumerate().filter_map(of);
+        let (numbers, elements): (Vec<u32>, Vec<ShellElement>) = of.unzip();
+        if !elements.is_empty() {
+            let numbers = if elements.len() < faces.len() { numbers } else { Vec::new() };
+            shells.push(Shell { corners, order, elements, numbers, ..shell.clone() });
+        }
+    }
+    shells
+}
+
+/// Gives elements of eight nodes one in the middle, by their shape functions.
+fn add_middles(at: PartIndex, shells: &mut [Shell], faces: &[&mesh::MeshElement], cx: &mut PartContext) {
+    for shell in shells.iter_mut().filter(|shell| shell.size() == MOST_NODES) {
+        for number in 0..shell.elements.len() {
+            let face = faces[shell.number(number)];
+            let element = &mut shell.elements[number];
+            if face.nodes().len() == 8 {
+                let x = curved_faces::middle_of_eight(|a| cx.nodes.x(element.nodes[a]));
+                let node = cx.nodes.add(format!("{}[{}]", shell.name, face.id), false, x);
+                cx.nodes.connect(node, true);
+                cx.parts.entry_mut(at).nodes.push(node);
+                element.nodes[8] = node;
+            }
+        }
+    }
+}
+
+/// True for an element that is not seen the same way round from each of its corners.
+fn folds(element: &ShellElement, corners: usize, nodes: &Nodes) -> bool {
+    let x = |k: usize| nodes.x(element.nodes[k % corners]);
+    (0..corners).any(|k| {
+        let normal = (x(k + 1) - x(k)).cross(&(x(k + corners - 1) - x(k)));
+        normal.dot(&element.normals[k]) <= 0.0 || element.normals[k].dot(&element.normals[0]) <= 0.0
+    })
+}
+
+/// Reads what a shell is made of: plate, density, how it yields, and axis 1 of its results.
+fn plate<'d>(
+    owner: &Owner<'d>,
+    shell: &'d words::Shell,
+    mass: MassKind,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<(Plate, f64, Option<LayerModel>, Vec3)> {
+    let thickness = cx.report.require_positive(owner, "thickness", &shell.thickness);
+    let name = cx.report.require(owner, "material", &shell.material)?;
+    let (_, material) = cx.materials.find(name, cx.report)?;
+    let density = cx.materials.density(name, material, mass, &owner.what, cx.report);
+    let what = format!("material `{}`, of which {} is made,", name.value, owner.what);
+    let nu = cx.report.require(&Owner::new(what, &material.span), "poisson_ratio", &material.poisson_ratio);
+    let yielding = layers(owner, shell, cx);
+    let axis = shell.axis.as_ref().map_or(Some(Vec3::x()), |axis| cx.report.unit("axis", axis));
+    let E = material.youngs_modulus.as_ref()?.value;
+    let plate = Plate { thickness: thickness?, E, nu: nu?.value, drilling: DRILLING };
+    Some((plate, density?, yielding?, axis?))
+}
+
+/// Finds the nodes of three or four corners and connects them.
+fn corners<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Vec<usize>> {
+    let corners = cx.report.require_nodes(owner, "corners", &shell.corners)?;
+    if !(3..=4).contains(&corners.values.len()) {
+        cx.report.lose_connections();
+        cx.report.error_with::<()>(
+            &corners.span,
+            "a patch has three or four corners",
+            "such as [\"a\", \"b\", \"c\", \"d\"]",
+        );
+    }
+    let nodes: Vec<Option<usize>> =
+        corners.values.iter().map(|point| cx.names.point("corners", point, &cx.parts, cx.report)).collect();
+    // They are connected even if the rest of the shell has errors.
+    nodes.iter().flatten().for_each(|&node| cx.nodes.connect(node, true));
+    nodes.into_iter().collect::<Option<Vec<usize>>>().filter(|nodes| (3..=4).contains(&nodes.len()))
+}
+
+fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) -> Option<[usize; 2]> {
+    let values = &counts.values;
+    if values.is_empty() || values.len() > 2 {
+        return cx.report.error_with(
+            &counts.span,
+            "`elements` takes one or two numbers here",
+            "along edge1 and along edge2",
+        );
+    }
+    for count in values {
+        if count.value == 0 || count.value > MOST_ELEMENTS {
+            return cx.report.error(&count.span, format!("`elements` must lie between 1 and {MOST_ELEMENTS}"));
+        }
+    }
+    let [n, m] = [values.first()?.value as usize, values.last()?.value as usize];
+    if n * m > MOST_IN_ALL {
+        let message = format!("{n} x {m} elements: at most {MOST_IN_ALL} are allowed in a patch");
+        return cx.report.error(&counts.span, message);
+    }
+    cx.parts.ask_for(n * m, &counts.span, cx.report)?;
+    Some([n, m])
+}
+
+/// Reads how the shell yields: `Some(None)` where its material is elastic, `None` where there are errors.
+fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<LayerModel>> {
+    // Errors of the material have been reported.
+    let Some(law) = cx.materials.yielding_of(&shell.material)? else {
+        cx.report.reject_unused(
+            &format!("{}, whose material is elastic", owner.what),
+            &[("layers", span(&shell.layers)), ("strain", span(&shell.strain))],
+        );
+        return Some(None);
+    };
+    let layers = cx.report.count("layers", &shell.layers, DEFAULT_LAYERS);
+    let logarithmic = shell.strain.as_ref().is_some_and(|at| at.value == words::StrainMeasure::Logarithmic);
+    match &shell.layers {
+        Some(at) if !(2..=MOST_LAYERS).contains(&layers) => {
+            cx.report.error(&at.span, format!("`layers` must lie between 2 and {MOST_LAYERS}"))
+        }
+        _ => Some(Some(LayerModel { law, layers, logarithmic })),
+    }
+}
