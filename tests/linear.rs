@@ -262,6 +262,36 @@ fn threads_do_not_change_a_bit() {
     }
 }
 
+#[test]
+fn right_hand_sides_together_have_the_bits_of_each_alone() {
+    let mut random = Random(11);
+    // A large one has panels that are taken in blocks, and supernodes above its subtrees.
+    let structures = shapes(&mut random).into_iter().chain([sheet(60, 60, 6), frame(9, 9, 9, 6)]);
+    for (structure, threads) in structures.zip([1, 2, 3].into_iter().cycle()) {
+        let n = unknowns(&structure);
+        for (kind, values) in [
+            (Factorization::BlockLu, Values::Unsymmetric),
+            (Factorization::Cholesky, Values::Definite),
+            (Factorization::Cholesky, Values::Indefinite),
+        ] {
+            if n > 1000 && kind == Factorization::BlockLu {
+                continue;
+            }
+            let mut solver = Solver::new(&structure, kind, threads).unwrap();
+            let slots = slots(&solver, &entries(&structure, values, &mut random));
+            fill(&mut solver, &slots);
+            solver.factor().unwrap();
+            for sides in 0..8 {
+                let b: Vec<Vec<f64>> = (0..sides).map(|_| (0..n).map(|_| random.number()).collect()).collect();
+                let (mut together, mut alone) = (b.clone(), b);
+                solver.solve_all(&mut together);
+                alone.iter_mut().for_each(|b| solver.solve(b));
+                assert!(together == alone, "{sides} of {}", solver.describe());
+            }
+        }
+    }
+}
+
 /// Fronts of every kind: subtrees on stacks of their own, those above them, dense operations cut in halves. Rounding of a
 /// backward stable factorisation of some thousand rows leaves less than 1e-15 of the largest product; the bound is tenfold.
 #[test]

@@ -201,14 +201,19 @@ impl Cholesky {
         if self.definite { 0 } else { self.fronts.tree.diagonal().filter(|&at| self.L[at] < 0.0).count() }
     }
 
-    /// Replaces the right-hand side `b` by the solution.
-    pub(super) fn solve(&mut self, b: &mut [f64]) {
-        for (x, &row) in self.x.iter_mut().zip(&self.external) {
-            *x = b[row as usize];
+    /// Replaces R right-hand sides `b` by their solutions.
+    pub(super) fn solve<const R: usize>(&mut self, mut b: [&mut [f64]; R]) {
+        let n = self.external.len();
+        if self.x.len() < R * n {
+            self.x = vec![0.0; R * n];
         }
-        self.fronts.solve(Factored { values: &self.L, definite: self.definite }, &mut self.x);
-        for (x, &row) in self.x.iter().zip(&self.external) {
-            b[row as usize] = *x;
+        let x = &mut self.x.as_chunks_mut().0[..n];
+        for (x, &row) in x.iter_mut().zip(&self.external) {
+            *x = b.each_ref().map(|b| b[row as usize]);
+        }
+        self.fronts.solve(Factored { values: &self.L, definite: self.definite }, x);
+        for (x, &row) in x.iter().zip(&self.external) {
+            b.iter_mut().zip(x).for_each(|(b, x)| b[row as usize] = *x);
         }
     }
 

@@ -55,17 +55,50 @@ pub(super) struct Subtree {
     pub vectors: Vectors,
 }
 
-/// The memory of a substitution.
+/// The memory of a substitution, for one right-hand side or several, those of a row beside each other.
 pub(super) struct Vectors {
     /// The stack of update vectors.
-    pub stack: Vec<f64>,
-    /// The right-hand side of one front.
-    pub front: Vec<f64>,
+    stack: Vec<f64>,
+    /// The right-hand sides of one front.
+    front: Vec<f64>,
+    /// Lengths for one.
+    lengths: [usize; 2],
 }
 
 impl Vectors {
     fn new(sizes: StackSizes) -> Vectors {
-        Vectors { stack: vec![0.0; sizes.vectors], front: vec![0.0; sizes.tallest] }
+        let lengths = [sizes.vectors, sizes.tallest];
+        let [stack, front] = lengths.map(|length| vec![0.0; length]);
+        Vectors { stack, front, lengths }
+    }
+
+    /// Takes memory for so many right-hand sides, where there is too little.
+    fn make_room(&mut self, sides: usize) {
+        for (memory, length) in [&mut self.stack, &mut self.front].into_iter().zip(self.lengths) {
+            grow(memory, sides * length);
+        }
+    }
+
+    /// The stack of update vectors.
+    pub fn stack<const R: usize>(&self) -> &[[f64; R]] {
+        self.stack.as_chunks().0
+    }
+
+    /// The right-hand sides of one front.
+    pub fn front<const R: usize>(&mut self) -> &mut [[f64; R]] {
+        self.front.as_chunks_mut().0
+    }
+
+    /// The right-hand sides of one front, and the stack.
+    pub fn both<const R: usize>(&mut self) -> (&mut [[f64; R]], &mut [[f64; R]]) {
+        (self.front.as_chunks_mut().0, self.stack.as_chunks_mut().0)
+    }
+}
+
+/// Makes a vector of zeros of a shorter one.
+fn grow(memory: &mut Vec<f64>, length: usize) {
+    if memory.len() < length {
+        *memory = vec![0.0; length];
     }
 }
 
@@ -150,15 +183,17 @@ impl Fronts {
 
     /// Takes it again where it was given back.
     fn take_memory(&mut self) {
-        let take = |memory: &mut Vec<f64>, length: usize| {
-            if memory.len() < length {
-                *memory = vec![0.0; length];
-            }
-        };
-        self.subtrees.iter_mut().for_each(|subtree| take(&mut subtree.updates, subtree.left));
+        self.subtrees.iter_mut().for_each(|subtree| grow(&mut subtree.updates, subtree.left));
         self.each_stacks(|Stacks { updates, heights, .. }| {
-            updates.iter_mut().zip(heights).for_each(|(updates, height)| take(updates, *height));
+            updates.iter_mut().zip(heights).for_each(|(updates, height)| grow(updates, *height));
         });
+    }
+
+    /// Takes the memory to substitute for so many right-hand sides at once.
+    pub(super) fn make_room_for_vectors(&mut self, sides: usize) {
+        grow(&mut self.done, sides * self.tree.unknowns());
+        self.vectors.make_room(sides);
+        self.subtrees.iter_mut().for_each(|subtree| subtree.vectors.make_room(sides));
     }
 
     fn each_stacks(&mut self, mut visit: impl FnMut(&mut Stacks)) {

@@ -44,7 +44,7 @@ impl<'a> Panel<'a> {
     }
 
     /// Solves for the columns in `f`, and subtracts from its rows below what they contribute there.
-    pub fn forward(&self, f: &mut [f64], threads: bool) {
+    pub fn forward<const R: usize>(&self, f: &mut [[f64; R]], threads: bool) {
         let mut begin = 0;
         while begin < self.columns {
             let end = (begin + self.block()).min(self.columns);
@@ -60,16 +60,18 @@ impl<'a> Panel<'a> {
     }
 
     /// Solves for the columns `begin..end`, and subtracts what they contribute to the rows of `f` below.
-    fn forward_triangle(&self, begin: usize, end: usize, f: &mut [f64]) {
+    fn forward_triangle<const R: usize>(&self, begin: usize, end: usize, f: &mut [[f64; R]]) {
         for j in (begin..end).step_by(COLUMNS) {
             let next = (j + COLUMNS).min(end);
             for k in j..next {
                 let column = self.column(k, 0, next);
                 if !self.unit {
-                    f[k] /= column[k];
+                    f[k] = f[k].map(|f| f / column[k]);
                 }
                 for i in k + 1..next {
-                    f[i] -= column[i] * f[k];
+                    for r in 0..R {
+                        f[i][r] -= column[i] * f[k][r];
+                    }
                 }
             }
             let (y, rest) = f.split_at_mut(next);
@@ -78,7 +80,14 @@ impl<'a> Panel<'a> {
     }
 
     /// rest ← rest − Σ y_k column k, over the rows from `from` on and the columns from `first` on, the rows in halves.
-    fn subtract(&self, first: usize, y: &[f64], from: usize, rest: &mut [f64], threads: bool) {
+    fn subtract<const R: usize>(
+        &self,
+        first: usize,
+        y: &[[f64; R]],
+        from: usize,
+        rest: &mut [[f64; R]],
+        threads: bool,
+    ) {
         let half = rest.len() / 2;
         if half * y.len() >= SMALLEST {
             let (upper, lower) = rest.split_at_mut(half);
@@ -96,26 +105,30 @@ impl<'a> Panel<'a> {
 
     /// rest ← rest − Σ y_k column k for up to `COLUMNS` columns.
     #[inline]
-    fn subtract_columns(&self, first: usize, y: &[f64], from: usize, rest: &mut [f64]) {
+    fn subtract_columns<const R: usize>(&self, first: usize, y: &[[f64; R]], from: usize, rest: &mut [[f64; R]]) {
         let end = from + rest.len();
-        if let Ok(y) = <[f64; COLUMNS]>::try_from(y) {
+        if let Ok(y) = <[[f64; R]; COLUMNS]>::try_from(y) {
             let [a, b, c, d] = std::array::from_fn(|k| self.column(first + k, from, end));
-            for ((((r, a), b), c), d) in rest.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-                *r = fma(*d, -y[3], fma(*c, -y[2], fma(*b, -y[1], fma(*a, -y[0], *r))));
+            for ((((row, a), b), c), d) in rest.iter_mut().zip(a).zip(b).zip(c).zip(d) {
+                for (r, row) in row.iter_mut().enumerate() {
+                    *row = fma(*d, -y[3][r], fma(*c, -y[2][r], fma(*b, -y[1][r], fma(*a, -y[0][r], *row))));
+                }
             }
         } else {
             for (k, y) in y.iter().enumerate() {
                 let column = self.column(first + k, from, end);
-                rest.iter_mut().zip(column).for_each(|(r, l)| *r = fma(*l, -y, *r));
+                for (row, l) in rest.iter_mut().zip(column) {
+                    row.iter_mut().zip(y).for_each(|(row, y)| *row = fma(*l, -y, *row));
+                }
             }
         }
     }
 
     /// Solves for the columns in `f`, whose rows below hold the solution; divides by D before, where there is one.
-    pub fn backward(&self, f: &mut [f64], threads: bool) {
+    pub fn backward<const R: usize>(&self, f: &mut [[f64; R]], threads: bool) {
         if self.unit {
             for (k, y) in f[..self.columns].iter_mut().enumerate() {
-                *y /= self.values[k * self.height + k];
+                *y = y.map(|y| y / self.values[k * self.height + k]);
             }
         }
         let mut end = self.columns;
@@ -132,7 +145,7 @@ impl<'a> Panel<'a> {
     }
 
     /// y_k ← y_k − column k · rest for the columns from `first` on, in halves, and the rows from `from` on.
-    fn take(&self, first: usize, y: &mut [f64], from: usize, rest: &[f64], threads: bool) {
+    fn take<const R: usize>(&self, first: usize, y: &mut [[f64; R]], from: usize, rest: &[[f64; R]], threads: bool) {
         let half = y.len() / (2 * COLUMNS) * COLUMNS;
         if half * rest.len() >= SMALLEST {
             let (left, right) = y.split_at_mut(half);
@@ -144,35 +157,37 @@ impl<'a> Panel<'a> {
         } else {
             for (n, y) in y.chunks_mut(COLUMNS).enumerate() {
                 let taken = self.taken(first + n * COLUMNS, y.len(), from, rest);
-                y.iter_mut().zip(taken).for_each(|(y, taken)| *y -= taken);
+                y.iter_mut().flatten().zip(taken.iter().flatten()).for_each(|(y, taken)| *y -= taken);
             }
         }
     }
 
     /// Scalar products of `rest` with up to `COLUMNS` columns.
     #[inline]
-    fn taken(&self, first: usize, count: usize, from: usize, rest: &[f64]) -> [f64; COLUMNS] {
+    fn taken<const R: usize>(&self, first: usize, count: usize, from: usize, rest: &[[f64; R]]) -> [[f64; R]; COLUMNS] {
         let column = |k: usize| self.column(first + k, from, from + rest.len());
         if count == COLUMNS {
             products(std::array::from_fn(column), rest)
         } else {
-            std::array::from_fn(|k| if k < count { products([column(k)], rest)[0] } else { 0.0 })
+            std::array::from_fn(|k| if k < count { products([column(k)], rest)[0] } else { [0.0; R] })
         }
     }
 
     /// Solves for the columns `begin..end` where the rows of `f` below hold the solution.
-    fn backward_triangle(&self, begin: usize, end: usize, f: &mut [f64]) {
+    fn backward_triangle<const R: usize>(&self, begin: usize, end: usize, f: &mut [[f64; R]]) {
         for j in (begin..end).step_by(COLUMNS).rev() {
             let next = (j + COLUMNS).min(end);
             let (y, rest) = f.split_at_mut(next);
             let taken = self.taken(j, next - j, next, rest);
             for k in (j..next).rev() {
                 let column = self.column(k, 0, next);
-                let mut sum = y[k] - taken[k - j];
-                for i in k + 1..next {
-                    sum -= column[i] * y[i];
+                for r in 0..R {
+                    let mut sum = y[k][r] - taken[k - j][r];
+                    for i in k + 1..next {
+                        sum -= column[i] * y[i][r];
+                    }
+                    y[k][r] = if self.unit { sum } else { sum / column[k] };
                 }
-                y[k] = if self.unit { sum } else { sum / column[k] };
             }
         }
     }
@@ -180,20 +195,24 @@ impl<'a> Panel<'a> {
 
 /// Scalar products of columns with `x`, each summed in lanes of fixed width.
 #[inline(always)]
-fn products<const C: usize>(columns: [&[f64]; C], x: &[f64]) -> [f64; C] {
-    let mut sums = [[0.0; LANES]; C];
+fn products<const C: usize, const R: usize>(columns: [&[f64]; C], x: &[[f64; R]]) -> [[f64; R]; C] {
+    let mut sums = [[[0.0; R]; LANES]; C];
     let (whole, rest) = x.as_chunks::<LANES>();
     for (n, x) in whole.iter().enumerate() {
         for c in 0..C {
             let column = &columns[c][n * LANES..(n + 1) * LANES];
             for i in 0..LANES {
-                sums[c][i] = fma(column[i], x[i], sums[c][i]);
+                for r in 0..R {
+                    sums[c][i][r] = fma(column[i], x[i][r], sums[c][i][r]);
+                }
             }
         }
     }
     let from = whole.len() * LANES;
     std::array::from_fn(|c| {
-        let tail: f64 = columns[c][from..].iter().zip(rest).map(|(l, x)| l * x).sum();
-        sums[c].iter().sum::<f64>() + tail
+        std::array::from_fn(|r| {
+            let tail: f64 = columns[c][from..].iter().zip(rest).map(|(l, x)| l * x[r]).sum();
+            sums[c].iter().map(|sum| sum[r]).sum::<f64>() + tail
+        })
     })
 }

@@ -148,7 +148,20 @@ impl Solver {
 
     /// Replaces the right-hand side `b`, by external rows, by the solution for the matrix factored last.
     pub fn solve(&mut self, b: &mut [f64]) {
-        each!(self, inner => inner.solve(b))
+        match self {
+            Solver::Block3(inner) => inner.solve(b),
+            Solver::Block6(inner) => inner.solve(b),
+            Solver::Cholesky(inner) => inner.solve([b]),
+        }
+    }
+
+    /// Replaces right-hand sides by their solutions, each with the bits of [`Solver::solve`]; a Cholesky factor is read once for two of
+    /// them.
+    pub fn solve_all(&mut self, b: &mut [Vec<f64>]) {
+        let Solver::Cholesky(inner) = self else { return b.iter_mut().for_each(|b| self.solve(b)) };
+        let (pairs, rest) = b.as_chunks_mut::<2>();
+        pairs.iter_mut().for_each(|pair| inner.solve(pair.each_mut().map(|b| &mut b[..])));
+        rest.iter_mut().for_each(|b| inner.solve([b]));
     }
 
     /// The number of negative eigenvalues of the matrix factored last, where it is symmetric (Sylvester's law of inertia).

@@ -52,6 +52,16 @@ impl Sparse {
         }
     }
 
+    /// A x for several vectors.
+    pub fn products(&self, x: &[&[f64]]) -> Vec<Vec<f64>> {
+        let product = |x: &&[f64]| {
+            let mut y = vec![0.0; self.rows()];
+            self.multiply(x, &mut y);
+            y
+        };
+        x.iter().map(product).collect()
+    }
+
     /// The combination Σ factor × matrix of matrices of the same size.
     pub fn sum(of: &[(f64, &Sparse)]) -> Sparse {
         let rows = of.iter().map(|(_, matrix)| matrix.rows()).max().unwrap_or(0);

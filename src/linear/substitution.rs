@@ -1,6 +1,6 @@
 //! Forward and backward substitution, L y = b and Lᵀ x = y or D⁻¹ y, front by front: up the assembly tree with the subtrees of
 //! [`super::fronts`] side by side and the supernodes above them one by one, the large panels of each in halves
-//! ([`super::panel`]), and down again. Each reads L once and is bound by the speed of memory.
+//! ([`super::panel`]), and down again. Each reads L once, for one right-hand side or several, and is bound by the speed of memory.
 
 use super::dense::join;
 use super::fronts::{Fronts, Subtree, Vectors};
@@ -16,17 +16,20 @@ pub(super) struct Factored<'a> {
 }
 
 impl Fronts {
-    /// x ← K⁻¹ x, in the order of elimination.
-    pub fn solve(&mut self, L: Factored, x: &mut [f64]) {
+    /// x ← K⁻¹ x for R right-hand sides side by side, in the order of elimination. More than before take memory first.
+    pub fn solve<const R: usize>(&mut self, L: Factored, x: &mut [[f64; R]]) {
+        self.make_room_for_vectors(R);
         let Fronts { tree, subtrees, above, vectors, threads, done, .. } = self;
+        let done = &mut done.as_chunks_mut().0[..x.len()];
         tree.forward_all(subtrees, L, x, 0, *threads);
         for &s in above.iter() {
             tree.forward(s, L, &mut x[tree.columns(s)], vectors, subtrees, *threads);
         }
         for &s in above.iter().rev() {
-            tree.gather(s, x, 0, &[], &mut vectors.front);
-            tree.backward(s, L, &mut vectors.front, *threads);
-            x[tree.columns(s)].copy_from_slice(&vectors.front[..tree.fronts[s].columns]);
+            let front = vectors.front();
+            tree.gather(s, x, 0, &[], front);
+            tree.backward(s, L, front, *threads);
+            x[tree.columns(s)].copy_from_slice(&front[..tree.fronts[s].columns]);
         }
         done.copy_from_slice(x);
         tree.backward_all(subtrees, L, (x, 0), done, *threads);
@@ -35,7 +38,14 @@ impl Fronts {
 
 impl Tree {
     /// Forward substitution in subtrees; `x` begins at `base` of the whole vector.
-    fn forward_all(&self, of: &mut [Subtree], L: Factored, x: &mut [f64], base: usize, threads: bool) {
+    fn forward_all<const R: usize>(
+        &self,
+        of: &mut [Subtree],
+        L: Factored,
+        x: &mut [[f64; R]],
+        base: usize,
+        threads: bool,
+    ) {
         match of {
             [] => {}
             [Subtree { supernodes, vectors, .. }] => {
@@ -59,51 +69,55 @@ impl Tree {
 
     /// Forward substitution in supernode `s`, whose columns `x` holds. Its update vector, which changes the rows below, comes
     /// onto the stack in place of those of its children.
-    fn forward(
+    fn forward<const R: usize>(
         &self,
         s: usize,
         L: Factored,
-        x: &mut [f64],
+        x: &mut [[f64; R]],
         vectors: &mut Vectors,
         subtrees: &[Subtree],
         threads: bool,
     ) {
         let front = &self.fronts[s];
-        let f = &mut vectors.front[..front.height()];
+        let (f, own) = vectors.both();
+        let f = &mut f[..front.height()];
         f[..front.columns].copy_from_slice(x);
-        f[front.columns..].fill(0.0);
+        f[front.columns..].fill([0.0; R]);
         for child in self.children(s).map(|child| &self.fronts[child]) {
             let stack = match child.subtree {
-                Some(t) if child.subtree != front.subtree => &subtrees[t].vectors.stack,
-                _ => &vectors.stack,
+                Some(t) if child.subtree != front.subtree => subtrees[t].vectors.stack(),
+                _ => &*own,
             };
             let places = &self.places[child.place..child.place + child.rows];
-            places.iter().zip(&stack[child.vector..]).for_each(|(&place, u)| f[place as usize] += u);
+            for (&place, u) in places.iter().zip(&stack[child.vector..]) {
+                f[place as usize].iter_mut().zip(u).for_each(|(f, u)| *f += u);
+            }
         }
 
         Panel::new(front, &L.values[self.panel(s)], !L.definite).forward(f, threads);
         x.copy_from_slice(&f[..front.columns]);
-        vectors.stack[front.vector..front.vector + front.rows].copy_from_slice(&f[front.columns..]);
+        own[front.vector..front.vector + front.rows].copy_from_slice(&f[front.columns..]);
     }
 
     /// Backward substitution in subtrees; `x` begins at `base` of the whole vector, and `done` holds the solution in rows outside
     /// the subtree.
-    fn backward_all(
+    fn backward_all<const R: usize>(
         &self,
         of: &mut [Subtree],
         L: Factored,
-        (x, base): (&mut [f64], usize),
-        done: &[f64],
+        (x, base): (&mut [[f64; R]], usize),
+        done: &[[f64; R]],
         threads: bool,
     ) {
         match of {
             [] => {}
             [Subtree { supernodes, vectors, .. }] => {
+                let front = vectors.front();
                 for s in supernodes.clone().rev() {
-                    self.gather(s, x, base, done, &mut vectors.front);
-                    self.backward(s, L, &mut vectors.front, false);
+                    self.gather(s, x, base, done, front);
+                    self.backward(s, L, front, false);
                     let columns = self.columns(s);
-                    x[columns.start - base..columns.end - base].copy_from_slice(&vectors.front[..columns.len()]);
+                    x[columns.start - base..columns.end - base].copy_from_slice(&front[..columns.len()]);
                 }
             }
             _ => {
@@ -120,7 +134,7 @@ impl Tree {
     }
 
     /// Copies the rows of a front to `f`: from `x`, which begins at `base`, or from `done` where they lie behind it.
-    fn gather(&self, s: usize, x: &[f64], base: usize, done: &[f64], f: &mut [f64]) {
+    fn gather<const R: usize>(&self, s: usize, x: &[[f64; R]], base: usize, done: &[[f64; R]], f: &mut [[f64; R]]) {
         let (front, columns) = (&self.fronts[s], self.columns(s));
         f[..front.columns].copy_from_slice(&x[columns.start - base..columns.end - base]);
         let rows = &self.rows[front.place..front.place + front.rows];
@@ -133,7 +147,7 @@ impl Tree {
     }
 
     /// Backward substitution in supernode `s`: `f` holds its columns, which are solved for, and the solution in the rows below.
-    fn backward(&self, s: usize, L: Factored, f: &mut [f64], threads: bool) {
+    fn backward<const R: usize>(&self, s: usize, L: Factored, f: &mut [[f64; R]], threads: bool) {
         let front = &self.fronts[s];
         let panel = Panel::new(front, &L.values[self.panel(s)], !L.definite);
         panel.backward(&mut f[..panel.height], threads);

@@ -53,10 +53,11 @@ impl SymmetricOperator for Buckling<'_, '_> {
         self.K.rows()
     }
 
-    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
-        self.rate.multiply(x, y);
-        y.iter_mut().for_each(|y| *y = -*y);
-        self.pencil.solve(y);
+    fn apply(&mut self, x: &[&[f64]]) -> Vec<Vec<f64>> {
+        let mut images = self.rate.products(x);
+        images.iter_mut().flatten().for_each(|y| *y = -*y);
+        self.pencil.solve_all(&mut images);
+        images
     }
 
     fn metric(&mut self, x: &[f64], y: &mut [f64]) {

@@ -259,6 +259,16 @@ impl<'a> Pencil<'a> {
         self.solves += 1;
     }
 
+    /// Solves as [`Pencil::solve`] does for several forces.
+    pub fn solve_all(&mut self, b: &mut [Vec<f64>]) {
+        if self.forces.multipliers.gaps.is_empty() {
+            self.solves += b.len();
+            self.solver.solve_all(b);
+        } else {
+            b.iter_mut().for_each(|b| self.solve(b));
+        }
+    }
+
     /// Solves as [`Pencil::solve`] does, and returns the multipliers of joints besides.
     pub fn respond(&mut self, b: &mut [f64]) -> Vec<f64> {
         let Pencil { at, nodes, solver, forces, unknowns, rhs, .. } = self;
@@ -343,9 +353,10 @@ impl SymmetricOperator for Pencil<'_> {
         self.unknowns
     }
 
-    fn apply(&mut self, x: &[f64], y: &mut [f64]) {
-        self.mass.multiply(x, y);
-        self.solve(y);
+    fn apply(&mut self, x: &[&[f64]]) -> Vec<Vec<f64>> {
+        let mut images = self.mass.products(x);
+        self.solve_all(&mut images);
+        images
     }
 
     fn metric(&mut self, x: &[f64], y: &mut [f64]) {

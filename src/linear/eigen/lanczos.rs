@@ -10,6 +10,7 @@
 
 use super::basis::{Basis, Noise, dot};
 use super::dense;
+use std::collections::VecDeque;
 
 /// What is left of a vector after orthogonalisation counts as nothing below this part of it.
 const NEGLIGIBLE: f64 = 1e-11;
@@ -20,8 +21,8 @@ const ROOM: usize = 24;
 pub trait SymmetricOperator {
     /// Length of its vectors.
     fn dimension(&self) -> usize;
-    /// y ← S x.
-    fn apply(&mut self, x: &[f64], y: &mut [f64]);
+    /// The images S x of several vectors.
+    fn apply(&mut self, x: &[&[f64]]) -> Vec<Vec<f64>>;
     /// y ← B x.
     fn metric(&mut self, x: &[f64], y: &mut [f64]);
     /// True where the search is to end at once.
@@ -53,6 +54,8 @@ pub struct Lanczos {
     basis: Basis,
     /// Entries of H by columns; each of an expanded vector has a row for every vector there was then.
     H: Vec<Vec<f64>>,
+    /// The images of the vectors that are to be expanded next: those of all there are have been found together.
+    images: VecDeque<Vec<f64>>,
     /// The Ritz pairs that have converged last, where their vectors are still to be formed, and their number.
     converged: Option<(Ritz, usize)>,
     noise: Noise,
@@ -78,6 +81,7 @@ impl Lanczos {
         let mut lanczos = Lanczos {
             basis: Basis::new(operator.dimension(), threads),
             H: Vec::new(),
+            images: VecDeque::new(),
             converged: None,
             noise: Noise(1),
             applications: 0,
@@ -91,11 +95,12 @@ impl Lanczos {
     /// the whole range of the operator.
     pub fn start(&mut self, operator: &mut dyn SymmetricOperator, width: usize) -> bool {
         let before = self.basis.len();
-        for _ in 0..width {
-            let random: Vec<f64> = (0..operator.dimension()).map(|_| self.noise.next()).collect();
-            let mut w = vec![0.0; random.len()];
-            operator.apply(&random, &mut w);
-            self.applications += 1;
+        let mut random = || (0..operator.dimension()).map(|_| self.noise.next()).collect::<Vec<f64>>();
+        let random: Vec<_> = (0..width).map(|_| random()).collect();
+        let images = operator.apply(&random.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        self.applications += width;
+        drop(random);
+        for w in images {
             self.add(operator, w);
         }
         self.basis.len() > before
@@ -128,10 +133,13 @@ impl Lanczos {
         if next == self.basis.len() {
             return false;
         }
-        let mut w = vec![0.0; operator.dimension()];
-        operator.apply(self.basis.vector(next), &mut w);
-        self.applications += 1;
-        let column = self.add(operator, w);
+        if self.images.is_empty() {
+            let open: Vec<&[f64]> = (next..self.basis.len()).map(|k| self.basis.vector(k)).collect();
+            self.images = operator.apply(&open).into();
+            self.applications += self.images.len();
+        }
+        let Some(image) = self.images.pop_front() else { return false };
+        let column = self.add(operator, image);
         self.H.push(column);
         true
     }
@@ -233,6 +241,7 @@ impl Lanczos {
             ritz.s[k].iter().copied().chain((q..p).map(rest)).collect()
         };
         let factors: Vec<Vec<f64>> = (0..count).map(factors).collect();
+        self.images.clear();
         self.basis.replace(&factors, p);
         let column = |k: usize| (0..count).map(|i| if i == k { ritz.theta[k] } else { 0.0 }).collect();
         self.H = (0..count).map(column).collect();
