@@ -108,6 +108,63 @@ fn a_sound_deck_is_silent() {
     assert_eq!(portal(&[]), "");
 }
 
+/// A slip of an exponent, wherever it stands, ends with a word about it and not with a singular matrix.
+#[test]
+fn lengths_that_nothing_can_be_computed_with_are_refused_wherever_they_stand() {
+    let body = |shape: &str| {
+        format!("[[bodies]]\nname = \"b\"\ncenter = [9.0, 9.0, 9.0]\nmass = 1.0\nshape = {{ {shape} }}\n")
+    };
+    let surface = |surface: &str| {
+        format!("[[contacts]]\nname = \"c\"\nsurface = {{ {surface} }}\nwith = \"block\"\nstiffness = 1.0\n")
+    };
+    let section = |shape: &str| format!("[sections.more]\n{shape}\n");
+    let mut tables = vec![
+        "[[bodies]]\nname = \"b\"\ncenter = [L, 9.0, 9.0]\nmass = 1.0\n".to_owned(),
+        "[[links]]\nname = \"l\"\nfrom = { ground = [L, 0.0, 0.0] }\nto = { body = \"block\" }\nstiffness = 1.0\n"
+            .to_owned(),
+    ];
+    tables.extend(
+        [
+            r#"kind = "box", size = [L, 1.0, 1.0]"#,
+            r#"kind = "sphere", radius = L"#,
+            r#"kind = "cylinder", radius = L, length = 1.0, axis = [0.0, 0.0, 1.0]"#,
+            r#"kind = "cylinder", radius = 1.0, length = L, axis = [0.0, 0.0, 1.0]"#,
+            r#"kind = "tube", radius = L, thickness = 0.1, length = 1.0, axis = [0.0, 0.0, 1.0]"#,
+            r#"kind = "capsule", radius = 1.0, ends = [[9.0, 9.0, 9.0], [9.0, L, 9.0]]"#,
+            r#"kind = "hull", points = [[9.0, 9.0, 9.0], [9.0, 9.0, L], [9.0, 8.0, 9.0], [8.0, 9.0, 9.0]]"#,
+        ]
+        .map(body),
+    );
+    tables.extend(
+        [
+            r#"shape = "plane", point = [0.0, 0.0, -L], normal = [0.0, 0.0, 1.0]"#,
+            r#"shape = "sphere", center = [0.0, 0.0, 9.0], radius = L"#,
+            r#"shape = "box", center = [0.0, 9.0, 0.0], size = [1.0, L, 1.0]"#,
+            r#"shape = "cylinder", center = [0.0, 9.0, 0.0], axis = [1.0, 0.0, 0.0], radius = 1.0, length = L"#,
+        ]
+        .map(surface),
+    );
+    tables.extend(
+        [
+            "shape = \"rectangle\"\nwidth = L\nheight = 1.0",
+            "shape = \"tube\"\nradius = L\nthickness = 1.0",
+            "shape = \"general\"\narea = P2\nmoments = [1.0, 1.0]\ntorsion_constant = 1.0",
+            "shape = \"general\"\narea = 1.0\nmoments = [1.0, P4]\ntorsion_constant = 1.0",
+        ]
+        .map(section),
+    );
+    for length in [1e31, 1e100, 1e200] {
+        let power = |k: i32| format!("{:e}", f64::powi(length, k).min(1e300));
+        let refused = |text: &str| {
+            let text = text.replace("P2", &power(2)).replace("P4", &power(4)).replace('L', &format!("{length:e}"));
+            assert!(said(&text, &[]).contains("no length may be above 1e30"), "{text}");
+        };
+        tables.iter().for_each(|table| refused(&format!("{PORTAL}\n{table}")));
+        refused(&edited(&[("[1.5, 0.0, 2.0]", "[1.5, 0.0, -L]")]));
+        refused(&edited(&[("point = [-0.1, 0.0, 2.0]", "point = [-0.1, L, 2.0]")]));
+    }
+}
+
 #[test]
 fn syntax() {
     assert_snapshot!("broken_line", portal(&[("height = 0.05", "height = ")]));
@@ -129,6 +186,11 @@ fn keys_and_types() {
     assert_snapshot!("table_for_list", portal(&[("[[supports]]", "[supports]")]));
     assert_snapshot!("list_for_table", portal(&[("[analysis]", "[[analysis]]")]));
     assert_snapshot!("not_finite", portal(&[("mass = 500.0", "mass = nan"), ("stiffness = 5e6", "stiffness = inf")]));
+    assert_snapshot!(
+        "lengths_beyond_all",
+        portal(&[("[1.5, 0.0, 2.0]", "[1.5, 0.0, 1e40]"), ("height = 0.05", "height = -1e200")])
+    );
+    assert_snapshot!("lengths_far_apart", portal(&[("height = 0.05", "height = 1e20")]));
     assert_snapshot!("unknown_word", portal(&[("kind = \"dynamic\"", "kind = \"dinamic\"")]));
     assert_snapshot!("unknown_direction", portal(&[("fix = \"all\"", "fix = [\"ux\", \"uu\"]")]));
     assert_snapshot!(

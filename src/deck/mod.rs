@@ -16,6 +16,7 @@ pub mod expect;
 mod hints;
 pub mod initial;
 pub mod joints;
+mod lengths;
 pub mod links;
 pub mod loads;
 pub mod materials;

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Problem, Value, Wanted, Wrong};
-use super::{Deck, Spoiled, aliases, hints, set, study};
+use super::{Deck, Spoiled, aliases, hints, lengths, set, study};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::{nearest, quoted};
 
@@ -37,6 +37,7 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     let words = study::words(&root);
     reader.problems.extend(study::expand(&mut root, &words));
     reader.numbers(&mut root);
+    reader.lengths(&mut root);
     let deck = reader.tables(root);
     let spoiled = reader.spoiled;
     (deck.map(|deck| Deck { spoiled, ..deck }), reader.problems)
@@ -86,6 +87,14 @@ impl Reader {
         for span in wrong {
             let key = self.strike(root, &span).map_or_else(|| "this".to_owned(), |entry| format!("`{}`", entry.key));
             self.problems.push(Diagnostic::error(format!("{key} must be a finite number")).at(&span));
+        }
+    }
+
+    /// Takes out lengths that no computation can hold.
+    fn lengths(&mut self, root: &mut DeTable) {
+        for (span, problem) in lengths::check(root) {
+            self.strike(root, &span);
+            self.problems.push(problem.at(&span));
         }
     }
 

@@ -142,6 +142,10 @@ pub trait ElementBlock: Send + Sync {
     fn as_any(&self) -> Option<&dyn Any> {
         None
     }
+    /// True where friction may make tangents unsymmetric.
+    fn rubs(&self) -> bool {
+        false
+    }
     /// True where forces depend on velocities.
     fn is_damped(&self) -> bool {
         false

@@ -11,9 +11,16 @@ use super::kernel::{
     DenseBlock, DenseColumn, gemm, gemv, invert, is_determinant_negative, multiply, negative_eigenvalues, product,
     row_scale,
 };
+use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
 use crate::snapshot::{Keep, Snapshot};
+
+/// Numbers from which on it is asked whether the memory holds them.
+const WORTH_A_LOOK: usize = 1_000_000;
+/// The part of the geometric mean of the entries on the diagonal by which two entries differ that are not the same but for rounding, and
+/// for what an equilibrium leaves out of balance.
+const DIFFERENT: f64 = 1e-6;
 
 /// A matrix of B×B blocks and its LU factorisation.
 pub struct BlockLu<const B: usize> {
@@ -44,7 +51,10 @@ impl<const B: usize> Keep for BlockLu<B> {
 
 impl<const B: usize> BlockLu<B> {
     /// The factorisation of a pattern, without numbers.
-    pub(super) fn new(graph: Graph) -> Self {
+    ///
+    /// # Errors
+    /// The memory does not hold it.
+    pub(super) fn new(graph: Graph) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph);
         let n = elimination.groups();
         let mut start = vec![0];
@@ -60,9 +70,13 @@ impl<const B: usize> BlockLu<B> {
             padding.extend((graph.sizes[elimination.order[k]]..B).map(|i| diagonal + i * B + i));
             start.push(start[k] + 1 + 2 * below.len());
         }
+        let numbers = (start[n] + 1) * B * B;
+        if numbers > WORTH_A_LOOK {
+            memory::require(graph.unknowns(), numbers)?;
+        }
         let blocks = vec![[[0.0; B]; B]; start[n] + 1];
         let zeros = vec![[0.0; B]; n];
-        BlockLu { graph, elimination, start, places, padding, blocks, scales: zeros.clone(), x: zeros }
+        Ok(BlockLu { graph, elimination, start, places, padding, blocks, scales: zeros.clone(), x: zeros })
     }
 
     /// The place of an entry in [`BlockLu::values`]; `None` where it is not in the pattern.
@@ -106,6 +120,25 @@ impl<const B: usize> BlockLu<B> {
                 block(self.start[k] + 1 + below.len() + t, order[k], order[i as usize]);
             }
         }
+    }
+
+    /// True where entries as assembled, before `factor`, differ from those across the diagonal.
+    pub(super) fn has_unsymmetric_values(&self) -> bool {
+        let blocks = &self.blocks;
+        let differ = |(a, b): (f64, f64), (p, q): (f64, f64)| {
+            (a - b).powi(2) > DIFFERENT * DIFFERENT * (p * q).abs().max(a * a).max(b * b)
+        };
+        let sizes = |k: usize| self.graph.sizes[self.elimination.order[k]];
+        (0..self.elimination.groups()).any(|k| {
+            let (D, below) = (&blocks[self.start[k]], self.elimination.below(k));
+            let own = (0..sizes(k)).any(|j| (0..j).any(|i| differ((D[j][i], D[i][j]), (D[i][i], D[j][j]))));
+            own || below.iter().enumerate().any(|(t, &i)| {
+                let i = i as usize;
+                let other = &blocks[self.start[i]];
+                let (L, U) = (&blocks[self.start[k] + 1 + t], &blocks[self.start[k] + 1 + below.len() + t]);
+                (0..sizes(k)).any(|c| (0..sizes(i)).any(|r| differ((L[c][r], U[r][c]), (other[r][r], D[c][c]))))
+            })
+        })
     }
 
     /// A place in [`BlockLu::values`] for entries that are not wanted.

@@ -52,15 +52,25 @@ impl Solver {
         Ok(match factorization {
             Factorization::Cholesky => Solver::Cholesky(Box::new(Cholesky::new(graph, threads)?)),
             Factorization::BlockLu if structure.sizes.iter().all(|&size| size <= 3) => {
-                Solver::Block3(Box::new(BlockLu::new(graph)))
+                Solver::Block3(Box::new(BlockLu::new(graph)?))
             }
-            Factorization::BlockLu => Solver::Block6(Box::new(BlockLu::new(graph))),
+            Factorization::BlockLu => Solver::Block6(Box::new(BlockLu::new(graph)?)),
         })
     }
 
     /// True where one triangle is stored: the caller then adds each pair of rows once, with its symmetric value.
     pub fn is_symmetric(&self) -> bool {
         matches!(self, Solver::Cholesky(_))
+    }
+
+    /// True where entries, as assembled and before [`Solver::factor`], differ from those across the diagonal. Never where one triangle is
+    /// stored.
+    pub fn has_unsymmetric_values(&self) -> bool {
+        match self {
+            Solver::Block3(inner) => inner.has_unsymmetric_values(),
+            Solver::Block6(inner) => inner.has_unsymmetric_values(),
+            Solver::Cholesky(_) => false,
+        }
     }
 
     /// The place in [`Solver::values`] of the entry in a row and a column (external numbers); none outside the structure.
@@ -136,7 +146,8 @@ impl Solver {
 
     /// A solver without unknowns.
     pub fn none() -> Self {
-        Solver::Block3(Box::new(BlockLu::new(Graph::new(&Structure::default()))))
+        let nothing = BlockLu::new(Graph::new(&Structure::default()));
+        Solver::Block3(Box::new(nothing.expect("no unknowns need no memory")))
     }
 
     /// Gives back the memory that is needed to factor and not to solve, until there is something to factor.

@@ -19,6 +19,9 @@ pub type Vec6 = nalgebra::Vector6<f64>;
 /// Matrix of 6×6 numbers over translations and rotations.
 pub type Mat6 = nalgebra::Matrix6<f64>;
 
+/// The largest length that is taken: its fifth power, a moment of inertia, and products of such are numbers yet.
+pub const LARGEST_LENGTH: f64 = 1e30;
+
 /// a b + c, rounded once where the target has such an instruction; a library call in its place would be slow.
 #[inline(always)]
 pub fn fma(a: f64, b: f64, c: f64) -> f64 {

@@ -6,7 +6,7 @@
 use super::data::{CellShape, MOST_CELL_NODES};
 use super::draft::{Draft, RawGroup};
 use super::ids::{Ids, short};
-use crate::math::Vec3;
+use crate::math::{LARGEST_LENGTH, Vec3};
 use crate::text_file::{Fault, Text, TextLine, Word};
 use std::collections::HashMap;
 
@@ -186,8 +186,8 @@ fn node(
     let mut x = Vec3::zeros();
     // A blank coordinate is zero.
     for (i, word) in words.iter().enumerate().skip(1).take(3).filter(|(_, word)| !word.bytes.is_empty()) {
-        let message = "a coordinate must be a finite number";
-        x[i - 1] = word.number().ok_or_else(|| text.fault_at(message, word))?;
+        let message = || format!("a coordinate must be a finite number, at most {LARGEST_LENGTH:e}");
+        x[i - 1] = word.coordinate().ok_or_else(|| text.fault_at(message(), word))?;
     }
     if words.len() < 2 {
         return Err(text.fault(format!("node {id} has no coordinates"), line.number));

@@ -4,7 +4,7 @@
 use super::data::{CellShape, MOST_CELL_NODES};
 use super::draft::{Draft, RawGroup};
 use super::ids::short;
-use crate::math::Vec3;
+use crate::math::{LARGEST_LENGTH, Vec3};
 use crate::text_file::{Fault, Text, TextLine, Word, Words};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -226,8 +226,14 @@ impl<'a, 't> Numbers<'a, 't> {
         word.number().ok_or_else(|| self.text.fault_at(format!("{what} must be a finite number"), &word))
     }
 
+    fn coordinate(&mut self, what: &str) -> Result<f64, Fault> {
+        let word = self.word(what)?;
+        let message = || format!("{what} must be a finite number, at most {LARGEST_LENGTH:e}");
+        word.coordinate().ok_or_else(|| self.text.fault_at(message(), &word))
+    }
+
     fn vector(&mut self) -> Result<Vec3, Fault> {
-        Ok(Vec3::new(self.number("x")?, self.number("y")?, self.number("z")?))
+        Ok(Vec3::new(self.coordinate("x")?, self.coordinate("y")?, self.coordinate("z")?))
     }
 
     fn nodes(&mut self, kind: CellShape) -> Result<[u64; MOST_CELL_NODES], Fault> {

@@ -129,9 +129,30 @@ impl Plan {
     /// # Errors
     /// As for [`Plan::build`].
     pub fn build_with(&self, system: &System, partners: &[(usize, Partners)]) -> Result<(Solver, Assembly), TooLarge> {
+        self.build_of(self.kind, system, partners)
+    }
+
+    /// The same for a matrix that is stored in full, unsymmetric as it may be.
+    ///
+    /// # Errors
+    /// As for [`Plan::build`].
+    pub fn build_unsymmetric(
+        &self,
+        system: &System,
+        partners: &[(usize, Partners)],
+    ) -> Result<(Solver, Assembly), TooLarge> {
+        self.build_of(linear::Factorization::BlockLu, system, partners)
+    }
+
+    fn build_of(
+        &self,
+        kind: linear::Factorization,
+        system: &System,
+        partners: &[(usize, Partners)],
+    ) -> Result<(Solver, Assembly), TooLarge> {
         let mut structure = structure_with(system, &self.dofs, partners);
         structure.positions.clone_from(&self.structure.positions);
-        let solver = Solver::new(&structure, self.kind, self.threads)?;
+        let solver = Solver::new(&structure, kind, self.threads)?;
         let assembly = Assembly::with_room(system, &self.dofs, &solver, self.threads, partners);
         Ok((solver, assembly))
     }

@@ -99,7 +99,8 @@ pub struct Instability {
     pub time: f64,
     /// True where the start of the step was unstable already.
     pub already: bool,
-    /// False where loads have no potential and only the symmetric part of the tangent tells: the equilibrium may be stable yet.
+    /// False where loads have no potential or friction slips, and memory does for the symmetric part of the tangent alone: the equilibrium may
+    /// be stable yet.
     pub certain: bool,
     /// Number of unstable modes at the end of that step.
     pub modes: usize,
@@ -336,9 +337,11 @@ pub enum Remark {
     },
     /// A plane scene has joints: buckling out of it is not judged.
     Jointed,
+    /// Something slips along a path of given arc length: its stability is not judged.
+    Slipping,
 }
 
-keep_either!(Remark { 0 => JudgedAsHeld { places }, 1 => NotHeld { place }, 2 => Jointed });
+keep_either!(Remark { 0 => JudgedAsHeld { places }, 1 => NotHeld { place }, 2 => Jointed, 3 => Slipping });
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -359,6 +362,9 @@ impl fmt::Display for Remark {
             Remark::Jointed => {
                 write!(f, "buckling out of the plane is not judged in a scene with joints: `plane` = \"off\" judges it")
             }
+            Remark::Slipping => f.write_str(
+                "friction slips along the path: whether equilibria are stable is not judged there; load steps judge it",
+            ),
         }
     }
 }

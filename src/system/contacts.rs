@@ -120,7 +120,11 @@ impl<'a> ContactBlock<'a> {
 
 /// The least gap of a contact at the start of a step, by its history, where all of it is open; `None` for other groups.
 pub fn open_gap(group: &Group, history: &[f64]) -> Option<f64> {
-    let gap = ContactBlock::of(group)?.last_gap(history);
+    let block = ContactBlock::of(group)?;
+    let gap = match block {
+        ContactBlock::Points(points) if contact::pushes(points, history) => return None,
+        _ => block.last_gap(history),
+    };
     (gap > 0.0 && gap.is_finite()).then_some(gap)
 }
 
@@ -139,6 +143,11 @@ impl System {
     /// The pairs of elements that may act soon where the nodes lie thus, by their groups.
     pub fn partners(&self, nodes: &[Node]) -> Vec<(usize, Partners)> {
         self.wandering_groups().map(|(number, _, block)| (number, block.partners(nodes))).collect()
+    }
+
+    /// True where friction may make the tangent unsymmetric.
+    pub fn rubs(&self) -> bool {
+        self.groups.iter().any(|group| group.block.rubs())
     }
 
     /// True where any material has history variables.

@@ -1,6 +1,7 @@
 //! A file as lines and words, each with its place for messages.
 
 use crate::diagnostic::{Diagnostic, Excerpt};
+use crate::math::LARGEST_LENGTH;
 use std::ops::Range;
 
 /// An error in the file.
@@ -159,6 +160,11 @@ impl Word<'_> {
             false => Err(error),
         });
         read.ok().filter(|number: &f64| number.is_finite())
+    }
+
+    /// A coordinate: a finite number that is no larger than lengths are.
+    pub fn coordinate(&self) -> Option<f64> {
+        self.number().filter(|x| x.abs() <= LARGEST_LENGTH)
     }
 
     /// A whole number, not negative.

@@ -86,6 +86,10 @@ impl ElementBlock for Contacts {
             || self.kinematics(&self.points[e], now.nodes).gap - old.lift(&self.law) > self.law.touching
     }
 
+    fn rubs(&self) -> bool {
+        self.law.friction > 0.0
+    }
+
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         Some(self)
     }

@@ -12,6 +12,12 @@ use super::kinematics::Contacts;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
+/// True where a multiplier pushes on a point at the end of the last step, whose gap may then be positive by what is left of it.
+pub fn pushes(contacts: &Contacts, history: &[f64]) -> bool {
+    let law = &contacts.law;
+    law.tolerance.is_some() && history::each(contacts, history).any(|point| point.lift(law) > 0.0)
+}
+
 /// Writes into `new`, a copy of the block's history at the start of a step, multipliers by the forces in the equilibrium `now`; `start`
 /// are the nodes at the start of the step. Returns the largest length by which one was out, over the tolerance.
 pub fn augment(contacts: &Contacts, start: &[Node], now: &Configuration, new: &mut [f64]) -> f64 {

@@ -2,6 +2,10 @@
 //! equilibria beyond a buckling load as easily as before it, so they are counted at the end of each step. Where the first appears, the
 //! tangents at the ends of the step are combined, K(θ) = K₀ + θ (K₁ − K₀): the smallest θ at which one eigenvalue is negative gives the
 //! load, exactly where stresses grow with it (linear buckling), and the softest mode there is the mode of buckling.
+//!
+//! The tangent of what slips is not symmetric: a point that is pressed deeper by δ is held back by μ k δ more, and nothing pushes it out for
+//! that. Its symmetric part may then have negative eigenvalues where nothing grows; where it has none, nothing does. So these only raise the
+//! suspicion, which the determinant of the whole tangent settles.
 
 use super::out_of_plane::OutOfPlane;
 use super::tangent::{Criterion, Ends, Tangent};
@@ -10,7 +14,7 @@ use crate::plan::deforms_in_plane;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::linear_system::LinearSystem;
-use crate::solve::warning::{Remark, Warning};
+use crate::solve::warning::{Instability, Remark, Warning};
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, State};
 
@@ -114,7 +118,19 @@ impl Stability {
         }
         let start = Configuration { nodes: trial, history, dt: 0.0, lead: None };
         let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
-        if let Some(instability) = tangent.locate(cx, &ends) {
+        let in_doubt = self.criterion == Criterion::SymmetricPart || cx.system.rubs();
+        let found = match self.criterion {
+            Criterion::Determinant => tangent.locate(cx, &ends),
+            _ if in_doubt => {
+                let judged = locate_in_doubt(cx, &mut tangent, &ends, negative > before, self.path.is_some());
+                judged.unwrap_or_else(|NotJudged| {
+                    warnings.remark(Remark::Slipping);
+                    None
+                })
+            }
+            _ => tangent.locate(cx, &ends),
+        };
+        if let Some(instability) = found {
             warnings.add(Warning::Unstable(instability));
             self.counts = false;
         }
@@ -126,4 +142,42 @@ impl Stability {
             !own
         }
     }
+}
+
+/// A path of given arc length on which something slips: its limit points change the sign of the determinant too.
+struct NotJudged;
+
+/// The first instability in a step whose tangent need not be symmetric, after the symmetric part has raised the suspicion. `appeared`: more of
+/// its eigenvalues are negative than at the start of the step; `along`: the step is one of a path of given arc length.
+fn locate_in_doubt(
+    cx: &Context,
+    tangent: &mut Tangent,
+    ends: &Ends,
+    appeared: bool,
+    along: bool,
+) -> Result<Option<Instability>, NotJudged> {
+    let mut whole = match tangent.matrix.solver.is_symmetric() {
+        true => whole_matrix(cx, &ends.configurations[1]),
+        false => None,
+    };
+    let Tangent { system, dofs, springs, criterion, .. } = *tangent;
+    let matrix = whole.as_mut().unwrap_or(&mut *tangent.matrix);
+    let mut tangent = Tangent { system, dofs, matrix, forces: &mut *tangent.forces, springs, criterion };
+    tangent.criterion = tangent.criterion_between(ends);
+    if tangent.criterion == Criterion::Determinant {
+        if along {
+            return Err(NotJudged);
+        }
+        if !appeared && tangent.unstable_modes_at_end(ends) == Some(0) {
+            return Ok(None);
+        }
+    }
+    Ok(tangent.locate(cx, ends))
+}
+
+/// A matrix that is stored in full, for one look at the determinant of a scene that is solved by the symmetric part; `None` where there is
+/// no memory for it.
+fn whole_matrix(cx: &Context, now: &Configuration) -> Option<LinearSystem> {
+    let built = cx.plan.build_unsymmetric(cx.system, &cx.system.partners(now.nodes));
+    built.ok().map(|(solver, assembly)| LinearSystem::new(solver, assembly))
 }

@@ -31,9 +31,9 @@ pub const WEIGHTS: TangentWeights =
 pub enum Criterion {
     /// Loads have a potential: the tangent is symmetric, and its negative eigenvalues count.
     Eigenvalues,
-    /// Follower loads, and moments about axes fixed in space: a negative determinant shows a motion that grows.
+    /// Follower loads, moments about axes fixed in space, and friction that slips: a negative determinant shows a motion that grows.
     Determinant,
-    /// The same where only the symmetric part is stored: a negative eigenvalue may show one.
+    /// The same where only the symmetric part can be stored: a negative eigenvalue may show one.
     SymmetricPart,
 }
 
@@ -87,6 +87,24 @@ impl Tangent<'_> {
             Criterion::Determinant => usize::from(solver.is_determinant_negative() == multipliers.is_multiple_of(2)),
             _ => solver.negative_eigenvalues().saturating_sub(multipliers),
         }
+    }
+
+    /// What tells of stability between the ends of a step, where the tangent need not be symmetric.
+    pub fn criterion_between(&mut self, ends: &Ends) -> Criterion {
+        if self.matrix.solver.is_symmetric() {
+            return Criterion::SymmetricPart;
+        }
+        let unsymmetric = (0..2).any(|i| {
+            self.form(&ends.configurations[i], ends.loads[i]);
+            self.matrix.solver.has_unsymmetric_values()
+        });
+        if unsymmetric { Criterion::Determinant } else { Criterion::Eigenvalues }
+    }
+
+    /// The number of unstable modes at the end of a step; `None` where the tangent is singular there.
+    pub fn unstable_modes_at_end(&mut self, ends: &Ends) -> Option<usize> {
+        self.form(&ends.configurations[1], ends.loads[1]);
+        self.unstable_modes()
     }
 
     /// The first instability in the step; `None` where the tangents between its ends show none.

@@ -69,6 +69,10 @@ impl ElementBlock for ConvexPairs {
             || self.pair(e).kinematics(now.nodes).pose.least_axis().gap > self.law.touching
     }
 
+    fn rubs(&self) -> bool {
+        self.law.friction > 0.0
+    }
+
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         Some(self)
     }

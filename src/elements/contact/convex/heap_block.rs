@@ -107,6 +107,10 @@ impl ElementBlock for ConvexHeap {
         Some(self)
     }
 
+    fn rubs(&self) -> bool {
+        self.law.friction > 0.0
+    }
+
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         Some(self)
     }

@@ -72,6 +72,10 @@ impl ElementBlock for FacetContacts {
         Some(self)
     }
 
+    fn rubs(&self) -> bool {
+        self.law.friction > 0.0
+    }
+
     fn as_any(&self) -> Option<&dyn std::any::Any> {
         Some(self)
     }
