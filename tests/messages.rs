@@ -862,6 +862,10 @@ fn shells() {
         "shell_slivers",
         sheet("c = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]", "c = [1.0, 1e-4, 0.0]\nd = [0.0, 1e-4, 0.0]")
     );
+    let thin = SHEET.replacen("thickness = 0.01", "thickness = 0.005", 1);
+    assert_eq!(said(&thin.replacen("[3, 4]", ball, 1), &[]), "");
+    let triangles = format!("{ball}\nkind = \"triangle\"");
+    assert_snapshot!("shell_of_long_triangles", said(&thin.replacen("[3, 4]", &triangles, 1), &[]));
     let coarse = SHEET.replace("[3, 4]", "1").replace("elements = 4", "elements = 1");
     assert_snapshot!(
         "shell_flat_corner",

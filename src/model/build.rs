@@ -15,6 +15,7 @@ use super::data::{
     Rigid, Solution, StepLength,
 };
 use super::doubts::amplitude_ends::check_amplitude_ends;
+use super::doubts::chords::check_chords;
 use super::doubts::node_places::place_nodes;
 use super::doubts::proportions::check_proportions;
 use super::doubts::slivers::check_slivers;
@@ -344,6 +345,7 @@ fn check(
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);
+    check_chords(deck, parts, topology, report);
     check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.sequence.whole), report);
     if scene.analysis.modes.is_some() {
         check_modal(deck, report);

@@ -29,7 +29,7 @@ pub const FLAT: f64 = 0.5;
 
 /// Length over thickness beyond which stretch is that of chords on any surface. A side that is under pressure from a strain ε across
 /// buckles from ε (ℓ/h)² of some 5 on, and metals strain by 2e-3 before they yield.
-const SLENDER: f64 = 50.0;
+pub const SLENDER: f64 = 50.0;
 
 /// Thickness and elastic constants of a group of elements.
 #[derive(Debug, Clone, Copy)]

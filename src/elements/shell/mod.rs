@@ -54,7 +54,7 @@ pub use super::results::MOST_LAYERS;
 pub use crate::elements::pressure::MOST_NODES;
 pub use crate::math::curved_faces::{NineNodes, SixNodes};
 pub use curved::{CurvedQuadrilaterals, CurvedShells, CurvedTriangles};
-pub use geometry::{FLAT, Plate, ShellGeometry};
+pub use geometry::{FLAT, Plate, SLENDER, ShellGeometry};
 pub use integrals::{faces, lumped_shares, products, shares};
 pub use interpolation::{Interpolation, Quadrilateral, Triangle};
 pub use kinematics::{Quadrilaterals, Shells, Triangles};
