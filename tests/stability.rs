@@ -1,8 +1,9 @@
 //! Buckling is told of whatever matrix leads the iteration, whatever else acts, in the plane of a motion and out of it.
 
 use crate::statics::{Said, beam, column, head, said, truss};
-use crate::support::doubts;
+use crate::support::{doubts, read_deck};
 use rdsolve::solve::Outcome;
+use rdsolve::system::System;
 
 /// π² EI/4 with EI of the weak axis: a column of 1 m that is clamped, or one of 2 m on pins.
 fn weak() -> f64 {
@@ -265,4 +266,24 @@ fn large_scenes_are_judged_by_the_whole_tangent() {
     }
     // Forces that follow do not buckle it: it would flutter at eight times that load. The symmetric part alone says nothing of that.
     assert_eq!(said(&sheet(true, "")).2.warnings, Vec::<String>::new());
+}
+
+/// In its plane the edge of a shell bends between its nodes, and takes its share of a load by moments there. They are none that the deck gives.
+#[test]
+fn dead_loads_along_edges_have_a_potential() {
+    let deck = |load: &str| {
+        format!(
+            "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[materials.m]\nmodel = \"elastic\"\n\
+             youngs_modulus = 7e10\npoisson_ratio = 0.3\n[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.3]\n\
+             d = [0.0, 1.0, 0.3]\n[[shells]]\nname = \"p\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = 2\nthickness = 0.01\n\
+             material = \"m\"\n[[supports]]\nat = \"p.edge1\"\nfix = \"all\"\n[[loads]]\n{load}\n"
+        )
+    };
+    let has_potential = |load: &str| {
+        let model = read_deck(&deck(load));
+        assert!(model.loading.nodal.iter().any(|load| load.moment.norm() > 0.0), "{load}");
+        System::new(&model).expect("a system").loads_have_potential(None)
+    };
+    assert!(has_potential("at = \"p.edge3\"\nforce_per_length = [0.0, -1.0, -0.3]"));
+    assert!(!has_potential("at = \"c\"\nmoment = [0.0, 1.0, 0.0]"));
 }

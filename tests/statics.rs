@@ -540,3 +540,31 @@ const SOFT_SPRING: &str = r#"
             supports = [{ at = "aside", fix = ["uy", "uz"] }]
             links = [{ name = "soft", from = { ground = [8.0, 0.0, 0.0] }, to = { node = "aside" }, stiffness = 1e-3 }]
 "#;
+
+/// Springs alone, without mass: F/k₁ + F/k₂.
+#[test]
+fn points_between_springs_are_a_structure() {
+    let link = |name: &str, ends: [&str; 2], stiffness: f64| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ node = {:?} }}\nto = {{ node = {:?} }}\nstiffness = {stiffness:?}\n",
+            ends[0], ends[1]
+        )
+    };
+    let deck = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 0.5\n[points]\na = [0.0, 0.0, 0.0]\n\
+                b = [1.0, 0.0, 0.0]\nc = [2.0, 0.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n[[supports]]\nat = [\"b\", \"c\"]\n\
+                fix = [\"uy\", \"uz\"]\n[[loads]]\nat = \"c\"\nforce = [6.0, 0.0, 0.0]\n"
+        .to_owned()
+        + &link("soft", ["a", "b"], 100.0)
+        + &link("stiff", ["b", "c"], 300.0);
+    let (model, outcome, state, warnings) = run(&deck);
+    assert!(matches!(outcome, Outcome::Done) && warnings.is_empty(), "{outcome:?} {warnings:?}");
+    for (name, exact) in [("b", 0.06), ("c", 0.08)] {
+        let i = node(&model, name);
+        // Linear: the tolerance of the iteration is 1e-8.
+        assert!(
+            (state.nodes[i].x.x - model.nodes[i].x.x - exact).abs() < 1e-8 * exact,
+            "{name}: {:?}",
+            state.nodes[i].x
+        );
+    }
+}

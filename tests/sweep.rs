@@ -438,14 +438,37 @@ fn cases_come_from_tables_and_samples() {
     for kind in ["sobol", "latin-hypercube"] {
         let sample = format!(
             "deck = \"deck.toml\"\n[vary]\nsample = {{ kind = \"{kind}\", cases = 6, seed = 3 }}\n\"bodies.block.mass\" = {{ from = 1.0, to = 2.0 }}\n\
-             \"links.rope.gap\" = {{ from = 0.0, to = 0.2 }}\n"
+             \"integrator\" = [{{ scheme = \"newmark\" }}]\n\"links.rope.gap\" = {{ from = 0.0, to = 0.2 }}\n"
         );
         fs::write(folder.join("s.toml"), sample).unwrap();
         assert!(rdsolve(folder, &["sweep", "s.toml", "-o", kind]).status.success());
         let cases = rows(&folder.join(kind), "cases.csv");
         assert_eq!(cases.len(), 7);
         assert!(cases[1..].iter().all(|case| (1.0..2.0).contains(&case[2].parse::<f64>().unwrap())));
+        // One value holds in all cases, and takes no dimension of the sample.
+        assert!(
+            cases[1..]
+                .iter()
+                .all(|case| case[3].contains("newmark") && (0.0..0.2).contains(&case[4].parse::<f64>().unwrap()))
+        );
     }
+}
+
+/// The sweep that the documentation shows runs as it stands there.
+#[test]
+fn the_sweep_of_the_documentation_runs() {
+    let page = fs::read_to_string("docs/sweeps.md").unwrap();
+    let shown = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let folder = files(shown);
+    let decks = folder.path().join("decks/tutorial");
+    fs::create_dir_all(&decks).unwrap();
+    fs::copy("decks/tutorial/mast.toml", decks.join("mast.toml")).unwrap();
+    let output = rdsolve(folder.path(), &["sweep", "s.toml", "--case", "15"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let summary = rows(folder.path(), "s.out/summary.csv");
+    let columns: Vec<&str> = summary[0].iter().map(String::as_str).collect();
+    assert_eq!(columns[5..8], ["sway", "end", "energy"]);
+    assert!(summary[15][5..8].iter().all(|value| value.parse::<f64>().is_ok()), "{:?}", summary[15]);
 }
 
 /// What is wrong with the file of a sweep is said all at once, each with its place.
@@ -476,8 +499,13 @@ fn bad_files_are_errors_with_their_places() {
             &["\"sobol\" or \"latin-hypercube\""],
         ),
         (
-            "deck = \"deck.toml\"\n[vary]\nsample = { kind = \"sobol\", cases = 4 }\n\"a\" = [1]\n",
+            "deck = \"deck.toml\"\n[vary]\nsample = { kind = \"sobol\", cases = 4 }\n\"a\" = [1, 2]\n",
             &["a sample needs ranges"],
+        ),
+        ("deck = \"deck.toml\"\n[vary]\nsample = { kind = \"sobol\", cases = 4 }\n\"a\" = [1]\n", &["nothing varies"]),
+        (
+            "deck = \"deck.toml\"\nsample = { kind = \"sobol\", cases = 4 }\n[vary]\n\"a\" = { from = 1, to = 2 }\n",
+            &["`sample` stands below `[vary]`", "s.toml:2:1"],
         ),
         (
             "deck = \"deck.toml\"\n[vary]\n\"a\" = [1]\n[collect]\nx = { at = \"b\", peak = \"top\" }\ny = 1\ncase = { at = \"b\", quantity = \"z\", time = 1 }\n",

@@ -148,6 +148,19 @@ impl ConstraintEquation {
         }
     }
 
+    /// The degrees of freedom of the two nodes on which the equation can ever act.
+    pub fn reach(&self) -> [[bool; 6]; 2] {
+        let moves = [true, true, true, false, false, false];
+        let turns = [false, false, false, true, true, true];
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
+            ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
+            ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) => [turns; 2],
+            ConstraintEquation::Screw { .. } => [[true; 6]; 2],
+            ConstraintEquation::Distance { .. } => [moves; 2],
+        }
+    }
+
     /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0: its violation is
     /// that distance. `d` is x_a − x_b at t = 0.
     pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {

@@ -39,7 +39,7 @@ pub struct BaseAcceleration {
 pub struct Damping {
     /// Rayleigh's alpha in C = alpha M + beta K, per unit of time, 0 or more. Default: 0. Alias: `alpha`.
     pub mass_factor: Maybe<f64>,
-    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more; it acts on strain rates of beams and bars.
+    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more; it acts on strain rates of beams, bars and shells.
     /// Default: 0. Alias: `beta`.
     pub stiffness_factor: Maybe<f64>,
     /// Dampers from nodes to the ground.

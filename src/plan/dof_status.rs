@@ -1,6 +1,5 @@
 //! The status of each degree of freedom: unknown, restrained, dependent or omitted, and why.
 
-use crate::constraints::joint::ConstraintEquation;
 use crate::elements::ElementBlock;
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model};
@@ -105,7 +104,7 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
     }
     for joint in &system.joints {
         let moving = &joint.nodes[..if joint.supports { 1 } else { 2 }];
-        for (&node, reach) in joint.equations.iter().flat_map(|row| moving.iter().zip(reach_of(row))) {
+        for (&node, reach) in joint.equations.iter().flat_map(|row| moving.iter().zip(row.reach())) {
             acts[node].iter_mut().zip(reach).for_each(|(acts, reaches)| *acts |= reaches);
         }
     }
@@ -126,19 +125,6 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         }
     }
     acts
-}
-
-/// The degrees of freedom of the two nodes on which a constraint equation can ever act.
-fn reach_of(row: &ConstraintEquation) -> [[bool; 6]; 2] {
-    let moves = [true, true, true, false, false, false];
-    let turns = [false, false, false, true, true, true];
-    match row {
-        ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
-        ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
-        ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) => [turns; 2],
-        ConstraintEquation::Screw { .. } => [[true; 6]; 2],
-        ConstraintEquation::Distance { .. } => [moves; 2],
-    }
 }
 
 /// The degrees of freedom on which an element acts: those of its matrix, but only one translation for a link along a

@@ -22,6 +22,9 @@ use std::ops::Range;
 /// Points that are nearer than this part of the size of their coordinates are at one place.
 const MEETING: f64 = 1e-9;
 
+/// The part of the largest force that an equilibrium may leave out of balance.
+const LEFT: f64 = 1e-6;
+
 /// What a stage begins with.
 #[derive(Clone)]
 pub struct Handover {
@@ -341,6 +344,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
         follower: false,
         amplitude: Some(amplitude),
         along: None,
+        moment_counts: moment_is_felt(of, scale, length),
     }));
     let ends = [[state.time, 1.0], [model.analysis.end_time, 0.0]];
     model.loading.amplitudes.push(Amplitude::Table(StraightLines::new(ends.to_vec())));
@@ -349,8 +353,15 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
 
 /// True for forces above those that an equilibrium leaves.
 fn is_felt(of: &[f64; 6], scale: Scale, length: f64) -> bool {
-    /// Part of the largest force.
-    const LEFT: f64 = 1e-6;
-    let largest = |of: &[f64]| of.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    largest(&of[..3]) > LEFT * scale.force || largest(&of[3..]) > LEFT * scale.moment_beside_forces(length)
+    largest(&of[..3]) > LEFT * scale.force || moment_is_felt(of, scale, length)
+}
+
+/// True for moments above those that an equilibrium leaves.
+fn moment_is_felt(of: &[f64; 6], scale: Scale, length: f64) -> bool {
+    largest(&of[3..]) > LEFT * scale.moment_beside_forces(length)
+}
+
+/// The largest magnitude.
+fn largest(of: &[f64]) -> f64 {
+    of.iter().fold(0.0, |most, value| most.max(value.abs()))
 }

@@ -78,24 +78,25 @@ fn of_sample(
     axes: &[VariedKey],
     SampleOfCases { kind, cases, seed }: SampleOfCases,
 ) -> Result<Vec<Vec<String>>, String> {
-    if kind == SampleKind::Sobol && axes.len() > MOST_DIMENSIONS {
+    let ranges = axes.iter().filter(|axis| matches!(axis.values, VariedValues::Range { .. })).count();
+    if kind == SampleKind::Sobol && ranges > MOST_DIMENSIONS {
         return Err(format!("Sobol's sequence has {MOST_DIMENSIONS} dimensions here; take a Latin hypercube for more"));
     }
     let coordinates = |dimension: usize| match kind {
         SampleKind::Sobol => (0..cases).map(|point| sobol(point as u32, dimension, seed)).collect(),
         SampleKind::LatinHypercube => latin_hypercube(cases, dimension, seed),
     };
-    let columns: Vec<Vec<String>> = axes
-        .iter()
-        .enumerate()
-        .map(|(dimension, axis)| {
-            let (from, to) = match axis.values {
-                VariedValues::Range { from, to, .. } => (from, to),
-                VariedValues::List(_) => (0.0, 0.0),
-            };
-            coordinates(dimension).into_iter().map(|unit: f64| number(from + (to - from) * unit)).collect()
-        })
-        .collect();
+    let mut dimensions = 0..ranges;
+    let mut column = |axis: &VariedKey| -> Vec<String> {
+        match &axis.values {
+            VariedValues::List(list) => list.iter().take(1).cycle().take(cases).cloned().collect(),
+            &VariedValues::Range { from, to, .. } => {
+                let units: Vec<f64> = dimensions.next().map(coordinates).unwrap_or_default();
+                units.into_iter().map(|unit| number(from + (to - from) * unit)).collect()
+            }
+        }
+    };
+    let columns: Vec<Vec<String>> = axes.iter().map(&mut column).collect();
     Ok((0..cases).map(|case| columns.iter().map(|column| column[case].clone()).collect()).collect())
 }
 

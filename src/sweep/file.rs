@@ -103,6 +103,8 @@ pub const SCHEMA: &str = include_str!("schema.json");
 
 /// The keys of the file, of a range, of a sample and of a number that is collected.
 const KEYS: [&str; 3] = ["deck", "vary", "collect"];
+/// The keys of `[vary]` that are no entries of the deck.
+const OF_VARY: [&str; 2] = ["table", "sample"];
 const RANGE: [&str; 3] = ["from", "to", "steps"];
 const SAMPLE: [&str; 3] = ["kind", "cases", "seed"];
 const COLLECTED: [&str; 5] = ["at", "quantity", "stage", "peak", "time"];
@@ -142,6 +144,7 @@ impl Reader<'_> {
         for (key, span, _) in strange {
             let hint = match nearest(key, known.iter().copied()) {
                 Some(near) => format!("did you mean `{near}`?"),
+                None if known == KEYS && OF_VARY.contains(&key) => format!("`{key}` stands below `[vary]`"),
                 None => format!("it has {}", quoted(known.iter().copied())),
             };
             self.problems.push(Diagnostic::error(format!("{what} has no key `{key}`")).at(&span).hint(hint));
@@ -180,7 +183,9 @@ impl Reader<'_> {
                 (name, _) => file.axes.extend(self.axis(name, key.span(), value)),
             }
         }
-        if file.axes.is_empty() && file.table.is_none() && self.problems.is_empty() {
+        let ranges = file.axes.iter().any(|axis| matches!(axis.values, VariedValues::Range { .. }));
+        let varies = if file.sample.is_some() { ranges } else { !file.axes.is_empty() || file.table.is_some() };
+        if !varies && self.problems.is_empty() {
             self.error(place, "nothing varies");
         }
         if let (Some((_, place)), false) = (&file.table, file.axes.is_empty() && file.sample.is_none()) {
@@ -188,8 +193,13 @@ impl Reader<'_> {
         }
         for axis in &file.axes {
             match (&axis.values, file.sample) {
+                // One value holds in all cases.
+                (VariedValues::List(values), Some(_)) if values.len() == 1 => {}
                 (VariedValues::List(_) | VariedValues::Range { steps: Some(_), .. }, Some(_)) => {
-                    let message = format!("a sample needs ranges: `{}` takes {{ from = .., to = .. }} alone", axis.key);
+                    let message = format!(
+                        "a sample needs ranges: `{}` takes {{ from = .., to = .. }}, or one value in a list, which holds in all cases",
+                        axis.key
+                    );
                     self.error(&axis.place, message);
                 }
                 (VariedValues::Range { steps: None, .. }, None) => {

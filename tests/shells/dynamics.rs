@@ -210,8 +210,15 @@ fn cap(kind: &str, n: usize, [plastic, moved]: [bool; 2], step: f64) -> Model {
             }
         }
     }
-    let load =
-        |(node, force)| Load { node, force, moment: Vec3::zeros(), follower: false, amplitude: None, along: None };
+    let load = |(node, force)| Load {
+        node,
+        force,
+        moment: Vec3::zeros(),
+        follower: false,
+        amplitude: None,
+        along: None,
+        moment_counts: true,
+    };
     model.loading.nodal = forces.into_iter().enumerate().map(load).collect();
     model
 }

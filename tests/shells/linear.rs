@@ -96,6 +96,7 @@ pub fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
         follower: false,
         amplitude: None,
         along: None,
+        moment_counts: true,
     };
     model.loading.nodal = forces.iter().enumerate().map(as_load).collect();
     let end = support::node(&model, "end");

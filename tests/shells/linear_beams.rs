@@ -97,6 +97,7 @@ fn straight(kind: &str, shape: &str, [n, across]: [usize; 2], row: &str) -> f64 
                 follower: false,
                 amplitude: None,
                 along: None,
+                moment_counts: true,
             });
         }
         // Bilinear in each published element.

@@ -49,6 +49,9 @@ pub struct Load {
     pub amplitude: Option<usize>,
     /// The part, by its index in [`super::Model::parts`], and its element, along which the load that this is a share of is spread.
     pub along: Option<(usize, usize)>,
+    /// False where the moment is none that acts on the node by itself: that of a share of a spread load, which makes up for the shape between the
+    /// nodes and cancels those of its neighbours, and what iterations have left at the end of the stage before.
+    pub moment_counts: bool,
 }
 
 /// Follower pressure: it acts on the current area of faces, against their current normals.

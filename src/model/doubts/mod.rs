@@ -26,12 +26,17 @@ use std::collections::HashSet;
 
 /// Reports a deck without anything that could move.
 pub fn check_content(deck: &Deck, report: &mut Report) {
-    let moves =
-        deck.parts().any(|part| part.at.kind.is_deformable()) || !deck.bodies.is_empty() || !deck.masses.is_empty();
+    // Points between springs move without mass.
+    let between = deck.links.iter().flat_map(|link| [&link.from, &link.to]).flatten().any(|end| end.node.is_some());
+    let moves = deck.parts().any(|part| part.at.kind.is_deformable())
+        || !deck.bodies.is_empty()
+        || !deck.masses.is_empty()
+        || between;
     let spoiled =
         ["beams", "bars", "shells", "bodies", "masses", "links"].iter().any(|key| report.is_spoiled(&ROOT, key));
     if !moves && !spoiled {
-        let message = "the deck has nothing that could move: no beams, bars, shells, bodies or masses";
+        let message =
+            "the deck has nothing that could move: no beams, bars, shells, bodies, masses or links between points";
         report.push(Diagnostic::error(message));
     }
 }

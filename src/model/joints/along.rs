@@ -452,6 +452,7 @@ impl ActsAlong<'_> {
                 follower: true,
                 amplitude: effort.amplitude,
                 along: None,
+                moment_counts: true,
             };
             efforts.extend([load(from, -1.0), load(to, 1.0)]);
         }

@@ -25,6 +25,7 @@ impl Pretension {
             follower: false,
             amplitude,
             along: None,
+            moment_counts: true,
         })
     }
 }

@@ -99,6 +99,7 @@ impl LineLoad {
             follower: self.follower,
             amplitude: self.amplitude,
             along: Some(along),
+            moment_counts: false,
         };
         line.nodes.iter().zip(shares).filter(|(_, share)| *share != [Vec3::zeros(); 2]).map(load).collect()
     }

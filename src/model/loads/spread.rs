@@ -68,6 +68,7 @@ pub fn spread_load<'d>(
         follower: false,
         amplitude,
         along: None,
+        moment_counts: false,
     };
     let faces = spread.faces;
     let pressure = if faces.is_empty() { None } else { Some(Pressure { faces, pressure, amplitude }) };

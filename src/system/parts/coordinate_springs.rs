@@ -86,6 +86,10 @@ impl ElementBlock for CoordinateSprings {
         6
     }
 
+    fn is_rotational(&self, e: usize, node: usize) -> bool {
+        self.springs[e].lock.reach()[node][3..].contains(&true)
+    }
+
     fn is_damped(&self) -> bool {
         // What an impact loses is lost over the rate.
         let loses = |law: &CoordinateLaw| law.stops.as_ref().is_some_and(|stops| stops.loss != Loss::None);

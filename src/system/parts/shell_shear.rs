@@ -12,7 +12,7 @@
 use super::shells::ShellState;
 use crate::elements::shell::result_axes;
 use crate::math::Vec3;
-use crate::model::{Model, PartType, Shell};
+use crate::model::{Load, Model, PartType, Shell};
 
 /// Directors whose cosine is below this meet at a fold.
 const SAME: f64 = 1.0 - 1e-9;
@@ -118,7 +118,8 @@ impl ShearBalance {
         }
         let attached = constraints.dependents.iter().flat_map(|dependent| [dependent.node, dependent.master]);
         let joined = constraints.joints.iter().flat_map(|joint| joint.ends);
-        let loaded = model.loading.nodal.iter().filter(|load| load.moment != Vec3::zeros()).map(|load| load.node);
+        let with_moments = |load: &&Load| load.moment_counts && load.moment != Vec3::zeros();
+        let loaded = model.loading.nodal.iter().filter(with_moments).map(|load| load.node);
         let bodies = model.bodies.iter().map(|body| body.node);
         for node in attached.chain(joined).chain(loaded).chain(bodies) {
             self.nodes[node].is_free = false;
