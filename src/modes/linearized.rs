@@ -56,12 +56,10 @@ impl Linearized<'_> {
 
     /// True where the loads that act have a potential, as in [`System::loads_have_potential`].
     pub fn loads_have_potential(&self) -> bool {
-        let normal = self.system.plane;
-        let about_normal = |m: &Vec3| (0..3).all(|i| m[i] == 0.0 || normal == Some(i));
         let factors = self.loading.factors.iter().zip(&self.factored.factors);
         let acts = factors.map(|(loading, factored)| *loading != 0.0 || *factored != 0.0);
         let mut acting = self.model.loading.nodal.iter().zip(acts).filter(|(_, acts)| *acts);
-        acting.all(|(load, _)| !load.follower && about_normal(&load.moment))
+        acting.all(|(load, _)| load.has_potential(self.system.plane))
     }
 
     /// The nodes of the state, at rest.

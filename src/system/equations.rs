@@ -424,12 +424,10 @@ impl System {
         sums
     }
 
-    /// True where the loads have a potential, so that the tangent is symmetric and its eigenvalues tell of stability: none follows a node,
-    /// and moments act about the `normal` of a plane motion alone, since moments about axes fixed in space do work that depends on the
-    /// order of rotations. Moments that do not count by themselves are left aside. Pressure counts as if all edges were held.
+    /// True where the loads have a potential (see [`Load::has_potential`](crate::model::Load::has_potential)), so that the tangent is symmetric and
+    /// its eigenvalues tell of stability. Pressure counts as if all edges were held.
     pub fn loads_have_potential(&self, normal: Option<usize>) -> bool {
-        let about_normal = |m: &Vec3| (0..3).all(|i| m[i] == 0.0 || normal == Some(i));
-        self.loads.iter().all(|load| !load.follower && (!load.moment_counts || about_normal(&load.moment)))
+        self.loads.iter().all(|load| load.has_potential(normal))
     }
 
     /// Energy that elements store.

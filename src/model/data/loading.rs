@@ -54,6 +54,16 @@ pub struct Load {
     pub moment_counts: bool,
 }
 
+impl Load {
+    /// True where it has a potential, so that its tangent is symmetric: it does not follow its node, and its moment acts about the `normal` of a
+    /// plane motion alone, since moments about axes fixed in space do work that depends on the order of rotations. A moment that does not count
+    /// by itself is left aside.
+    pub fn has_potential(&self, normal: Option<usize>) -> bool {
+        let about_normal = || (0..3).all(|i| self.moment[i] == 0.0 || normal == Some(i));
+        !self.follower && (!self.moment_counts || about_normal())
+    }
+}
+
 /// Follower pressure: it acts on the current area of faces, against their current normals.
 #[derive(Debug, Clone)]
 pub struct Pressure {
