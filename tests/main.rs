@@ -4,6 +4,7 @@
 
 mod allocations;
 mod auto_step;
+mod beams_side_by_side;
 mod breaking;
 mod chains;
 mod cli;

@@ -1,7 +1,7 @@
 //! Eight numbers side by side, of eight like elements: each operation rounds in each lane as it does on a single number.
 
 use super::Vec3;
-use std::array::from_fn;
+use super::number::Number;
 use std::ops::{Add, AddAssign, Mul, Sub, SubAssign};
 
 /// A number of each of eight elements.
@@ -12,8 +12,9 @@ pub const LANES: usize = 8;
 
 /// The numbers of the lanes.
 #[inline(always)]
-pub fn lanes(of: impl FnMut(usize) -> f64) -> Lanes {
-    Lanes::new(from_fn(of))
+pub fn lanes(mut of: impl FnMut(usize) -> f64) -> Lanes {
+    // A closure handed on to the standard library is not always inlined.
+    Lanes::new([of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)])
 }
 
 /// All bits set in the lanes whose bit is set, for a choice between two numbers.
@@ -28,24 +29,29 @@ pub fn fma(a: Lanes, b: Lanes, c: Lanes) -> Lanes {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// A vector of three numbers for each of eight elements.
+/// A vector of three numbers, for each of eight elements or of one.
 #[derive(Clone, Copy)]
-pub struct LaneVec3(pub [Lanes; 3]);
+pub struct LaneVec3<T = Lanes>(pub [T; 3]);
 
-impl LaneVec3 {
+impl<T: Number> LaneVec3<T> {
     /// Zero in all lanes.
-    pub const ZERO: Self = LaneVec3([Lanes::ZERO; 3]);
+    pub const ZERO: Self = LaneVec3([T::ZERO; 3]);
 
     /// The vectors of the lanes.
     #[inline(always)]
     pub fn gather(of: impl Fn(usize) -> Vec3) -> Self {
-        let of: [Vec3; LANES] = from_fn(of);
-        LaneVec3(from_fn(|i| lanes(|lane| of[lane][i])))
+        LaneVec3([T::gather(|lane| of(lane).x), T::gather(|lane| of(lane).y), T::gather(|lane| of(lane).z)])
+    }
+
+    /// The vector of one lane.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Vec3 {
+        Vec3::from(self.0.map(|of| of.lane(lane)))
     }
 
     /// a·b.
     #[inline(always)]
-    pub fn dot(&self, b: &Self) -> Lanes {
+    pub fn dot(&self, b: &Self) -> T {
         self.0[0] * b.0[0] + self.0[1] * b.0[1] + self.0[2] * b.0[2]
     }
 
@@ -57,19 +63,19 @@ impl LaneVec3 {
     }
 }
 
-impl Add for LaneVec3 {
+impl<T: Number> Add for LaneVec3<T> {
     type Output = Self;
     #[inline(always)]
     fn add(self, b: Self) -> Self {
-        LaneVec3(from_fn(|i| self.0[i] + b.0[i]))
+        LaneVec3([self.0[0] + b.0[0], self.0[1] + b.0[1], self.0[2] + b.0[2]])
     }
 }
 
-impl Sub for LaneVec3 {
+impl<T: Number> Sub for LaneVec3<T> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
-        LaneVec3(from_fn(|i| self.0[i] - b.0[i]))
+        LaneVec3([self.0[0] - b.0[0], self.0[1] - b.0[1], self.0[2] - b.0[2]])
     }
 }
 
@@ -77,18 +83,26 @@ impl Mul<LaneVec3> for Lanes {
     type Output = LaneVec3;
     #[inline(always)]
     fn mul(self, b: LaneVec3) -> LaneVec3 {
-        LaneVec3(from_fn(|i| self * b.0[i]))
+        LaneVec3([self * b.0[0], self * b.0[1], self * b.0[2]])
     }
 }
 
-impl AddAssign for LaneVec3 {
+impl Mul<LaneVec3<f64>> for f64 {
+    type Output = LaneVec3<f64>;
+    #[inline(always)]
+    fn mul(self, b: LaneVec3<f64>) -> LaneVec3<f64> {
+        LaneVec3([self * b.0[0], self * b.0[1], self * b.0[2]])
+    }
+}
+
+impl<T: Number> AddAssign for LaneVec3<T> {
     #[inline(always)]
     fn add_assign(&mut self, b: Self) {
         *self = *self + b;
     }
 }
 
-impl SubAssign for LaneVec3 {
+impl<T: Number> SubAssign for LaneVec3<T> {
     #[inline(always)]
     fn sub_assign(&mut self, b: Self) {
         *self = *self - b;

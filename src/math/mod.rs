@@ -5,6 +5,7 @@ pub mod curved_faces;
 #[cfg(feature = "portable")]
 mod elementary;
 pub mod lanes;
+pub mod number;
 pub mod polyhedron;
 pub mod quadrature;
 pub mod quintic;

@@ -1,84 +1,156 @@
 //! Forces, energies and results of beams.
 
-use super::kinematics::{Beam, Beams, GaussPoint};
-use super::quaternion::{Quat, left, right, times_conjugate};
+use super::kinematics::{Beam, Beams, GaussPoint, Motion, Pack};
+use super::lane_section::SectionStiffness;
+use super::quaternion::{left, right, times_conjugate};
 use super::section::BeamSection;
-use super::tangent::tangent;
-use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use super::tangent::{Sections, tangent};
+use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::results::IntegrationPoint;
 use crate::materials::Dissipation;
+use crate::math::lanes::{LANES, LaneVec3, Lanes};
+use crate::math::number::Number;
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node};
 
-impl<const N: usize, S: BeamSection> Beams<N, S> {
-    /// Internal forces and moments on the nodes of an element, global components.
-    #[inline(always)]
-    fn nodal_forces(&self, element: &Beam<N, S>, now: &Configuration) -> ([Vec3; N], [Vec3; N]) {
-        let motion = self.gather(element, now.nodes);
-        self.forces_of(element, &motion, now, |g, point| element.section.stress(g, &point.gamma, &point.kappa, now))
-    }
+/// The number of elements from which eight side by side take less time than one after the other; the numbers are the same.
+const WORTH_A_PACK: usize = 6;
 
-    /// The same where the nodes move by `motion` and the sections have the stress resultants `stress`.
-    #[inline(always)]
-    fn forces_of(
-        &self,
-        element: &Beam<N, S>,
-        motion: &([Quat; N], [Vec3; N]),
-        now: &Configuration,
-        mut stress: impl FnMut(usize, &GaussPoint) -> (Vec3, Vec3),
-    ) -> ([Vec3; N], [Vec3; N]) {
-        let (nodes, q) = (now.nodes, &motion.0);
-        let mut gradient = [[0.0; 4]; N]; // ∂U/∂q_a
-        let mut force = [Vec3::zeros(); N];
-        for g in 0..self.integration_points() {
-            let point = self.interpolate(element, g, motion);
-            let (mut n, mut m) = stress(g, &point);
-            if self.damping > 0.0 && !element.section.has_failed(now.history) {
-                let (gamma_rate, kappa_rate, _) = self.rates(element, g, &point, q, nodes);
-                let (nd, md) = element.section.elastic().stress(&gamma_rate, &kappa_rate);
-                n += self.damping * nd;
-                m += self.damping * md;
-            }
-            // σ·∂ε/∂p = −2 (r′ p n + p′ m + (σ·e) p)/|p|², σ·∂ε/∂p′ = 2 p m/|p|².
-            let sigma_e = n.dot(&(point.gamma + element.tangent)) + m.dot(&point.kappa);
-            let rpn = right(&left(&point.dr, &point.p), &n);
-            let dpm = right(&point.dp, &m);
-            let pm = right(&point.p, &m);
-            let w = self.shape.weight[g] * element.jacobian;
-            let w2 = 2.0 * point.inv * w;
-            let n_global = point.R * n;
-            for a in 0..N {
-                let value = -w2 * self.shape.value[g][a];
-                let slope = w2 * self.shape.slope[g][a] / element.jacobian;
-                for k in 0..4 {
-                    gradient[a][k] += value * (rpn[k] + dpm[k] + sigma_e * point.p[k]) + slope * pm[k];
-                }
-                force[a] += (self.shape.weight[g] * self.shape.slope[g][a]) * n_global;
-            }
-        }
-        (force, std::array::from_fn(|a| 0.5 * times_conjugate(&gradient[a], &q[a]).1))
-    }
+/// Stress resultants of one element.
+#[inline(always)]
+fn single((n, m): (Vec3, Vec3)) -> [LaneVec3<f64>; 2] {
+    [LaneVec3(n.into()), LaneVec3(m.into())]
 }
 
-impl<const N: usize, S> Beam<N, S> {
-    /// Subtracts forces and moments on the nodes from `F`.
-    #[inline(always)]
-    fn subtract_from_nodes(&self, (force, moment): &([Vec3; N], [Vec3; N]), F: &mut [Force]) {
+/// The damping of some elements: β, and the stiffness C of their sections; none where they have failed.
+struct Damping<T> {
+    factor: T,
+    elastic: SectionStiffness<T>,
+}
+
+/// Internal forces and moments on the nodes of a pack, global components, whose nodes move by `motion` and whose sections have the stress
+/// resultants `stress`.
+#[inline(always)]
+fn forces_of<T: Number, const N: usize>(
+    pack: &Pack<T, N>,
+    points: usize,
+    (motion, nodes): (&Motion<T, N>, &[Node]),
+    damping: Option<Damping<T>>,
+    mut stress: impl FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2],
+) -> [[T; 6]; N] {
+    let q = &motion.q;
+    let mut gradient = [[T::ZERO; 4]; N]; // ∂U/∂q_a
+    let mut force = [LaneVec3::ZERO; N];
+    for g in 0..points {
+        let point = pack.interpolate(g, motion);
+        let [mut n, mut m] = stress(g, &point);
+        if let Some(Damping { factor, elastic }) = &damping {
+            let (rates, _) = pack.rates(g, &point, q, nodes);
+            let [nd, md] = elastic.stress(&rates);
+            n += *factor * nd;
+            m += *factor * md;
+        }
+        // σ·∂ε/∂p = −2 (r′ p n + p′ m + (σ·e) p)/|p|², σ·∂ε/∂p′ = 2 p m/|p|².
+        let sigma_e = n.dot(&(point.strain[0] + pack.tangent)) + m.dot(&point.strain[1]);
+        let rpn = right(&left(&point.dr, &point.p), &n);
+        let dpm = right(&point.dp, &m);
+        let pm = right(&point.p, &m);
+        let w = pack.weight(g);
+        let w2 = T::splat(2.0) * point.inv * w;
+        let LaneVec3([x, y, z]) = n;
+        let n_global = x * point.R[0] + y * point.R[1] + z * point.R[2];
         for a in 0..N {
-            let f = &mut F[self.nodes[a]];
-            subtract(f, 0, &force[a]);
-            subtract(f, 3, &moment[a]);
+            let (value, slope) = pack.at_node(g, a);
+            let (of_value, of_slope) = (-w2 * value, w2 * slope);
+            for k in 0..4 {
+                gradient[a][k] += of_value * (rpn[k] + dpm[k] + sigma_e * point.p[k]) + of_slope * pm[k];
+            }
+            force[a] += (w * slope) * n_global;
+        }
+    }
+    let mut out = [[T::ZERO; 6]; N];
+    for a in 0..N {
+        let LaneVec3([x, y, z]) = force[a];
+        let LaneVec3([u, v, w]) = T::splat(0.5) * times_conjugate(&gradient[a], &q[a]).1;
+        out[a] = [x, y, z, u, v, w];
+    }
+    out
+}
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// The damping of an element.
+    #[inline(always)]
+    fn damping_of(&self, e: usize, now: &Configuration) -> Option<Damping<f64>> {
+        let section = &self.elements[e].section;
+        let acts = self.damping > 0.0 && !section.has_failed(now.history);
+        acts.then(|| Damping { factor: self.damping, elastic: SectionStiffness::gather(|_| section.elastic()) })
+    }
+
+    /// Internal forces and moments on the nodes of an element.
+    #[inline(always)]
+    fn nodal_forces(&self, e: usize, now: &Configuration) -> [Force; N] {
+        let (pack, motion) = self.one(e, now.nodes);
+        let section = &self.elements[e].section;
+        let damping = self.damping_of(e, now);
+        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, |g, point| {
+            let (gamma, kappa) = point.strains();
+            single(section.stress(g, &gamma, &kappa, now))
+        })
+    }
+
+    /// Internal forces and moments on the nodes of some elements that stay elastic, side by side.
+    #[inline(always)]
+    fn forces_side_by_side(&self, elements: &[Beam<N, S>], now: &Configuration) -> [[Lanes; 6]; N] {
+        let pack = Pack::<Lanes, N>::new(elements, &self.shape);
+        let motion = pack.gather(now.nodes);
+        let elastic = SectionStiffness::gather(|lane| elements[lane.min(elements.len() - 1)].section.elastic());
+        let damping = (self.damping > 0.0).then(|| Damping { factor: Lanes::splat(self.damping), elastic });
+        let stress = |_, point: &GaussPoint<Lanes>| elastic.stress(&point.strain);
+        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, stress)
+    }
+
+    /// Subtracts forces on the nodes of element `e` from `F`.
+    #[inline(always)]
+    fn subtract_from_nodes(&self, e: usize, f: &[Force; N], F: &mut [Force]) {
+        for a in 0..N {
+            let F = &mut F[self.elements[e].nodes[a]];
+            (0..6).for_each(|i| F[i] -= f[a][i]);
+        }
+    }
+
+    /// Tangents of elements into `K`, one after the other, see [`ElementBlock::tangent`]: as many as `T` has lanes, or fewer. The stresses are
+    /// those at the nodes `lead`, where there are such.
+    fn tangents_of<T: Number>(
+        &self,
+        elements: &[Beam<N, S>],
+        (now, lead): (&Configuration, Option<&[Node]>),
+        rate_weight: Option<f64>,
+        moduli: Moduli,
+        K: &mut [f64],
+    ) {
+        let pack = Pack::<T, N>::new(elements, &self.shape);
+        let section = |lane: usize| &elements[lane.min(elements.len() - 1)].section;
+        let elastic = SectionStiffness::gather(|lane| section(lane).elastic());
+        let sections = Sections {
+            points: self.integration_points(),
+            linearise: &|g, strain| S::linearise(section, g, strain, (now, moduli), &elastic),
+            viscous: elastic.scaled(T::splat(self.damping)),
+            has_failed: self.damping > 0.0 && section(0).has_failed(now.history),
+        };
+        match rate_weight.filter(|_| self.damping > 0.0) {
+            Some(rate_weight) => tangent::<T, N, true>(&pack, &sections, (now.nodes, lead), rate_weight, K),
+            None => tangent::<T, N, false>(&pack, &sections, (now.nodes, lead), 0.0, K),
         }
     }
 }
 
 impl<const N: usize, S: BeamSection> Beams<N, S> {
     /// The elastic energy that is left in an element that fails, in the sections that have not.
-    fn left_in(&self, element: &Beam<N, S>, now: &Configuration) -> f64 {
-        let motion = self.gather(element, now.nodes);
+    fn left_in(&self, e: usize, now: &Configuration) -> f64 {
+        let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
         let at = |g: usize| {
-            let point = self.interpolate(element, g, &motion);
-            let energy = element.section.stored(g, (&point.gamma, &point.kappa), now);
+            let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+            let energy = element.section.stored(g, (&gamma, &kappa), now);
             self.shape.weight[g] * element.jacobian * energy
         };
         (0..self.integration_points()).map(at).sum()
@@ -107,69 +179,93 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for element in &self.elements {
-            element.subtract_from_nodes(&self.nodal_forces(element, now), F);
+        if S::IS_ELASTIC && self.len() >= WORTH_A_PACK {
+            for elements in self.elements.chunks(LANES) {
+                let f = self.forces_side_by_side(elements, now);
+                // A node gets the forces of its elements in their order.
+                for (lane, element) in elements.iter().enumerate() {
+                    for a in 0..N {
+                        let F = &mut F[element.nodes[a]];
+                        (0..6).for_each(|i| F[i] -= f[a][i].as_array()[lane]);
+                    }
+                }
+            }
+            return;
+        }
+        for e in 0..self.len() {
+            self.subtract_from_nodes(e, &self.nodal_forces(e, now), F);
         }
     }
 
     fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
         let mut sum = Dissipation::default();
-        for element in &self.elements {
-            let motion = self.gather(element, now.nodes);
-            let forces = self.forces_of(element, &motion, now, |g, point| {
-                let (n, m, spent) = element.section.advance(g, (&point.gamma, &point.kappa), now, new);
+        for (e, element) in self.elements.iter().enumerate() {
+            let (pack, motion) = self.one(e, now.nodes);
+            let damping = self.damping_of(e, now);
+            let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, |g, point| {
+                let (gamma, kappa) = point.strains();
+                let (n, m, spent) = element.section.advance(g, (&gamma, &kappa), now, new);
                 sum += spent * (self.shape.weight[g] * element.jacobian);
-                (n, m)
+                single((n, m))
             });
-            element.subtract_from_nodes(&forces, F);
+            self.subtract_from_nodes(e, &forces, F);
             if element.section.has_failed(new) && !element.section.has_failed(now.history) {
-                sum.eroded += self.left_in(element, &Configuration { history: new, ..*now });
+                sum.eroded += self.left_in(e, &Configuration { history: new, ..*now });
             }
         }
         sum
     }
 
     fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {
-        let (force, moment) = self.nodal_forces(&self.elements[e], now);
-        Some([0, N - 1].map(|a| {
-            let (f, m) = (force[a], moment[a]);
-            [f.x, f.y, f.z, m.x, m.y, m.z]
-        }))
+        let forces = self.nodal_forces(e, now);
+        Some([forces[0], forces[N - 1]])
     }
 
     fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
-        let element = &self.elements[e];
-        let motion = self.gather(element, now);
+        let (pack, motion) = self.one(e, now);
         // The axis opposes the normals of its sections: Rᵀr′·t ≤ 0.
-        let along = |g| self.interpolate(element, g, &motion).gamma.dot(&element.tangent) + 1.0;
+        let along = |g| pack.interpolate(g, &motion).strain[0].dot(&pack.tangent) + 1.0;
         (0..self.integration_points()).any(|g| along(g) <= 0.0)
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         // Where material yields, its state counts more than what a correction stretches.
-        let lead = now.lead.filter(|_| self.elements[e].section.history() == 0);
-        if self.damping > 0.0 {
-            tangent::<N, S, true>(self, e, (now, lead), rate_weight, moduli, K);
-        } else {
-            tangent::<N, S, false>(self, e, (now, lead), rate_weight, moduli, K);
+        let lead = now.lead.filter(|_| S::IS_ELASTIC);
+        self.tangents_of::<f64>(&self.elements[e..=e], (now, lead), Some(rate_weight), moduli, K);
+    }
+
+    fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let length = 36 * N * N;
+        let elements = &self.elements[first..first + K.len() / length];
+        let lead = now.lead.filter(|_| S::IS_ELASTIC);
+        for (elements, K) in elements.chunks(LANES).zip(K.chunks_mut(LANES * length)) {
+            // Damping ends where an element fails.
+            let fails = self.damping > 0.0 && elements.iter().any(|e| e.section.has_failed(now.history));
+            if !fails && elements.len() >= WORTH_A_PACK {
+                self.tangents_of::<Lanes>(elements, (now, lead), Some(rate_weight), moduli, K);
+                continue;
+            }
+            for (one, K) in elements.chunks(1).zip(K.chunks_mut(length)) {
+                self.tangents_of::<f64>(one, (now, lead), Some(rate_weight), moduli, K);
+            }
         }
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        tangent::<N, S, false>(self, e, (now, Some(stressed)), 0.0, Moduli::Elastic, K);
+        self.tangents_of::<f64>(&self.elements[e..=e], (now, Some(stressed)), None, Moduli::Elastic, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut sum = Dissipation::default();
-        for element in &self.elements {
-            let motion = self.gather(element, now.nodes);
+        for (e, element) in self.elements.iter().enumerate() {
+            let (pack, motion) = self.one(e, now.nodes);
             for g in 0..self.integration_points() {
-                let point = self.interpolate(element, g, &motion);
-                let dissipation = element.section.update_history(g, (&point.gamma, &point.kappa), now, part, new);
+                let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+                let dissipation = element.section.update_history(g, (&gamma, &kappa), now, part, new);
                 sum += dissipation * (self.shape.weight[g] * element.jacobian);
             }
             if element.section.has_failed(new) && !element.section.has_failed(now.history) {
-                sum.eroded += self.left_in(element, &Configuration { history: new, ..*now });
+                sum.eroded += self.left_in(e, &Configuration { history: new, ..*now });
             }
         }
         sum
@@ -177,11 +273,11 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
 
     fn energy(&self, now: &Configuration) -> f64 {
         let mut sum = 0.0;
-        for element in &self.elements {
-            let motion = self.gather(element, now.nodes);
+        for (e, element) in self.elements.iter().enumerate() {
+            let (pack, motion) = self.one(e, now.nodes);
             for g in 0..self.integration_points() {
-                let point = self.interpolate(element, g, &motion);
-                let energy = element.section.energy(g, &point.gamma, &point.kappa, now);
+                let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+                let energy = element.section.energy(g, &gamma, &kappa, now);
                 sum += self.shape.weight[g] * element.jacobian * energy;
             }
         }
@@ -194,9 +290,9 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     }
 
     fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Configuration) -> Option<IntegrationPoint> {
-        let element = &self.elements[e];
-        let point = self.interpolate(element, g, &self.gather(element, now.nodes));
-        let (n, m) = element.section.stress(g, &point.gamma, &point.kappa, now);
+        let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
+        let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+        let (n, m) = element.section.stress(g, &gamma, &kappa, now);
         let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
         Some(IntegrationPoint {
             s: element.jacobian * (1.0 + self.shape.xi[g]),
@@ -223,11 +319,13 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
             return 0.0;
         }
         let mut sum = 0.0;
-        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
-            let motion = self.gather(element, nodes);
+        let intact = |(_, element): &(usize, &Beam<N, S>)| !element.section.has_failed(now.history);
+        for (e, element) in self.elements.iter().enumerate().filter(intact) {
+            let (pack, motion) = self.one(e, nodes);
             for g in 0..self.integration_points() {
-                let point = self.interpolate(element, g, &motion);
-                let (gamma, kappa, _) = self.rates(element, g, &point, &motion.0, nodes);
+                let point = pack.interpolate(g, &motion);
+                let ([gamma, kappa], _) = pack.rates(g, &point, &motion.q, nodes);
+                let (gamma, kappa) = (gamma.lane(0), kappa.lane(0));
                 let (n, m) = element.section.elastic().stress(&gamma, &kappa);
                 sum += self.damping * self.shape.weight[g] * element.jacobian * (n.dot(&gamma) + m.dot(&kappa));
             }

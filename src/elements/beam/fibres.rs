@@ -6,10 +6,14 @@
 //! severed: it carries nothing.
 
 use super::fibre_lanes::FibreLanes;
+use super::fibre_sum::FibreSum;
+use super::lane_section::{Linearised, SectionStiffness};
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
 use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
-use crate::math::{Mat3, Mat6, Vec3};
+use crate::math::lanes::{LANES, LaneVec3};
+use crate::math::number::Number;
+use crate::math::{Mat3, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use crate::state::Configuration;
 use std::array::from_fn;
@@ -153,51 +157,6 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
     }
 }
 
-/// The sum of the stiffnesses of fibres, in section axes.
-#[derive(Default)]
-struct FibreSum {
-    /// Stiffness with respect to (Γ₁, κ₂, κ₃).
-    axial: Mat3,
-    /// Stiffness with respect to (Γ₂, Γ₃, κ₁).
-    shear: Mat3,
-    /// Coupling stiffness with rows (Γ₁, κ₂, κ₃) and columns (Γ₂, Γ₃, κ₁).
-    mixed: Mat3,
-}
-
-impl FibreSum {
-    /// Adds a fibre whose stiffness is `C`.
-    #[inline(always)]
-    fn add<const N: usize>(&mut self, fibre: &Fibre, C: &[[f64; N]; N]) {
-        let u = Vec3::new(1.0, fibre.z, -fibre.y);
-        let weighted = fibre.area * u;
-        self.axial += C[0][0] * weighted * u.transpose();
-        for a in 1..N {
-            let s_a = Vec3::from(fibre.shear[a - 1]);
-            self.mixed += C[0][a] * weighted * s_a.transpose();
-            for b in 1..N {
-                self.shear += (fibre.area * C[a][b]) * s_a * Vec3::from(fibre.shear[b - 1]).transpose();
-            }
-        }
-    }
-
-    /// The sum as the stiffness of a section.
-    fn section(&self) -> BeamStiffness {
-        const AXIAL: [usize; 3] = [0, 4, 5];
-        const SHEAR: [usize; 3] = [1, 2, 3];
-        let mut C = Mat6::zeros();
-        for i in 0..3 {
-            for j in 0..3 {
-                C[(AXIAL[i], AXIAL[j])] = self.axial[(i, j)];
-                C[(SHEAR[i], SHEAR[j])] = self.shear[(i, j)];
-                C[(AXIAL[i], SHEAR[j])] = self.mixed[(i, j)];
-                C[(SHEAR[j], AXIAL[i])] = self.mixed[(i, j)];
-            }
-        }
-        let part = |i, j| C.fixed_view::<3, 3>(i, j).into_owned();
-        BeamStiffness { N: part(0, 0), M: part(3, 3), NM: part(0, 3), coupled: true }
-    }
-}
-
 /// The sections of one element, one at each integration point.
 pub struct FibreSection<S, const N: usize> {
     profile: Arc<FibreProfile<S, N>>,
@@ -240,6 +199,24 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
         if (0..self.points).any(|g| of(g) == 0.0) { 0.0 } else { of(g) }
     }
 
+    /// Stress resultants at point `g` and their derivative.
+    fn linearise_alone(
+        &self,
+        g: usize,
+        (gamma, kappa): (&Vec3, &Vec3),
+        now: &Configuration,
+        moduli: Moduli,
+    ) -> (Vec3, Vec3, BeamStiffness) {
+        let intact = self.intact(g, now.history);
+        if moduli == Moduli::Elastic && intact > 0.0 {
+            let (n, m) = self.stress(g, gamma, kappa, now);
+            return (n, m, self.elastic.clone());
+        }
+        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let (n, m, C) = self.profile.linearise((&gamma, &kappa), intact, &self.at(g, now));
+        (self.frame * n, self.frame * m, C.rotated(&self.frame))
+    }
+
     /// The configuration with the history variables of point `g` alone.
     #[inline]
     fn at<'a>(&self, g: usize, now: &Configuration<'a>) -> Configuration<'a> {
@@ -263,23 +240,28 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         (self.frame * n, self.frame * m)
     }
 
-    fn linearise<'a>(
-        &'a self,
+    #[inline(always)]
+    fn linearise<'a, T: Number>(
+        sections: impl Fn(usize) -> &'a Self,
         g: usize,
-        (gamma, kappa): (&Vec3, &Vec3),
-        now: &Configuration,
-        moduli: Moduli,
-        tangent: &'a mut BeamStiffness,
-    ) -> (Vec3, Vec3, &'a BeamStiffness) {
-        let intact = self.intact(g, now.history);
-        if moduli == Moduli::Elastic && intact > 0.0 {
-            let (n, m) = self.stress(g, gamma, kappa, now);
-            return (n, m, &self.elastic);
+        strain: &[LaneVec3<T>; 2],
+        (now, moduli): (&Configuration, Moduli),
+        _: &SectionStiffness<T>,
+    ) -> Linearised<T>
+    where
+        Self: 'a,
+    {
+        let mut stress = [[Vec3::zeros(); LANES]; 2];
+        let mut C = [const { BeamStiffness::ZERO }; LANES];
+        for lane in 0..T::COUNT {
+            let [gamma, kappa] = strain.map(|part| part.lane(lane));
+            let of = sections(lane).linearise_alone(g, (&gamma, &kappa), now, moduli);
+            (stress[0][lane], stress[1][lane], C[lane]) = of;
         }
-        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let (n, m, C) = self.profile.linearise((&gamma, &kappa), intact, &self.at(g, now));
-        *tangent = C.rotated(&self.frame);
-        (self.frame * n, self.frame * m, tangent)
+        Linearised {
+            stress: stress.map(|part| LaneVec3::gather(|lane| part[lane])),
+            C: SectionStiffness::gather(|lane| &C[lane]),
+        }
     }
 
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64 {

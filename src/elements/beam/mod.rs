@@ -16,8 +16,11 @@
 mod block;
 mod build;
 mod fibre_lanes;
+mod fibre_sum;
 mod fibres;
+mod hessian;
 mod kinematics;
+mod lane_section;
 mod quaternion;
 mod section;
 mod shape;

@@ -1,8 +1,11 @@
 //! The sections of a beam: the interface, and a section that stays elastic. Those that yield stand in
 //! [`super::fibres`].
 
+use super::lane_section::{Linearised, SectionStiffness};
 use crate::elements::block::Moduli;
 use crate::materials::Dissipation;
+use crate::math::lanes::LaneVec3;
+use crate::math::number::Number;
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
 use crate::state::Configuration;
@@ -10,21 +13,25 @@ use crate::state::Configuration;
 /// The sections of one element, one at each integration point. Strains Γ, κ and stress resultants n, m (force and moment) have
 /// global components at t = 0.
 pub trait BeamSection: Send + Sync {
+    /// True for a section that never yields: its stress is that of [`BeamSection::elastic`].
+    const IS_ELASTIC: bool = false;
     /// The number of integration points of an element of `nodes` nodes whose rule has `rule` points.
     fn points(nodes: usize, rule: usize) -> usize;
     /// The stiffness of the section before it yields.
     fn elastic(&self) -> &BeamStiffness;
     /// Stress at integration point `g`.
     fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3);
-    /// Stress and its derivative, which `tangent` holds where it is not the elastic one.
-    fn linearise<'a>(
-        &'a self,
+    /// Stress at the strains Γ, κ of point `g` of some elements side by side, and its derivative; `elastic` is their stiffness before they
+    /// yield.
+    fn linearise<'a, T: Number>(
+        sections: impl Fn(usize) -> &'a Self,
         g: usize,
-        strain: (&Vec3, &Vec3),
-        now: &Configuration,
-        moduli: Moduli,
-        tangent: &'a mut BeamStiffness,
-    ) -> (Vec3, Vec3, &'a BeamStiffness);
+        strain: &[LaneVec3<T>; 2],
+        now: (&Configuration, Moduli),
+        elastic: &SectionStiffness<T>,
+    ) -> Linearised<T>
+    where
+        Self: 'a;
     /// Elastic energy per length.
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64;
     /// Writes the history variables of point `g` at `part` of the way to `now` into its range of `new`, the history of the group,
@@ -135,6 +142,8 @@ impl BeamStiffness {
 }
 
 impl BeamSection for BeamStiffness {
+    const IS_ELASTIC: bool = true;
+
     #[inline(always)]
     fn points(nodes: usize, _: usize) -> usize {
         nodes - 1
@@ -151,16 +160,14 @@ impl BeamSection for BeamStiffness {
     }
 
     #[inline(always)]
-    fn linearise<'a>(
-        &'a self,
+    fn linearise<'a, T: Number>(
+        _: impl Fn(usize) -> &'a Self,
         _: usize,
-        (gamma, kappa): (&Vec3, &Vec3),
-        _: &Configuration,
-        _: Moduli,
-        _: &'a mut BeamStiffness,
-    ) -> (Vec3, Vec3, &'a BeamStiffness) {
-        let (n, m) = BeamStiffness::stress(self, gamma, kappa);
-        (n, m, self)
+        strain: &[LaneVec3<T>; 2],
+        _: (&Configuration, Moduli),
+        elastic: &SectionStiffness<T>,
+    ) -> Linearised<T> {
+        Linearised { stress: elastic.stress(strain), C: *elastic }
     }
 
     fn energy(&self, _: usize, gamma: &Vec3, kappa: &Vec3, _: &Configuration) -> f64 {

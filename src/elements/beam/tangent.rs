@@ -1,326 +1,231 @@
-//! The tangent of a beam element: the Hessian in z = (p, p′, r′) of each Gauss point, by pairs of nodes, projected on
-//! rotations.
+//! The tangent of beam elements, of one or of eight side by side: the Hessian in z = (p, p′, r′) of each Gauss point, by pairs of nodes,
+//! projected on rotations.
 
-use super::kinematics::{Beams, GaussPoint, Rate, StrainMatrix, strain_matrix};
-use super::quaternion::{Quat, dot, left, multiply, right, right_unit, rotation_columns, times_conjugate};
-use super::section::{BeamSection, BeamStiffness};
-use crate::elements::block::Moduli;
-use crate::math::{Mat3, Vec3, fma, skew};
-use crate::state::{Configuration, Node};
+use super::hessian::{Hessian, Rows, add, rate_rows};
+use super::kinematics::{Pack, strain_matrix};
+use super::lane_section::{Linearised, SectionStiffness};
+use super::quaternion::{Quat, left, rotation_columns, times_conjugate};
+use crate::math::lanes::LaneVec3;
+use crate::math::number::Number;
+use crate::state::Node;
 
-/// A row over z: p at 0..4, p′ at 4..8, r′ at 8..11; the last place is unused, so that a row fills whole registers.
-type Row = [f64; 12];
-/// Second derivatives by a pair of nodes: rows q (4), x (3) of the first, columns q (4), x (3) of the second; the last is unused.
-type Pair = [[f64; 8]; 7];
-
-/// y ← y + s x.
-#[inline(always)]
-fn add<const L: usize>(y: &mut [f64; L], s: f64, x: &[f64; L]) {
-    for k in 0..L {
-        y[k] = fma(s, x[k], y[k]);
-    }
+/// Second derivatives by two nodes, rows of the first and columns of the second, quaternions q and positions x.
+#[derive(Clone, Copy)]
+struct Pair<T> {
+    q_q: [Quat<T>; 4],
+    x_q: [Quat<T>; 3],
+    x_x: [[T; 3]; 3],
 }
 
-/// H += w · ∂z/∂(nodes)ᵀ h ∂z/∂(nodes) for each pair of nodes (a, b); without `ALL` for a ≤ b alone.
-#[inline(always)]
-fn add_to_pairs<const N: usize, const ALL: bool>(
-    h: &[Row; 11],
-    w: f64,
-    value: &[f64; N],
-    slope: &[f64; N],
-    pairs: &mut [[Pair; N]; N],
-) {
-    for a in 0..N {
-        let mut half = [[0.0; 12]; 7];
-        for k in 0..4 {
-            add(&mut half[k], w * value[a], &h[k]);
-            add(&mut half[k], w * slope[a], &h[4 + k]);
-        }
-        for k in 0..3 {
-            add(&mut half[4 + k], w * slope[a], &h[8 + k]);
-        }
-        for b in if ALL { 0 } else { a }..N {
-            for (out, row) in pairs[a][b].iter_mut().zip(&half) {
-                for k in 0..4 {
-                    out[k] = fma(value[b], row[k], fma(slope[b], row[4 + k], out[k]));
-                    out[4 + k] = fma(slope[b], row[8 + k], out[4 + k]);
-                }
-            }
-        }
-    }
+/// Second derivatives by pairs of nodes.
+struct Pairs<T, const N: usize> {
+    /// Of a symmetric matrix those by q and q, and by x and x, for a ≤ b alone.
+    of: [[Pair<T>; N]; N],
+    /// Rows of q by x, transposed, of a matrix that is not symmetric.
+    q_x: Option<[[[Quat<T>; 3]; N]; N]>,
 }
 
-/// BᵀX for strain rows B and X.
-#[inline(always)]
-fn transpose_product(B: &[Row; 6], X: &[Row; 6]) -> [Row; 11] {
-    // A row stays in registers while it is summed.
-    std::array::from_fn(|k| {
-        let mut row = [0.0; 12];
-        for i in 0..6 {
-            add(&mut row, B[i][k], &X[i]);
-        }
-        row
-    })
-}
-
-impl BeamStiffness {
-    /// C times six strain rows.
+impl<T: Number, const N: usize> Pairs<T, N> {
     #[inline(always)]
-    fn times(&self, B: &[Row; 6]) -> [Row; 6] {
-        let mut CB = [[0.0; 12]; 6];
-        for i in 0..3 {
-            for j in 0..3 {
-                add(&mut CB[i], self.N[(i, j)], &B[j]);
-                add(&mut CB[3 + i], self.M[(i, j)], &B[3 + j]);
-                if self.coupled {
-                    add(&mut CB[i], self.NM[(i, j)], &B[3 + j]);
-                    add(&mut CB[3 + i], self.NM[(j, i)], &B[j]);
-                }
-            }
-        }
-        CB
+    fn zero<const ALL: bool>() -> Self {
+        let (four, three) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 3]);
+        let of = [[Pair { q_q: four, x_q: three, x_x: [[T::ZERO; 3]; 3] }; N]; N];
+        Pairs { of, q_x: if ALL { Some([[three; N]; N]) } else { None } }
     }
-}
 
-impl StrainMatrix {
-    /// B as six rows over z.
+    /// Adds w ∂z/∂(nodes)ᵀ h ∂z/∂(nodes).
     #[inline(always)]
-    fn rows(&self, R: &Mat3) -> [Row; 6] {
-        let mut B = [[0.0; 12]; 6];
-        for i in 0..3 {
-            B[i][..4].copy_from_slice(&self.gamma_p[i]);
-            B[3 + i][..4].copy_from_slice(&self.kappa_p[i]);
-            B[3 + i][4..8].copy_from_slice(&self.kappa_dp[i]);
-            for k in 0..3 {
-                B[i][8 + k] = R[(k, i)];
-            }
-        }
-        B
-    }
-}
-
-/// h += σ·∂²ε: with |p|² e = Y, ∂²e = (∂²Y − ∂|p|²⊗∂e − ∂e⊗∂|p|² − e ∂²|p|²)/|p|².
-#[inline(always)]
-fn add_geometric(h: &mut [Row; 11], point: &GaussPoint, tangent: &Vec3, B: &[Row; 6], n: &Vec3, m: &Vec3) {
-    let mut gradient = [0.0; 12];
-    for i in 0..3 {
-        add(&mut gradient, n[i], &B[i]);
-        add(&mut gradient, m[i], &B[3 + i]);
-    }
-    let inv2 = 2.0 * point.inv;
-    let sigma_e = n.dot(&(point.gamma + tangent)) + m.dot(&point.kappa);
-    // n·Y_Γ = −p·(r′ p n): columns r′ e_k n, and ∂/∂r′ of it 2 vec(e_k n p̄).
-    let np = {
-        let (w, v) = times_conjugate(&[0.0, n.x, n.y, n.z], &point.p);
-        [w, v.x, v.y, v.z]
-    };
-    for k in 0..4 {
-        let mut unit = [0.0; 4];
-        unit[k] = 1.0;
-        let rn = right(&left(&point.dr, &unit), n);
-        let um = right(&unit, m);
-        let un = multiply(&unit, &np);
-        for i in 0..4 {
-            h[i][k] -= inv2
-                * (rn[i] + if i == k { sigma_e } else { 0.0 } + point.p[i] * gradient[k] + point.p[k] * gradient[i]);
-            // m·Y_κ = 2 p′·(p m)
-            h[4 + i][k] += inv2 * (um[i] - gradient[4 + i] * point.p[k]);
-            h[k][4 + i] += inv2 * (um[i] - gradient[4 + i] * point.p[k]);
-        }
-        for i in 0..3 {
-            let c = inv2 * (un[1 + i] - gradient[8 + i] * point.p[k]);
-            h[8 + i][k] += c;
-            h[k][8 + i] += c;
-        }
-    }
-}
-
-/// ∂ε̇/∂z at fixed ż: the second derivative of the strains in the direction ż.
-#[inline(always)]
-fn rate_rows(point: &GaussPoint, tangent: &Vec3, B: &[Row; 6], rate: &Rate, strain_rates: &[f64; 6]) -> [Row; 6] {
-    let mut D = [[0.0; 12]; 6];
-    let inv2 = 2.0 * point.inv;
-    let e = point.gamma + tangent;
-    let along = dot(&point.p, &rate.p);
-    let rp = left(&point.dr, &rate.p);
-    let dr_p = left(&rate.dr, &point.p);
-    for i in 0..3 {
-        add(&mut D[i], -inv2 * along, &B[i]);
-        add(&mut D[3 + i], -inv2 * along, &B[3 + i]);
-        let (a, b, c, d) = (right_unit(&rp, i), right_unit(&dr_p, i), right_unit(&rate.dp, i), right_unit(&rate.p, i));
-        for k in 0..4 {
-            D[i][k] -= inv2 * (a[k] + b[k] + point.p[k] * strain_rates[i] + e[i] * rate.p[k]);
-            D[3 + i][k] -= inv2 * (c[k] + point.p[k] * strain_rates[3 + i] + point.kappa[i] * rate.p[k]);
-            D[3 + i][4 + k] += inv2 * d[k];
-        }
-        let v = times_conjugate(&d, &point.p).1;
-        for k in 0..3 {
-            D[i][8 + k] += inv2 * v[k];
-        }
-    }
-    D
-}
-
-/// ∂U/∂q_a += w ∂U/∂z · ∂z/∂q_a: needed because δq_a = ½ δθ q_a changes with q_a.
-#[inline(always)]
-fn add_gradient<const N: usize>(
-    B: &[Row; 6],
-    (n, m): (&Vec3, &Vec3),
-    w: f64,
-    (value, slope): (&[f64; N], &[f64; N]),
-    gradient: &mut [Quat; N],
-) {
-    for i in 0..3 {
+    fn add<const ALL: bool>(&mut self, h: &Hessian<T>, w: T, (value, slope): (&[T; N], &[T; N])) {
         for a in 0..N {
+            let (v, s) = (w * value[a], w * slope[a]);
+            let (mut by_value, mut by_slope) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 4]);
             for k in 0..4 {
-                gradient[a][k] +=
-                    w * value[a] * (n[i] * B[i][k] + m[i] * B[3 + i][k]) + w * slope[a] * m[i] * B[3 + i][4 + k];
+                add(&mut by_value[k], v, &h.p_p[k]);
+                add(&mut by_value[k], s, &h.dp_p[k]);
+                add(&mut by_slope[k], v, &h.p_dp[k]);
+                add(&mut by_slope[k], s, &h.dp_dp[k]);
             }
-        }
-    }
-}
-
-/// H += the derivatives of damping by the rates of the nodes, `viscous` by those of z: `rate_weight` times ∂f/∂ż, and ∂f/∂z by
-/// q̇_b = ½ ω_b q_b, which turns with q_b.
-#[inline(always)]
-fn add_rate_terms<const N: usize>(
-    pairs: &mut [[Pair; N]; N],
-    viscous: &[[Pair; N]; N],
-    rate_weight: f64,
-    omega: impl Fn(usize) -> Vec3,
-) {
-    for a in 0..N {
-        for b in 0..N {
-            let half_omega = 0.5 * omega(b);
-            let V = viscous[a][b];
-            for (out, row) in pairs[a][b].iter_mut().zip(&V) {
-                add(out, rate_weight, row);
-                // row · L(½ω) = −L(½ω) rowᵀ, L being antisymmetric for a pure ω.
-                let turned = left(&half_omega, &[row[0], row[1], row[2], row[3]]);
-                for k in 0..4 {
-                    out[k] -= turned[k];
-                }
+            let mut by_r = [[T::ZERO; 4]; 3];
+            for k in 0..3 {
+                add(&mut by_r[k], value[a], &h.r_p[k]);
+                add(&mut by_r[k], slope[a], &h.r_dp[k]);
             }
-        }
-    }
-}
-
-/// K ← the Hessian by positions and rotations, x and δθ of each node: δq_a = ½ δθ q_a at fixed q_a. Without `ALL` the Hessian
-/// is symmetric and given for a ≤ b: the other half is a copy.
-#[inline(always)]
-fn project<const N: usize, const ALL: bool>(pairs: &[[Pair; N]; N], q: &[Quat; N], K: &mut [f64]) {
-    let E = q.map(|q| rotation_columns(&q));
-    // The coefficients are stored with δθ along the row; the last place is unused.
-    let columns = E.map(|e| std::array::from_fn::<[f64; 4], 4, _>(|k| [e[0][k], e[1][k], e[2][k], 0.0]));
-    for a in 0..N {
-        for b in if ALL { 0 } else { a }..N {
-            let P = &pairs[a][b];
-            // Rows: x, then ½ vec(row q̄_a).
-            let mut rows = [[0.0; 8]; 6];
-            for i in 0..3 {
-                rows[i] = P[4 + i];
-                for k in 0..4 {
-                    add(&mut rows[3 + i], E[a][i][k], &P[k]);
+            for b in 0..N {
+                // By the position of b and the quaternion of a.
+                (0..3).for_each(|k| add(&mut self.of[b][a].x_q[k], w * slope[b], &by_r[k]));
+                if !ALL && b < a {
+                    continue;
                 }
-            }
-            for (i, row) in rows.iter().enumerate() {
-                let mut turn = [0.0; 4];
+                let to = &mut self.of[a][b];
                 for k in 0..4 {
-                    add(&mut turn, row[k], &columns[b][k]);
+                    add(&mut to.q_q[k], value[b], &by_value[k]);
+                    add(&mut to.q_q[k], slope[b], &by_slope[k]);
                 }
-                let at = (6 * a + i) * 6 * N + 6 * b;
-                K[at..at + 3].copy_from_slice(&row[4..7]);
-                K[at + 3..at + 6].copy_from_slice(&turn[..3]);
-                if !ALL && b != a {
-                    for j in 0..6 {
-                        K[(6 * b + j) * 6 * N + 6 * a + i] = K[at + j];
+                (0..3).for_each(|k| add(&mut to.x_x[k], s * slope[b], &h.r_r[k]));
+                if let Some(q_x) = &mut self.q_x {
+                    for k in 0..3 {
+                        add(&mut q_x[a][b][k], v * slope[b], &h.p_r[k]);
+                        add(&mut q_x[a][b][k], s * slope[b], &h.dp_r[k]);
                     }
                 }
             }
         }
     }
-}
 
-/// K += δ(½ vec(G q̄_a)) at fixed G = ∂U/∂q_a: −¼ (s₀ δθ + s × δθ), s = G q̄_a.
-#[inline(always)]
-fn add_change_of_direction<const N: usize>(gradient: &[Quat; N], q: &[Quat; N], K: &mut [f64]) {
-    for a in 0..N {
-        let (s0, s) = times_conjugate(&gradient[a], &q[a]);
-        let turn = -0.25 * (s0 * Mat3::identity() + skew(&s));
-        for i in 0..3 {
-            for j in 0..3 {
-                K[(6 * a + 3 + i) * 6 * N + 6 * a + 3 + j] += turn[(i, j)];
+    /// Adds the derivatives of damping by the rates of the nodes, `viscous` by those of z: `rate_weight` times ∂f/∂ż, and ∂f/∂z by
+    /// q̇_b = ½ ω_b q_b, which turns with q_b.
+    #[inline(always)]
+    fn add_rate_terms(&mut self, viscous: &Self, rate_weight: T, omega: impl Fn(usize) -> LaneVec3<T>) {
+        for b in 0..N {
+            let half_omega = T::splat(0.5) * omega(b);
+            for a in 0..N {
+                let (to, of) = (&mut self.of[a][b], &viscous.of[a][b]);
+                // row · L(½ω) = −L(½ω) rowᵀ, L being antisymmetric for a pure ω.
+                let add_row = |to: &mut Quat<T>, row: &Quat<T>| {
+                    let turned = left(&half_omega, row);
+                    (0..4).for_each(|k| to[k] += rate_weight * row[k] - turned[k]);
+                };
+                (0..4).for_each(|k| add_row(&mut to.q_q[k], &of.q_q[k]));
+                for k in 0..3 {
+                    add_row(&mut to.x_q[k], &of.x_q[k]);
+                    add(&mut to.x_x[k], rate_weight, &of.x_x[k]);
+                }
+                if let (Some(q_x), Some(of)) = (&mut self.q_x, &viscous.q_x) {
+                    (0..3).for_each(|k| add(&mut q_x[a][b][k], rate_weight, &of[a][b][k]));
+                }
             }
         }
     }
-}
 
-/// The damping of a Gauss point: h += β BᵀC ∂ε̇/∂z, C the elastic stiffness and `CB` = C B; returns the stress β C ε̇.
-#[inline(always)]
-fn add_damping<const N: usize, S: BeamSection>(
-    beams: &Beams<N, S>,
-    (e, g): (usize, usize),
-    (point, q): (&GaussPoint, &[Quat; N]),
-    now: &Configuration,
-    (B, CB): (&[Row; 6], &[Row; 6]),
-    h: &mut [Row; 11],
-) -> (Vec3, Vec3) {
-    let element = &beams.elements[e];
-    let (gamma, kappa, rate) = beams.rates(element, g, point, q, now.nodes);
-    let strain_rates = [gamma.x, gamma.y, gamma.z, kappa.x, kappa.y, kappa.z];
-    let D = rate_rows(point, &element.tangent, B, &rate, &strain_rates);
-    let BCD = transpose_product(CB, &D);
-    for k in 0..11 {
-        add(&mut h[k], beams.damping, &BCD[k]);
+    /// The Hessian by positions and rotations, x and δθ of each node: δq_a = ½ δθ q_a at fixed q_a. Where it is symmetric one half is a copy.
+    #[inline(always)]
+    fn project<const ALL: bool>(&self, q: &[Quat<T>; N]) -> [[[[T; 6]; N]; 6]; N] {
+        let mut E = [[[T::ZERO; 4]; 3]; N];
+        (0..N).for_each(|a| E[a] = rotation_columns(&q[a]));
+        let mut H = [[[[T::ZERO; 6]; N]; 6]; N];
+        for a in 0..N {
+            for b in 0..N {
+                let of = &self.of[a][b];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let by_turn = product(&of.x_q[i], &E[b][j]);
+                        H[a][i][b][3 + j] = by_turn;
+                        match &self.q_x {
+                            Some(q_x) => H[a][3 + i][b][j] = product(&q_x[a][b][j], &E[a][i]),
+                            None => H[b][3 + j][a][i] = by_turn,
+                        }
+                    }
+                }
+                if !ALL && b < a {
+                    continue;
+                }
+                for j in 0..3 {
+                    let mut turned = [T::ZERO; 4];
+                    (0..4).for_each(|k| turned[k] = product(&of.q_q[k], &E[b][j]));
+                    for i in 0..3 {
+                        let by_turns = product(&turned, &E[a][i]);
+                        H[a][i][b][j] = of.x_x[i][j];
+                        H[a][3 + i][b][3 + j] = by_turns;
+                        if !ALL && b > a {
+                            H[b][j][a][i] = of.x_x[i][j];
+                            H[b][3 + j][a][3 + i] = by_turns;
+                        }
+                    }
+                }
+            }
+        }
+        H
     }
-    let (n, m) = element.section.elastic().stress(&gamma, &kappa);
-    (beams.damping * n, beams.damping * m)
 }
 
-/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses that `lead` tells; symmetric unless
-/// `DAMPED`.
-pub(super) fn tangent<const N: usize, S: BeamSection, const DAMPED: bool>(
-    beams: &Beams<N, S>,
-    e: usize,
-    (now, lead): (&Configuration, Option<&[Node]>),
+/// a·b of all four numbers, each product rounded with its sum.
+#[inline(always)]
+fn product<T: Number>(a: &Quat<T>, b: &Quat<T>) -> T {
+    T::fma(a[0], b[0], T::fma(a[1], b[1], T::fma(a[2], b[2], a[3] * b[3])))
+}
+
+/// H += δ(½ vec(G q̄_a)) at fixed G = ∂U/∂q_a: −¼ (s₀ δθ + s × δθ), s = G q̄_a.
+#[inline(always)]
+fn add_change_of_direction<T: Number, const N: usize>(
+    gradient: &[Quat<T>; N],
+    q: &[Quat<T>; N],
+    H: &mut [[[[T; 6]; N]; 6]; N],
+) {
+    let quarter = T::splat(-0.25);
+    for a in 0..N {
+        let (s0, LaneVec3(s)) = times_conjugate(&gradient[a], &q[a]);
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            H[a][3 + i][a][3 + i] += quarter * s0;
+            H[a][3 + i][a][3 + j] -= quarter * s[k];
+            H[a][3 + i][a][3 + k] += quarter * s[j];
+        }
+    }
+}
+
+/// Stress at an integration point at the strains there, and its derivative.
+type Linearise<'a, T> = dyn Fn(usize, &[LaneVec3<T>; 2]) -> Linearised<T> + 'a;
+
+/// The sections of some elements.
+pub(super) struct Sections<'a, T> {
+    /// The number of integration points.
+    pub points: usize,
+    /// What they say at a point.
+    pub linearise: &'a Linearise<'a, T>,
+    /// Damping times the stiffness before they yield.
+    pub viscous: SectionStiffness<T>,
+    /// The elements have failed, all of them: nothing is damped.
+    pub has_failed: bool,
+}
+
+/// Tangents of the elements of a pack, row-major, one after the other into `K`, see [`crate::elements::ElementBlock::tangent`], with the
+/// stresses that `lead` tells; symmetric unless `DAMPED`.
+pub(super) fn tangent<T: Number, const N: usize, const DAMPED: bool>(
+    pack: &Pack<T, N>,
+    sections: &Sections<T>,
+    (nodes, lead): (&[Node], Option<&[Node]>),
     rate_weight: f64,
-    moduli: Moduli,
     K: &mut [f64],
 ) {
-    let element = &beams.elements[e];
-    let motion = beams.gather(element, now.nodes);
-    let q = &motion.0;
-    let mut pairs = [[[[0.0; 8]; 7]; N]; N];
-    let mut viscous = [[[[0.0; 8]; 7]; N]; N];
-    let mut gradient = [[0.0; 4]; N];
-    let per_length = 1.0 / element.jacobian;
-    for g in 0..beams.integration_points() {
-        let point = beams.interpolate(element, g, &motion);
-        let mut place = BeamStiffness::ZERO;
-        let (gamma, kappa) = beams.leading_strains(element, g, &point, lead);
-        let (mut n, mut m, C) = element.section.linearise(g, (&gamma, &kappa), now, moduli, &mut place);
-        let B = strain_matrix(element, &point).rows(&point.R);
-        let CB = C.times(&B);
-        let mut h = transpose_product(&B, &CB);
-        let w = beams.shape.weight[g] * element.jacobian;
-        let value = &beams.shape.value[g];
-        let slope = beams.shape.slope[g].map(|s| s * per_length);
-        if DAMPED && !element.section.has_failed(now.history) {
-            let elastic = element.section.elastic();
-            let CB = if std::ptr::eq(C, elastic) { CB } else { elastic.times(&B) };
-            let c = if std::ptr::eq(C, elastic) { h } else { transpose_product(&B, &CB) };
-            add_to_pairs::<N, DAMPED>(&c, beams.damping * w, value, &slope, &mut viscous);
-            let (nd, md) = add_damping(beams, (e, g), (&point, q), now, (&B, &CB), &mut h);
-            n += nd;
-            m += md;
+    let motion = pack.gather(nodes);
+    let before = lead.map(|nodes| (nodes, pack.gather(nodes)));
+    let lead = before.as_ref().map(|(nodes, motion)| (*nodes, motion));
+    let mut pairs = Pairs::<T, N>::zero::<DAMPED>();
+    let mut of_rates = if DAMPED { Some(Pairs::<T, N>::zero::<true>()) } else { None };
+    let mut gradient = [[T::ZERO; 4]; N];
+    for g in 0..sections.points {
+        let point = pack.interpolate(g, &motion);
+        let strain = pack.leading_strains(g, &point, lead);
+        let Linearised { mut stress, C } = (sections.linearise)(g, &strain);
+        let w = pack.weight(g);
+        let (mut value, mut slope) = ([T::ZERO; N], [T::ZERO; N]);
+        (0..N).for_each(|a| (value[a], slope[a]) = pack.at_node(g, a));
+        let B = Rows::new(&strain_matrix(&pack.tangent, &point), &point.R);
+        let mut stresses = C.times(&B);
+        if let Some(of_rates) = of_rates.as_mut().filter(|_| !sections.has_failed) {
+            let (strain_rates, rate) = pack.rates(g, &point, &motion.q, nodes);
+            let D = rate_rows((&point, &pack.tangent), &B, &rate, &strain_rates);
+            stresses.add(T::splat(1.0), &sections.viscous.times(&D));
+            let [n, m] = sections.viscous.stress(&strain_rates);
+            stress = [stress[0] + n, stress[1] + m];
+            let h = Hessian::product::<true>(&B, &sections.viscous.times(&B), true);
+            of_rates.add::<true>(&h, w, (&value, &slope));
         }
-        add_geometric(&mut h, &point, &element.tangent, &B, &n, &m);
-        add_to_pairs::<N, DAMPED>(&h, w, value, &slope, &mut pairs);
-        add_gradient(&B, (&n, &m), w, (value, &slope), &mut gradient);
+        let along = B.gradient(&stress);
+        let mut h = Hessian::product::<DAMPED>(&B, &stresses, DAMPED || C.coupled);
+        h.add_second(&point, &pack.tangent, &along, &stress);
+        pairs.add::<DAMPED>(&h, w, (&value, &slope));
+        // δq_a = ½ δθ q_a changes with q_a.
+        for a in 0..N {
+            add(&mut gradient[a], w * value[a], &along.p);
+            add(&mut gradient[a], w * slope[a], &along.dp);
+        }
     }
-    if DAMPED {
-        add_rate_terms(&mut pairs, &viscous, rate_weight, |b| now.nodes[element.nodes[b]].omega);
+    if let Some(of_rates) = &of_rates {
+        let omega = |b: usize| pack.of_node(b, nodes, |node| node.omega);
+        pairs.add_rate_terms(of_rates, T::splat(rate_weight), omega);
     }
-    project::<N, DAMPED>(&pairs, q, K);
-    add_change_of_direction(&gradient, q, K);
+    let mut H = pairs.project::<DAMPED>(&motion.q);
+    add_change_of_direction(&gradient, &motion.q, &mut H);
+    T::store(H.as_flattened().as_flattened().as_flattened(), pack.count, K);
 }

@@ -1,6 +1,6 @@
-//! The matrices of eight shell elements side by side: how a half of them becomes whole, and how each is written by itself.
+//! The matrices of eight shell elements side by side: how a half of them becomes whole.
 
-use crate::math::lanes::{LANES, LaneVec3, Lanes};
+use crate::math::lanes::{LaneVec3, Lanes};
 
 /// The matrices of eight elements: node and component of the row, then of the column.
 pub(super) type LaneMatrix<const N: usize> = [[[[Lanes; 6]; N]; 6]; N];
@@ -59,22 +59,5 @@ pub(super) fn complete<const N: usize>(H: &mut LaneMatrix<N>) {
                 }
             }
         }
-    }
-}
-
-/// Writes numbers of eight elements, all those of one element together.
-#[inline(always)]
-pub(super) fn store(numbers: &[Lanes], count: usize, out: &mut [f64]) {
-    let length = numbers.len();
-    let (tiles, rest) = numbers.as_chunks::<LANES>();
-    for (t, tile) in tiles.iter().enumerate() {
-        let of = Lanes::transpose(*tile);
-        for (lane, of) in of.iter().enumerate().take(count) {
-            out[lane * length + LANES * t..][..LANES].copy_from_slice(&of.to_array());
-        }
-    }
-    for (k, numbers) in (LANES * tiles.len()..).zip(rest) {
-        let numbers = numbers.to_array();
-        (0..count).for_each(|lane| out[lane * length + k] = numbers[lane]);
     }
 }

@@ -5,10 +5,11 @@
 //! differs from that of the element by itself by rounding.
 
 use super::interpolation::Interpolation;
-use super::lane_matrix::{LaneMatrix, complete, product, store, subtract_skew};
+use super::lane_matrix::{LaneMatrix, complete, product, subtract_skew};
 use super::lanes::{Motion, ShellPack, Slopes, by_pairs, sum, total};
 use super::packed::{InPlaneLanes, LinearisedLanes};
 use crate::math::lanes::{LaneVec3, Lanes, fma};
+use crate::math::number::Number;
 use std::array::from_fn;
 
 /// A row of B by the positions and the rotations of the nodes. Nothing is kept for the position of the first node.
@@ -259,7 +260,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPac
                 }
             }
         }
-        store(H.as_flattened().as_flattened().as_flattened(), self.count, out);
+        Number::store(H.as_flattened().as_flattened().as_flattened(), self.count, out);
     }
 
     /// σ·∂²ε of what is bilinear: of products of slopes, bulges, drilling and shear.

@@ -1,0 +1,120 @@
+//! What the kernels of elements compute with: a number, or the numbers of eight elements side by side. Each operation rounds in each
+//! lane as it does on a single number, so the same kernel gives the same bits.
+
+use super::lanes::{LANES, LaneVec3, Lanes, lanes};
+use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use wide::f64x4;
+
+/// A number, or one for each of eight elements.
+pub trait Number:
+    Copy
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Mul<LaneVec3<Self>, Output = LaneVec3<Self>>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+{
+    /// The number of elements.
+    const COUNT: usize;
+    /// Zero for all.
+    const ZERO: Self;
+    /// The same number for all.
+    fn splat(x: f64) -> Self;
+    /// The numbers of the elements.
+    fn gather(of: impl FnMut(usize) -> f64) -> Self;
+    /// The number of one element.
+    fn lane(self, lane: usize) -> f64;
+    /// a b + c, rounded as [`super::fma`] does.
+    fn fma(a: Self, b: Self, c: Self) -> Self;
+    /// The number, or its negative where `sign` is below zero.
+    fn with_sign_of(self, sign: Self) -> Self;
+    /// Writes numbers of the first `count` elements, all those of one element together.
+    fn store(numbers: &[Self], count: usize, out: &mut [f64]);
+}
+
+impl Number for f64 {
+    const COUNT: usize = 1;
+    const ZERO: f64 = 0.0;
+
+    #[inline(always)]
+    fn splat(x: f64) -> f64 {
+        x
+    }
+
+    #[inline(always)]
+    fn gather(mut of: impl FnMut(usize) -> f64) -> f64 {
+        of(0)
+    }
+
+    #[inline(always)]
+    fn lane(self, _: usize) -> f64 {
+        self
+    }
+
+    #[inline(always)]
+    fn fma(a: f64, b: f64, c: f64) -> f64 {
+        super::fma(a, b, c)
+    }
+
+    #[inline(always)]
+    fn with_sign_of(self, sign: f64) -> f64 {
+        if sign < 0.0 { -self } else { self }
+    }
+
+    #[inline(always)]
+    fn store(numbers: &[f64], _: usize, out: &mut [f64]) {
+        out.copy_from_slice(numbers);
+    }
+}
+
+impl Number for Lanes {
+    const COUNT: usize = LANES;
+    const ZERO: Lanes = Lanes::ZERO;
+
+    #[inline(always)]
+    fn splat(x: f64) -> Lanes {
+        Lanes::splat(x)
+    }
+
+    #[inline(always)]
+    fn gather(of: impl FnMut(usize) -> f64) -> Lanes {
+        lanes(of)
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> f64 {
+        self.to_array()[lane]
+    }
+
+    #[inline(always)]
+    fn fma(a: Lanes, b: Lanes, c: Lanes) -> Lanes {
+        super::lanes::fma(a, b, c)
+    }
+
+    #[inline(always)]
+    fn with_sign_of(self, sign: Lanes) -> Lanes {
+        sign.simd_lt(Lanes::ZERO).select(-self, self)
+    }
+
+    #[inline(always)]
+    fn store(numbers: &[Lanes], count: usize, out: &mut [f64]) {
+        let length = numbers.len();
+        let (tiles, rest) = numbers.as_chunks::<4>();
+        for (t, [a, b, c, d]) in tiles.iter().enumerate() {
+            for (half, first) in [0, 4].into_iter().enumerate().take_while(|(_, first)| *first < count) {
+                let of = |numbers: &Lanes| f64x4::new(numbers.as_array().as_chunks().0[half]);
+                let of = f64x4::transpose([of(a), of(b), of(c), of(d)]);
+                for (lane, of) in (first..count).zip(of) {
+                    out[lane * length + 4 * t..][..4].copy_from_slice(&of.to_array());
+                }
+            }
+        }
+        for (k, numbers) in (4 * tiles.len()..).zip(rest) {
+            let numbers = numbers.to_array();
+            (0..count).for_each(|lane| out[lane * length + k] = numbers[lane]);
+        }
+    }
+}
