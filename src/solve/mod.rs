@@ -34,6 +34,7 @@ mod report;
 mod residual;
 mod run;
 mod sample;
+mod search;
 mod size;
 mod start;
 mod start_of_stage;
