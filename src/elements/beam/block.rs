@@ -1,15 +1,15 @@
 //! Forces, energies and results of beams.
 
-use super::kinematics::{Beam, Beams, GaussPoint, Motion, Pack};
+use super::kinematics::{Beam, BeamMotion, Beams, GaussPoint, Pack};
 use super::lane_section::SectionStiffness;
 use super::quaternion::{left, right, times_conjugate};
-use super::section::BeamSection;
-use super::tangent::{Sections, tangent};
+use super::section::{BeamSection, BeamStiffness};
+use super::tangent::{PackSections, tangent};
 use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::results::IntegrationPoint;
 use crate::materials::Dissipation;
-use crate::math::lanes::{LANES, LaneVec3, Lanes};
-use crate::math::number::Number;
+use crate::math::lanes::{LANES, Lanes};
+use crate::math::number::{LaneVec3, Number};
 use crate::math::{Mat3, Vec3};
 use crate::state::{Configuration, Node};
 
@@ -34,7 +34,7 @@ struct Damping<T> {
 fn forces_of<T: Number, const N: usize>(
     pack: &Pack<T, N>,
     points: usize,
-    (motion, nodes): (&Motion<T, N>, &[Node]),
+    (motion, nodes): (&BeamMotion<T, N>, &[Node]),
     damping: Option<Damping<T>>,
     mut stress: impl FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2],
 ) -> [[T; 6]; N] {
@@ -83,7 +83,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     fn damping_of(&self, e: usize, now: &Configuration) -> Option<Damping<f64>> {
         let section = &self.elements[e].section;
         let acts = self.damping > 0.0 && !section.has_failed(now.history);
-        acts.then(|| Damping { factor: self.damping, elastic: SectionStiffness::gather(|_| section.elastic()) })
+        acts.then(|| Damping { factor: self.damping, elastic: BeamStiffness::side_by_side(|_| section.elastic()) })
     }
 
     /// Internal forces and moments on the nodes of an element.
@@ -103,7 +103,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     fn forces_side_by_side(&self, elements: &[Beam<N, S>], now: &Configuration) -> [[Lanes; 6]; N] {
         let pack = Pack::<Lanes, N>::new(elements, &self.shape);
         let motion = pack.gather(now.nodes);
-        let elastic = SectionStiffness::gather(|lane| elements[lane.min(elements.len() - 1)].section.elastic());
+        let elastic = BeamStiffness::side_by_side(|lane| elements[lane.min(elements.len() - 1)].section.elastic());
         let damping = (self.damping > 0.0).then(|| Damping { factor: Lanes::splat(self.damping), elastic });
         let stress = |_, point: &GaussPoint<Lanes>| elastic.stress(&point.strain);
         forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, stress)
@@ -130,8 +130,8 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     ) {
         let pack = Pack::<T, N>::new(elements, &self.shape);
         let section = |lane: usize| &elements[lane.min(elements.len() - 1)].section;
-        let elastic = SectionStiffness::gather(|lane| section(lane).elastic());
-        let sections = Sections {
+        let elastic = BeamStiffness::side_by_side(|lane| section(lane).elastic());
+        let sections = PackSections {
             points: self.integration_points(),
             linearise: &|g, strain| S::linearise(section, g, strain, (now, moduli), &elastic),
             viscous: elastic.scaled(T::splat(self.damping)),

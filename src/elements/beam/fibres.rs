@@ -11,8 +11,8 @@ use super::lane_section::{Linearised, SectionStiffness};
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
 use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
-use crate::math::lanes::{LANES, LaneVec3};
-use crate::math::number::Number;
+use crate::math::lanes::LANES;
+use crate::math::number::{LaneVec3, Number};
 use crate::math::{Mat3, Vec3};
 use crate::sections::{Fibre, Stiffness};
 use crate::state::Configuration;
@@ -260,7 +260,7 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         }
         Linearised {
             stress: stress.map(|part| LaneVec3::gather(|lane| part[lane])),
-            C: SectionStiffness::gather(|lane| &C[lane]),
+            C: BeamStiffness::side_by_side(|lane| &C[lane]),
         }
     }
 

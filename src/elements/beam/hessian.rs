@@ -3,8 +3,7 @@
 use super::kinematics::{GaussPoint, Rate, StrainMatrix};
 use super::lane_section::SectionStiffness;
 use super::quaternion::{Quat, dot, left, right_unit, times_conjugate};
-use crate::math::lanes::LaneVec3;
-use crate::math::number::Number;
+use crate::math::number::{LaneVec3, Number};
 
 /// y ← y + s x.
 #[inline(always)]
@@ -16,21 +15,21 @@ pub(super) fn add<T: Number, const L: usize>(y: &mut [T; L], s: T, x: &[T; L]) {
 
 /// Rows over z: of strains, or of the stresses that follow from them.
 #[derive(Clone, Copy)]
-pub(super) struct Rows<T> {
-    pub gamma: [Row<T>; 3],
-    pub kappa: [Row<T>; 3],
+pub(super) struct ZRows<T> {
+    pub gamma: [ZRow<T>; 3],
+    pub kappa: [ZRow<T>; 3],
 }
 
 /// A row over z.
 #[derive(Clone, Copy)]
-pub(super) struct Row<T> {
+pub(super) struct ZRow<T> {
     pub p: Quat<T>,
     pub dp: Quat<T>,
     pub r: [T; 3],
 }
 
-impl<T: Number> Row<T> {
-    const ZERO: Self = Row { p: [T::ZERO; 4], dp: [T::ZERO; 4], r: [T::ZERO; 3] };
+impl<T: Number> ZRow<T> {
+    const ZERO: Self = ZRow { p: [T::ZERO; 4], dp: [T::ZERO; 4], r: [T::ZERO; 3] };
 
     #[inline(always)]
     fn add(&mut self, s: T, row: &Self) {
@@ -40,11 +39,11 @@ impl<T: Number> Row<T> {
     }
 }
 
-impl<T: Number> Rows<T> {
+impl<T: Number> ZRows<T> {
     /// The rows of a strain matrix; `by_r`: those of Γ by r′.
     #[inline(always)]
     pub fn new(B: &StrainMatrix<T>, by_r: &[LaneVec3<T>; 3]) -> Self {
-        let mut rows = Rows { gamma: [Row::ZERO; 3], kappa: [Row::ZERO; 3] };
+        let mut rows = ZRows { gamma: [ZRow::ZERO; 3], kappa: [ZRow::ZERO; 3] };
         for i in 0..3 {
             rows.gamma[i].p = B.gamma_p[i];
             rows.gamma[i].r = by_r[i].0;
@@ -65,8 +64,8 @@ impl<T: Number> Rows<T> {
 
     /// Bᵀσ.
     #[inline(always)]
-    pub fn gradient(&self, [n, m]: &[LaneVec3<T>; 2]) -> Row<T> {
-        let mut g = Row::ZERO;
+    pub fn gradient(&self, [n, m]: &[LaneVec3<T>; 2]) -> ZRow<T> {
+        let mut g = ZRow::ZERO;
         for i in 0..3 {
             add(&mut g.p, n.0[i], &self.gamma[i].p);
             add(&mut g.r, n.0[i], &self.gamma[i].r);
@@ -80,8 +79,8 @@ impl<T: Number> Rows<T> {
 impl<T: Number> SectionStiffness<T> {
     /// C times rows of strains.
     #[inline(always)]
-    pub(super) fn times(&self, B: &Rows<T>) -> Rows<T> {
-        let mut CB = Rows { gamma: [Row::ZERO; 3], kappa: [Row::ZERO; 3] };
+    pub(super) fn times(&self, B: &ZRows<T>) -> ZRows<T> {
+        let mut CB = ZRows { gamma: [ZRow::ZERO; 3], kappa: [ZRow::ZERO; 3] };
         for i in 0..3 {
             for j in 0..3 {
                 // Γ does not depend on p′, nor κ on r′.
@@ -117,7 +116,7 @@ pub(super) struct Hessian<T> {
 impl<T: Number> Hessian<T> {
     /// BᵀX of rows of strains and of stresses; unless `ALL` those of a symmetric matrix, which has no columns of r′.
     #[inline(always)]
-    pub fn product<const ALL: bool>(B: &Rows<T>, X: &Rows<T>, coupled: bool) -> Self {
+    pub fn product<const ALL: bool>(B: &ZRows<T>, X: &ZRows<T>, coupled: bool) -> Self {
         let (four, three) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 3]);
         let r_r = [[T::ZERO; 3]; 3];
         let mut h = Hessian {
@@ -164,7 +163,7 @@ impl<T: Number> Hessian<T> {
 
     /// Adds σ·∂²ε, `g` = Bᵀσ: with |p|² e = Y, ∂²e = (∂²Y − ∂|p|²⊗∂e − ∂e⊗∂|p|² − e ∂²|p|²)/|p|².
     #[inline(always)]
-    pub fn add_second(&mut self, point: &GaussPoint<T>, tangent: &LaneVec3<T>, g: &Row<T>, [n, m]: &[LaneVec3<T>; 2]) {
+    pub fn add_second(&mut self, point: &GaussPoint<T>, tangent: &LaneVec3<T>, g: &ZRow<T>, [n, m]: &[LaneVec3<T>; 2]) {
         let (p, inv2) = (&point.p, T::splat(2.0) * point.inv);
         let sigma_e = n.dot(&(point.strain[0] + *tangent)) + m.dot(&point.strain[1]);
         // n·Y_Γ = −p·(r′ p n), whose matrix is that of −r′·n by the scalar part, of r′ × n beside it, and of r′·n − n r′ᵀ − r′ nᵀ.
@@ -209,11 +208,11 @@ impl<T: Number> Hessian<T> {
 #[inline(always)]
 pub(super) fn rate_rows<T: Number>(
     (point, tangent): (&GaussPoint<T>, &LaneVec3<T>),
-    B: &Rows<T>,
+    B: &ZRows<T>,
     rate: &Rate<T>,
     [gamma, kappa]: &[LaneVec3<T>; 2],
-) -> Rows<T> {
-    let mut D = Rows { gamma: [Row::ZERO; 3], kappa: [Row::ZERO; 3] };
+) -> ZRows<T> {
+    let mut D = ZRows { gamma: [ZRow::ZERO; 3], kappa: [ZRow::ZERO; 3] };
     let inv2 = T::splat(2.0) * point.inv;
     let e = point.strain[0] + *tangent;
     D.add(-inv2 * dot(&point.p, &rate.p), B);

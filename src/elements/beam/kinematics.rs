@@ -5,8 +5,8 @@ use super::quaternion::{Quat, dot, left, right_unit, rotation, vector};
 use super::section::{BeamSection, BeamStiffness};
 use super::shape::ShapeFunctions;
 use crate::math::Vec3;
-use crate::math::lanes::{LANES, LaneVec3};
-use crate::math::number::Number;
+use crate::math::lanes::LANES;
+use crate::math::number::{LaneVec3, Number};
 use crate::state::Node;
 use std::array::from_fn;
 
@@ -54,7 +54,7 @@ pub(super) struct Pack<'a, T, const N: usize> {
 /// Motion of the nodes of elements: quaternions, all in the half-space of the first (q and −q are the same rotation), and displacements
 /// less that of the first. Strains come from displacements because positions have fewer digits where the origin is far, or
 /// displacements are small.
-pub(super) struct Motion<T, const N: usize> {
+pub(super) struct BeamMotion<T, const N: usize> {
     pub q: [Quat<T>; N],
     pub u: [LaneVec3<T>; N],
 }
@@ -116,8 +116,8 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
 
     /// The motion of the nodes of the elements.
     #[inline(always)]
-    pub fn gather(&self, nodes: &[Node]) -> Motion<T, N> {
-        let mut motion = Motion { q: [[T::ZERO; 4]; N], u: [LaneVec3::ZERO; N] };
+    pub fn gather(&self, nodes: &[Node]) -> BeamMotion<T, N> {
+        let mut motion = BeamMotion { q: [[T::ZERO; 4]; N], u: [LaneVec3::ZERO; N] };
         let mut first = [LaneVec3::ZERO; 2];
         for a in 0..N {
             let node = |lane: usize| &nodes[self.nodes[lane][a]];
@@ -146,7 +146,7 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
 
     /// Position, rotation and strains at Gauss point `g`.
     #[inline(always)]
-    pub fn interpolate(&self, g: usize, Motion { q, u }: &Motion<T, N>) -> GaussPoint<T> {
+    pub fn interpolate(&self, g: usize, BeamMotion { q, u }: &BeamMotion<T, N>) -> GaussPoint<T> {
         let mut p = [T::ZERO; 4];
         let mut dp = [T::ZERO; 4];
         let mut dr = LaneVec3::ZERO;
@@ -190,7 +190,7 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
         &self,
         g: usize,
         point: &GaussPoint<T>,
-        lead: Option<(&[Node], &Motion<T, N>)>,
+        lead: Option<(&[Node], &BeamMotion<T, N>)>,
     ) -> [LaneVec3<T>; 2] {
         let Some((nodes, motion)) = lead else { return point.strain };
         let before = self.interpolate(g, motion);
@@ -233,7 +233,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 
     /// The pack of one element, and the motion of its nodes.
     #[inline(always)]
-    pub(super) fn one(&self, e: usize, nodes: &[Node]) -> (Pack<'_, f64, N>, Motion<f64, N>) {
+    pub(super) fn one(&self, e: usize, nodes: &[Node]) -> (Pack<'_, f64, N>, BeamMotion<f64, N>) {
         let pack = Pack::new(&self.elements[e..=e], &self.shape);
         let motion = pack.gather(nodes);
         (pack, motion)

@@ -1,10 +1,8 @@
 //! What the sections of some beams say side by side.
 
-use super::section::BeamStiffness;
-use crate::math::lanes::LaneVec3;
-use crate::math::number::Number;
+use crate::math::number::{LaneVec3, Number};
 
-/// The stiffness C of sections, see [`BeamStiffness`].
+/// The stiffness C of sections, see [`super::BeamStiffness`].
 #[derive(Clone, Copy)]
 pub struct SectionStiffness<T> {
     /// ∂n/∂Γ, rows.
@@ -40,23 +38,6 @@ fn transposed_times<T: Number>(A: &[[T; 3]; 3], LaneVec3([x, y, z]): &LaneVec3<T
 }
 
 impl<T: Number> SectionStiffness<T> {
-    /// The stiffnesses of the lanes.
-    #[inline(always)]
-    pub fn gather<'a>(of: impl Fn(usize) -> &'a BeamStiffness) -> Self {
-        let coupled = (0..T::COUNT).any(|lane| of(lane).coupled);
-        let mut C = SectionStiffness { N: [[T::ZERO; 3]; 3], M: [[T::ZERO; 3]; 3], NM: [[T::ZERO; 3]; 3], coupled };
-        for i in 0..3 {
-            for j in 0..3 {
-                C.N[i][j] = T::gather(|lane| of(lane).N[(i, j)]);
-                C.M[i][j] = T::gather(|lane| of(lane).M[(i, j)]);
-                if coupled {
-                    C.NM[i][j] = T::gather(|lane| of(lane).NM[(i, j)]);
-                }
-            }
-        }
-        C
-    }
-
     /// The stiffnesses times `factor`.
     #[inline(always)]
     pub fn scaled(&self, factor: T) -> Self {
@@ -67,7 +48,7 @@ impl<T: Number> SectionStiffness<T> {
         C
     }
 
-    /// n and m at the strains Γ, κ: [`BeamStiffness::stress`].
+    /// n and m at the strains Γ, κ: [`super::BeamStiffness::stress`].
     #[inline(always)]
     pub fn stress(&self, [gamma, kappa]: &[LaneVec3<T>; 2]) -> [LaneVec3<T>; 2] {
         let (mut n, mut m) = (times(&self.N, gamma), times(&self.M, kappa));

@@ -1,7 +1,6 @@
 //! Quaternions as four numbers (w, x, y, z), for the kernels of the beam.
 
-use crate::math::lanes::LaneVec3;
-use crate::math::number::Number;
+use crate::math::number::{LaneVec3, Number};
 
 /// A quaternion (w, x, y, z).
 pub type Quat<T = f64> = [T; 4];

@@ -4,8 +4,7 @@
 use super::lane_section::{Linearised, SectionStiffness};
 use crate::elements::block::Moduli;
 use crate::materials::Dissipation;
-use crate::math::lanes::LaneVec3;
-use crate::math::number::Number;
+use crate::math::number::{LaneVec3, Number};
 use crate::math::{Mat3, Vec3};
 use crate::sections::Stiffness;
 use crate::state::Configuration;
@@ -103,6 +102,23 @@ impl BeamStiffness {
     pub fn new(section: &Stiffness, frame: &Mat3) -> Self {
         let Stiffness { N, M, NM, .. } = section;
         BeamStiffness { N: *N, M: *M, NM: *NM, coupled: *NM != Mat3::zeros() }.rotated(frame)
+    }
+
+    /// Those of some elements side by side.
+    #[inline(always)]
+    pub fn side_by_side<'a, T: Number>(of: impl Fn(usize) -> &'a BeamStiffness) -> SectionStiffness<T> {
+        let (zero, coupled) = ([[T::ZERO; 3]; 3], (0..T::COUNT).any(|lane| of(lane).coupled));
+        let mut C = SectionStiffness { N: zero, M: zero, NM: zero, coupled };
+        for i in 0..3 {
+            for j in 0..3 {
+                C.N[i][j] = T::gather(|lane| of(lane).N[(i, j)]);
+                C.M[i][j] = T::gather(|lane| of(lane).M[(i, j)]);
+                if coupled {
+                    C.NM[i][j] = T::gather(|lane| of(lane).NM[(i, j)]);
+                }
+            }
+        }
+        C
     }
 
     /// The stiffness times `factor`.

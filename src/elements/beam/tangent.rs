@@ -1,12 +1,11 @@
 //! The tangent of beam elements, of one or of eight side by side: the Hessian in z = (p, p′, r′) of each Gauss point, by pairs of nodes,
 //! projected on rotations.
 
-use super::hessian::{Hessian, Rows, add, rate_rows};
+use super::hessian::{Hessian, ZRows, add, rate_rows};
 use super::kinematics::{Pack, strain_matrix};
 use super::lane_section::{Linearised, SectionStiffness};
 use super::quaternion::{Quat, left, rotation_columns, times_conjugate};
-use crate::math::lanes::LaneVec3;
-use crate::math::number::Number;
+use crate::math::number::{LaneVec3, Number};
 use crate::state::Node;
 
 /// Second derivatives by two nodes, rows of the first and columns of the second, quaternions q and positions x.
@@ -167,7 +166,7 @@ fn add_change_of_direction<T: Number, const N: usize>(
 type Linearise<'a, T> = dyn Fn(usize, &[LaneVec3<T>; 2]) -> Linearised<T> + 'a;
 
 /// The sections of some elements.
-pub(super) struct Sections<'a, T> {
+pub(super) struct PackSections<'a, T> {
     /// The number of integration points.
     pub points: usize,
     /// What they say at a point.
@@ -182,7 +181,7 @@ pub(super) struct Sections<'a, T> {
 /// stresses that `lead` tells; symmetric unless `DAMPED`.
 pub(super) fn tangent<T: Number, const N: usize, const DAMPED: bool>(
     pack: &Pack<T, N>,
-    sections: &Sections<T>,
+    sections: &PackSections<T>,
     (nodes, lead): (&[Node], Option<&[Node]>),
     rate_weight: f64,
     K: &mut [f64],
@@ -200,7 +199,7 @@ pub(super) fn tangent<T: Number, const N: usize, const DAMPED: bool>(
         let w = pack.weight(g);
         let (mut value, mut slope) = ([T::ZERO; N], [T::ZERO; N]);
         (0..N).for_each(|a| (value[a], slope[a]) = pack.at_node(g, a));
-        let B = Rows::new(&strain_matrix(&pack.tangent, &point), &point.R);
+        let B = ZRows::new(&strain_matrix(&pack.tangent, &point), &point.R);
         let mut stresses = C.times(&B);
         if let Some(of_rates) = of_rates.as_mut().filter(|_| !sections.has_failed) {
             let (strain_rates, rate) = pack.rates(g, &point, &motion.q, nodes);

@@ -1,6 +1,7 @@
 //! The matrices of eight shell elements side by side: how a half of them becomes whole.
 
-use crate::math::lanes::{LaneVec3, Lanes};
+use crate::math::lanes::Lanes;
+use crate::math::number::LaneVec3;
 
 /// The matrices of eight elements: node and component of the row, then of the column.
 pub(super) type LaneMatrix<const N: usize> = [[[[Lanes; 6]; N]; 6]; N];

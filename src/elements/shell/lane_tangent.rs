@@ -8,8 +8,8 @@ use super::interpolation::Interpolation;
 use super::lane_matrix::{LaneMatrix, complete, product, subtract_skew};
 use super::lanes::{Motion, ShellPack, Slopes, by_pairs, sum, total};
 use super::packed::{InPlaneLanes, LinearisedLanes};
-use crate::math::lanes::{LaneVec3, Lanes, fma};
-use crate::math::number::Number;
+use crate::math::lanes::{Lanes, fma};
+use crate::math::number::{LaneVec3, Number};
 use std::array::from_fn;
 
 /// A row of B by the positions and the rotations of the nodes. Nothing is kept for the position of the first node.

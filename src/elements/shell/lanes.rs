@@ -6,7 +6,8 @@ use super::edge_bending::EdgeBending;
 use super::interpolation::Interpolation;
 use super::packed::InPlaneLanes;
 use crate::elements::block::Force;
-use crate::math::lanes::{LANES, LaneVec3, Lanes, lanes};
+use crate::math::lanes::{LANES, Lanes, lanes};
+use crate::math::number::LaneVec3;
 use crate::state::Node;
 use std::array::from_fn;
 

@@ -7,7 +7,8 @@ use super::kinematics::Shell;
 use super::lanes::ShellPack;
 use super::packed::{InPlaneLanes, PackedSections};
 use super::section::ShellSection;
-use crate::math::lanes::{LANES, LaneVec3, Lanes, lanes};
+use crate::math::lanes::{LANES, Lanes, lanes};
+use crate::math::number::LaneVec3;
 use std::array::from_fn;
 
 /// Up to eight elements, with their sections side by side.

@@ -11,31 +11,8 @@
 //!
 //! Left out: the heights of layers stay as they are, so that a stretched sheet bends with the thickness that it had.
 
-use crate::math::lanes::Lanes;
+use crate::math::number::Number;
 use nalgebra::Matrix2;
-use std::ops::{Add, Div, Mul, Sub};
-
-/// One number, or eight side by side.
-pub(super) trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-{
-    /// The number that is `value`, in all lanes.
-    fn of(value: f64) -> Self;
-}
-
-impl Number for f64 {
-    #[inline(always)]
-    fn of(value: f64) -> f64 {
-        value
-    }
-}
-
-impl Number for Lanes {
-    #[inline(always)]
-    fn of(value: f64) -> Lanes {
-        Lanes::splat(value)
-    }
-}
 
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -62,12 +39,12 @@ impl<T: Number> Stretch<T> {
     /// `strain`: that of Green, ε₁, ε₂, γ₁₂.
     #[inline(always)]
     pub fn new(&[a, b, shear]: &[T; 3]) -> Stretch<T> {
-        let (one, two, third) = (T::of(1.0), T::of(2.0), T::of(THIRD));
-        let c = T::of(0.5) * shear;
+        let (one, two, third) = (T::splat(1.0), T::splat(2.0), T::splat(THIRD));
+        let c = T::splat(0.5) * shear;
         let det = a * b - c * c;
         let r = one / (one + a + b + det);
         let Y = [(a + det) * r, (b + det) * r, c * r];
-        let G = [(one + b) * r, (one + a) * r, T::of(0.0) - c * r];
+        let G = [(one + b) * r, (one + a) * r, T::splat(0.0) - c * r];
         // Y³ = (t² − d) Y − t d I, with t and d the trace and the determinant of Y.
         let (t, d) = (Y[0] + Y[1], Y[0] * Y[1] - Y[2] * Y[2]);
         let (s, p) = (one + third * (t * t - d), third * (t * d));
@@ -77,7 +54,7 @@ impl<T: Number> Stretch<T> {
     /// A + ⅓ (Y² A + Y A Y + A Y²): dH for A = dY.
     #[inline(always)]
     fn along(&self, A: &[T; 3]) -> [T; 3] {
-        let (two, third, Y) = (T::of(2.0), T::of(THIRD), &self.Y);
+        let (two, third, Y) = (T::splat(2.0), T::splat(THIRD), &self.Y);
         let Z = [Y[0] * Y[0] + Y[2] * Y[2], Y[1] * Y[1] + Y[2] * Y[2], Y[2] * (Y[0] + Y[1])];
         let between = sandwich(Y, A);
         [
@@ -129,6 +106,7 @@ impl Stretch<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::lanes::Lanes;
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
     use std::array::from_fn;
