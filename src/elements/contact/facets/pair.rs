@@ -2,8 +2,9 @@
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
-use super::memory::PairMemory;
-use crate::elements::contact::friction::{FrictionForce, friction_force};
+use super::line_friction;
+use super::memory::{LineMemory, PairMemory};
+use crate::elements::contact::friction::friction_force;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::{ContactPoint, MOST_NODES};
 use crate::elements::contact::restitution::{NormalForce, normal_force};
@@ -28,6 +29,8 @@ pub(super) struct FacetPair<'a> {
     pub inset: f64,
     /// The facet in whose frame friction remembers: that on which the point was, its neighbour where it has gone on.
     pub kept: &'a Facet,
+    /// Of a line, the nodes of the one that remembers: its neighbour where the place has gone on to it.
+    pub kept_line: [usize; 2],
 }
 
 /// Where a point and a facet are to each other; global components.
@@ -69,10 +72,18 @@ impl PairPlace {
     }
 }
 
+/// Friction of a pair.
+pub(super) struct Rub {
+    /// Force on the facet, along the slip.
+    pub T: Vec3,
+    /// The way that slips.
+    pub slip: Vec3,
+}
+
 /// What acts between a point and a facet.
 pub(super) struct PairForceOnPoint {
     pub normal: NormalForce,
-    pub friction: Option<FrictionForce>,
+    pub friction: Option<Rub>,
     /// Force on the point.
     pub F: Vec3,
     /// Moment on the point.
@@ -156,6 +167,11 @@ impl<'a> FacetPair<'a> {
         let n = &place.n;
         let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
         let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
+        if self.is_of_lines() {
+            let rub = line_friction::rub(self, place, LineMemory(memory.0), normal.force, nodes);
+            let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
+            return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), normal };
+        }
         let r = self.point.rolling_radius;
         let q = rotation_of(self.kept, nodes);
         let R = matrix(&q);
@@ -173,7 +189,7 @@ impl<'a> FacetPair<'a> {
             F: normal.force * n - friction.T,
             M,
             C: place.d * n.cross(&friction.T) - M,
-            friction: Some(friction),
+            friction: Some(Rub { T: friction.T, slip: friction.slip }),
             normal,
         }
     }
