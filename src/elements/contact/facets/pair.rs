@@ -2,14 +2,11 @@
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
-use super::line_friction;
-use super::memory::{LineMemory, PairMemory};
-use crate::elements::contact::friction::friction_force;
+use super::memory::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::{ContactPoint, MOST_NODES};
-use crate::elements::contact::restitution::{NormalForce, normal_force};
-use crate::elements::contact::surfaces::kind::ClosestPoint;
-use crate::math::rotation::{log, matrix, renormalise};
+use crate::elements::contact::restitution::NormalForce;
+use crate::math::rotation::{log, renormalise};
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
@@ -93,7 +90,7 @@ pub(super) struct PairForceOnPoint {
 }
 
 impl PairForceOnPoint {
-    const NONE: PairForceOnPoint = {
+    pub const NONE: PairForceOnPoint = {
         let zero = Vec3::new(0.0, 0.0, 0.0);
         let normal = NormalForce { force: 0.0, by_depth: 0.0, by_rate: 0.0 };
         PairForceOnPoint { normal, friction: None, F: zero, M: zero, C: zero }
@@ -149,49 +146,6 @@ impl<'a> FacetPair<'a> {
     pub fn turned(&self, k: usize, memory: PairMemory, (q, R): (&Quaternion<f64>, &Mat3), nodes: &[Node]) -> Vec3 {
         let now = q.conjugate() * nodes[self.point.nodes[k]].rotation;
         R * log(&renormalise(&(now * memory.rotation(k).conjugate())))
-    }
-
-    /// What acts where they touch.
-    pub fn force(&self, place: &PairPlace, nodes: &[Node]) -> PairForceOnPoint {
-        let law = self.law;
-        if place.inset > 0.0 && place.gap() > 0.0 {
-            return PairForceOnPoint::NONE;
-        }
-        let rate = place.rate();
-        let speed = match self.memory.map(PairMemory::motion) {
-            Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
-            Some(old) => old.rate().max(rate),
-            None => rate,
-        };
-        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed);
-        let n = &place.n;
-        let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
-        let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
-        if self.is_of_lines() {
-            let rub = line_friction::rub(self, place, LineMemory(memory.0), normal.force, nodes);
-            let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
-            return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), normal };
-        }
-        let r = self.point.rolling_radius;
-        let q = rotation_of(self.kept, nodes);
-        let R = matrix(&q);
-        let mut phi = Vec3::zeros();
-        if r > 0.0 {
-            for k in 0..self.point.count {
-                phi += self.point.weights[k] * self.turned(k, memory, (&q, &R), nodes);
-            }
-        }
-        let from_anchor = self.seen_from(self.kept, &place.x, nodes) - self.kept.base(nodes) * memory.anchor();
-        let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
-        let friction = friction_force(law.stiffness, law.friction, normal.force, &closest, &from_anchor, r, &phi);
-        let M = r * n.cross(&friction.T);
-        PairForceOnPoint {
-            F: normal.force * n - friction.T,
-            M,
-            C: place.d * n.cross(&friction.T) - M,
-            friction: Some(Rub { T: friction.T, slip: friction.slip }),
-            normal,
-        }
     }
 
     /// Adds what acts to the nodes, by `add` of a node, a force and a moment.

@@ -89,15 +89,6 @@ impl FacetScene {
         involved.sort_unstable();
         involved.dedup();
         let is_of_lines = points.first().is_some_and(|point| point.is_line);
-        let turned = match law.friction > 0.0 {
-            // A bar that touches as a line has no rotations.
-            true if is_of_lines => {
-                let rolling = points.iter().filter(|point| point.rolling_radius > 0.0);
-                rolling.flat_map(ContactPoint::nodes).chain(facets.iter().flat_map(Facet::nodes)).copied().collect()
-            }
-            true => involved.clone(),
-            false => Vec::new(),
-        };
         let near_along = match touchers {
             FacetTouchers::Itself if is_of_lines => lines_near_along(&points, &facets, x),
             FacetTouchers::Itself => {
@@ -111,13 +102,12 @@ impl FacetScene {
         let of_points = points.iter().filter(|_| is_of_lines).map(|point| [point.nodes[0], point.nodes[1]]);
         let of_facets = facets.iter().filter(|_| is_of_lines).map(|facet| [facet.nodes[0], facet.nodes[1]]);
         let line_ends = [LineEnds::new(of_points), LineEnds::new(of_facets)];
-        let count = points.first().map_or(1, |point| point.count);
-        let rolls = law.friction > 0.0 && points.iter().any(|point| point.rolling_radius > 0.0);
+        let rubs = law.friction > 0.0;
+        let rolls = rubs && points.iter().any(|point| point.rolling_radius > 0.0);
+        let rotations = points.first().map_or(0, |point| if rolls { point.count } else { 0 });
+        let turned = turned(&law, &points, &facets, &involved);
         FacetScene {
-            width: match is_of_lines {
-                true => memory::width_of_lines(law.friction > 0.0),
-                false => memory::width(law.friction > 0.0, if rolls { count } else { 0 }),
-            },
+            width: if is_of_lines { memory::width_of_lines(rubs) } else { memory::width(rubs, rotations) },
             slots: match (is_of_balls, is_of_lines) {
                 (true, _) => MOST_BALLS,
                 (_, true) => MOST_LINES,
@@ -225,6 +215,19 @@ impl FacetScene {
     /// The memories of all pairs in the history of the block.
     pub(super) fn memories<'a>(&self, history: &'a [f64]) -> impl Iterator<Item = PairMemory<'a>> {
         history.chunks_exact(self.width).map(PairMemory)
+    }
+}
+
+/// The nodes that friction turns, of those that take part.
+fn turned(law: &ContactLaw, points: &[ContactPoint], facets: &[Facet], involved: &[usize]) -> Vec<usize> {
+    match law.friction > 0.0 {
+        // A bar that touches as a line has no rotations.
+        true if points.first().is_some_and(|point| point.is_line) => {
+            let rolling = points.iter().filter(|point| point.rolling_radius > 0.0);
+            rolling.flat_map(ContactPoint::nodes).chain(facets.iter().flat_map(Facet::nodes)).copied().collect()
+        }
+        true => involved.to_vec(),
+        false => Vec::new(),
     }
 }
 
