@@ -30,9 +30,9 @@ pub trait ElementBlock: Send + Sync {
     }
     /// Nodes of element `e`.
     fn nodes(&self, e: usize) -> &[usize];
-    /// Nodes on which elements may act besides their own, and whether they may turn them.
-    fn further_nodes(&self) -> (&[usize], bool) {
-        (&[], false)
+    /// Nodes on which elements may act besides their own, and those of all nodes that they may turn besides.
+    fn further_nodes(&self) -> [&[usize]; 2] {
+        [&[], &[]]
     }
     /// The block as elements that act on nodes which change; `None` for all others.
     fn wandering(&self) -> Option<&dyn Wandering> {

@@ -92,10 +92,9 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         }
     }
     for group in &system.groups {
-        let (nodes, turns) = group.block.further_nodes();
-        for &node in nodes {
-            acts[node][..if turns { 6 } else { 3 }].fill(true);
-        }
+        let [nodes, turned] = group.block.further_nodes();
+        nodes.iter().for_each(|&node| acts[node][..3].fill(true));
+        turned.iter().for_each(|&node| acts[node][3..].fill(true));
     }
     for damping in system.nodal_damping() {
         for dof in 0..6 {

@@ -56,9 +56,6 @@ fn faces<'d>(
     let Sides { place, surface, half } = sides(finder, contact, table)?;
     let scene = finder.scene;
     let is_line = surface.kind.is_line();
-    if is_line {
-        refuse_friction(finder, contact)?;
-    }
     let elements = scene.parts.elements(surface);
     let facets = facets_of(&elements, half, is_line);
     if facets.is_empty() {
@@ -114,23 +111,6 @@ fn facets_of(elements: &[Vec<usize>], half: f64, is_line: bool) -> Vec<Facet> {
     elements.iter().flat_map(of_element).collect()
 }
 
-/// Lines that touch lines do not rub: what is nearest slides along both, which is not the way of the material.
-fn refuse_friction<'d>(finder: &mut Finder<'_, 'd>, contact: &'d words::Contact) -> Option<()> {
-    let scene = finder.scene;
-    let touches_as_line = |at: &At<String>| {
-        let places = scene.names.place(&at.value).into_iter().flat_map(|place| scene.names.leaves(place));
-        at.value == ITSELF || places.into_iter().any(|place| scene.names.line_of(place).is_some())
-    };
-    match (contact.friction.as_ref().filter(|at| at.value > 0.0), &contact.with) {
-        (Some(friction), Some(names)) if names.values.iter().any(touches_as_line) => {
-            let message = "there is no friction between beams or bars that touch by their radius";
-            let hint = "name a set of the nodes of one of them in `with`, which rub as points";
-            finder.report.error_with(&friction.span, message, hint)
-        }
-        _ => Some(()),
-    }
-}
-
 /// The part that is a surface.
 struct Sides {
     place: Place,
@@ -174,7 +154,7 @@ fn sides<'d>(
     }
     let friction = contact.friction.as_ref().filter(|at| at.value > 0.0);
     if let Some(friction) = friction.filter(|_| line.is_some() && !surface.kind.has_sections()) {
-        let hint = "make it a beam";
+        let hint = "make it a beam, or let a beam be the surface and name the bar in `with`";
         let message = "nothing rubs on a bar, which has no rotations to take a moment";
         return finder.report.error_with(&friction.span, message, hint);
     }

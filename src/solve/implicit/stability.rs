@@ -118,21 +118,13 @@ impl Stability {
         }
         let start = Configuration { nodes: trial, history, dt: 0.0, lead: None };
         let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
-        let in_doubt = self.criterion == Criterion::SymmetricPart || cx.system.rubs();
-        let found = match self.criterion {
-            Criterion::Determinant => tangent.locate(cx, &ends),
-            _ if in_doubt => {
-                let judged = locate_in_doubt(cx, &mut tangent, &ends, negative > before, self.path.is_some());
-                judged.unwrap_or_else(|NotJudged| {
-                    warnings.remark(Remark::Slipping);
-                    None
-                })
+        match locate(cx, &mut tangent, &ends, negative > before, self.path.is_some()) {
+            Ok(Some(instability)) => {
+                warnings.add(Warning::Unstable(instability));
+                self.counts = false;
             }
-            _ => tangent.locate(cx, &ends),
-        };
-        if let Some(instability) = found {
-            warnings.add(Warning::Unstable(instability));
-            self.counts = false;
+            Ok(None) => {}
+            Err(NotJudged) => warnings.remark(Remark::Slipping),
         }
         if self.path.is_some() && !own {
             // The negative pivots of the equilibrium are told of each step.
@@ -146,6 +138,23 @@ impl Stability {
 
 /// A path of given arc length on which something slips: its limit points change the sign of the determinant too.
 struct NotJudged;
+
+/// The first instability in a step after one was suspected; `appeared`, `along` as for [`locate_in_doubt`].
+fn locate(
+    cx: &Context,
+    tangent: &mut Tangent,
+    ends: &Ends,
+    appeared: bool,
+    along: bool,
+) -> Result<Option<Instability>, NotJudged> {
+    let in_doubt = tangent.criterion == Criterion::SymmetricPart || cx.system.rubs();
+    match tangent.criterion {
+        Criterion::Eigenvalues | Criterion::SymmetricPart if in_doubt => {
+            locate_in_doubt(cx, tangent, ends, appeared, along)
+        }
+        _ => Ok(tangent.locate(cx, ends)),
+    }
+}
 
 /// The first instability in a step whose tangent need not be symmetric, after the symmetric part has raised the suspicion. `appeared`: more of
 /// its eigenvalues are negative than at the start of the step; `along`: the step is one of a path of given arc length.

@@ -47,8 +47,8 @@ impl ElementBlock for ConvexHeap {
         6
     }
 
-    fn further_nodes(&self) -> (&[usize], bool) {
-        (&self.involved, true)
+    fn further_nodes(&self) -> [&[usize]; 2] {
+        [&self.involved, &self.involved]
     }
 
     fn history(&self) -> usize {

@@ -26,8 +26,8 @@ impl ElementBlock for FacetContacts {
         self.law.friction > 0.0 && self.points[e].rolling_radius > 0.0
     }
 
-    fn further_nodes(&self) -> (&[usize], bool) {
-        (&self.involved, self.law.friction > 0.0)
+    fn further_nodes(&self) -> [&[usize]; 2] {
+        [&self.involved, &self.turned]
     }
 
     fn history(&self) -> usize {

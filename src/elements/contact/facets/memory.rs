@@ -16,6 +16,60 @@ pub(super) const fn width(has_friction: bool, rotations: usize) -> usize {
     if has_friction { ROTATIONS + 4 * rotations } else { ANCHOR }
 }
 
+/// Number of history variables of a pair of lines.
+pub(super) const fn width_of_lines(has_friction: bool) -> usize {
+    if has_friction { TURNS + 4 * STORED } else { ANCHOR }
+}
+
+/// Of a pair of lines the stretch of friction stands where others have their anchor, then where their ends stood.
+const POSITIONS: usize = ANCHOR + 2;
+/// Ends that are stored: all but the first of the line that is touched, from which they are seen.
+const STORED: usize = 3;
+const TURNS: usize = POSITIONS + 3 * STORED;
+
+/// What friction remembers of a pair of lines, a view of all numbers of the pair.
+#[derive(Clone, Copy)]
+pub(super) struct LineMemory<'a>(pub &'a [f64]);
+
+impl LineMemory<'_> {
+    /// Where the k-th end stands among those stored; `None` for the one from which the others are seen.
+    pub fn place_of(end: usize) -> Option<usize> {
+        [Some(0), Some(1), None, Some(2)][end]
+    }
+
+    /// The stretch along the line that is touched, and across it.
+    pub fn stretch(self) -> [f64; 2] {
+        [self.0[ANCHOR], self.0[ANCHOR + 1]]
+    }
+
+    /// A stored end in the axes of the node from which it is seen.
+    pub fn position(self, stored: usize) -> Vec3 {
+        Vec3::from_column_slice(&self.0[POSITIONS + 3 * stored..POSITIONS + 3 * stored + 3])
+    }
+
+    /// Its rotation relative to that node.
+    pub fn rotation(self, stored: usize) -> Quaternion<f64> {
+        let q = &self.0[TURNS + 4 * stored..];
+        Quaternion::new(q[0], q[1], q[2], q[3])
+    }
+}
+
+/// The same, to be written.
+pub(super) struct LineMemoryMut<'a>(pub &'a mut [f64]);
+
+impl LineMemoryMut<'_> {
+    /// Sets the stretch.
+    pub fn set_stretch(&mut self, stretch: [f64; 2]) {
+        self.0[ANCHOR..ANCHOR + 2].copy_from_slice(&stretch);
+    }
+
+    /// Sets where a stored end stands, and how it is turned.
+    pub fn set(&mut self, stored: usize, x: &Vec3, q: &Quaternion<f64>) {
+        self.0[POSITIONS + 3 * stored..POSITIONS + 3 * stored + 3].copy_from_slice(x.as_slice());
+        self.0[TURNS + 4 * stored..TURNS + 4 * stored + 4].copy_from_slice(&[q.w, q.i, q.j, q.k]);
+    }
+}
+
 /// The memory of one pair.
 #[derive(Clone, Copy)]
 pub(super) struct PairMemory<'a>(pub &'a [f64]);

@@ -8,13 +8,15 @@
 //!
 //! Lines that touch lines do so where they are nearest to each other, wherever that is on both.
 //!
-//! `facet` is the geometry, `lines` that of two lines, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count,
-//! `facing` what tells on which side a point is, `pair` what acts between two, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
+//! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count,
+//! `facing` what tells on which side a point is, `pair` two of them, `force` what acts between them, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
 //! see, `steps` bounds the steps, `resultant` sums what is shown.
 
 mod block;
 mod facet;
 mod facing;
+mod force;
+mod line_friction;
 mod lines;
 mod memory;
 mod mesh;

@@ -3,12 +3,10 @@
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
 use super::memory::PairMemory;
-use crate::elements::contact::friction::{FrictionForce, friction_force};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::{ContactPoint, MOST_NODES};
-use crate::elements::contact::restitution::{NormalForce, normal_force};
-use crate::elements::contact::surfaces::kind::ClosestPoint;
-use crate::math::rotation::{log, matrix, renormalise};
+use crate::elements::contact::restitution::NormalForce;
+use crate::math::rotation::{log, renormalise};
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
@@ -28,6 +26,8 @@ pub(super) struct FacetPair<'a> {
     pub inset: f64,
     /// The facet in whose frame friction remembers: that on which the point was, its neighbour where it has gone on.
     pub kept: &'a Facet,
+    /// Of a line, the nodes of the one that remembers: its neighbour where the place has gone on to it.
+    pub kept_line: [usize; 2],
 }
 
 /// Where a point and a facet are to each other; global components.
@@ -69,10 +69,18 @@ impl PairPlace {
     }
 }
 
+/// Friction of a pair.
+pub(super) struct Rub {
+    /// Force on the facet, along the slip.
+    pub T: Vec3,
+    /// The way that slips.
+    pub slip: Vec3,
+}
+
 /// What acts between a point and a facet.
 pub(super) struct PairForceOnPoint {
     pub normal: NormalForce,
-    pub friction: Option<FrictionForce>,
+    pub friction: Option<Rub>,
     /// Force on the point.
     pub F: Vec3,
     /// Moment on the point.
@@ -82,7 +90,7 @@ pub(super) struct PairForceOnPoint {
 }
 
 impl PairForceOnPoint {
-    const NONE: PairForceOnPoint = {
+    pub const NONE: PairForceOnPoint = {
         let zero = Vec3::new(0.0, 0.0, 0.0);
         let normal = NormalForce { force: 0.0, by_depth: 0.0, by_rate: 0.0 };
         PairForceOnPoint { normal, friction: None, F: zero, M: zero, C: zero }
@@ -138,44 +146,6 @@ impl<'a> FacetPair<'a> {
     pub fn turned(&self, k: usize, memory: PairMemory, (q, R): (&Quaternion<f64>, &Mat3), nodes: &[Node]) -> Vec3 {
         let now = q.conjugate() * nodes[self.point.nodes[k]].rotation;
         R * log(&renormalise(&(now * memory.rotation(k).conjugate())))
-    }
-
-    /// What acts where they touch.
-    pub fn force(&self, place: &PairPlace, nodes: &[Node]) -> PairForceOnPoint {
-        let law = self.law;
-        if place.inset > 0.0 && place.gap() > 0.0 {
-            return PairForceOnPoint::NONE;
-        }
-        let rate = place.rate();
-        let speed = match self.memory.map(PairMemory::motion) {
-            Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
-            Some(old) => old.rate().max(rate),
-            None => rate,
-        };
-        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed);
-        let n = &place.n;
-        let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
-        let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
-        let r = self.point.rolling_radius;
-        let q = rotation_of(self.kept, nodes);
-        let R = matrix(&q);
-        let mut phi = Vec3::zeros();
-        if r > 0.0 {
-            for k in 0..self.point.count {
-                phi += self.point.weights[k] * self.turned(k, memory, (&q, &R), nodes);
-            }
-        }
-        let from_anchor = self.seen_from(self.kept, &place.x, nodes) - self.kept.base(nodes) * memory.anchor();
-        let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
-        let friction = friction_force(law.stiffness, law.friction, normal.force, &closest, &from_anchor, r, &phi);
-        let M = r * n.cross(&friction.T);
-        PairForceOnPoint {
-            F: normal.force * n - friction.T,
-            M,
-            C: place.d * n.cross(&friction.T) - M,
-            friction: Some(friction),
-            normal,
-        }
     }
 
     /// Adds what acts to the nodes, by `add` of a node, a force and a moment.

@@ -1,6 +1,6 @@
 //! Points and facets that may touch, without what changes.
 
-use super::facet::{Facet, Region};
+use super::facet::Facet;
 use super::lines;
 use super::memory::{self, PairMemory};
 use super::mesh;
@@ -12,6 +12,8 @@ use crate::state::Node;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
+/// The part of a line next to its ends that counts as these.
+const AT_END: f64 = 1e-9;
 /// Facets that a point may touch at once: two walls and a floor.
 const MOST_FACES: usize = 3;
 /// Lines that a line may touch at once: what remembers them is bound to it, wherever it is.
@@ -41,6 +43,8 @@ pub struct FacetScene {
     pub(super) is_inner: bool,
     /// All nodes that take part, in ascending order.
     pub(super) involved: Vec<usize>,
+    /// Those that friction turns.
+    pub(super) turned: Vec<usize>,
     /// A part of the size of a facet: what is nearer is remembered, and lists hold while nothing moves by more.
     pub(super) margin: f64,
     /// The size of the cells in which facets are looked for.
@@ -98,10 +102,12 @@ impl FacetScene {
         let of_points = points.iter().filter(|_| is_of_lines).map(|point| [point.nodes[0], point.nodes[1]]);
         let of_facets = facets.iter().filter(|_| is_of_lines).map(|facet| [facet.nodes[0], facet.nodes[1]]);
         let line_ends = [LineEnds::new(of_points), LineEnds::new(of_facets)];
-        let count = points.first().map_or(1, |point| point.count);
-        let rolls = law.friction > 0.0 && points.iter().any(|point| point.rolling_radius > 0.0);
+        let rubs = law.friction > 0.0;
+        let rolls = rubs && points.iter().any(|point| point.rolling_radius > 0.0);
+        let rotations = points.first().map_or(0, |point| if rolls { point.count } else { 0 });
+        let turned = turned(&law, &points, &facets, &involved);
         FacetScene {
-            width: memory::width(law.friction > 0.0, if rolls { count } else { 0 }),
+            width: if is_of_lines { memory::width_of_lines(rubs) } else { memory::width(rubs, rotations) },
             slots: match (is_of_balls, is_of_lines) {
                 (true, _) => MOST_BALLS,
                 (_, true) => MOST_LINES,
@@ -120,6 +126,7 @@ impl FacetScene {
             near_along,
             is_of_balls,
             involved,
+            turned,
             rolls,
         }
     }
@@ -152,24 +159,21 @@ impl FacetScene {
     pub(super) fn is_nearest(
         &self,
         e: usize,
-        (facet, region): (usize, Region),
+        (facet, of_facet): (usize, f64),
         share: f64,
         g: &Vec3,
         nodes: &[Node],
     ) -> bool {
-        let own = match share {
-            0.0 => Some(0),
-            1.0 => Some(1),
-            _ => None,
-        };
-        let of_facet = match region {
-            Region::Vertex(k) => Some(k),
-            _ => None,
-        };
+        let (own, of_facet) = (end_at(share), end_at(of_facet));
         let ends = &self.points[e].nodes;
         let other = &self.facets[facet].nodes;
         own.is_none_or(|k| self.line_ends[0].is_least(e, ends[k], g, nodes))
             && of_facet.is_none_or(|k| self.line_ends[1].is_least(facet, other[k], &-g, nodes))
+    }
+
+    /// The lines that touch and meet at a node.
+    pub(super) fn lines_at(&self, node: usize) -> impl Iterator<Item = usize> + '_ {
+        self.line_ends[0].0.get(&node).into_iter().flatten().map(|(line, _)| *line)
     }
 
     /// The place of a node among those that take part.
@@ -214,6 +218,29 @@ impl FacetScene {
     }
 }
 
+/// The nodes that friction turns, of those that take part.
+fn turned(law: &ContactLaw, points: &[ContactPoint], facets: &[Facet], involved: &[usize]) -> Vec<usize> {
+    match law.friction > 0.0 {
+        // A bar that touches as a line has no rotations.
+        true if points.first().is_some_and(|point| point.is_line) => {
+            let rolling = points.iter().filter(|point| point.rolling_radius > 0.0);
+            rolling.flat_map(ContactPoint::nodes).chain(facets.iter().flat_map(Facet::nodes)).copied().collect()
+        }
+        true => involved.to_vec(),
+        false => Vec::new(),
+    }
+}
+
+/// The end at which a point of a line lies, by the share of its second end: where lines cross at a node, rounding does not decide on which of
+/// the lines that meet there they touch.
+pub(super) fn end_at(share: f64) -> Option<usize> {
+    match share {
+        _ if share < AT_END => Some(0),
+        _ if share > 1.0 - AT_END => Some(1),
+        _ => None,
+    }
+}
+
 /// The lines that meet at each node, by their numbers and their other ends.
 #[derive(Default)]
 struct LineEnds(HashMap<usize, Vec<(usize, usize)>>);
@@ -230,7 +257,10 @@ impl LineEnds {
 
     /// True where no line that meets this one at a node leads against `g`, and this is the first of those that meet there.
     fn is_least(&self, line: usize, node: usize, g: &Vec3, nodes: &[Node]) -> bool {
-        let leads_nearer = |&(_, other): &(usize, usize)| g.dot(&nodes[other].relative_position(&nodes[node])) < 0.0;
+        let leads_nearer = |&(_, other): &(usize, usize)| {
+            let along = nodes[other].relative_position(&nodes[node]);
+            g.dot(&along) < -AT_END * along.norm_squared()
+        };
         let meeting = self.0.get(&node).into_iter().flatten();
         !meeting.clone().any(|of| of.0 != line && leads_nearer(of)) && meeting.map(|of| of.0).min() == Some(line)
     }

@@ -35,8 +35,9 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
                 old,
                 &mut found,
             );
+            touch::take_over(of, e, now.nodes, now.history, &mut found);
             let too_far = |touch: &touch::FacetTouch| {
-                let pair = of.pair(e, touch, old);
+                let pair = of.pair(e, touch, now.history);
                 let place = pair.place(now.nodes);
                 let is_through = place.d < -THROUGH * place.reach;
                 is_through || is_unresolved(of, pair.memory.map(|memory| memory.motion()), place.gap(), now.dt)

@@ -47,14 +47,16 @@ impl FacetContacts {
         nearby
     }
 
-    /// A point and a facet with what they remember.
+    /// A point and a facet with what they remember, `history` being that of the block.
     pub(super) fn pair<'a>(&'a self, e: usize, touch: &FacetTouch, history: &'a [f64]) -> FacetPair<'a> {
-        let memory = touch.slot.map(|slot| self.memory(history, slot));
+        let place = touch.slot.map(|slot| (e, slot)).or(touch.from);
+        let memory = place.map(|(e, slot)| self.memory(self.of_point(e, history), slot));
+        let ends = &self.points[place.map_or(e, |(e, _)| e)].nodes;
         let facet = &self.facets[touch.facet];
         let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
         let inset = memory.map_or(touch.inset, PairMemory::inset);
         let (point, facing) = (self.point_at(e, touch.share), touch.facing);
-        FacetPair { law: &self.law, point, facet, facing, memory, inset, kept }
+        FacetPair { law: &self.law, point, facet, facing, memory, inset, kept, kept_line: [ends[0], ends[1]] }
     }
 
     /// A point and the facet that it remembers in this slot.
@@ -62,8 +64,8 @@ impl FacetContacts {
         let memory = self.memory(history, slot);
         let facet = &self.facets[memory.facet()];
         let point = self.point_at(e, None);
-        let (memory, inset) = (Some(memory), memory.inset());
-        FacetPair { law: &self.law, point, facet, facing: Facing::Normal, memory, inset, kept: facet }
+        let (memory, inset, kept_line) = (Some(memory), memory.inset(), [point.nodes[0], point.nodes[1]]);
+        FacetPair { law: &self.law, point, facet, facing: Facing::Normal, memory, inset, kept: facet, kept_line }
     }
 
     /// True where two lines touch that are parallel within some degrees, and not end to end.
@@ -104,8 +106,9 @@ impl FacetContacts {
             }
             let own = self.of_point(e, history);
             touch::find(self, near, TouchQuery { e, limit: self.law.touching, stays: true }, nodes, own, &mut found);
+            touch::take_over(self, e, nodes, history, &mut found);
             for touch in &found {
-                act(e, touch, self.pair(e, touch, own));
+                act(e, touch, self.pair(e, touch, history));
             }
         }
         nearby.touches = found;

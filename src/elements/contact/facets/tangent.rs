@@ -8,6 +8,7 @@
 //! ```
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
+use super::line_friction;
 use super::lines::LineHessian;
 use super::pair::{FacetPair, MOST_OF_PAIR, PairPlace};
 use crate::elements::contact::point::ContactPoint;
@@ -142,7 +143,7 @@ fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3)
 /// step, a millionth of the size of the pair, and rounding leaves 1e-9 of them.
 fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     let count = pair.point.count + pair.facet.corners;
-    let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS];
+    let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS + 2];
     for (k, (node, _)) in pair.parts(&place.W).enumerate() {
         local[k] = nodes[node];
     }
@@ -151,11 +152,17 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let first = pair.point.count;
     let own = |k: usize| first + if k < pair.facet.corners { k } else { 0 };
     let facet = Facet { nodes: std::array::from_fn(own), ..pair.facet.clone() };
-    // A facet that the point has just left stays where it is.
-    let left = Facet { nodes: std::array::from_fn(|k| count + k), ..pair.kept.clone() };
-    (0..MOST_CORNERS).for_each(|k| local[count + k] = nodes[pair.kept.nodes[k]]);
+    // A facet that the point has just left stays where it is, and of a line what it does not share with the one that it has come to.
+    let mut keep = |node: usize, at: usize| {
+        let same = if pair.is_of_lines() { pair.parts(&place.W).position(|(own, _)| own == node) } else { None };
+        local[at] = nodes[node];
+        same.unwrap_or(at)
+    };
+    let left = std::array::from_fn(|k| keep(pair.kept.nodes[k], count + k));
+    let kept_line = std::array::from_fn(|k| keep(pair.kept_line[k], count + MOST_CORNERS + k));
+    let left = Facet { nodes: left, ..pair.kept.clone() };
     let kept = if std::ptr::eq(pair.kept, pair.facet) { &facet } else { &left };
-    let pair = FacetPair { point, facet: &facet, kept, ..pair.clone() };
+    let pair = FacetPair { point, facet: &facet, kept, kept_line, ..pair.clone() };
     let length = place.reach.max(place.d.abs()).max(place.at.g.norm());
     for column in 0..6 * count {
         let (k, dof) = (column / 6, column % 6);
@@ -184,6 +191,14 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
 /// What friction exerts on the nodes of a pair, six numbers each.
 fn friction_forces(pair: &FacetPair, nodes: &[Node]) -> [f64; 6 * MOST_OF_PAIR] {
     let mut f = [0.0; 6 * MOST_OF_PAIR];
+    let moved;
+    let pair = match pair.is_of_lines() {
+        true => {
+            moved = line_friction::moved(pair, nodes);
+            &moved
+        }
+        false => pair,
+    };
     let place = pair.place(nodes);
     let mut force = pair.force(&place, nodes);
     force.F -= force.normal.force * place.n;

@@ -6,7 +6,7 @@
 
 use super::facet::Facet;
 use super::facing::Facing;
-use super::scene::FacetScene;
+use super::scene::{FacetScene, end_at};
 use crate::math::Vec3;
 use crate::state::Node;
 
@@ -39,6 +39,8 @@ pub(super) struct FacetTouch {
     pub slot: Option<usize>,
     /// Of a line that touches, the share of its second end in its nearest point.
     pub share: Option<f64>,
+    /// The neighbour of a line, and its place, from which what is remembered comes where the place of the touch has just gone on.
+    pub from: Option<(usize, usize)>,
 }
 
 impl FacetTouch {
@@ -163,7 +165,7 @@ pub(super) fn find_within(
         let toward = if distance > 1e-9 * reach { at.g / distance } else { normal };
         let rim = if facet.is_ball() { [None; 2] } else { facet.rim(&at) };
         let counts = match share {
-            Some(share) => of.is_nearest(e, (number as usize, at.region), share, &at.g, nodes),
+            Some(share) => of.is_nearest(e, (number as usize, at.N[1]), share, &at.g, nodes),
             None => !of.is_near_along(e, number),
         };
         found.push(FacetTouch {
@@ -177,6 +179,7 @@ pub(super) fn find_within(
             inset: 0.0,
             slot: None,
             share,
+            from: None,
         });
     }
 }
@@ -295,6 +298,35 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
         if let Some(touch) = best {
             touch.slot = Some(slot);
         }
+    }
+}
+
+/// Lets each touch of a line of which nothing is remembered take what its neighbour remembers, where the nearest point has gone on from that
+/// over the node that both have. `history` is that of the block.
+pub(super) fn take_over(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
+    if !of.is_of_lines {
+        return;
+    }
+    for touch in found.iter_mut().filter(|touch| touch.slot.is_none()) {
+        let facet = &of.facets[touch.facet];
+        let remembers = |(line, slot): &(usize, usize)| {
+            let memory = of.memory(of.of_point(*line, history), *slot);
+            let meets = || facet.nodes().iter().any(|node| of.facets[memory.facet()].nodes().contains(node));
+            memory.motion().is_known() && (memory.facet() == touch.facet || meets())
+        };
+        let ends = of.points[e].nodes().iter().copied();
+        let left = ends.flat_map(|node| of.lines_at(node).map(move |line| (line, node))).filter(|&(line, node)| {
+            let end = usize::from(of.points[line].nodes[1] == node);
+            line != e && of.share(line, facet, nodes).and_then(end_at) == Some(end)
+        });
+        let mut places = left.flat_map(|(line, _)| (0..of.slots).map(move |slot| (line, slot))).filter(remembers);
+        let first = places.next();
+        let is_same =
+            |(line, slot): &(usize, usize)| of.memory(of.of_point(*line, history), *slot).facet() == touch.facet;
+        touch.from = match first {
+            Some(place) if !is_same(&place) => places.find(is_same).or(first),
+            _ => first,
+        };
     }
 }
 

@@ -1,9 +1,11 @@
 //! What pairs remember at the end of a step, and what was dissipated on the way.
 
-use super::memory::{self, PairMemory, PairMemoryMut};
+use super::line_friction;
+use super::memory::{self, LineMemoryMut, PairMemory, PairMemoryMut};
 use super::pair::{FacetPair, PairForceOnPoint, PairPlace, rotation_of};
 use super::surface::FacetContacts;
 use super::touch::{self, FacetTouch, TouchQuery};
+use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::normal_motion::{NormalMotion, update_normal, way};
 use crate::materials::Dissipation;
 use crate::math::rotation::{exp, matrix, renormalise};
@@ -23,6 +25,7 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
         found.clear();
         if !near.is_empty() && !nearby.is_clear(e, of.margin) {
             touch::find(of, near, TouchQuery { e, limit: of.margin, stays: false }, now.nodes, old, &mut found);
+            touch::take_over(of, e, now.nodes, now.history, &mut found);
         }
         spent += let_go(of, now, part, &found, old);
         new.fill(0.0);
@@ -30,7 +33,13 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
         for k in 0..found.len() {
             let slot = found[k].slot.or_else(|| touch::free_slot(of.slots, &found, is_taken));
             let Some(slot) = slot else { continue };
-            let pair = of.pair(e, &found[k], old);
+            let pair = of.pair(e, &found[k], now.history);
+            if let Some((line, from)) = found[k].from {
+                // The neighbour, which forgets it, counts it as lost.
+                let lost = lost(of, now, part, of.memory(of.of_point(line, now.history), from).motion());
+                spent.friction -= lost.friction;
+                spent.impact -= lost.impact;
+            }
             // Only now, for the pair would take what another left there for its own.
             found[k].slot = Some(slot);
             let numbers = &mut new[slot * of.width..(slot + 1) * of.width];
@@ -47,12 +56,20 @@ fn let_go(of: &FacetContacts, now: &Configuration, part: f64, found: &[FacetTouc
     for slot in (0..of.slots).filter(|&slot| found.iter().all(|touch| touch.slot != Some(slot))) {
         let motion = of.memory(old, slot).motion();
         if motion.is_known() {
-            let pull = motion.friction_force();
-            spent.friction += 0.5 * pull * pull / of.law.stiffness;
-            spent.impact += 0.5 * part * now.dt * motion.damping_power();
+            spent += lost(of, now, part, motion);
         }
     }
     spent
+}
+
+/// What a pair loses that is forgotten.
+fn lost(of: &FacetContacts, now: &Configuration, part: f64, motion: PointHistory) -> Dissipation {
+    let pull = if of.law.friction > 0.0 { motion.friction_force() } else { 0.0 };
+    Dissipation {
+        friction: 0.5 * pull * pull / of.law.stiffness,
+        impact: 0.5 * part * now.dt * motion.damping_power(),
+        ..Dissipation::default()
+    }
 }
 
 fn update_pair(
@@ -76,7 +93,7 @@ fn update_pair(
     new.set_facet(touch.facet, place.side);
     new.set_inset(place.inset_left());
     if of.law.friction > 0.0 {
-        spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, way(old.motion(), part), new);
+        spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, part, new);
     }
     spent
 }
@@ -90,23 +107,23 @@ fn update_friction(
     part: f64,
     new: &mut PairMemoryMut,
 ) -> f64 {
+    if pair.is_of_lines() {
+        return update_friction_of_lines(of, pair, (place, acting), now, part, new);
+    }
     let (q, n) = (rotation_of(pair.facet, now.nodes), &place.n);
     // The point and the anchor stand in global axes from the first node of the facet on which the point is now.
     let x = pair.seen_from(pair.facet, &place.x, now.nodes);
     let k = of.law.stiffness;
-    let force = acting.map_or(0.0, |acting| acting.normal.force);
     let Some(memory) = pair.memory else {
-        // What slides at t = 0 has been sliding: its spring is stretched.
-        let starts = now.dt <= 0.0 && force > 0.0;
-        let begun = if starts { sliding_direction(pair, place, of.law.floor, now) } else { Vec3::zeros() };
-        let pull = of.law.friction * force;
-        new.motion().set_friction_force(pull * begun.norm());
-        new.set_anchor(&pair.facet.components(&(x - pull / k * begun), now.nodes));
+        let pull = begun(of, pair, place, acting, now);
+        new.motion().set_friction_force(pull.norm());
+        new.set_anchor(&pair.facet.components(&(x - pull / k), now.nodes));
         for i in 0..rotations(of, pair) {
             new.set_rotation(i, &(q.conjugate() * now.nodes[pair.point.nodes[i]].rotation));
         }
         return 0.0;
     };
+    let part = way(memory.motion(), part);
     let old_q = rotation_of(pair.kept, now.nodes);
     let old_R = matrix(&old_q);
     let pull = memory.motion().friction_force();
@@ -136,6 +153,57 @@ fn update_friction(
     }
     new.set_anchor(&pair.facet.components(&anchor, now.nodes));
     spent
+}
+
+/// The same for two lines.
+fn update_friction_of_lines(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    (place, acting): (&PairPlace, Option<&PairForceOnPoint>),
+    now: &Configuration,
+    part: f64,
+    new: &mut PairMemoryMut,
+) -> f64 {
+    let k = of.law.stiffness;
+    line_friction::remember(pair, now, part, &mut LineMemoryMut(&mut *new.0));
+    let mut stretch = |stretch: Vec3, part: f64| {
+        line_friction::remember_stretch(pair, place, (&stretch, part), now.nodes, &mut LineMemoryMut(&mut *new.0));
+    };
+    let Some(memory) = pair.memory else {
+        let pull = begun(of, pair, place, acting, now);
+        stretch(pull / k, 1.0);
+        new.motion().set_friction_force(pull.norm());
+        return 0.0;
+    };
+    let pull = memory.motion().friction_force();
+    match acting.and_then(|acting| acting.friction.as_ref()) {
+        Some(friction) => {
+            let end = pull + part * (friction.T.norm() - pull);
+            stretch(friction.T / k, part);
+            new.motion().set_friction_force(end);
+            0.5 * part * friction.slip.norm() * (pull + end)
+        }
+        // The two are apart: what was stretched lets go.
+        None => {
+            stretch(Vec3::zeros(), 1.0);
+            0.5 * pull * (pull / k)
+        }
+    }
+}
+
+/// The friction with which a pair begins of which nothing is known: what slides at t = 0 has been sliding, and its spring is stretched.
+fn begun(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    place: &PairPlace,
+    acting: Option<&PairForceOnPoint>,
+    now: &Configuration,
+) -> Vec3 {
+    let force = acting.map_or(0.0, |acting| acting.normal.force);
+    if now.dt > 0.0 || force <= 0.0 {
+        return Vec3::zeros();
+    }
+    of.law.friction * force * sliding_direction(pair, place, of.law.floor, now)
 }
 
 /// Number of rotations that are kept.

@@ -1,0 +1,56 @@
+//! What a point and a facet do to each other where they touch: the normal force, and friction.
+
+use super::line_friction;
+use super::memory::{LineMemory, PairMemory};
+use super::pair::{FacetPair, PairForceOnPoint, PairPlace, Rub, rotation_of};
+use crate::elements::contact::friction::friction_force;
+use crate::elements::contact::restitution::normal_force;
+use crate::elements::contact::surfaces::kind::ClosestPoint;
+use crate::math::rotation::matrix;
+use crate::math::{Mat3, Vec3};
+use crate::state::Node;
+
+impl FacetPair<'_> {
+    /// What acts where they touch.
+    pub fn force(&self, place: &PairPlace, nodes: &[Node]) -> PairForceOnPoint {
+        let law = self.law;
+        if place.inset > 0.0 && place.gap() > 0.0 {
+            return PairForceOnPoint::NONE;
+        }
+        let rate = place.rate();
+        let speed = match self.memory.map(PairMemory::motion) {
+            Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
+            Some(old) => old.rate().max(rate),
+            None => rate,
+        };
+        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed);
+        let n = &place.n;
+        let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
+        let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
+        if self.is_of_lines() {
+            let rub = line_friction::rub(self, place, LineMemory(memory.0), normal.force, nodes);
+            let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
+            return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), normal };
+        }
+        let r = self.point.rolling_radius;
+        let q = rotation_of(self.kept, nodes);
+        let R = matrix(&q);
+        let mut phi = Vec3::zeros();
+        if r > 0.0 {
+            for k in 0..self.point.count {
+                phi += self.point.weights[k] * self.turned(k, memory, (&q, &R), nodes);
+            }
+        }
+        let from_anchor = self.seen_from(self.kept, &place.x, nodes) - self.kept.base(nodes) * memory.anchor();
+        let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
+        let friction = friction_force(law.stiffness, law.friction, normal.force, &closest, &from_anchor, r, &phi);
+        let M = r * n.cross(&friction.T);
+        PairForceOnPoint {
+            F: normal.force * n - friction.T,
+            M,
+            C: place.d * n.cross(&friction.T) - M,
+            friction: Some(Rub { T: friction.T, slip: friction.slip }),
+            normal,
+        }
+    }
+}
