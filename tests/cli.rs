@@ -361,25 +361,19 @@ fn the_least_step_ends_steps_of_their_own_length() {
     least("0.2").code(0);
 }
 
-/// Velocities whose squares, and places whose moments of momentum, no double can hold.
+/// Velocities whose squares no double can hold.
 #[test]
 fn numbers_beyond_the_range_are_said_to_be_missing() {
-    let deck = |center: &str, velocity: &str| {
-        format!("{}velocity = {velocity}\n", DECK.replace("center = [0.0, 0.0, 0.0]", &format!("center = {center}")))
-    };
-    for (center, velocity, since) in [
-        ("[0.0, 0.0, 0.0]", "[1e200, 0.0, 0.0]", "t = 0"),
-        ("[0.0, 1e300, 0.0]", "[1e20, 0.0, 0.0]", "t = 0"),
-        ("[0.0, 0.0, 0.0]", "[0.0, -1e155, 2e155]", "t = 0"),
-    ] {
-        let folder = folder(&deck(center, velocity));
+    let deck = |velocity: &str| format!("{DECK}velocity = {velocity}\n");
+    for velocity in ["[1e200, 0.0, 0.0]", "[0.0, -1e155, 2e155]"] {
+        let folder = folder(&deck(velocity));
         let done = rdsolve(folder.path(), &["ball.toml"]).code(0);
         let said = said(&done);
-        assert!(said.contains("empty in energy.csv") && said.contains(since), "{center} {velocity}: {said}");
+        assert!(said.contains("empty in energy.csv") && said.contains("t = 0"), "{velocity}: {said}");
         let result = std::fs::read_to_string(folder.path().join("ball.out/result.json")).unwrap();
         assert!(result.contains("empty in energy.csv"), "{result}");
     }
-    let folder = folder(&deck("[0.0, 0.0, 0.0]", "[1e100, 0.0, 0.0]"));
+    let folder = folder(&deck("[1e100, 0.0, 0.0]"));
     let done = rdsolve(folder.path(), &["ball.toml"]).code(0);
     assert!(!said(&done).contains("empty"), "{}", said(&done));
 }

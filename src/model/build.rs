@@ -15,7 +15,6 @@ use super::data::{
     Rigid, Solution, StepLength,
 };
 use super::doubts::amplitude_ends::check_amplitude_ends;
-use super::doubts::chords::check_chords;
 use super::doubts::node_places::place_nodes;
 use super::doubts::proportions::check_proportions;
 use super::doubts::slivers::check_slivers;
@@ -53,6 +52,7 @@ use super::report::Report;
 use super::rigid::rigid_bodies;
 use super::scene::Scene;
 use super::sections::Sections;
+use super::shells::chords::check_chords;
 use super::shells::edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::stages::{self, CurrentStage, StageSequence};

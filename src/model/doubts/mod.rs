@@ -1,7 +1,6 @@
 //! What is odd about a deck that is otherwise sound: nothing in it, things nothing uses, what has no effect.
 
 pub mod amplitude_ends;
-pub mod chords;
 pub mod coincidence;
 pub mod long_chains;
 pub mod node_places;

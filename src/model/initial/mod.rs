@@ -1,6 +1,6 @@
 //! `[[initial]]`: motion at t = 0, as the tables say, then made to agree with supports and attachments.
 
-pub mod given;
+pub mod given_velocities;
 
 use crate::amplitude::Amplitude;
 use crate::deck::initial::{Initial, Profile};
@@ -8,7 +8,7 @@ use crate::deck::words::Table;
 use crate::diagnostic::At;
 use crate::math::Vec3;
 use crate::model::data::{DependentNode, GivenVelocity, InitialMotion, PlaceFactor};
-use crate::model::initial::given::{GivenVelocities, Giver, InitialQuantity};
+use crate::model::initial::given_velocities::{GivenVelocities, Giver, InitialQuantity};
 use crate::model::places::nodes::Topology;
 use crate::model::places::spot::{Label, Spot};
 use crate::model::report::{Owner, Report};

@@ -1,5 +1,6 @@
 //! `[[shells]]`: patches or groups of the mesh → nodes, normals and elements.
 
+pub mod chords;
 pub mod edges;
 pub mod patch;
 pub mod surface_map;
