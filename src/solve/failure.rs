@@ -43,6 +43,8 @@ pub enum Failure {
         load_control: bool,
         /// The part that has opened or gone slack last, while it is, by its name in quotes.
         open: Option<String>,
+        /// True where something may slip, and the matrix is the symmetric part of the tangent.
+        lacks_slip: bool,
         /// The largest residual forces.
         largest: Vec<NamedResidual>,
     },
@@ -163,7 +165,7 @@ keep_either!(Failure {
     0 => NoLoadIncrement { time },
     1 => Singular { label, direction, open, at_start },
     2 => MasslessDirection { label, rotation, direction, buckles, open },
-    3 => NotConverged { iterations, load_control, open, largest },
+    3 => NotConverged { iterations, load_control, open, lacks_slip, largest },
     4 => ConstraintsViolated { largest },
     5 => TooManySubsteps { steps, substeps, dt, cause },
     6 => NoEquilibriumOnArc { largest },
@@ -319,7 +321,7 @@ impl Failure {
             Failure::MasslessDirection { label, rotation, direction, buckles, open } => {
                 massless(label, *rotation, direction, *buckles, open.as_deref())
             }
-            Failure::NotConverged { iterations, load_control, open, .. } => {
+            Failure::NotConverged { iterations, load_control, open, lacks_slip, .. } => {
                 let limit = match (open, load_control) {
                     (Some(name), _) => format!(
                         " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a \
@@ -328,7 +330,13 @@ impl Failure {
                     (None, true) => " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned(),
                     (None, false) => String::new(),
                 };
-                format!("no convergence in {iterations} iterations{limit}; the largest unbalanced forces are")
+                let slips = match lacks_slip {
+                    true => {
+                        " (where friction slips the symmetric part of the tangent may not do: `gyroscopic = \"left\"` in `[iteration]` takes all of it)"
+                    }
+                    false => "",
+                };
+                format!("no convergence in {iterations} iterations{limit}{slips}; the largest unbalanced forces are")
             }
             Failure::Modes(fault) => fault.to_string(),
             Failure::Stopped => "stopped by a signal in the first step".to_owned(),

@@ -385,5 +385,7 @@ fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport, open: Op
         return violated;
     }
     let load_control = !cx.is_dynamic() && !cx.model.analysis.step_length.is_arc_length();
-    Failure::NotConverged { iterations: report.iterations, load_control, open, largest: residual::largest(cx, ws) }
+    let lacks_slip = cx.system.rubs() && ws.matrix.solver.is_symmetric();
+    let largest = residual::largest(cx, ws);
+    Failure::NotConverged { iterations: report.iterations, load_control, open, lacks_slip, largest }
 }
