@@ -264,6 +264,24 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
     widest
 }
 
+/// What an iteration that does not come to its end says, up to the forces that it names.
+fn not_converged(iterations: usize, load_control: bool, open: Option<&str>, lacks_slip: bool) -> String {
+    let limit = match (open, load_control) {
+        (Some(name), _) => format!(
+            " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a soft spring)"
+        ),
+        (None, true) => " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned(),
+        (None, false) => String::new(),
+    };
+    let slips = match lacks_slip {
+        true => {
+            " (where friction slips the symmetric part of the tangent may not do: `gyroscopic = \"left\"` in `[iteration]` takes all of it)"
+        }
+        false => "",
+    };
+    format!("no convergence in {iterations} iterations{limit}{slips}; the largest unbalanced forces are")
+}
+
 /// The message of a direction without mass that is not held.
 fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, open: Option<&str>) -> String {
     let what = if rotation { "inertia" } else { "mass" };
@@ -322,21 +340,7 @@ impl Failure {
                 massless(label, *rotation, direction, *buckles, open.as_deref())
             }
             Failure::NotConverged { iterations, load_control, open, lacks_slip, .. } => {
-                let limit = match (open, load_control) {
-                    (Some(name), _) => format!(
-                        " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a \
-                         soft spring)"
-                    ),
-                    (None, true) => " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned(),
-                    (None, false) => String::new(),
-                };
-                let slips = match lacks_slip {
-                    true => {
-                        " (where friction slips the symmetric part of the tangent may not do: `gyroscopic = \"left\"` in `[iteration]` takes all of it)"
-                    }
-                    false => "",
-                };
-                format!("no convergence in {iterations} iterations{limit}{slips}; the largest unbalanced forces are")
+                not_converged(*iterations, *load_control, open.as_deref(), *lacks_slip)
             }
             Failure::Modes(fault) => fault.to_string(),
             Failure::Stopped => "stopped by a signal in the first step".to_owned(),
