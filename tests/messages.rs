@@ -191,6 +191,11 @@ fn keys_and_types() {
         portal(&[("[1.5, 0.0, 2.0]", "[1.5, 0.0, 1e40]"), ("height = 0.05", "height = -1e200")])
     );
     assert_snapshot!("lengths_far_apart", portal(&[("height = 0.05", "height = 1e20")]));
+    // Points of a curve are no places: forces and stresses may have any size beside lengths.
+    let film = SHEET.replacen("thickness = 0.01", "thickness = 1e-7", 1);
+    let spring = "[[links]]\nname = \"k\"\nlaw = \"table\"\npoints = [[0.0, 0.0], [1.0, 5e9]]\n";
+    let told = said(&(film + spring), &[]);
+    assert!(!told.contains("do not go together"), "{told}");
     assert_snapshot!("unknown_word", portal(&[("kind = \"dynamic\"", "kind = \"dinamic\"")]));
     assert_snapshot!("unknown_direction", portal(&[("fix = \"all\"", "fix = [\"ux\", \"uu\"]")]));
     assert_snapshot!(

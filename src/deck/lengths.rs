@@ -44,8 +44,8 @@ const PLACES: [&str; 11] = [
 /// Keys of powers of sizes.
 const POWERS: [(&str, i32); 5] =
     [("area", 2), ("shear_areas", 2), ("moments", 4), ("product_moment", 4), ("torsion_constant", 4)];
-/// The table of which `points` are of functions of time.
-const OF_TIME: &str = "amplitudes";
+/// The tables whose `points` are those of curves: functions of time, forces over elongations.
+const OF_CURVES: [&str; 2] = ["amplitudes", "links"];
 /// The largest length over the smallest size: a contact or a strain of the smallest has a digit left at the place of the largest.
 const LARGEST_RATIO: f64 = 1e15;
 
@@ -63,8 +63,13 @@ struct Length<'a> {
 /// What is wrong with the lengths of a deck, with the places of the numbers.
 pub(super) fn check(root: &DeTable) -> Vec<(Span, Diagnostic)> {
     let mut lengths = Vec::new();
-    for (key, value) in root.iter().filter(|(key, _)| key.get_ref() != OF_TIME) {
+    for (key, value) in root {
+        let first = lengths.len();
         collect(key.get_ref(), value, &mut lengths);
+        if OF_CURVES.contains(&key.get_ref().as_ref()) {
+            let places = lengths.split_off(first);
+            lengths.extend(places.into_iter().filter(|length: &Length| length.key != "points"));
+        }
     }
     let (beyond, within): (Vec<Length>, Vec<Length>) =
         lengths.into_iter().partition(|length| length.size > LARGEST_LENGTH);
