@@ -1,6 +1,5 @@
 //! Shells as the model describes them, and what is computed once from the undeformed geometry.
 
-use super::camber::Camber;
 use super::edge::EdgeTangents;
 use super::edge_bending::EdgeBending;
 use super::edge_bubbles::edge_bubbles;
@@ -150,7 +149,7 @@ where
     let T = D.map(|d| surface.tangents(&d));
     let cambered = K::CAMBERED && is_curved(&X, &D, K::EDGES, plate.thickness);
     // Positions and directors both fall short of an arc.
-    let (camber, arcs) = if cambered { (surface.camber, 2.0) } else { (Camber::NONE, 1.0) };
+    let (camber, arcs) = if cambered { (Some(Box::new(surface.camber)), 2.0) } else { (None, 1.0) };
     let (shear, bent) = shear_stiffness::<K, N, V, P>(&surface, &D, plate);
     let mut shell = Shell {
         nodes,

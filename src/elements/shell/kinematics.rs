@@ -27,8 +27,8 @@ pub(super) struct Shell<const N: usize, const V: usize, const P: usize, const E:
     pub slopes: [[f64; N]; V],
     /// S of [`super::arc`].
     pub arc: [[f64; 2]; 2],
-    /// Stretch by curvature.
-    pub camber: Camber<f64>,
+    /// Stretch by curvature; `None` where it is that of chords, as for most elements.
+    pub camber: Option<Box<Camber<f64>>>,
     /// The edges.
     pub edges: [EdgeTangents; N],
     /// Strains at t = 0.
@@ -136,6 +136,12 @@ pub(super) fn by_pairs<const V: usize, const P: usize>(pairs: &Pairs<P>, stress:
 }
 
 impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N, V, P, E, S> {
+    /// Stretch by curvature.
+    #[inline(always)]
+    pub fn camber(&self) -> &Camber<f64> {
+        self.camber.as_deref().unwrap_or(&Camber::NONE)
+    }
+
     /// Positions and directors of the nodes.
     #[inline(always)]
     pub fn gather(&self, nodes: &[Node]) -> NodalVectors<N> {
@@ -178,7 +184,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
             bending[n] = if i == j { v[i].dot(&w[i]) } else { v[i].dot(&w[j]) + v[j].dot(&w[i]) };
         }
         if ARC && K::CAMBERED {
-            let stretch = self.camber.stretch(0.5, &[bending[0], bending[1], bending[2]]);
+            let stretch = self.camber().stretch(0.5, &[bending[0], bending[1], bending[2]]);
             (0..3).for_each(|m| membrane[m] += stretch[m]);
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
@@ -254,7 +260,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
         if !K::CAMBERED {
             return plane.bending;
         }
-        let more = self.camber.moments(&plane.membrane, &first_bending(v, long));
+        let more = self.camber().moments(&plane.membrane, &first_bending(v, long));
         let mut stress = plane.bending;
         (0..3).for_each(|n| stress[n] += more[n]);
         stress

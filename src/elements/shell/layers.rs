@@ -6,7 +6,8 @@ use super::layer_tangent::EightSections;
 use super::packed::{InPlaneLanes, LinearisedLanes, PackedSections};
 use super::plane_strains::PointStrains;
 use super::section::{
-    Drilling, InPlane, ShellSection, ShellStiffness, linearise_one_by_one, stiffness_side_by_side, stress_one_by_one,
+    CoupledStiffness, Drilling, InPlane, SectionTangent, ShellSection, ShellStiffness, linearise_one_by_one,
+    stiffness_side_by_side, stress_one_by_one,
 };
 use super::stretch::Stretch;
 use crate::elements::block::Moduli;
@@ -278,10 +279,10 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
         strain: &InPlane<P, E>,
         now: &Configuration,
         moduli: Moduli,
-        tangent: &'a mut ShellStiffness<P, E>,
-    ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>) {
+        tangent: &'a mut CoupledStiffness<P, E>,
+    ) -> (InPlane<P, E>, SectionTangent<'a, P, E>) {
         if moduli == Moduli::Elastic {
-            return (self.stress(strain, now), &self.elastic);
+            return (self.stress(strain, now), self.elastic.tangent());
         }
         let mut stress = self.drilling(strain);
         let mut changed = false;
@@ -311,17 +312,17 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
             }
             if yields || stretch.is_some() {
                 if !changed {
-                    tangent.clone_from(&self.elastic);
+                    tangent.plane.clone_from(&self.elastic);
                     changed = true;
                 }
                 tangent.coupled |= yields;
                 let PointStrains { membrane, bending, weight } = point;
-                subtract(*weight, (membrane, &loss[0], membrane), &mut tangent.N);
+                subtract(*weight, (membrane, &loss[0], membrane), &mut tangent.plane.N);
                 subtract(*weight, (membrane, &loss[1], bending), &mut tangent.NM);
-                subtract(*weight, (bending, &loss[2], bending), &mut tangent.M);
+                subtract(*weight, (bending, &loss[2], bending), &mut tangent.plane.M);
             }
         }
-        (stress, if changed { tangent } else { &self.elastic })
+        (stress, if changed { tangent.tangent() } else { self.elastic.tangent() })
     }
 
     const FORCES_SIDE_BY_SIDE: bool = true;
@@ -344,7 +345,8 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
         let logarithmic = sections[0].layers.logarithmic;
         match Self::side_by_side(&sections) {
             Some(eight) if !logarithmic || moduli == Moduli::Elastic => {
-                let mut out = stiffness_side_by_side(InPlaneLanes::ZERO, sections.map(|section| &section.elastic));
+                let mut out =
+                    stiffness_side_by_side(InPlaneLanes::ZERO, sections.map(|section| section.elastic.tangent()));
                 let tangent = (moduli == Moduli::Algorithmic).then_some(&mut out);
                 out.stress = eight.stress(strain, now, tangent);
                 out

@@ -40,7 +40,7 @@ pub(super) fn shell_pack<
         slopes: from_fn(|i| from_fn(|a| of(&|e| e.slopes[i][a]))),
         arc: from_fn(|i| from_fn(|j| of(&|e| e.arc[i][j]))),
         camber: if K::CAMBERED {
-            Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber.0[m][n][k])))))
+            Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber().0[m][n][k])))))
         } else {
             Camber([[[Lanes::ZERO; 3]; 3]; 3])
         },

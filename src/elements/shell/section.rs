@@ -53,14 +53,15 @@ fn stress_side_by_side<const P: usize, const E: usize>(stress: &[InPlane<P, E>; 
 #[inline(always)]
 pub(super) fn stiffness_side_by_side<const P: usize, const E: usize>(
     stress: InPlaneLanes<P, E>,
-    C: [&ShellStiffness<P, E>; LANES],
+    C: [SectionTangent<P, E>; LANES],
 ) -> LinearisedLanes<P, E> {
-    let coupled = C.iter().any(|C| C.coupled);
+    let coupled = C.iter().any(|C| C.NM.is_some());
+    let NM = |lane: usize, i: usize, j: usize| C[lane].NM.map_or(0.0, |NM| NM[i][j]);
     LinearisedLanes {
         stress,
-        N: symmetric(|lane, i, j| C[lane].N[i][j]),
-        M: symmetric(|lane, i, j| C[lane].M[i][j]),
-        NM: if coupled { from_fn(|i| from_fn(|j| lanes(|lane| C[lane].NM[i][j]))) } else { [[Lanes::ZERO; P]; E] },
+        N: symmetric(|lane, i, j| C[lane].plane.N[i][j]),
+        M: symmetric(|lane, i, j| C[lane].plane.M[i][j]),
+        NM: if coupled { from_fn(|i| from_fn(|j| lanes(|lane| NM(lane, i, j)))) } else { [[Lanes::ZERO; P]; E] },
         coupled,
     }
 }
@@ -94,7 +95,7 @@ pub(super) fn linearise_one_by_one<const P: usize, const E: usize, S: ShellSecti
     now: &Configuration,
     moduli: Moduli,
 ) -> LinearisedLanes<P, E> {
-    let mut places = [ShellStiffness::ZERO; LANES];
+    let mut places = [CoupledStiffness::ZERO; LANES];
     let mut stress = [InPlane::ZERO; LANES];
     let mut lane = 0;
     let C = places.each_mut().map(|place| {
@@ -120,8 +121,8 @@ pub trait ShellSection<const P: usize, const E: usize>: Send + Sync + Sized {
         strain: &InPlane<P, E>,
         now: &Configuration,
         moduli: Moduli,
-        tangent: &'a mut ShellStiffness<P, E>,
-    ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>);
+        tangent: &'a mut CoupledStiffness<P, E>,
+    ) -> (InPlane<P, E>, SectionTangent<'a, P, E>);
     /// True where forces of eight elements that are gathered as they are needed cost less than those of one after the other.
     const FORCES_SIDE_BY_SIDE: bool = false;
     /// Stress of eight elements side by side, with the bits of [`ShellSection::stress`].
@@ -220,15 +221,47 @@ pub struct ShellStiffness<const P: usize, const E: usize> {
     pub N: [[f64; E]; E],
     /// Bending.
     pub M: [[f64; P]; P],
+}
+
+/// The derivative of the stress where layers yield on one side more than on the other.
+pub struct CoupledStiffness<const P: usize, const E: usize> {
+    /// Membrane and bending, each by itself.
+    pub plane: ShellStiffness<P, E>,
     /// Rows of the membrane, columns of bending.
     pub NM: [[f64; P]; E],
     /// `NM` is not zero.
     pub coupled: bool,
 }
 
+/// The derivative of the stress of a section, elastic or not.
+#[derive(Clone, Copy)]
+pub struct SectionTangent<'a, const P: usize, const E: usize> {
+    /// Membrane and bending, each by itself.
+    pub plane: &'a ShellStiffness<P, E>,
+    /// Rows of the membrane, columns of bending; `None` where they are zero.
+    pub NM: Option<&'a [[f64; P]; E]>,
+}
+
+impl<const P: usize, const E: usize> CoupledStiffness<P, E> {
+    /// No stiffness.
+    pub const ZERO: Self = CoupledStiffness { plane: ShellStiffness::ZERO, NM: [[0.0; P]; E], coupled: false };
+
+    /// The same to be read.
+    #[inline(always)]
+    pub fn tangent(&self) -> SectionTangent<'_, P, E> {
+        SectionTangent { plane: &self.plane, NM: self.coupled.then_some(&self.NM) }
+    }
+}
+
 impl<const P: usize, const E: usize> ShellStiffness<P, E> {
     /// No stiffness.
-    pub const ZERO: Self = ShellStiffness { N: [[0.0; E]; E], M: [[0.0; P]; P], NM: [[0.0; P]; E], coupled: false };
+    pub const ZERO: Self = ShellStiffness { N: [[0.0; E]; E], M: [[0.0; P]; P] };
+
+    /// The derivative of the stress, which is this stiffness.
+    #[inline(always)]
+    pub fn tangent(&self) -> SectionTangent<'_, P, E> {
+        SectionTangent { plane: self, NM: None }
+    }
 
     /// σ = C ε, membrane and bending.
     #[inline(always)]
@@ -245,30 +278,34 @@ impl<const P: usize, const E: usize> ShellStiffness<P, E> {
                 stress.bending[j] = fma(self.M[i][j], strain.bending[i], stress.bending[j]);
             }
         }
-        if self.coupled {
-            for i in 0..E {
-                for j in 0..P {
-                    stress.membrane[i] += self.NM[i][j] * strain.bending[j];
-                    stress.bending[j] += self.NM[i][j] * strain.membrane[i];
-                }
-            }
-        }
         stress
     }
 }
 
-/// The stiffnesses of eight elements.
+/// The stiffnesses of eight elements by the rows of their upper halves.
 pub struct StiffnessLanes<const P: usize, const E: usize> {
-    N: [[Lanes; E]; E],
-    M: [[Lanes; P]; P],
+    N: Box<[Lanes]>,
+    M: Box<[Lanes]>,
+}
+
+/// The rows of the upper half of a matrix of `R` rows.
+fn upper<const R: usize>(entry: impl Fn(usize, usize) -> Lanes) -> Box<[Lanes]> {
+    let entry = &entry;
+    (0..R).flat_map(|i| (i..R).map(move |j| entry(i, j))).collect()
+}
+
+/// The place of an entry of the upper half among its rows.
+#[inline(always)]
+const fn place_in_upper<const R: usize>(i: usize, j: usize) -> usize {
+    i * (2 * R - i - 1) / 2 + j
 }
 
 impl<const P: usize, const E: usize> PackedSections<ShellStiffness<P, E>, P, E> for StiffnessLanes<P, E> {
     fn pack(sections: &[&ShellStiffness<P, E>]) -> Option<Self> {
         let at = |lane: usize| sections[lane.min(sections.len() - 1)];
-        sections.iter().all(|section| !section.coupled).then(|| StiffnessLanes {
-            N: from_fn(|i| from_fn(|j| lanes(|lane| at(lane).N[i][j]))),
-            M: from_fn(|i| from_fn(|j| lanes(|lane| at(lane).M[i][j]))),
+        Some(StiffnessLanes {
+            N: upper::<E>(|i, j| lanes(|lane| at(lane).N[i][j])),
+            M: upper::<P>(|i, j| lanes(|lane| at(lane).M[i][j])),
         })
     }
 
@@ -280,27 +317,28 @@ impl<const P: usize, const E: usize> PackedSections<ShellStiffness<P, E>, P, E> 
         _: Option<(&mut [f64], &mut Dissipation)>,
         _: usize,
     ) -> InPlaneLanes<P, E> {
-        elastic_side_by_side(&self.N, &self.M, strain)
+        let (N, M) = (&self.N[..E * (E + 1) / 2], &self.M[..P * (P + 1) / 2]);
+        elastic_side_by_side(|i, j| N[place_in_upper::<E>(i, j)], |i, j| M[place_in_upper::<P>(i, j)], strain)
     }
 }
 
-/// σ = C ε of eight elements without coupling, as [`ShellStiffness::stress`] has it.
+/// σ = C ε of eight elements without coupling, as [`ShellStiffness::stress`] has it. `N` and `M` give entries of upper halves: the
+/// matrices are symmetric to the last bit.
 #[inline(always)]
 fn elastic_side_by_side<const P: usize, const E: usize>(
-    N: &[[Lanes; E]; E],
-    M: &[[Lanes; P]; P],
+    N: impl Fn(usize, usize) -> Lanes,
+    M: impl Fn(usize, usize) -> Lanes,
     strain: &InPlaneLanes<P, E>,
 ) -> InPlaneLanes<P, E> {
     let mut stress = InPlaneLanes::ZERO;
     for i in 0..E {
         for j in 0..E {
-            // The matrices are symmetric to the last bit: their lower halves are not read.
-            stress.membrane[j] = lanes::fma(N[i.min(j)][i.max(j)], strain.membrane[i], stress.membrane[j]);
+            stress.membrane[j] = lanes::fma(N(i.min(j), i.max(j)), strain.membrane[i], stress.membrane[j]);
         }
     }
     for i in 0..P {
         for j in 0..P {
-            stress.bending[j] = lanes::fma(M[i.min(j)][i.max(j)], strain.bending[i], stress.bending[j]);
+            stress.bending[j] = lanes::fma(M(i.min(j), i.max(j)), strain.bending[i], stress.bending[j]);
         }
     }
     stress
@@ -325,9 +363,9 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for ShellStiffness<P, E>
         strain: &InPlane<P, E>,
         _: &Configuration,
         _: Moduli,
-        _: &'a mut ShellStiffness<P, E>,
-    ) -> (InPlane<P, E>, &'a ShellStiffness<P, E>) {
-        (ShellStiffness::stress(self, strain), self)
+        _: &'a mut CoupledStiffness<P, E>,
+    ) -> (InPlane<P, E>, SectionTangent<'a, P, E>) {
+        (ShellStiffness::stress(self, strain), self.tangent())
     }
 
     #[inline(always)]
@@ -337,8 +375,8 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for ShellStiffness<P, E>
         _: &Configuration,
         _: Moduli,
     ) -> LinearisedLanes<P, E> {
-        let mut out = stiffness_side_by_side(InPlaneLanes::ZERO, sections);
-        out.stress = elastic_side_by_side(&out.N, &out.M, strain);
+        let mut out = stiffness_side_by_side(InPlaneLanes::ZERO, sections.map(Self::tangent));
+        out.stress = elastic_side_by_side(|i, j| out.N[i][j], |i, j| out.M[i][j], strain);
         out
     }
 

@@ -3,7 +3,7 @@
 use super::arc::Arc;
 use super::interpolation::Interpolation;
 use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, first_bending};
-use super::section::{ShellSection, ShellStiffness};
+use super::section::{CoupledStiffness, SectionTangent, ShellSection};
 use crate::elements::block::Moduli;
 use crate::math::{Mat3, Vec3, fma, skew};
 use crate::state::{Configuration, Node};
@@ -63,7 +63,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
             }
         }
         if ARC && K::CAMBERED {
-            for (m, slopes) in self.camber.slopes(&first_bending(&v, bent)).into_iter().enumerate() {
+            for (m, slopes) in self.camber().slopes(&first_bending(&v, bent)).into_iter().enumerate() {
                 (0..3).for_each(|n| add(&mut rows.membrane[m], slopes[n], &rows.bending[n]));
             }
         }
@@ -92,7 +92,11 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
 
     /// C B, with the in-plane stiffness `plane`.
     #[inline(always)]
-    fn times<K: Interpolation<N, V, P>>(&self, plane: &ShellStiffness<P, E>, B: &Rows<N, P, E>) -> Rows<N, P, E> {
+    fn times<K: Interpolation<N, V, P>>(
+        &self,
+        SectionTangent { plane, NM }: SectionTangent<P, E>,
+        B: &Rows<N, P, E>,
+    ) -> Rows<N, P, E> {
         let mut CB = Rows::ZERO;
         let mut bending = B.bending;
         if K::EDGES_BEND {
@@ -110,11 +114,11 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N,
                 add(&mut CB.bending[i], plane.M[i][j], &bending[j]);
             }
         }
-        if plane.coupled {
+        if let Some(NM) = NM {
             for i in 0..E {
                 for j in 0..P {
-                    add(&mut CB.membrane[i], plane.NM[i][j], &bending[j]);
-                    add(&mut CB.bending[j], plane.NM[i][j], &B.membrane[i]);
+                    add(&mut CB.membrane[i], NM[i][j], &bending[j]);
+                    add(&mut CB.bending[j], NM[i][j], &B.membrane[i]);
                 }
             }
         }
@@ -195,7 +199,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const E
         Some(nodes) => element.strains::<T>(&element.gather(nodes)),
         None => element.strains::<T>(&motion),
     };
-    let mut place = ShellStiffness::ZERO;
+    let mut place = CoupledStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
     let stress = Strains { plane, shear: element.edge_stress::<T>(&strains.shear, &plane) };
     let turning = &motion.turning;
@@ -203,7 +207,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const E
     element.rows::<T, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
     let mut CB = element.times::<T>(C, &B);
     if T::CAMBERED {
-        for (n, row) in element.camber.stiffness(&stress.plane.membrane).iter().enumerate() {
+        for (n, row) in element.camber().stiffness(&stress.plane.membrane).iter().enumerate() {
             (0..3).for_each(|k| add(&mut CB.bending[n], row[k], &B.bending[k]));
         }
     }
@@ -253,7 +257,7 @@ fn add_damping<T, const N: usize, const V: usize, const P: usize, const E: usize
     let mut viscous = [[[[0.0; 6]; N]; 6]; N];
     set_product::<T, N, V, P, E>(
         B,
-        &element.times::<T>(element.section.elastic(), &D),
+        &element.times::<T>(element.section.elastic().tangent(), &D),
         viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
     );
     K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);

@@ -44,6 +44,12 @@ impl Nodes {
         self.list.len() - 1
     }
 
+    /// Makes room for so many nodes more.
+    pub fn reserve(&mut self, more: usize) {
+        self.list.reserve(more);
+        self.connected.reserve(more);
+    }
+
     /// A new node that moves with another one in every direction.
     pub fn add_dependent(&mut self, label: String, x: Vec3, master: usize, place: &Span) -> usize {
         let node = self.add(label, false, x);

@@ -84,7 +84,9 @@ impl<'d> Patch<'_, 'd> {
             edge.iter().zip(&line).for_each(|(&[i, j], &node)| grid.nodes[self.at(i, j)] = Some(node));
             grid.edges.push(line);
         }
-        for [i, j] in self.points() {
+        let points = self.points();
+        nodes.reserve(points.iter().filter(|&&[i, j]| grid.nodes[self.at(i, j)].is_none()).count());
+        for [i, j] in points {
             if grid.nodes[self.at(i, j)].is_none() {
                 grid.nodes[self.at(i, j)] = Some(self.add_node(self.map_at(i, j)[0], nodes));
             }
@@ -190,7 +192,7 @@ impl<'d> Patch<'_, 'd> {
     /// Elements between the nodes of a grid, row by row.
     pub fn elements(&self, grid: &Grid, triangles: bool) -> Vec<ShellElement> {
         let [n, m] = self.counts.map(|count| count / self.order);
-        let mut elements = Vec::new();
+        let mut elements = Vec::with_capacity(if triangles && !self.is_triangular() { 2 * n * m } else { n * m });
         // Corners as points of the grid of elements.
         let mut add = |of: &[[usize; 2]]| {
             let places = self.places(of);

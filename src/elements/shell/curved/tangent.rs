@@ -3,7 +3,7 @@
 use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
 use crate::elements::block::Moduli;
 use crate::elements::shell::kinematics::{NodalVectors, sum};
-use crate::elements::shell::section::{ShellSection, ShellStiffness};
+use crate::elements::shell::section::{CoupledStiffness, SectionTangent, ShellSection};
 use crate::elements::shell::tangent::{Row, add, add_strain_hessian, set_entry};
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
@@ -98,7 +98,11 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
 
     /// C B, with the in-plane stiffness `plane`.
     #[inline(always)]
-    fn times(&self, plane: &ShellStiffness<P, P>, B: &CurvedRows<N, P, Q>) -> CurvedRows<N, P, Q> {
+    fn times(
+        &self,
+        SectionTangent { plane, NM }: SectionTangent<P, P>,
+        B: &CurvedRows<N, P, Q>,
+    ) -> CurvedRows<N, P, Q> {
         let mut CB = CurvedRows::ZERO;
         for i in 0..P {
             for j in 0..P {
@@ -106,11 +110,11 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
                 add(&mut CB.bending[i], plane.M[i][j], &B.bending[j]);
             }
         }
-        if plane.coupled {
+        if let Some(NM) = NM {
             for i in 0..P {
                 for j in 0..P {
-                    add(&mut CB.membrane[i], plane.NM[i][j], &B.bending[j]);
-                    add(&mut CB.bending[j], plane.NM[i][j], &B.membrane[i]);
+                    add(&mut CB.membrane[i], NM[i][j], &B.bending[j]);
+                    add(&mut CB.bending[j], NM[i][j], &B.membrane[i]);
                 }
             }
         }
@@ -144,7 +148,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const Q
         Some(nodes) => element.strains(&element.gather(nodes)),
         None => element.strains(&motion),
     };
-    let mut place = ShellStiffness::ZERO;
+    let mut place = CoupledStiffness::ZERO;
     let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
     let stress = CurvedStrain {
         plane,
@@ -190,7 +194,7 @@ fn add_damping<const N: usize, const V: usize, const P: usize, const Q: usize, S
         add(D, rate_weight, B);
         D.as_flattened_mut().iter_mut().for_each(|d| *d *= damping);
     }
-    add_product(B, &element.times(element.section.elastic(), &D), K);
+    add_product(B, &element.times(element.section.elastic().tangent(), &D), K);
     let stress = element.viscous_stress(damping, motion, now.nodes);
     add_strain_hessian(&element.strain_hessian(&stress), &element.gradient(&stress, motion), motion, K);
 }
