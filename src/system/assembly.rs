@@ -8,8 +8,9 @@ use super::destinations::{Destination, Destinations, Places, Scatter};
 use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::group::Group;
-use super::joints::{self, Diagonal};
+use super::joints;
 use super::loads::{Loading, follower_stiffness};
+use super::penalties::Diagonals;
 use super::tangent_weights::TangentWeights;
 use crate::elements::pressure::MOST_NODES;
 use crate::elements::{ElementBlock, Partners};
@@ -34,7 +35,7 @@ pub struct Assembly {
     /// Destinations of the faces under follower pressure, in their order.
     faces: Vec<Destination>,
     joints: Vec<Destination>,
-    diagonals: Vec<Diagonal>,
+    diagonals: Diagonals,
     scatter: Scatter,
     blocks: BlockScatter,
     arms: Arms,
@@ -98,11 +99,7 @@ impl Assembly {
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
         let joints: Vec<Destination> =
             joints.map(|(joint, own)| find.local(&joint.matrix_nodes().chain([own]).collect::<Vec<_>>(), 6)).collect();
-        let diagonals = system
-            .joints
-            .iter()
-            .map(|joint| Diagonal::new(joint, &followers.independent_nodes, dofs, solver))
-            .collect();
+        let diagonals = Diagonals::new(system, &followers.independent_nodes, dofs, solver);
         let own = find.nodal(system);
         let of_masses = system.consistent_masses().iter().map(|m| find.mass(&m.nodes)).collect();
         let Destinations { scatter, blocks, arms, most, .. } = find;
@@ -312,7 +309,7 @@ impl Assembly {
             how.add((K, joints::width(&system.joints[j])), &destinations[j], projected, values);
         };
         let multipliers = &mut forces.multipliers;
-        joints::tangents(system, nodes, (&self.diagonals, projections), multipliers, weights, values, add);
+        joints::tangents(system, nodes, (&mut self.diagonals, projections), multipliers, weights, values, add);
     }
 
     /// Forms the matrices of nodes: inertia, nodal damping, follower loads, arms.

@@ -7,13 +7,12 @@
 //! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Redundant equations share the load with the least norm:
 //! ε decides, and leaves the fraction ε of a gap to the next iteration.
 
-use super::dofs::DofMap;
 use super::equations::{Forces, System};
 use super::multipliers::Multipliers;
+use super::penalties::{self, Diagonals, INDEFINITE};
 use super::scale::Scale;
 use super::tangent_weights::TangentWeights;
 use crate::constraints::joint::{ConstraintEquation, Joint, MOST_EQUATIONS};
-use crate::linear::Solver;
 use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
 
@@ -46,7 +45,7 @@ impl System {
     }
 
     /// Each joint with the number of its first constraint equation.
-    fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
+    pub(super) fn numbered(&self) -> impl Iterator<Item = (&Joint, usize)> {
         self.joints.iter().scan(0, |next, joint| {
             let first = *next;
             *next += joint.equations.len();
@@ -159,159 +158,6 @@ impl System {
     }
 }
 
-/// The slots of the diagonal of the matrix on which a joint acts: for each independent node that one of its nodes moves
-/// with, the end, the node, the index in [`super::dependents::independent_nodes`] and the slots of its six degrees of
-/// freedom.
-pub(super) struct Diagonal(Vec<(usize, usize, usize, [Option<u32>; 6])>);
-
-impl Diagonal {
-    /// The slots of a joint's diagonal.
-    pub fn new(joint: &Joint, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
-        let slot = |node: usize, dof: usize| {
-            let row = dofs.row(node, dof)?;
-            solver.slot(row, row).map(|slot| slot as u32)
-        };
-        let of = |(end, &node): (usize, &usize)| {
-            let places = independent_nodes[node].iter().enumerate();
-            places
-                .map(move |(k, &independent)| (end, node, k, std::array::from_fn(|dof| slot(independent, dof))))
-                .collect::<Vec<_>>()
-        };
-        Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
-    }
-
-    /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
-    /// the largest K g² of translations, or of rotations for an equation between these.
-    fn stiffness(&self, G: &[Vec6; 2], rotational: bool, projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
-        let (mut compliance, mut largest) = (0.0, 0.0f64);
-        for (end, node, k, slots) in &self.0 {
-            let g = projections[*node][*k].tr_mul(&G[*end]);
-            for (dof, (g, slot)) in g.iter().zip(slots).enumerate() {
-                let Some(slot) = slot else { continue };
-                let K = values[*slot as usize].abs();
-                if K > 0.0 {
-                    compliance += g * g / K;
-                }
-                if rotational == (dof > 2) {
-                    largest = largest.max(K * g * g);
-                }
-            }
-        }
-        [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
-    }
-
-    /// The penalty factors for translations and rotations of a joint that holds weights by itself: where nothing else at its ends is as stiff as
-    /// its own forces, no other stiffness tells what these would overturn. `None` where something is. `forces` are its multipliers, `values`
-    /// the matrix.
-    fn firm(
-        &self,
-        joint: &Joint,
-        nodes: &[Node],
-        projections: &[Vec<Mat6>],
-        (forces, values): (&[f64], &[f64]),
-    ) -> Option<[f64; 2]> {
-        let [moment, arm] = self.moment(joint, nodes, projections, forces);
-        let slots = self.0.iter().flat_map(|(.., slots)| slots.iter().enumerate());
-        let stiff = slots.filter_map(|(dof, slot)| {
-            let K = values[(*slot)? as usize].abs();
-            Some(if dof < 3 { K * arm * arm } else { K })
-        });
-        let is_bare = moment > 0.0 && stiff.fold(0.0, f64::max) <= moment;
-        // Without an arm translations turn nothing over.
-        let of_translations = if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM };
-        is_bare.then_some([of_translations, FIRM * moment])
-    }
-
-    /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
-    /// signs, that its equations exert on independent nodes. And the longest of these arms.
-    fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
-        let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
-        let longest = self.0.iter().map(|(_, node, k, _)| arm(*node, *k)).fold(0.0, f64::max);
-        let of = |(row, lambda): (&ConstraintEquation, &f64)| {
-            let G = row.gradient(a, b);
-            let on = |(end, node, k, _): &(usize, usize, usize, _)| {
-                arm(*node, *k) * linear(&G[*end]).amax() + angular(&G[*end]).amax()
-            };
-            lambda.abs() * self.0.iter().map(on).fold(0.0, f64::max)
-        };
-        [joint.equations.iter().zip(values).map(of).sum(), longest]
-    }
-}
-
-/// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
-const MODERATE: f64 = 1e4;
-
-/// Finds the penalty factors, which rest on the matrix before any joint has added to it.
-///
-/// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
-/// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
-/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
-/// An equation on which nothing acts has the largest factor. `at_rest`: no inertia is in the matrix.
-fn set_penalties(
-    system: &System,
-    nodes: &[Node],
-    (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
-    multipliers: &mut Multipliers,
-    values: &[f64],
-    at_rest: bool,
-) {
-    let mut largest = [0.0f64; 2];
-    let mut first = 0;
-    for (joint, diagonal) in system.joints.iter().zip(diagonals) {
-        let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for (k, row) in joint.equations.iter().enumerate() {
-            if at_rest && diagonal.firm(joint, nodes, projections, (&multipliers.values[first..], values)).is_some() {
-                continue;
-            }
-            let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
-            let s = match joint.is_driven(k) {
-                true => {
-                    drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])[0])
-                }
-                false => s,
-            };
-            multipliers.penalties[first + k] = s;
-            let largest = &mut largest[usize::from(row.is_rotational())];
-            *largest = largest.max(s).max(heaviest);
-        }
-        first += joint.equations.len();
-    }
-    let mut first = 0;
-    for (joint, diagonal) in system.joints.iter().zip(diagonals) {
-        let forces = (&multipliers.values[first..first + joint.equations.len()], values);
-        let firm = diagonal.firm(joint, nodes, projections, forces).filter(|_| at_rest);
-        for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
-            let heaviest = largest[usize::from(row.is_rotational())];
-            if let Some(firm) = firm {
-                *s = firm[usize::from(row.is_rotational())];
-                continue;
-            }
-            *s = match heaviest > 0.0 {
-                _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
-                _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
-                true => heaviest,
-                false => 1.0,
-            };
-        }
-        first += joint.equations.len();
-    }
-}
-
-/// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
-/// and directions make less of the factor.
-const FIRM: f64 = 100.0;
-
-/// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
-/// cancel it to zero, and no simple ratio of masses makes this factor 1.
-const INDEFINITE: f64 = 2.618_033_988_749_895;
-
-/// The penalty factor of a drive from that of any equation: it holds even where what it carries has no stiffness of its own, or a
-/// negative one, as a weight that is turned upright. `moment` is of the size of the stiffness that the forces of the joint have.
-fn drive_penalty(s: f64, row: &ConstraintEquation, moment: f64) -> f64 {
-    INDEFINITE * if row.is_rotational() { s.max(moment) } else { s }
-}
-
 /// Adds the derivative of the force of a constraint equation to the matrix of its joint, which is that wide.
 fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, (K, width): (&mut [f64], usize)) {
     row.stiffness(a, b, lambda, |i, j, block| {
@@ -348,14 +194,14 @@ pub(super) fn stiffnesses(
 pub(super) fn tangents(
     system: &System,
     nodes: &[Node],
-    (diagonals, projections): (&[Diagonal], &[Vec<Mat6>]),
+    (diagonals, projections): (&mut Diagonals, &[Vec<Mat6>]),
     multipliers: &mut Multipliers,
     weights: TangentWeights,
     values: &mut [f64],
     mut add: impl FnMut(usize, &mut [f64], &mut [f64]),
 ) {
     let at_rest = weights.acceleration == 0.0;
-    set_penalties(system, nodes, (diagonals, projections), multipliers, values, at_rest);
+    penalties::set(system, nodes, (&mut *diagonals, projections), multipliers, values, at_rest);
     if weights.acceleration < 0.0 {
         multipliers.penalties.iter_mut().for_each(|s| *s *= INDEFINITE);
     }

@@ -25,6 +25,7 @@ pub mod masses;
 mod multipliers;
 mod node_sums;
 pub mod parts;
+mod penalties;
 mod plane;
 mod plane_motion;
 pub mod results;

@@ -4,6 +4,7 @@
 mod derivatives;
 mod drives;
 mod gears;
+mod linkages;
 mod motors;
 mod robot_arm;
 mod rubbing;

@@ -166,3 +166,44 @@ fn a_crane_takes_its_weight_before_it_slews() {
         assert!((row[4].abs() - 1000.0).abs() < 1e-6 * 1000.0, "{time}: {row:?}");
     }
 }
+
+/// An arm that carries a weight is turned by its drive, upwards or downwards, under a weight that has long been there: all forces balance before
+/// each load step, so that the drive alone does work. The moment of the drive is that of the weight.
+#[test]
+fn a_drive_lifts_and_lowers_a_weight_in_a_later_static_stage() {
+    for angle in [-1.0471975511965976_f64, -0.3, 0.3, 1.0] {
+        for step in [0.05, 0.1, 0.2] {
+            let text = stage("weight", "static", 1.0, 1.0)
+                + &stage("turn", "static", 1.0, step)
+                + &format!(
+                    r#"
+[output]
+joints = true
+[environment]
+gravity = [0.0, 0.0, -10.0]
+[amplitudes.turns]
+kind = "ramp"
+end = 1.0
+stage = "turn"
+[[bodies]]
+name = "arm"
+center = [1.0, 0.0, 0.0]
+mass = 3.0
+inertia = [1.0, 2.0, 3.0]
+[[joints]]
+name = "pin"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+from = {{ ground = [0.0, 0.0, 0.0] }}
+to = {{ body = "arm", point = [0.0, 0.0, 0.0] }}
+motion = {{ position = {angle:?}, amplitude = "turns" }}
+"#
+                );
+            let rows = shown(&text, &["pin"]);
+            let [_, coordinate, _, effort, ..] = rows.last().expect("rows")[..] else { panic!("{rows:?}") };
+            // Both to the tolerance of the iteration, 1e-8 of the motion of a step.
+            assert!((coordinate - angle).abs() < 1e-9, "{angle} {step}: {coordinate}");
+            assert!((effort + 30.0 * angle.cos()).abs() < 1e-7, "{angle} {step}: {effort}");
+        }
+    }
+}

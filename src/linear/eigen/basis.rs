@@ -1,11 +1,14 @@
 //! A growing set of long vectors, each with memory of its own. Sums keep their order whatever the number of threads.
 
 use rayon::prelude::*;
+use std::array::from_fn;
 
 /// Rows that are worked on together.
 const CHUNK: usize = 4096;
 /// Width of the partial sums of a scalar product.
 const LANES: usize = 8;
+/// Vectors that are read together: what is summed over them stays in registers meanwhile. Sums are those of one after the other.
+const TOGETHER: usize = 4;
 
 /// Vectors of one length.
 pub(super) struct Basis {
@@ -38,33 +41,42 @@ impl Basis {
 
     /// The scalar product of every vector with `x`.
     pub fn products(&self, x: &[f64]) -> Vec<f64> {
+        let mut products = vec![0.0; self.vectors.len()];
+        let groups = |(products, vectors): (&mut [f64], &[Vec<f64>])| match <&[Vec<f64>; TOGETHER]>::try_from(vectors) {
+            Ok(vectors) => products.copy_from_slice(&dots(vectors.each_ref().map(Vec::as_slice), x)),
+            Err(_) => products.iter_mut().zip(vectors).for_each(|(product, vector)| *product = dot(vector, x)),
+        };
         if self.threads {
-            return self.vectors.par_iter().map(|vector| dot(vector, x)).collect();
+            products.par_chunks_mut(TOGETHER).zip(self.vectors.par_chunks(TOGETHER)).for_each(groups);
+        } else {
+            products.chunks_mut(TOGETHER).zip(self.vectors.chunks(TOGETHER)).for_each(groups);
         }
-        self.vectors.iter().map(|vector| dot(vector, x)).collect()
+        products
     }
 
     /// x ← x − Σ factor × vector.
     pub fn subtract(&self, factors: &[f64], x: &mut [f64]) {
+        let negative: Vec<f64> = factors.iter().map(|factor| -factor).collect();
+        self.add(&negative, x);
+    }
+
+    /// Σ factor × vector.
+    pub fn combine(&self, factors: &[f64]) -> Vec<f64> {
+        let mut sum = vec![0.0; self.length];
+        self.add(factors, &mut sum);
+        sum
+    }
+
+    fn add(&self, factors: &[f64], x: &mut [f64]) {
         let rows = |(chunk, x): (usize, &mut [f64])| {
-            for (factor, vector) in factors.iter().zip(&self.vectors) {
-                let vector = &vector[chunk * CHUNK..][..x.len()];
-                x.iter_mut().zip(vector).for_each(|(x, v)| *x -= factor * v);
-            }
+            let rows = chunk * CHUNK..chunk * CHUNK + x.len();
+            add(factors, self.vectors.iter().map(|vector| &vector[rows.clone()]), x);
         };
         if self.threads {
             x.par_chunks_mut(CHUNK).enumerate().for_each(rows);
         } else {
             x.chunks_mut(CHUNK).enumerate().for_each(rows);
         }
-    }
-
-    /// Σ factor × vector.
-    pub fn combine(&self, factors: &[f64]) -> Vec<f64> {
-        let mut sum = vec![0.0; self.length];
-        let negative: Vec<f64> = factors.iter().map(|factor| -factor).collect();
-        self.subtract(&negative, &mut sum);
-        sum
     }
 
     /// Replaces the vectors by combinations of the first of them, not more of these than there are, each given by its factors, followed by
@@ -82,9 +94,7 @@ impl Basis {
             let old = &old;
             let combine = |(new, factors): (&mut [f64], &Vec<f64>)| {
                 new.fill(0.0);
-                for (factor, old) in factors.iter().zip(old.chunks(rows)) {
-                    new.iter_mut().zip(old).for_each(|(new, old)| *new += factor * old);
-                }
+                add(factors, old.chunks(rows), new);
             };
             let new = &mut new[..combinations.len() * rows];
             if self.threads {
@@ -104,6 +114,38 @@ impl Basis {
     pub fn take(&mut self, count: usize) -> impl Iterator<Item = Vec<f64>> {
         std::mem::take(&mut self.vectors).into_iter().take(count)
     }
+}
+
+/// x ← x + Σ factor × vector, summed in the order of the vectors.
+fn add<'v>(factors: &[f64], mut vectors: impl Iterator<Item = &'v [f64]>, x: &mut [f64]) {
+    let (groups, rest) = factors.as_chunks::<TOGETHER>();
+    for f in groups {
+        let v: [&[f64]; TOGETHER] = from_fn(|_| vectors.next().map_or(&[][..], |vector| &vector[..x.len()]));
+        for (i, x) in x.iter_mut().enumerate() {
+            *x = (((*x + f[0] * v[0][i]) + f[1] * v[1][i]) + f[2] * v[2][i]) + f[3] * v[3][i];
+        }
+    }
+    for (factor, vector) in rest.iter().zip(vectors) {
+        x.iter_mut().zip(vector).for_each(|(x, v)| *x += factor * v);
+    }
+}
+
+/// The scalar products of some vectors with `x`: those of [`dot`].
+fn dots(vectors: [&[f64]; TOGETHER], x: &[f64]) -> [f64; TOGETHER] {
+    let mut sums = [[0.0; LANES]; TOGETHER];
+    let (x, x_rest) = x.as_chunks::<LANES>();
+    let v = vectors.map(|vector| &vector.as_chunks::<LANES>().0[..x.len()]);
+    for (k, x) in x.iter().enumerate() {
+        for (sums, v) in sums.iter_mut().zip(&v) {
+            for i in 0..LANES {
+                sums[i] += v[k][i] * x[i];
+            }
+        }
+    }
+    from_fn(|j| {
+        let rest = vectors[j].as_chunks::<LANES>().1;
+        sums[j].iter().sum::<f64>() + rest.iter().zip(x_rest).map(|(a, b)| a * b).sum::<f64>()
+    })
 }
 
 /// The scalar product, summed in lanes of fixed width.

@@ -18,6 +18,8 @@ pub struct LineSearch {
     /// are closed, and are left out.
     residual: Vec<f64>,
     correction: Vec<f64>,
+    /// Gaps of the joints before the correction.
+    gaps: Vec<f64>,
     /// Increments before the correction, by node.
     before: Vec<Vec6>,
     multipliers: Vec<f64>,
@@ -28,7 +30,7 @@ pub struct LineSearch {
     size: f64,
 }
 
-keep!(LineSearch { residual, correction, before, multipliers, at_start, tries, size });
+keep!(LineSearch { residual, correction, gaps, before, multipliers, at_start, tries, size });
 
 impl LineSearch {
     /// Room for corrections of this many nodal unknowns, nodes and multipliers.
@@ -36,6 +38,7 @@ impl LineSearch {
         LineSearch {
             residual: vec![0.0; directions],
             correction: vec![0.0; directions],
+            gaps: vec![0.0; multipliers],
             before: vec![Vec6::zeros(); nodes],
             multipliers: vec![0.0; multipliers],
             at_start: 0.0,
@@ -49,10 +52,11 @@ impl LineSearch {
         self.tries = TRIES;
     }
 
-    /// Keeps the residual for which a system is about to be solved; `size` is its relative size.
+    /// Keeps the residual and the gaps of joints for which a system is about to be solved; `size` is the relative size of the residual.
     #[inline(never)]
-    pub fn keep_residual(&mut self, residual: &[f64], size: f64) {
+    pub fn keep_residual(&mut self, residual: &[f64], gaps: &[f64], size: f64) {
         self.residual.copy_from_slice(residual);
+        self.gaps.copy_from_slice(gaps);
         self.size = size;
     }
 
@@ -83,6 +87,11 @@ impl LineSearch {
         if work.abs() <= LEFT * self.at_start {
             return false;
         }
+        // Joints that were open did work as they closed, such as a drive that lifts a weight: what the residual does beside that tells
+        // nothing of how far to go.
+        if self.at_start <= self.work_of_joints(multipliers) {
+            return false;
+        }
         // The secant gives the zero of the work along the line; half the correction is taken where the work grew.
         let zero = self.at_start / (self.at_start - work);
         let factor = if work < 0.0 { zero.clamp(0.1, 0.9) } else { 0.5 };
@@ -94,6 +103,12 @@ impl LineSearch {
         }
         self.tries += 1;
         true
+    }
+
+    /// The largest work that joints can have done as the correction closed them, with multipliers before it or `after`.
+    fn work_of_joints(&self, after: &[f64]) -> f64 {
+        let forces = self.multipliers.iter().zip(after).map(|(before, after)| before.abs().max(after.abs()));
+        self.gaps.iter().zip(forces).map(|(gap, force)| gap.abs() * force).sum()
     }
 }
 

@@ -262,7 +262,8 @@ impl Newton {
             self.forget_corrections();
         }
         if let Some(line_search) = &mut self.line_search {
-            line_search.keep_residual(&ws.r[..cx.nodal_unknowns()], progress.report.residual);
+            let gaps = &ws.forces.multipliers.gaps;
+            line_search.keep_residual(&ws.r[..cx.nodal_unknowns()], gaps, progress.report.residual);
         }
         self.matrix.solve(ws);
     }

@@ -1,0 +1,204 @@
+//! The penalty factors of the constraint equations of joints: what the forces of a unit gap are in the matrix; see [`super::joints`].
+
+use super::dofs::DofMap;
+use super::equations::System;
+use super::multipliers::Multipliers;
+use crate::constraints::joint::{ConstraintEquation, Joint};
+use crate::linear::Solver;
+use crate::math::{Mat6, Vec6, angular, linear};
+use crate::state::Node;
+
+/// What the penalty factors of all joints rest on.
+pub(super) struct Diagonals {
+    joints: Vec<Diagonal>,
+    /// By joint: the size of the stiffness that its forces have, and its longest arm; see [`Diagonal::moment`]. Written where no inertia is
+    /// in the matrix.
+    moments: Vec<[f64; 2]>,
+    /// By node: the sum of these stiffnesses over the joints that act on it. Written likewise.
+    on_nodes: Vec<f64>,
+}
+
+impl Diagonals {
+    /// The slots of the diagonals of all joints.
+    pub fn new(system: &System, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
+        let of = |joint| Diagonal::new(joint, independent_nodes, dofs, solver);
+        Diagonals {
+            joints: system.joints.iter().map(of).collect(),
+            moments: vec![[0.0; 2]; system.joints.len()],
+            on_nodes: vec![0.0; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
+        }
+    }
+
+    /// Measures the stiffness that the forces of joints have.
+    fn measure(&mut self, system: &System, nodes: &[Node], projections: &[Vec<Mat6>], forces: &[f64]) {
+        self.on_nodes.fill(0.0);
+        for ((joint, first), (diagonal, of)) in system.numbered().zip(self.joints.iter().zip(&mut self.moments)) {
+            *of = diagonal.moment(joint, nodes, projections, &forces[first..]);
+            diagonal.0.iter().for_each(|place| self.on_nodes[place.independent] += of[0]);
+        }
+    }
+
+    /// The penalty factors for translations and rotations of the `j`-th joint where it holds weights by itself: where nothing else at its ends
+    /// is as stiff as the forces of the joints there, no other stiffness tells what these would overturn. `None` where something is.
+    /// `values`: the matrix.
+    fn firm(&self, j: usize, values: &[f64]) -> Option<[f64; 2]> {
+        let (places, arm) = (&self.joints[j].0, self.moments[j][1]);
+        let moment = places.iter().map(|place| self.on_nodes[place.independent]).fold(0.0, f64::max);
+        let slots = places.iter().flat_map(|place| place.slots.iter().enumerate());
+        let stiff = slots.filter_map(|(dof, slot)| {
+            let K = values[(*slot)? as usize].abs();
+            Some(if dof < 3 { K * arm * arm } else { K })
+        });
+        let is_bare = moment > 0.0 && stiff.fold(0.0, f64::max) <= moment;
+        // Without an arm translations turn nothing over.
+        let of_translations = if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM };
+        is_bare.then_some([of_translations, FIRM * moment])
+    }
+}
+
+/// The places of the diagonal of the matrix on which a joint acts.
+struct Diagonal(Vec<Place>);
+
+/// The place of an independent node that an end of a joint moves with.
+struct Place {
+    end: usize,
+    /// The node of the end.
+    node: usize,
+    /// The index in [`super::dependents::independent_nodes`] of the independent node, and that node.
+    index: usize,
+    independent: usize,
+    /// The slots of its six degrees of freedom on the diagonal.
+    slots: [Option<u32>; 6],
+}
+
+impl Diagonal {
+    /// The slots of a joint's diagonal.
+    fn new(joint: &Joint, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
+        let slot = |node: usize, dof: usize| {
+            let row = dofs.row(node, dof)?;
+            solver.slot(row, row).map(|slot| slot as u32)
+        };
+        let of = |(end, &node): (usize, &usize)| {
+            let places = independent_nodes[node].iter().enumerate();
+            let place = move |(index, &independent): (usize, &usize)| Place {
+                end,
+                node,
+                index,
+                independent,
+                slots: std::array::from_fn(|dof| slot(independent, dof)),
+            };
+            places.map(place).collect::<Vec<_>>()
+        };
+        Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
+    }
+
+    /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
+    /// the largest K g² of translations, or of rotations for an equation between these.
+    fn stiffness(&self, G: &[Vec6; 2], rotational: bool, projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
+        let (mut compliance, mut largest) = (0.0, 0.0f64);
+        for &Place { end, node, index, slots, .. } in &self.0 {
+            let g = projections[node][index].tr_mul(&G[end]);
+            for (dof, (g, slot)) in g.iter().zip(slots).enumerate() {
+                let Some(slot) = slot else { continue };
+                let K = values[slot as usize].abs();
+                if K > 0.0 {
+                    compliance += g * g / K;
+                }
+                if rotational == (dof > 2) {
+                    largest = largest.max(K * g * g);
+                }
+            }
+        }
+        [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
+    }
+
+    /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
+    /// signs, that its equations exert on independent nodes. And the longest of these arms.
+    fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
+        let longest = self.0.iter().map(|place| arm(place.node, place.index)).fold(0.0, f64::max);
+        let of = |(row, lambda): (&ConstraintEquation, &f64)| {
+            let G = row.gradient(a, b);
+            let on = |&Place { end, node, index, .. }: &Place| {
+                arm(node, index) * linear(&G[end]).amax() + angular(&G[end]).amax()
+            };
+            lambda.abs() * self.0.iter().map(on).fold(0.0, f64::max)
+        };
+        [joint.equations.iter().zip(values).map(of).sum(), longest]
+    }
+}
+
+/// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
+const MODERATE: f64 = 1e4;
+
+/// Finds the penalty factors, which rest on the matrix before any joint has added to it.
+///
+/// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
+/// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
+/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
+/// An equation on which nothing acts has the largest factor. `at_rest`: no inertia is in the matrix.
+pub(super) fn set(
+    system: &System,
+    nodes: &[Node],
+    (diagonals, projections): (&mut Diagonals, &[Vec<Mat6>]),
+    multipliers: &mut Multipliers,
+    values: &[f64],
+    at_rest: bool,
+) {
+    if at_rest {
+        diagonals.measure(system, nodes, projections, &multipliers.values);
+    }
+    let firm = |j: usize| if at_rest { diagonals.firm(j, values) } else { None };
+    let mut largest = [0.0f64; 2];
+    let mut first = 0;
+    for (j, (joint, diagonal)) in system.joints.iter().zip(&diagonals.joints).enumerate() {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let is_firm = firm(j).is_some();
+        for (k, row) in joint.equations.iter().enumerate().filter(|_| !is_firm) {
+            let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
+            let s = match joint.is_driven(k) {
+                true => {
+                    drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])[0])
+                }
+                false => s,
+            };
+            multipliers.penalties[first + k] = s;
+            let largest = &mut largest[usize::from(row.is_rotational())];
+            *largest = largest.max(s).max(heaviest);
+        }
+        first += joint.equations.len();
+    }
+    let mut first = 0;
+    for (j, joint) in system.joints.iter().enumerate() {
+        let firm = firm(j);
+        for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
+            let heaviest = largest[usize::from(row.is_rotational())];
+            if let Some(firm) = firm {
+                *s = firm[usize::from(row.is_rotational())];
+                continue;
+            }
+            *s = match heaviest > 0.0 {
+                _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
+                _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
+                true => heaviest,
+                false => 1.0,
+            };
+        }
+        first += joint.equations.len();
+    }
+}
+
+/// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
+/// and directions make less of the factor.
+const FIRM: f64 = 100.0;
+
+/// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
+/// cancel it to zero, and no simple ratio of masses makes this factor 1.
+pub(super) const INDEFINITE: f64 = 2.618_033_988_749_895;
+
+/// The penalty factor of a drive from that of any equation: it holds even where what it carries has no stiffness of its own, or a
+/// negative one, as a weight that is turned upright. `moment` is of the size of the stiffness that the forces of the joint have.
+fn drive_penalty(s: f64, row: &ConstraintEquation, moment: f64) -> f64 {
+    INDEFINITE * if row.is_rotational() { s.max(moment) } else { s }
+}
