@@ -38,9 +38,11 @@ pub struct ConstraintProjection {
     /// The slots of degrees of freedom without mass.
     massless: Vec<DiagonalSlot>,
     change: ForceChange,
+    /// Room for multipliers that are shared out.
+    shares: Vec<f64>,
 }
 
-keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless });
+keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless, shares });
 
 /// What the joints must carry in addition for the accelerations that were projected last: with M a + Gᵀλ = f before and
 /// M δa + Gᵀδλ = 0, forces and accelerations at the end of a step belong to one another, and both are of the scheme's order.
@@ -84,17 +86,18 @@ impl ConstraintProjection {
             loading: Loading::default(),
             r: vec![0.0; plan.dofs.unknowns()],
             change: ForceChange { multipliers: vec![0.0; bare.multipliers()], reactions: Vec::new() },
+            shares: vec![0.0; bare.multipliers()],
             bare,
             matrix: LinearSystem::new(solver, assembly),
         })
     }
 
-    /// The projection for a dynamic analysis with joints; `None` for others.
+    /// The projection for a dynamic analysis with joints, and for a static one where joints share forces; `None` for others.
     ///
     /// # Errors
     /// There is no memory for the solver.
-    pub fn for_motion(cx: &Context) -> Result<Option<Self>, TooLarge> {
-        let needed = cx.is_dynamic() && !cx.system.joints.is_empty();
+    pub fn for_analysis(cx: &Context) -> Result<Option<Self>, TooLarge> {
+        let needed = !cx.system.joints.is_empty() && (cx.is_dynamic() || cx.plan.has_redundant_constraints());
         needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
     }
 
@@ -257,22 +260,37 @@ impl ConstraintProjection {
     }
 
     /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least
-    /// ones with the same forces.
+    /// ones with the same forces. In a load step the regularization alone would not do: gaps of second order on the way to equilibrium, over
+    /// ε, stay in what redundant joints do to each other, and grow from step to step.
     pub fn distribute_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
         if !cx.plan.has_redundant_constraints() {
             return;
         }
-        let ConstraintProjection { bare, forces, r, matrix, .. } = self;
-        forces.multipliers.values.copy_from_slice(&state.multipliers);
-        bare.joint_forces(&ws.trial, forces);
-        for (r, &(node, dof)) in r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-            *r = -forces.on_nodes[node][dof];
+        // A step in time has factorized for its projection.
+        if !cx.is_dynamic() && !self.factor(&ws.trial) {
+            return;
         }
-        // M δ + Gᵀμ = Gᵀλ, G δ = 0
-        r[cx.nodal_unknowns()..].fill(0.0);
-        matrix.solver.solve(r);
-        forces.multipliers.values.fill(0.0);
-        forces.multipliers.add(&r[cx.nodal_unknowns()..]);
-        state.multipliers.copy_from_slice(&forces.multipliers.values);
+        let ConstraintProjection { bare, forces, r, matrix, .. } = self;
+        let mut left = std::mem::take(&mut state.multipliers);
+        state.multipliers = std::mem::take(&mut self.shares);
+        state.multipliers.fill(0.0);
+        // M δ + Gᵀμ = Gᵀλ, G δ = 0. A solution leaves the part ε of the forces, which a second one shares out.
+        for _ in 0..2 {
+            forces.multipliers.values.copy_from_slice(&left);
+            bare.joint_forces(&ws.trial, forces);
+            for (r, &(node, dof)) in r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
+                *r = -forces.on_nodes[node][dof];
+            }
+            r[cx.nodal_unknowns()..].fill(0.0);
+            matrix.solver.solve(r);
+            forces.multipliers.values.fill(0.0);
+            forces.multipliers.add(&r[cx.nodal_unknowns()..]);
+            let found = &forces.multipliers.values;
+            for ((share, left), found) in state.multipliers.iter_mut().zip(&mut left).zip(found) {
+                *share += found;
+                *left -= found;
+            }
+        }
+        self.shares = left;
     }
 }

@@ -11,11 +11,9 @@ use crate::state::Node;
 /// What the penalty factors of all joints rest on.
 pub(super) struct Diagonals {
     joints: Vec<Diagonal>,
-    /// By joint: the size of the stiffness that its forces have, and its longest arm; see [`Diagonal::moment`]. Written where no inertia is
-    /// in the matrix.
-    moments: Vec<[f64; 2]>,
-    /// By node: the sum of these stiffnesses over the joints that act on it. Written likewise.
-    on_nodes: Vec<f64>,
+    /// By node: the sum of [`Diagonal::moment`] over the joints that act on it, and the longest of their arms. Written where no inertia is in
+    /// the matrix.
+    on_nodes: Vec<[f64; 2]>,
 }
 
 impl Diagonals {
@@ -24,35 +22,42 @@ impl Diagonals {
         let of = |joint| Diagonal::new(joint, independent_nodes, dofs, solver);
         Diagonals {
             joints: system.joints.iter().map(of).collect(),
-            moments: vec![[0.0; 2]; system.joints.len()],
-            on_nodes: vec![0.0; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
+            on_nodes: vec![[0.0; 2]; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
         }
     }
 
     /// Measures the stiffness that the forces of joints have.
     fn measure(&mut self, system: &System, nodes: &[Node], projections: &[Vec<Mat6>], forces: &[f64]) {
-        self.on_nodes.fill(0.0);
-        for ((joint, first), (diagonal, of)) in system.numbered().zip(self.joints.iter().zip(&mut self.moments)) {
-            *of = diagonal.moment(joint, nodes, projections, &forces[first..]);
-            diagonal.0.iter().for_each(|place| self.on_nodes[place.independent] += of[0]);
+        self.on_nodes.fill([0.0; 2]);
+        for ((joint, first), diagonal) in system.numbered().zip(&self.joints) {
+            let [moment, arm] = diagonal.moment(joint, nodes, projections, &forces[first..]);
+            for place in &diagonal.0 {
+                let [sum, longest] = &mut self.on_nodes[place.independent];
+                *sum += moment;
+                *longest = longest.max(arm);
+            }
         }
     }
 
-    /// The penalty factors for translations and rotations of the `j`-th joint where it holds weights by itself: where nothing else at its ends
-    /// is as stiff as the forces of the joints there, no other stiffness tells what these would overturn. `None` where something is.
-    /// `values`: the matrix.
+    /// The penalty factors for translations and rotations of the `j`-th joint where it holds weights by itself: where nothing at its ends
+    /// resists translations, so that what is stiff against rotations there are forces at arms, or nothing is as stiff as the forces of the
+    /// joints there. No other stiffness then tells what these would overturn. `None` for other joints. `values`: the matrix.
     fn firm(&self, j: usize, values: &[f64]) -> Option<[f64; 2]> {
-        let (places, arm) = (&self.joints[j].0, self.moments[j][1]);
-        let moment = places.iter().map(|place| self.on_nodes[place.independent]).fold(0.0, f64::max);
-        let slots = places.iter().flat_map(|place| place.slots.iter().enumerate());
-        let stiff = slots.filter_map(|(dof, slot)| {
-            let K = values[(*slot)? as usize].abs();
-            Some(if dof < 3 { K * arm * arm } else { K })
-        });
-        let is_bare = moment > 0.0 && stiff.fold(0.0, f64::max) <= moment;
-        // Without an arm translations turn nothing over.
-        let of_translations = if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM };
-        is_bare.then_some([of_translations, FIRM * moment])
+        let places = &self.joints[j].0;
+        let on_nodes = places.iter().map(|place| self.on_nodes[place.independent]);
+        let [moment, arm] = on_nodes.fold([0.0f64; 2], |most, of| [most[0].max(of[0]), most[1].max(of[1])]);
+        let mut stiff = [0.0f64; 2];
+        for (dof, slot) in places.iter().flat_map(|place| place.slots.iter().enumerate()) {
+            let stiff = &mut stiff[usize::from(dof > 2)];
+            *stiff = slot.map_or(*stiff, |slot| stiff.max(values[slot as usize].abs()));
+        }
+        let [translations, rotations] = stiff;
+        let moment = match translations == 0.0 {
+            true => moment.max(rotations),
+            false if rotations.max(translations * arm * arm) <= moment => moment,
+            false => return None,
+        };
+        (moment > 0.0).then_some(firm_factors(moment, arm))
     }
 }
 
@@ -137,7 +142,7 @@ const MODERATE: f64 = 1e4;
 /// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
 /// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
 /// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
-/// An equation on which nothing acts has the largest factor. `at_rest`: no inertia is in the matrix.
+/// An equation on which nothing acts has the largest factor, and 1 where nothing acts on any. `at_rest`: no inertia is in the matrix.
 pub(super) fn set(
     system: &System,
     nodes: &[Node],
@@ -150,12 +155,14 @@ pub(super) fn set(
         diagonals.measure(system, nodes, projections, &multipliers.values);
     }
     let firm = |j: usize| if at_rest { diagonals.firm(j, values) } else { None };
-    let mut largest = [0.0f64; 2];
+    let (mut largest, mut firmest) = ([0.0f64; 2], [0.0f64; 2]);
     let mut first = 0;
     for (j, (joint, diagonal)) in system.joints.iter().zip(&diagonals.joints).enumerate() {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        let is_firm = firm(j).is_some();
-        for (k, row) in joint.equations.iter().enumerate().filter(|_| !is_firm) {
+        let firm = firm(j);
+        let [translations, rotations] = firm.unwrap_or_default();
+        firmest = [firmest[0].max(translations), firmest[1].max(rotations)];
+        for (k, row) in joint.equations.iter().enumerate().filter(|_| firm.is_none()) {
             let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
             let s = match joint.is_driven(k) {
                 true => {
@@ -173,15 +180,17 @@ pub(super) fn set(
     for (j, joint) in system.joints.iter().enumerate() {
         let firm = firm(j);
         for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
-            let heaviest = largest[usize::from(row.is_rotational())];
+            let kind = usize::from(row.is_rotational());
             if let Some(firm) = firm {
-                *s = firm[usize::from(row.is_rotational())];
+                *s = firm[kind];
                 continue;
             }
+            let heaviest = largest[kind];
             *s = match heaviest > 0.0 {
                 _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
                 _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
                 true => heaviest,
+                false if firmest[kind] > 0.0 => firmest[kind],
                 false => 1.0,
             };
         }
@@ -192,6 +201,12 @@ pub(super) fn set(
 /// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
 /// and directions make less of the factor.
 const FIRM: f64 = 100.0;
+
+/// The penalty factors for translations and rotations of a joint whose forces have this stiffness, at arms of this length.
+fn firm_factors(moment: f64, arm: f64) -> [f64; 2] {
+    // Without an arm translations turn nothing over.
+    [if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM }, FIRM * moment]
+}
 
 /// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
 /// cancel it to zero, and no simple ratio of masses makes this factor 1.

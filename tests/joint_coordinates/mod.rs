@@ -1,9 +1,11 @@
 //! Coordinates of joints: their equations and what acts along them against differences, driven and powered mechanisms against
 //! minimal coordinates and a recursive Newton-Euler, friction, stops and screws against closed forms, turns counted.
 
+mod bennett;
 mod derivatives;
 mod drives;
 mod gears;
+mod hanging;
 mod linkages;
 mod motors;
 mod robot_arm;

@@ -53,7 +53,7 @@ impl Accelerations {
             schur,
             missing: vec![Vec6::zeros(); nodes],
             operand: vec![Vec6::zeros(); if coupled { nodes } else { 0 }],
-            projection: if coupled { ConstraintProjection::for_motion(cx)? } else { None },
+            projection: if coupled { ConstraintProjection::for_analysis(cx)? } else { None },
         })
     }
 

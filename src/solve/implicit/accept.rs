@@ -31,7 +31,7 @@ pub fn accept(
     let account = Account { work, ..account(cx, ws, state, stage, dt) };
     finish(cx, ws, state, stage);
     move_to_step_end(cx, ws, state, stage.scheme);
-    if let Some(projection) = projection.as_deref_mut() {
+    if let Some(projection) = projection.as_deref_mut().filter(|_| cx.is_dynamic()) {
         projection.project(cx, ws, state, stage.scheme, dt)?;
     }
     if stage.scheme.instant != 1.0 {

@@ -44,7 +44,7 @@ impl EquilibriumSolver {
         let (method, update) = Refresh::rule(cx);
         Ok(EquilibriumSolver {
             newton: Newton::new(cx),
-            projection: ConstraintProjection::for_motion(cx)?,
+            projection: ConstraintProjection::for_analysis(cx)?,
             massless: MasslessNodes::new(cx),
             stability: Stability::for_statics(cx, update != Update::Iteration || method == Method::InitialLoad)?,
             augmentation: Augmentation::of(cx).map(Box::new),

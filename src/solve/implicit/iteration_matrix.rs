@@ -2,6 +2,7 @@
 
 use super::mechanism_watch::MechanismWatch;
 use super::refresh::Refresh;
+use super::stabilization::{self, HeldByForces, Unheld};
 use super::turning::Turning;
 use crate::elements::Moduli;
 use crate::integrators::Coefficients;
@@ -24,9 +25,13 @@ pub struct IterationMatrix {
     mechanisms: MechanismWatch,
     /// The factor of the mass in it.
     pub mass_weight: f64,
+    /// The first matrix of a load step, where it was singular and a stabilized one has led on.
+    unheld: Option<Unheld>,
+    /// True where the matrix at hand is stabilized.
+    is_stabilized: bool,
 }
 
-keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight });
+keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight } without { unheld, is_stabilized });
 
 impl IterationMatrix {
     /// No matrix yet, with the rule of the deck.
@@ -37,6 +42,8 @@ impl IterationMatrix {
             turning: Turning::new(cx).filter(|_| update != Update::Iteration),
             mechanisms: MechanismWatch::default(),
             mass_weight: 0.0,
+            unheld: None,
+            is_stabilized: false,
         }
     }
 
@@ -59,17 +66,23 @@ impl IterationMatrix {
         if !self.refresh.due(report.iterations, key) {
             return Ok(false);
         }
-        self.form(cx, ws, state, stage.scheme, (stage.scheme.instant * dt, lead))?;
+        if report.iterations == 0 {
+            self.unheld = None;
+        }
+        let may_stabilize = report.iterations == 0 && stabilization::may_help(cx);
+        self.form(cx, ws, state, stage.scheme, (stage.scheme.instant * dt, lead), may_stabilize)?;
         if let Some(turning) = &mut self.turning {
             turning.note(&ws.trial);
         }
-        self.refresh.done(key);
+        if !self.is_stabilized {
+            self.refresh.done(key);
+        }
         report.factorizations += 1;
         Ok(true)
     }
 
     /// Forms and factorizes the matrix. It may be singular where everything that resists has yielded; the elastic
-    /// matrix then leads on.
+    /// matrix then leads on. Where it is singular for want of the forces that joints will exert, a stabilized one does.
     fn form(
         &mut self,
         cx: &Context,
@@ -77,6 +90,7 @@ impl IterationMatrix {
         state: &State,
         scheme: &Coefficients,
         (ahead, lead): (f64, Option<&[Node]>),
+        may_stabilize: bool,
     ) -> Result<(), Failure> {
         let (rate, acceleration) = scheme.weights();
         self.mass_weight = acceleration;
@@ -84,18 +98,48 @@ impl IterationMatrix {
         ws.matrix.make_room(cx, &now);
         let openings = self.mechanisms.look(cx, state, &ws.prescribed.instant, &now);
         let mut moduli = self.refresh.moduli();
+        self.is_stabilized = false;
         loop {
             let weights = TangentWeights { stiffness: true, rate, acceleration, turning: scheme.turning, moduli };
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
-            ws.factorizations += 1;
-            match matrix.factor(cx) {
-                Ok(false) => return Err(Failure::Stopped),
-                Ok(true) => return self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings),
-                Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => moduli = Moduli::Elastic,
-                Err(singular) => return Err(self.mechanisms.singular(cx, &now, singular.row, openings)),
+            if let Some(unheld) = self.unheld.as_ref().filter(|_| self.is_stabilized) {
+                unheld.add_springs(cx, &mut matrix.solver);
             }
+            let held = self.unheld.as_ref().map(|unheld| HeldByForces {
+                // A factorization overwrites it.
+                assembled: matrix.solver.matrix(cx.plan.dofs.nodal_dofs().len()),
+                springs: unheld.stiffness,
+            });
+            ws.factorizations += 1;
+            let failure = match matrix.factor(cx) {
+                Ok(false) => return Err(Failure::Stopped),
+                // The next matrix tells whether anything holds.
+                Ok(true) if self.is_stabilized => return Ok(()),
+                Ok(true) => {
+                    let weights = (weights, held.as_ref());
+                    match self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings) {
+                        Ok(()) => return Ok(()),
+                        Err(failure) => failure,
+                    }
+                }
+                Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => {
+                    moduli = Moduli::Elastic;
+                    continue;
+                }
+                Err(singular) => self.mechanisms.singular(cx, &now, singular.row, openings),
+            };
+            if !may_stabilize || self.is_stabilized || openings.any() {
+                return Err(self.unheld.take().map_or(failure, |unheld| unheld.failure));
+            }
+            self.unheld = Some(Unheld::new(cx, &ws.r, failure));
+            self.is_stabilized = true;
         }
+    }
+
+    /// True where the matrix at hand is stabilized: its correction leads on, but says nothing of convergence.
+    pub fn is_stabilized(&self) -> bool {
+        self.is_stabilized
     }
 
     /// Solves for the correction, which takes the place of the residual in `ws.r`.

@@ -2,6 +2,7 @@
 //! not asked but the elements: a motion is a mechanism where it strains none of them.
 
 use super::mode::Mode;
+use super::stabilization::HeldByForces;
 use crate::elements::Moduli;
 use crate::linear::Solver;
 use crate::math::{Vec6, angular, linear};
@@ -20,20 +21,21 @@ const FORCE: f64 = 1e-6;
 const MOVING: f64 = 1e-4;
 
 /// The node and degree of freedom that a mechanism moves most; `None` where elements resist every motion.
-/// The matrix that `solver` has factored is that of `now`.
+/// The matrix that `solver` has factored is that of `now`. Forces count where they are given as `held`.
 pub fn find(
     system: &System,
     dofs: &DofMap,
     solver: &mut Solver,
     now: &Configuration,
-    weights: TangentWeights,
+    (weights, held): (TangentWeights, Option<&HeldByForces>),
     length: f64,
 ) -> Option<(usize, usize)> {
     let mode = Mode::softest(solver, dofs, length)?;
     let mut motions = mode.motions(dofs);
     system.project(now.nodes, &mut motions);
-    let resisted =
-        opens_joints(system, now, &motions, length) || strains_elements(system, now, weights, &motions, length);
+    let resisted = opens_joints(system, now, &motions, length)
+        || strains_elements(system, now, weights, &motions, length)
+        || held.is_some_and(|held| held.resist(&mode));
     if resisted { None } else { mode.largest(dofs) }
 }
 

@@ -1,6 +1,7 @@
 //! The watch for mechanisms in statics: the first matrix of a run is searched, and each that follows something that has opened.
 
 use super::mechanism;
+use super::stabilization::HeldByForces;
 use crate::linear::Solver;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
@@ -30,6 +31,13 @@ pub struct Openings {
     at_start: bool,
 }
 
+impl Openings {
+    /// True where an element neither pushes nor pulls.
+    pub fn any(&self) -> bool {
+        self.count > 0
+    }
+}
+
 impl MechanismWatch {
     /// Looks at what is open `now`, in a step from `state`.
     pub fn look(&mut self, cx: &Context, state: &State, prescribed: &[Prescribed], now: &Configuration) -> Openings {
@@ -51,7 +59,7 @@ impl MechanismWatch {
         }
     }
 
-    /// Searches a factored matrix with these weights for mechanisms, where that is due.
+    /// Searches a factored matrix with these weights for mechanisms, where that is due. Forces of joints count where they are given.
     ///
     /// # Errors
     /// [`Failure::Singular`] where there is one.
@@ -60,7 +68,7 @@ impl MechanismWatch {
         cx: &Context,
         solver: &mut Solver,
         now: &Configuration,
-        weights: TangentWeights,
+        weights: (TangentWeights, Option<&HeldByForces>),
         openings: Openings,
     ) -> Result<(), Failure> {
         if openings.suspect {

@@ -23,6 +23,7 @@ mod out_of_plane;
 mod refresh;
 mod runge_kutta;
 mod stability;
+mod stabilization;
 mod step_progress;
 mod stepper;
 mod strained_line;

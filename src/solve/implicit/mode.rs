@@ -1,6 +1,6 @@
 //! The softest mode of a matrix by inverse iteration, and the place where it moves most.
 
-use crate::linear::Solver;
+use crate::linear::{Solver, Sparse};
 use crate::math::Vec6;
 use crate::system::DofMap;
 
@@ -38,6 +38,14 @@ impl Mode {
             values.iter_mut().for_each(|value| *value /= size);
         }
         Some(Mode { values })
+    }
+
+    /// Twice its energy in the matrix of nodal unknowns, and the sum of the magnitudes of the terms of that.
+    pub fn energy(&self, K: &Sparse) -> [f64; 2] {
+        K.entries().fold([0.0, 0.0], |[energy, terms], (i, j, k)| {
+            let term = self.values[i] * k * self.values[j];
+            [energy + term, terms + term.abs()]
+        })
     }
 
     /// The motion of each node; nodes that follow others stand still.

@@ -306,6 +306,9 @@ impl Newton {
         if !size.is_finite() {
             return Err(residual::not_finite(cx, ws));
         }
+        if self.matrix.is_stabilized() {
+            return Ok(Verdict::GoOn);
+        }
         let (iterations, residual, fresh) =
             (progress.report.iterations, progress.report.residual, progress.has_own_matrix());
         let quadratic = progress.new_matrix && self.ending.carries && cx.system.history == 0;

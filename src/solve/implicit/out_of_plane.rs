@@ -117,7 +117,7 @@ impl OutOfPlane {
             let solver = &mut tangent.matrix.solver;
             let free = match solver.factor() {
                 Err(singular) => dofs.nodal_dofs().get(singular.row).copied(),
-                Ok(()) => mechanism::find(system, dofs, solver, &now, WEIGHTS, cx.length),
+                Ok(()) => mechanism::find(system, dofs, solver, &now, (WEIGHTS, None), cx.length),
             };
             let Some((node, dof)) = free else { return Ok(places) };
             let slot = dofs.row(node, dof).and_then(|row| solver.slot(row, row));

@@ -1,0 +1,64 @@
+//! Stabilization of the first matrix of a load step. A body that hangs from a joint is held upright by the force of that joint alone, which
+//! is not known before the first correction: until then nothing resists its swing. Springs between all nodes and the ground take part in
+//! that one correction. The next matrix has the forces of joints in it, and has to do without.
+
+use super::mode::Mode;
+use crate::linear::{Solver, Sparse};
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+
+/// Part of the springs above which a mode has a stiffness of its own. Joints are closed to 1e-7 where equations are redundant, and what they
+/// carry works in what is open.
+const HELD: f64 = 1e-5;
+/// And part of the terms that this stiffness is summed from: a thousand times their rounding.
+const ROUNDING: f64 = 1e-13;
+
+/// True where forces of joints may hold what elements do not.
+pub fn may_help(cx: &Context) -> bool {
+    !cx.is_dynamic() && !cx.system.joints.is_empty() && !cx.model.analysis.step_length.is_arc_length()
+}
+
+/// What held nothing by itself.
+pub struct Unheld {
+    /// The failure of the matrix.
+    pub failure: Failure,
+    /// Stiffness of the springs that take part in place of forces: the largest force of the residual over the model's length.
+    pub stiffness: f64,
+}
+
+impl Unheld {
+    /// A matrix that has failed under this residual.
+    pub fn new(cx: &Context, residual: &[f64], failure: Failure) -> Unheld {
+        let forces = residual.iter().zip(cx.plan.dofs.nodal_dofs()).map(|(r, &(_, dof))| r.abs() / lever(cx, dof));
+        Unheld { failure, stiffness: forces.fold(0.0, f64::max) / cx.length }
+    }
+
+    /// Adds the springs to an assembled matrix.
+    pub fn add_springs(&self, cx: &Context, solver: &mut Solver) {
+        for (row, &(_, dof)) in cx.plan.dofs.nodal_dofs().iter().enumerate() {
+            if let Some(slot) = solver.slot(row, row) {
+                solver.values()[slot] += self.stiffness * lever(cx, dof).powi(2);
+            }
+        }
+    }
+}
+
+/// The displacement that a unit of this degree of freedom stands for.
+fn lever(cx: &Context, dof: usize) -> f64 {
+    if dof < 3 { 1.0 } else { cx.length }
+}
+
+/// What forces of joints hold where elements hold nothing: the matrix as it was assembled with them, and the stiffness of the springs that
+/// were there before.
+pub struct HeldByForces {
+    pub assembled: Sparse,
+    pub springs: f64,
+}
+
+impl HeldByForces {
+    /// True where forces resist a mode.
+    pub fn resist(&self, mode: &Mode) -> bool {
+        let [energy, terms] = mode.energy(&self.assembled);
+        energy.abs() > HELD * self.springs + ROUNDING * terms
+    }
+}
