@@ -16,6 +16,7 @@ mod multipliers;
 mod pairs;
 mod polyhedra;
 mod rubbing;
+mod sheet_edges;
 mod sight;
 mod stages;
 mod stiffness;
