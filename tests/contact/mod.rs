@@ -3,6 +3,7 @@
 mod balls;
 mod boxes;
 mod capsules;
+mod closing;
 mod depth;
 mod edges;
 mod element;
