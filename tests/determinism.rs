@@ -211,6 +211,29 @@ fn a_small_scene_that_yields_by_every_method() {
     }
 }
 
+/// Elastic sheets that meet edge to edge and slide.
+#[test]
+fn sheets_on_edge_on_any_number_of_threads() {
+    let sheet = |name: &str, corners: &str| {
+        format!(
+            "[[shells]]\nname = \"{name}\"\ncorners = [{corners}]\nelements = 6\nthickness = 0.01\nmaterial = \"steel\"\n"
+        )
+    };
+    let text = format!(
+        "analysis = {{ kind = \"dynamic\", end_time = 1e-3, time_step = 1e-5 }}\n\
+         output = {{ nodes = \"all\", energy = true, contacts = {{ by = \"both\" }} }}\n\
+         points = {{ a = [-0.3, 0.0, -0.5], b = [0.3, 0.0, -0.5], c = [0.3, 0.0, 0.0], d = [-0.3, 0.0, 0.0], e = [0.02, -0.3, 0.0101], \
+         f = [0.02, 0.3, 0.0101], g = [0.02, 0.3, 0.5101], h = [0.02, -0.3, 0.5101] }}\n\
+         [[initial]]\nat = \"upper\"\nvelocity = [0.5, 0.2, -1.0]\n\
+         [[contacts]]\nname = \"edges\"\nsurface = {{ part = \"lower\", edges = true }}\nwith = \"upper\"\nstiffness = 1e8\nfriction = 0.2\n{}{}{COMMON}",
+        sheet("lower", "\"a\", \"b\", \"c\", \"d\""),
+        sheet("upper", "\"e\", \"f\", \"g\", \"h\"")
+    );
+    let dir = assert_same(&text, 4);
+    let touches = std::fs::read_to_string(dir.path().join("first/contact_pairs.csv")).unwrap();
+    assert!(touches.lines().count() > 20, "{touches}");
+}
+
 /// Two patches on a block, one of triangles, blown up; 1080 elements in the first: enough for threads to fill matrices.
 const SHEET: &str = r#"
 [analysis]

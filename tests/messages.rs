@@ -1121,6 +1121,20 @@ fn contacts_of_faces() {
         "faces_and_shape",
         faces("surface = { part = \"sheet\", shape = \"plane\", body = \"brick\", radius = 0.1 }\nwith = \"brick\"")
     );
+    assert_eq!(faces("surface = { part = \"sheet\", edges = true }\nwith = [\"brick\", \"marble\"]"), "");
+    assert_eq!(faces("surface = { part = \"sheet\", edges = true, radius = 0.01 }\nwith = \"itself\""), "");
+    assert_snapshot!(
+        "edges_of_a_bar",
+        faces("surface = { part = \"rod\", radius = 0.01, edges = true }\nwith = \"sheet\"")
+    );
+    assert_snapshot!(
+        "edges_of_a_shape",
+        faces("surface = { shape = \"sphere\", radius = 0.1, body = \"marble\", edges = true }\nwith = \"sheet\"")
+    );
+    assert_snapshot!(
+        "edges_without_radius",
+        faces("surface = { part = \"sheet\", edges = true, radius = 0.0 }\nwith = \"sheet\"")
+    );
     assert_snapshot!("faces_of_their_own_part", faces("surface = { part = \"sheet\" }\nwith = \"sheet\""));
     assert_snapshot!(
         "faces_with_itself_and_more",

@@ -23,6 +23,8 @@ pub struct Account {
     pub damping_power: Option<f64>,
     /// Work of loads and damping by quadrature over the stages; `None`: by the trapezoidal rule over the step.
     pub work: Option<WorkQuadrature>,
+    /// What the trapezoidal rule over a load step counts too much because contacts close or open on the way.
+    pub contact_excess: f64,
 }
 
 /// Makes the trial motion the state at the time `to`.
@@ -47,6 +49,7 @@ pub fn commit(
     }
     update_algorithmic_accelerations(cx, ws, state);
     state.work.material += account.dissipated;
+    state.work.external -= account.contact_excess;
     for (old, value) in state.multipliers.iter_mut().zip(&ws.forces.multipliers.values) {
         *old += (value - *old) / scheme.instant;
     }

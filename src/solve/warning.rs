@@ -176,9 +176,9 @@ fn crowded(contact: &str) -> String {
 /// What is wrong where beams press each other side by side.
 fn side_by_side(contact: &str) -> String {
     format!(
-        "contact `{contact}`: beams or bars press each other side by side. Each pair of elements touches in one point, which jumps from end to \
-         end of where they are alongside: forces are rough, and energies wrong, whatever the step. Name a set of the nodes of one of them in \
-         `with`, which touch as points"
+        "contact `{contact}`: beams, bars or edges press each other side by side. Each pair of elements touches in one point, which jumps from \
+         end to end of where they are alongside: forces are rough, and energies wrong, whatever the step. Name a set of the nodes of one of them \
+         in `with`, which touch as points"
     )
 }
 

@@ -232,7 +232,8 @@ fn bars_side_by_side_are_said() {
             .replace("d = [0, 0.5, 0.03]", &format!("d = [{}, {}, 0.03]", 0.5 * c, 0.5 * s));
         let (outcome, said) = doubts(&text);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-        let found = said.iter().any(|said| said.contains("contact `hit`: beams or bars press each other side by side"));
+        let found =
+            said.iter().any(|said| said.contains("contact `hit`: beams, bars or edges press each other side by side"));
         assert_eq!(found, warned, "{degrees}: {said:?}");
     }
 }

@@ -3,6 +3,7 @@
 mod balls;
 mod boxes;
 mod capsules;
+mod closing;
 mod depth;
 mod edges;
 mod element;
@@ -16,6 +17,7 @@ mod multipliers;
 mod pairs;
 mod polyhedra;
 mod rubbing;
+mod sheet_edges;
 mod sight;
 mod stages;
 mod stiffness;

@@ -6,7 +6,7 @@ use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface};
 use crate::math::curved_faces;
-use crate::model::contacts::points::Finder;
+use crate::model::contacts::points::{Finder, SurfaceLines};
 use crate::model::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::model::places::place::Place;
 use crate::model::report::{Owner, Report};
@@ -53,18 +53,23 @@ fn faces<'d>(
     table: &'d At<OneOf<words::Surface>>,
 ) -> Option<(FacetSurface, Vec<ContactPoint>)> {
     let part = table.part.as_ref()?;
-    let Sides { place, surface, half } = sides(finder, contact, table)?;
+    let Sides { place, surface, half, lines } = sides(finder, contact, table)?;
     let scene = finder.scene;
-    let is_line = surface.kind.is_line();
-    let elements = scene.parts.elements(surface);
+    let is_line = lines != SurfaceLines::None;
+    let is_of_edges = lines == SurfaceLines::FreeEdges;
+    let elements = if is_of_edges { finder.free_edges(surface) } else { scene.parts.elements(surface) };
     let facets = facets_of(&elements, half, is_line);
+    if facets.is_empty() && is_of_edges && !scene.parts.elements(surface).is_empty() {
+        let message = format!("`{}` is closed and has no free edges", part.value);
+        return finder.report.error(&part.span, message);
+    }
     if facets.is_empty() {
         // A part with errors of its own has no faces, and these have been said.
         return None;
     }
     let names = finder.report.require_nodes(owner, "with", &contact.with)?;
     let (touchers, solids, back) = (FacetTouchers::Others, Vec::new(), Vec::new());
-    let mut faces = FacetSurface { part: part.value.clone(), facets, touchers, solids, back };
+    let mut faces = FacetSurface { part: part.value.clone(), facets, is_of_edges, touchers, solids, back };
     if names.values.iter().any(|at| at.value == ITSELF) {
         if let [_, _, ..] = names.values[..] {
             let hint = "give what else touches it a contact of its own";
@@ -87,7 +92,7 @@ fn faces<'d>(
     // What is attached to the body that carries rigid faces does not touch them.
     let root = finder.topology.root(faces.facets[0].nodes[0]);
     let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
-    finder.on_lines = is_line;
+    finder.on_lines = lines;
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
     faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
     if !faces.solids.is_empty() {
@@ -117,6 +122,8 @@ struct Sides {
     surface: PartIndex,
     /// Half its thickness, or its radius.
     half: f64,
+    /// The lines of which it is made.
+    lines: SurfaceLines,
 }
 
 /// Finds the part that is a surface, and how thick it is.
@@ -136,7 +143,8 @@ fn sides<'d>(
         let hint = "a surface is a `part` that is a shell, a beam or a bar, or a `shape`";
         return finder.report.error_with(&part.span, message, hint);
     };
-    let radius_place = table.values.place("radius").filter(|_| line.is_some());
+    let lines = lines_of_surface(part, table, line.is_some(), finder.report)?;
+    let radius_place = table.values.place("radius").filter(|_| lines != SurfaceLines::None);
     for place in table.values.places().filter(|&place| Some(place) != radius_place) {
         finder.report.error::<()>(place, "this is a dimension of shapes, and does not apply to a part");
     }
@@ -144,8 +152,9 @@ fn sides<'d>(
         Some(_) => table.values.numbers("radius").first().copied().unwrap_or(0.0),
         None => finder.contact_radius(surface),
     };
-    if line.is_some() && half <= 0.0 {
-        let hint = format!("surface = {{ part = \"{}\", radius = ... }}", part.value);
+    if lines != SurfaceLines::None && half <= 0.0 {
+        let edges = if lines == SurfaceLines::FreeEdges { ", edges = true" } else { "" };
+        let hint = format!("surface = {{ part = \"{}\"{edges}, radius = ... }}", part.value);
         let message = match radius_place {
             Some(_) => "`radius` must be above zero".to_owned(),
             None => format!("`{}` is {} without a radius", part.value, Place::Part(surface).kind()),
@@ -158,7 +167,26 @@ fn sides<'d>(
         let message = "nothing rubs on a bar, which has no rotations to take a moment";
         return finder.report.error_with(&friction.span, message, hint);
     }
-    Some(Sides { place, surface, half })
+    Some(Sides { place, surface, half, lines })
+}
+
+/// The lines of which a part that is a surface is made; `edges` is of shells alone.
+fn lines_of_surface(
+    part: &At<String>,
+    table: &At<OneOf<words::Surface>>,
+    is_line: bool,
+    report: &mut Report,
+) -> Option<SurfaceLines> {
+    let edges = table.edges.as_ref().filter(|at| at.value);
+    match (is_line, edges) {
+        (true, Some(edges)) => {
+            let message = format!("`edges` is of shells, and `{}` is none: it is round as a whole", part.value);
+            report.error_with(&edges.span, message, "leave `edges` out")
+        }
+        (true, None) => Some(SurfaceLines::Axes),
+        (false, Some(_)) => Some(SurfaceLines::FreeEdges),
+        (false, None) => Some(SurfaceLines::None),
+    }
 }
 
 /// The surfaces of all bodies in a list that are boxes, hulls or capsules.
@@ -217,7 +245,7 @@ fn balls<'d>(
     let carried = |one: &ConvexBody| CarriedSurface { node: one.node, surface: Surface::of_convex(&one.shape, 0.0) };
     let solids = if points.is_empty() { Vec::new() } else { finder.convex.iter().map(carried).collect() };
     let back = if solids.is_empty() { Vec::new() } else { points.clone() };
-    Some((FacetSurface { part: String::new(), facets, touchers, solids, back }, points))
+    Some((FacetSurface { part: String::new(), facets, is_of_edges: false, touchers, solids, back }, points))
 }
 
 /// What is to touch among itself.

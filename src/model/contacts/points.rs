@@ -3,7 +3,8 @@
 use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, Toucher};
+use crate::elements::contact::facets::free_edges;
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, MOST_NODES, Toucher};
 use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
@@ -53,6 +54,17 @@ pub fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
     }
 }
 
+/// The lines of which a surface is made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SurfaceLines {
+    /// It is made of something else.
+    None,
+    /// Beams and bars from node to node. Others touch them with theirs.
+    Axes,
+    /// The free edges of a shell. Beams and bars touch them with their lines, shells with their free edges.
+    FreeEdges,
+}
+
 /// Finds the points and the convex solids of one contact.
 pub struct Finder<'a, 'd> {
     /// The scene so far.
@@ -63,8 +75,8 @@ pub struct Finder<'a, 'd> {
     pub report: &'a mut Report<'d>,
     /// The node that carries the surface, where that is a convex shape that convex solids touch with all that they are.
     pub on_convex: Option<usize>,
-    /// True where the surface is made of lines: beams and bars touch it with theirs.
-    pub on_lines: bool,
+    /// The lines of which the surface is made.
+    pub on_lines: SurfaceLines,
     /// The boxes, hulls and capsules found.
     pub convex: Vec<ConvexBody>,
     /// What is seen of all that was found.
@@ -75,7 +87,7 @@ impl<'a, 'd> Finder<'a, 'd> {
     /// Finds what touches anything but convex shapes and lines.
     pub fn new(scene: &'a Scene<'d>, topology: &'a mut Topology, report: &'a mut Report<'d>) -> Self {
         let (convex, sight) = (Vec::new(), Sight::default());
-        Finder { scene, topology, report, on_convex: None, on_lines: false, convex, sight }
+        Finder { scene, topology, report, on_convex: None, on_lines: SurfaceLines::None, convex, sight }
     }
 
     /// All points that may touch, each once; convex solids are left in `convex`.
@@ -207,11 +219,10 @@ impl<'a, 'd> Finder<'a, 'd> {
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
-        let line = self.scene.names.line_of(place).filter(|_| self.on_lines);
-        if let Some(part) = line {
+        if let Some((part, lines)) = self.lines_of_place(place) {
             self.sight.touchers.insert(Toucher::Ball);
             let radius = self.contact_radius(part);
-            found.extend(self.scene.parts.elements(part).iter().flat_map(|nodes| lines_of(nodes, radius)));
+            found.extend(lines.iter().flat_map(|nodes| lines_of(nodes, radius)));
             return;
         }
         self.sight.touchers.insert(match place {
@@ -235,6 +246,30 @@ impl<'a, 'd> Finder<'a, 'd> {
             }
             _ => found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, 0.0))),
         }
+    }
+
+    /// The lines with which a place touches a surface of lines, by their nodes, and the part of which they are.
+    fn lines_of_place(&self, place: Place) -> Option<(PartIndex, Vec<Vec<usize>>)> {
+        let names = &self.scene.names;
+        let line = names.line_of(place).map(|part| (part, self.scene.parts.elements(part)));
+        match (self.on_lines, place) {
+            (SurfaceLines::None, _) => None,
+            (SurfaceLines::FreeEdges, Place::Edge(part, _)) => Some((part, vec![self.scene.nodes_of(place)])),
+            (SurfaceLines::FreeEdges, _) => {
+                line.or_else(|| names.surface_of(place).map(|part| (part, self.free_edges(part))))
+            }
+            (SurfaceLines::Axes, _) => line,
+        }
+    }
+
+    /// The free edges of a shell, by their nodes.
+    pub fn free_edges(&self, part: PartIndex) -> Vec<Vec<usize>> {
+        let of_element = |nodes: &Vec<usize>| -> Vec<Facet> {
+            let corners = curved_faces::facets(nodes.len()).iter();
+            corners.map(|of| Facet::new(&of.iter().map(|&k| nodes[k]).collect::<Vec<_>>(), 0.0)).collect()
+        };
+        let facets: Vec<Facet> = self.scene.parts.elements(part).iter().flat_map(of_element).collect();
+        free_edges(&facets).into_iter().map(|ends| ends.to_vec()).collect()
     }
 
     fn toucher_of_body(&self, body: usize) -> Toucher {

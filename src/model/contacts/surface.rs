@@ -20,6 +20,10 @@ pub fn read_surface<'d>(
     report: &mut Report<'d>,
 ) -> Option<(usize, Surface)> {
     let owner = Owner::new(format!("the surface of contact `{name}`"), &table.span);
+    if let Some(edges) = &table.edges {
+        let message = "`edges` is of a surface that is the `part` of a shell";
+        return report.error(&edges.span, message);
+    }
     if let (None, Some(body), false) = (&table.kind, &table.body, report.is_spoiled(owner.span, "shape")) {
         return shape_of_body(body, table, scene, report);
     }

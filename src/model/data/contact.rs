@@ -54,6 +54,8 @@ pub struct FacetSurface {
     pub part: String,
     /// The facets.
     pub facets: Vec<Facet>,
+    /// True where these are the free edges of a shell in place of its faces.
+    pub is_of_edges: bool,
     /// What touches them.
     pub touchers: FacetTouchers,
     /// The bodies that are boxes or hulls, whose surface the nodes of the facets touch.

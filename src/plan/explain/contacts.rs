@@ -54,7 +54,11 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
         1 => format!(", and its nodes against a {}", faces.solids[0].surface.shape.word()),
         solids => format!(", and its nodes against {solids} convex bodies"),
     };
-    let kind = if faces.facets.iter().any(Facet::is_line) { "lines" } else { "faces" };
+    let kind = match faces.facets.iter().any(Facet::is_line) {
+        _ if faces.is_of_edges => "lines of free edges",
+        true => "lines",
+        false => "faces",
+    };
     match faces.touchers {
         FacetTouchers::Others => format!("{touching} against {count} {kind} of `{part}`{back}"),
         FacetTouchers::Itself => format!("{touching} of `{part}` against its own {count} {kind}"),

@@ -28,7 +28,7 @@ pub fn accept(
     work: Option<WorkQuadrature>,
 ) -> Result<(), Failure> {
     let dt = to - state.time;
-    let account = Account { work, ..account(cx, ws, state, stage, dt) };
+    let mut account = Account { work, ..account(cx, ws, state, stage, dt) };
     finish(cx, ws, state, stage);
     move_to_step_end(cx, ws, state, stage.scheme);
     if let Some(projection) = projection.as_deref_mut().filter(|_| cx.is_dynamic()) {
@@ -40,6 +40,10 @@ pub fn accept(
     joints::check(cx, ws)?;
     links::check(cx, ws, state, dt)?;
     jump::check_work(cx, ws, state, &account.dissipated, to)?;
+    if !ws.contact_forces.is_empty() && cx.wants_forces {
+        let Workspace { trial, history, contact_forces, .. } = ws;
+        account.contact_excess = cx.system.contact_work_in_excess(state, (trial, dt), history, contact_forces);
+    }
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())
 }

@@ -4,14 +4,29 @@ use super::facet::Facet;
 use crate::math::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Finds the free edges of a surface, and turns its facets so that neighbours face the same way.
-pub fn connect(facets: &mut [Facet]) {
-    let mut edges: HashMap<[usize; 2], Vec<(usize, usize)>> = HashMap::new();
+/// By the nodes of each edge the facets that have it, and which of theirs it is.
+type FacetEdges = HashMap<[usize; 2], Vec<(usize, usize)>>;
+
+fn edges_of(facets: &[Facet]) -> FacetEdges {
+    let mut edges = FacetEdges::new();
     for (number, facet) in facets.iter().enumerate().filter(|(_, facet)| facet.has_sides()) {
         for k in 0..facet.corners {
             edges.entry(edge(facet, k)).or_default().push((number, k));
         }
     }
+    edges
+}
+
+/// The edges at which a surface ends, those of one facet alone, by their nodes and in the order of the facets.
+pub fn free_edges(facets: &[Facet]) -> Vec<[usize; 2]> {
+    let edges = edges_of(facets);
+    let of_facet = |facet: &Facet| (0..facet.corners).map(|k| edge(facet, k)).collect::<Vec<_>>();
+    facets.iter().flat_map(of_facet).filter(|nodes| edges.get(nodes).is_some_and(|of| of.len() == 1)).collect()
+}
+
+/// Finds the free edges of a surface, and turns its facets so that neighbours face the same way.
+pub fn connect(facets: &mut [Facet]) {
+    let edges = edges_of(facets);
     let mut free_nodes: HashSet<usize> = HashSet::new();
     for (nodes, sides) in &edges {
         if let [(number, k)] = sides[..] {

@@ -32,6 +32,7 @@ mod touch;
 mod update;
 
 pub use facet::{Facet, MOST_CORNERS};
+pub use mesh::free_edges;
 pub use resultant::{each_facet_touch, facet_gap, is_own, least_facet_gap};
 pub use scene::FacetTouchers;
 pub use steps::{last_facet_gap, longest_facet_step, misses_facet};

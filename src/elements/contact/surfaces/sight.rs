@@ -71,7 +71,7 @@ impl Toucher {
             Toucher::Hull => Some("edges of the hull that cross edges of the faces"),
             Toucher::Capsule => Some("the side of the capsule that crosses edges of the faces"),
             Toucher::Rims => Some("ends and side of the cylinder between its points"),
-            Toucher::Nodes => Some("edges that cross edges"),
+            Toucher::Nodes => Some("edges that cross edges, which are a contact of their own with `edges = true`"),
         }
     }
 
