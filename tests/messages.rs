@@ -506,6 +506,36 @@ fn links_that_fail() {
     assert_eq!(portal_and(&link("normal = 3e3", "stiffness = 1e5")).trim(), "");
 }
 
+/// Mass scaling, and what it does not go with.
+#[test]
+fn mass_scaling() {
+    let scheme = |text: &str| format!("[integrator]\n{text}\n");
+    let scaled = |step: &str| scheme(&format!("scheme = \"central-difference\"\nmass_scaling_step = {step}"));
+    assert_eq!(portal_and(&scaled("1e-4")).trim(), "");
+    assert_snapshot!("mass_scaling_step", portal_and(&scaled("0.0")));
+    assert_snapshot!("mass_scaling_implicit", portal_and(&scheme("scheme = \"newmark\"\nmass_scaling_step = 1e-4")));
+    assert_snapshot!(
+        "mass_scaling_runge_kutta",
+        portal_and(&scheme("scheme = \"runge-kutta\"\nmass_scaling_step = 1e-4"))
+    );
+    let with = |mass: &str| {
+        let beam = format!("orientation = [0.0, 1.0, 0.0]\nmass = \"{mass}\"\n{}", scaled("1e-4"));
+        portal(&[("orientation = [0.0, 1.0, 0.0]", &beam)])
+    };
+    assert_snapshot!("mass_scaling_consistent", with("consistent"));
+    assert_snapshot!("mass_scaling_of_nothing", with("none"));
+    assert_snapshot!("mass_scaling_long_step", portal_and(&scaled("5e-5")));
+    let more = "[damping]\nmass_factor = 2e4\n[[environment.base_acceleration]]\ndirection = [1.0, 0.0, 0.0]\namplitude = \"pulse\"\n";
+    assert_snapshot!("mass_scaling_and_the_ground", portal_and(&(scaled("1e-4") + more)));
+    let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n";
+    let stage = |name: &str, own: &str| {
+        format!("[[stages]]\nname = \"{name}\"\nkind = \"dynamic\"\nduration = 0.1\ntime_step = 1e-4\n{own}")
+    };
+    let stages = |own: &str| portal(&[(analysis, &(scaled("1e-4") + &stage("first", "") + &stage("second", own)))]);
+    assert_eq!(stages("").trim(), "");
+    assert_snapshot!("mass_scaling_in_one_stage", stages("integrator = { scheme = \"newmark\" }\n"));
+}
+
 /// Links are pulled in static stages.
 #[test]
 fn pretensions() {

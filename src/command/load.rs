@@ -6,10 +6,10 @@ use crate::diagnostic::{Diagnostic, Source};
 use crate::linear::TooLarge;
 use crate::model::{self, Model};
 use crate::output::settle_cadence;
-use crate::plan::explain::redundant_constraints;
+use crate::plan::explain::{much_mass_added, redundant_constraints};
 use crate::plan::{Plan, unreachable_targets};
 use crate::solve::share_plane;
-use crate::system::System;
+use crate::system::{MassScaling, System};
 use sha2::{Digest, Sha256};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -22,6 +22,8 @@ pub struct Loaded {
     pub model: Model,
     /// The scene in the other stages.
     pub later: Vec<Model>,
+    /// What mass scaling adds in the first stage that has it, once planned.
+    pub mass_scaling: Option<MassScaling>,
     /// The warnings and notes about the deck, in the order in which they are shown.
     pub warnings: Vec<Diagnostic>,
     /// The texts that the places of diagnostics refer to.
@@ -72,7 +74,15 @@ pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>
     match models.next() {
         Some(model) => {
             let hash = hash(&source, sets, &model);
-            Ok(Loaded { model, later: models.collect(), warnings: said, source, sets: sets.to_vec(), hash })
+            Ok(Loaded {
+                model,
+                later: models.collect(),
+                mass_scaling: None,
+                warnings: said,
+                source,
+                sets: sets.to_vec(),
+                hash,
+            })
         }
         None => Err((said, source)),
     }
@@ -165,15 +175,17 @@ pub fn prepare(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec
         share_plane(std::iter::once(&mut loaded.model).chain(&mut loaded.later)).map_err(Unfit::System)?;
     }
     let (system, plan, mut warnings) = prepare_model(&mut loaded.model, threads)?;
+    loaded.mass_scaling = system.mass_scaling().cloned();
     for model in &mut loaded.later {
         let in_stage = |said: Diagnostic| {
             let stage = model_stage(model);
             said.hint(format!("in stage `{stage}`"))
         };
-        let (_, _, said) = match prepare_model(&mut model.clone(), threads) {
+        let (system, _, said) = match prepare_model(&mut model.clone(), threads) {
             Err(Unfit::Deck(problems)) => return Err(Unfit::Deck(problems.into_iter().map(in_stage).collect())),
             prepared => prepared?,
         };
+        loaded.mass_scaling = loaded.mass_scaling.take().or_else(|| system.mass_scaling().cloned());
         let new = said.into_iter().filter(|said| !warnings.contains(said)).collect::<Vec<_>>();
         warnings.extend(new.into_iter().map(in_stage));
     }
@@ -202,7 +214,8 @@ fn prepare_model(model: &mut Model, threads: usize) -> Result<(System, Plan, Vec
 
 /// Warnings about a sound model that only its plan can tell.
 fn plan_warnings(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic> {
-    redundant_constraints(plan, model, system).into_iter().map(Diagnostic::warning).collect()
+    let redundant = redundant_constraints(plan, model, system).into_iter().map(Diagnostic::warning);
+    redundant.chain(much_mass_added(system)).collect()
 }
 
 /// Says that there is no memory for the matrix of the solver.

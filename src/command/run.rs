@@ -26,12 +26,12 @@ use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
 use crate::output::error_bars::ErrorBars;
 use crate::output::log::Log;
 use crate::output::result_json::{
-    ReportedCounts, ReportedErrors, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes, Status, Timings,
-    peak_memory_bytes,
+    ReportedCounts, ReportedErrors, ReportedMasses, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes,
+    Status, Timings, peak_memory_bytes,
 };
 use crate::output::{FolderLock, claim, listed, wanted};
 use crate::plan::Plan;
-use crate::plan::explain::explain;
+use crate::plan::explain::{explain, mass_added};
 use crate::solve::{Counts, Outcome, Run, StepError};
 use crate::study::LIFELINE;
 use crate::system::System;
@@ -206,6 +206,9 @@ pub enum CaseFault {
 /// The plan in the lines that `check` prints.
 fn explained(loaded: &Loaded, plan: &Plan, system: &System) -> Vec<String> {
     let mut text = explain(plan, &loaded.model, system);
+    if let (None, Some(scaling)) = (system.mass_scaling(), &loaded.mass_scaling) {
+        text.computed.extend(mass_added(scaling));
+    }
     text.computed.push(("output", listed(&loaded.model, plan)));
     let stages = loaded.model.analysis.stage.iter().flat_map(|_| stages_in_words(loaded));
     stages.chain(text.to_string().lines().map(str::to_owned)).collect()
@@ -286,6 +289,7 @@ impl Job<'_> {
         let expectations = watchers.expectations.verdicts();
         let errors = ReportedErrors {
             step_error: told.step_error.map(step_error),
+            mass_scaling: self.loaded.mass_scaling.as_ref().map(ReportedMasses::from),
             mesh: mesh.and_then(Result::ok),
             error_bars: watchers.bars.map(ErrorBars::into_bars).unwrap_or_default(),
         };

@@ -8,7 +8,7 @@
 //! step.
 //!
 //! Forces that depend on velocities meet the predicted ones, v + Δt a, which costs no order; the limit becomes
-//! ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1.
+//! ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1. With `mass_scaling_step` elements are given the mass with which each bears that step.
 //! L. Verlet, Phys. Rev. 159 (1967); T. Belytschko, T. J. R. Hughes (eds.), Computational Methods for Transient Analysis (1983).
 
 use std::sync::Arc;
@@ -16,6 +16,8 @@ use std::sync::Arc;
 use super::coefficients::Coefficients;
 use super::scheme::{MakeScheme, Scheme, SchemeKind, Stepping};
 use crate::math::rotation::RotationUpdate;
+use crate::names::short;
+use crate::words::kinds::{Form, Key};
 
 /// The scheme's word, keys and maker.
 pub static KIND: SchemeKind = SchemeKind {
@@ -24,8 +26,19 @@ pub static KIND: SchemeKind = SchemeKind {
     guesses: &["verlet", "leapfrog", "leap-frog", "explicit"],
     about: "Explicit, of second order: no matrix but the masses; steps must be shorter than the highest mode allows (omega dt <= 2). \
             time_step = \"auto\" takes 0.8 of the critical time step, 0.5 where contacts or links may stiffen.",
-    keys: &[],
-    make: MakeScheme { scheme: |_, rotation| Arc::new(CentralDifference { rotation }), rotation_update: true },
+    keys: &[Key {
+        name: "mass_scaling_step",
+        form: Form::Number,
+        about: "Mass scaling: a critical time step, above 0. Each element of beams, bars and shells whose own is below it is given \
+                rotary inertia, and where that does not do mass, until it has this one. Weight stays that of the true mass; what is \
+                added is told. Default: none.",
+    }],
+    make: MakeScheme {
+        scheme: |given, rotation| {
+            Arc::new(CentralDifference { rotation, mass_scaling_step: given.positive("mass_scaling_step") })
+        },
+        rotation_update: true,
+    },
 };
 
 /// Central differences.
@@ -33,6 +46,8 @@ pub static KIND: SchemeKind = SchemeKind {
 pub struct CentralDifference {
     /// The update of rotations.
     pub rotation: RotationUpdate,
+    /// The critical time step that no element shall fall below, by mass that is added to it.
+    pub mass_scaling_step: Option<f64>,
 }
 
 impl Scheme for CentralDifference {
@@ -41,7 +56,10 @@ impl Scheme for CentralDifference {
     }
 
     fn in_words(&self) -> String {
-        KIND.word.to_owned()
+        match self.mass_scaling_step {
+            Some(step) => format!("{}, mass_scaling_step = {}", KIND.word, short(step)),
+            None => KIND.word.to_owned(),
+        }
     }
 
     fn note(&self) -> Option<&'static str> {
@@ -56,5 +74,9 @@ impl Scheme for CentralDifference {
 
     fn coefficients(&self, dt: f64) -> Coefficients {
         Coefficients::verlet(dt, self.rotation)
+    }
+
+    fn mass_scaling_step(&self) -> Option<f64> {
+        self.mass_scaling_step
     }
 }

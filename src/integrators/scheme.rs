@@ -42,6 +42,12 @@ pub trait Scheme: fmt::Debug + Send + Sync {
         None
     }
 
+    /// The critical time step that elements shall have, by mass that is added to those whose own is shorter; `None` where all keep their
+    /// masses.
+    fn mass_scaling_step(&self) -> Option<f64> {
+        None
+    }
+
     /// True where a step solves for nothing but M a = r: there is no stiffness matrix.
     fn is_explicit(&self) -> bool {
         matches!(self.stepping(), Stepping::Verlet | Stepping::RungeKutta(_))

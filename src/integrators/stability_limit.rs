@@ -11,6 +11,12 @@ pub fn longest_step(stiffness: f64, damping: f64) -> f64 {
     2.0 / (damping + (damping * damping + stiffness).sqrt())
 }
 
+/// The largest stiffness with which a mode bears the step, where it is damped in proportion to mass and stiffness, γ = α + β κ. It is not
+/// positive where damping by the mass alone is too fast for the step.
+pub fn largest_stiffness(dt: f64, alpha: f64, beta: f64) -> f64 {
+    (1.0 - alpha * dt) / (dt * (0.25 * dt + beta))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -32,6 +38,16 @@ mod tests {
         });
         let A = Matrix3::from_fn(|i, j| columns[j][i]);
         A.complex_eigenvalues().iter().map(|value| value.norm()).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn the_largest_stiffness_is_that_of_the_longest_step() {
+        for (alpha, beta) in [(0.0, 0.0), (0.3, 0.0), (0.0, 0.2), (0.3, 0.2)] {
+            let stiffness = largest_stiffness(0.7, alpha, beta);
+            // Rounding.
+            assert!((longest_step(stiffness, alpha + beta * stiffness) - 0.7).abs() < 1e-15, "{alpha} {beta}");
+        }
+        assert!(largest_stiffness(0.7, 1.5, 0.0) < 0.0);
     }
 
     /// Just below the limit nothing grows, just above it does, for any damping; without, the limit is ω Δt = 2.

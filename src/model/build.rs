@@ -42,6 +42,7 @@ use super::parts::Parts;
 use super::places::nodes::{Nodes, Topology};
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, iterate_along};
+use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start};
 use super::procedure::response::{add_expected, check_harmonic};
 use super::procedure::stops;
@@ -353,6 +354,9 @@ fn check(
         check_static(deck, report);
     }
     check_explicit(deck, kind, &**scheme, &parts.list, report);
+    if kind == AnalysisKind::Dynamic {
+        check_mass_scaling(deck, &scene.analysis, &**scheme, &parts.list, report);
+    }
     if let Some(units) = &deck.units {
         check_units(deck, units.value, report);
     }

@@ -3,6 +3,7 @@
 use super::disk::{UNFINISHED, at, create, replace};
 use super::error_bars::ErrorBar;
 use super::expect::Verdict;
+use crate::system::{MassScaling, ScaledPart};
 use serde::Serialize;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -148,6 +149,9 @@ pub struct ReportedErrors {
     /// The error of automatic steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_error: Option<ReportedStepError>,
+    /// What mass scaling adds to the scene.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_scaling: Option<ReportedMasses>,
     /// The run with a coarser mesh, by which the errors of the mesh are known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<ReportedMesh>,
@@ -173,6 +177,59 @@ pub struct ReportedStepError {
     pub other_iterations: usize,
     /// ... and factorizations.
     pub other_factorizations: usize,
+}
+
+/// What mass scaling adds to the scene, in its first stage with time.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportedMasses {
+    /// `mass_scaling_step` of the deck.
+    pub critical_step: f64,
+    /// Mass of the scene without what is added.
+    pub mass: f64,
+    /// Mass that is added, ...
+    pub added: f64,
+    /// ... and its share of the mass of the scene.
+    pub share: f64,
+    /// The parts with mass of their own, in the order of the deck.
+    pub parts: Vec<ReportedPartMass>,
+}
+
+/// What mass scaling adds to a part.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReportedPartMass {
+    /// Its name.
+    pub part: String,
+    /// Number of elements that are given mass, ...
+    pub heavier: usize,
+    /// ... of those that are given rotary inertia, ...
+    pub turning: usize,
+    /// ... and of all.
+    pub elements: usize,
+    /// Mass without what is added.
+    pub mass: f64,
+    /// Mass that is added, ...
+    pub added: f64,
+    /// ... and its share of the mass of the part.
+    pub share: f64,
+    /// Largest factor on the mass of an element.
+    pub factor: f64,
+}
+
+impl From<&MassScaling> for ReportedMasses {
+    fn from(scaling: &MassScaling) -> ReportedMasses {
+        let part = |told: &ScaledPart| {
+            let ScaledPart { elements, heavier, turning, mass, added, factor, .. } = *told;
+            let (part, share) = (told.name.clone(), told.share());
+            ReportedPartMass { part, heavier, turning, elements, mass, added, share, factor }
+        };
+        ReportedMasses {
+            critical_step: scaling.critical_step,
+            mass: scaling.mass,
+            added: scaling.added(),
+            share: scaling.added() / scaling.mass,
+            parts: scaling.parts.iter().map(part).collect(),
+        }
+    }
 }
 
 /// The run with a coarser mesh, by which the errors of the mesh are known.

@@ -75,6 +75,17 @@ pub enum Warning {
         /// True where the shell yields by logarithmic strain.
         logarithmic: bool,
     },
+    /// The critical time step is below that for which mass scaling has raised the masses of elements.
+    ScaledStep {
+        /// The critical time step that elements were given.
+        wanted: f64,
+        /// The critical time step of the scene.
+        longest: f64,
+        /// The node that its fastest motion moves most.
+        label: String,
+        /// The link or contact that acts there; empty where none does.
+        cause: String,
+    },
 }
 
 keep_either!(Warning {
@@ -90,6 +101,7 @@ keep_either!(Warning {
     9 => BeginsClosed { name, depth },
     10 => LargeStrain { name, strain, logarithmic },
     11 => Crowded { name },
+    12 => ScaledStep { wanted, longest, label, cause },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -173,6 +185,19 @@ fn crowded(contact: &str) -> String {
     )
 }
 
+/// What bounds the step where elements do not.
+fn scaled_step([wanted, longest]: [f64; 2], label: &str, cause: &str) -> String {
+    let cause = match cause {
+        "" => "elements that have become shorter or stiffer, or have no mass where they are attached".to_owned(),
+        name => format!("`{name}`"),
+    };
+    format!(
+        "the critical time step is {}, below the {} of `mass_scaling_step`: {cause} asks for it, in a motion of `{label}` most of all. Mass that          is added to elements for longer steps does nothing but harm",
+        short(longest),
+        short(wanted)
+    )
+}
+
 /// What is wrong where beams press each other side by side.
 fn side_by_side(contact: &str) -> String {
     format!(
@@ -234,6 +259,9 @@ impl fmt::Display for Warning {
             }
             Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
             Warning::Crowded { name } => f.write_str(&crowded(name)),
+            Warning::ScaledStep { wanted, longest, label, cause } => {
+                f.write_str(&scaled_step([*wanted, *longest], label, cause))
+            }
             Warning::BeginsClosed { name, depth } => f.write_str(&begins_closed(name, *depth)),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
             Warning::InitialVelocities { change } => f.write_str(&corrected(*change)),

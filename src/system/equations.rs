@@ -4,6 +4,7 @@ use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
 use super::loads::{Loading, load_on};
+use super::mass_scaling::MassScaling;
 use super::multipliers::{Multipliers, REGULARIZATION, REGULARIZATION_OF_TREES};
 use super::node_sums::SumChunk;
 use super::parts::beam_ends::BeamEnds;
@@ -52,6 +53,8 @@ pub struct System {
     joint_loads: Vec<JointLoad>,
     /// The ends of the elements of beams, where results are wanted there.
     beam_ends: Option<BeamEnds>,
+    /// What is added to the masses of elements, where the deck asks for it.
+    mass_scaling: Option<MassScaling>,
     /// The dampers between nodes and the ground.
     pub(super) nodal_damping: Vec<model::NodalDamping>,
     /// The Rayleigh factor on the mass (per time).
@@ -120,6 +123,11 @@ impl System {
         self.beam_ends.as_ref()
     }
 
+    /// What is added to the masses of elements, where the deck asks for it.
+    pub fn mass_scaling(&self) -> Option<&MassScaling> {
+        self.mass_scaling.as_ref()
+    }
+
     /// The bodies that turn by their angular momentum in implicit schemes, in ascending order of nodes.
     pub fn turning_bodies(&self) -> &[TurningBody] {
         &self.turning_bodies
@@ -152,6 +160,7 @@ impl System {
         let (mut inertias, consistent) = build::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
         let mut groups = build::groups(model, &x, plane);
+        let mass_scaling = MassScaling::new(model, &x, &groups, &mut inertias);
         if model.analysis.kind == model::AnalysisKind::Dynamic && model.solution.scheme.is_explicit() {
             groups.iter_mut().for_each(|group| group.block.pack());
         }
@@ -175,7 +184,8 @@ impl System {
             plane,
             links: links::elements(model, &x),
             joint_loads: Vec::new(),
-            beam_ends: BeamEnds::wanted(model).then(|| BeamEnds::new(model, &x)),
+            beam_ends: BeamEnds::wanted(model).then(|| BeamEnds::new(model, &x, mass_scaling.as_ref())),
+            mass_scaling,
             loads: model.loading.nodal.clone(),
             pressures: model.loading.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
@@ -202,6 +212,7 @@ impl System {
             links: Vec::new(),
             joint_loads: Vec::new(),
             beam_ends: None,
+            mass_scaling: None,
             loads: Vec::new(),
             pressures: Vec::new(),
             nodal_damping: Vec::new(),
@@ -341,7 +352,7 @@ impl System {
         let moved = |node: usize| to.0[node].relative_position(&from.0[node]);
         let mut work = 0.0;
         if field != Vec3::zeros() {
-            work += self.inertias.iter().map(|i| i.mass * field.dot(&moved(i.node))).sum::<f64>();
+            work += self.inertias.iter().map(|i| i.weighing * field.dot(&moved(i.node))).sum::<f64>();
             let weight = |mass: &ConsistentMass| mass.pairs().map(|(a, _, m)| m * field.dot(&moved(a))).sum::<f64>();
             work += self.consistent.iter().map(weight).sum::<f64>();
         }
@@ -402,7 +413,7 @@ impl System {
         };
         let moved = |node: usize| to.0[node].relative_position(&from.0[node]);
         for inertia in &self.inertias {
-            add(inertia.mass * from.1.field, inertia.mass * to.1.field, moved(inertia.node));
+            add(inertia.weighing * from.1.field, inertia.weighing * to.1.field, moved(inertia.node));
         }
         for (a, _, m) in self.consistent.iter().flat_map(ConsistentMass::pairs) {
             add(m * from.1.field, m * to.1.field, moved(a));

@@ -12,8 +12,10 @@ use crate::state::Node;
 pub struct Inertia {
     /// The node.
     pub node: usize,
-    /// Mass.
+    /// Mass, by which the node resists acceleration.
     pub mass: f64,
+    /// Mass that has weight: without what mass scaling adds.
+    pub weighing: f64,
     /// Inertia tensor J₀ about the node.
     pub J0: Mat3,
     /// True where J₀ ≠ 0.
@@ -30,11 +32,11 @@ impl Inertia {
         R * self.J0 * R.transpose()
     }
 
-    /// The force m (field − a) and the moment −(J α + ω×J ω) of (33); weight alone unless `dynamic`. `scale` takes in
+    /// The force m (field − a), with the mass that has weight for the field, and the moment −(J α + ω×J ω) of (33); weight alone unless `dynamic`. `scale` takes in
     /// each term by itself, for in free motion they cancel.
     #[inline]
     pub fn force(&self, node: &Node, field: &Vec3, dynamic: bool, scale: &mut Scale) -> Force {
-        let weight = self.mass * field;
+        let weight = self.weighing * field;
         scale.include_force(&weight);
         if !dynamic {
             return [weight.x, weight.y, weight.z, 0.0, 0.0, 0.0];
@@ -127,7 +129,7 @@ impl Lumped {
     pub fn finish(self) -> Vec<Inertia> {
         let entry = |(node, (mass, J0)): (usize, (f64, Mat3))| {
             let rotary = J0 != Mat3::zeros();
-            (mass > 0.0 || rotary).then_some(Inertia { node, mass, J0, rotary, turns: false })
+            (mass > 0.0 || rotary).then_some(Inertia { node, mass, weighing: mass, J0, rotary, turns: false })
         };
         self.0.into_iter().enumerate().filter_map(entry).collect()
     }

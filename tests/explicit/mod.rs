@@ -4,6 +4,7 @@ mod balance;
 mod critical_step;
 mod growth;
 mod implicit;
+mod mass_scaling;
 mod masses;
 mod order;
 mod scenes;

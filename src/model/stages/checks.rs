@@ -6,6 +6,7 @@ use crate::deck::Deck;
 use crate::deck::words::{Maybe, Names};
 use crate::diagnostic::At;
 use crate::model::data::AnalysisKind;
+use crate::model::procedure::mass_scaling::KEY;
 use crate::model::procedure::response::names_harmonic;
 use crate::model::report::Report;
 use crate::model::values::span;
@@ -16,6 +17,7 @@ pub fn check<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     check_rest(sequence, report);
     check_initial(sequence, report);
     check_modes(sequence, report);
+    check_masses(sequence, report);
     check_names(sequence.whole, report);
     check_tables(sequence, report);
     check_expected(sequence, report);
@@ -68,6 +70,22 @@ fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
         if is_open {
             let hint = "it may be that of a response over frequencies, or of a motion over time";
             report.error_with::<()>(&expect.span, "an expected value needs `stage` here", hint);
+        }
+    }
+}
+
+/// Reports a motion that would go on with other masses than it has begun with.
+fn check_masses<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
+    let moves = sequence.stages.iter().filter(|stage| stage.kind == AnalysisKind::Dynamic && !stage.has_modes);
+    let mut first = None;
+    for stage in moves {
+        let integrator = stage.table.integrator.as_ref().or(sequence.whole.integrator.as_ref());
+        let step = integrator.and_then(|integrator| integrator.values.numbers(KEY).first().copied());
+        if *first.get_or_insert(step) != step {
+            let place = stage.table.integrator.as_ref().map_or(&stage.table.span, |own| &own.span);
+            let message = format!("stage `{}` would go on with other masses than the stage before", stage.name);
+            let hint = format!("the same scheme and the same `{KEY}` in all dynamic stages, or in none");
+            report.error_with::<()>(place, message, hint);
         }
     }
 }

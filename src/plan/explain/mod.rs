@@ -6,6 +6,7 @@ mod beams;
 mod contacts;
 mod explanation;
 mod links;
+mod mass_scaling;
 mod omitted;
 mod redundant;
 mod response;
@@ -15,6 +16,7 @@ mod solution;
 mod threads;
 
 pub use explanation::Explanation;
+pub use mass_scaling::{mass_added, much_mass_added};
 pub use redundant::redundant_constraints;
 
 use super::Plan;
@@ -27,6 +29,7 @@ pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     let mut text = Explanation::default();
     analysis::explain(&mut text, model);
     scene::explain(&mut text, plan, model, system);
+    mass_scaling::explain(&mut text, model, system);
     solution::explain(&mut text, plan, model, system);
     threads::explain(&mut text, plan, system);
     text.omitted = omitted::list(plan, model, system);

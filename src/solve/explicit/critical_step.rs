@@ -4,6 +4,7 @@
 
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
+use super::scaled_step::check_scaled_step;
 use crate::integrators::stability_limit::longest_step;
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, angular, linear, stack};
@@ -261,6 +262,7 @@ impl CriticalStep {
         }
         let met = dt > 0.0 || !cx.system.is_damped();
         (self.longest, self.steps, self.met) = (Some(longest), 0, met);
+        check_scaled_step(cx, ws, accelerations, state, (longest, &self.mode));
         self.max_aMa = state.work.accelerations;
         Ok(())
     }

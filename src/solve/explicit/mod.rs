@@ -8,6 +8,7 @@ mod inner_product;
 mod node_loops;
 mod node_sums;
 mod runge_kutta;
+mod scaled_step;
 mod stiffening;
 
 pub use central_difference::CentralDifferenceStepper;

@@ -1,6 +1,6 @@
 //! The contributions of a part to the equation of motion: the interface of every kind, each in the file of its kind.
 
-use super::masses::NodalMasses;
+use super::masses::{LumpedElement, NodalMasses};
 use crate::elements::ElementBlock;
 use crate::math::Vec3;
 use crate::model::Model;
@@ -28,6 +28,16 @@ pub type NumberedBlock = (Box<dyn ElementBlock>, usize);
 pub trait Assembled {
     /// Adds the mass of the part at its nodes or over its elements; a part may have none.
     fn add_masses(&self, _stiffnesses: &[Stiffness], _masses: &mut NodalMasses) {}
+
+    /// The lumped mass of an element; `None` for what has none, or does not deform.
+    fn lumped(&self, _element: usize, _stiffnesses: &[Stiffness], _masses: &NodalMasses) -> Option<LumpedElement> {
+        None
+    }
+
+    /// The longest distance of neighbouring nodes of an element that deforms, at t = 0.
+    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> f64 {
+        0.0
+    }
 
     /// The blocks of the part; some may be empty.
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock>;

@@ -1,7 +1,7 @@
 //! Bars in the equation of motion: their masses and blocks.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
-use super::masses::NodalMasses;
+use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::elements::ElementBlock;
 use crate::elements::bar::{self, YieldingBars};
 use crate::math::Mat3;
@@ -14,16 +14,19 @@ use std::ops::Range;
 impl Assembled for Bar {
     fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
         for nodes in &self.elements {
-            let mass = self.mass_per_length * self.free * (masses.x[nodes[1]] - masses.x[nodes[0]]).norm();
-            for &node in nodes {
-                if masses.has_mass(self.mass, node) {
-                    masses.lumped.add(node, 0.5 * mass, &Mat3::zeros());
-                }
-            }
+            masses.add(&lumped(self, nodes, masses));
             if self.mass == MassKind::Consistent {
-                masses.consistent.push(ConsistentMass::new(nodes, mass));
+                masses.consistent.push(ConsistentMass::new(nodes, mass(self, nodes, masses)));
             }
         }
+    }
+
+    fn lumped(&self, element: usize, _: &[Stiffness], masses: &NodalMasses) -> Option<LumpedElement> {
+        Some(lumped(self, &self.elements[element], masses))
+    }
+
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> f64 {
+        length(&self.elements[element], masses)
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
@@ -34,6 +37,20 @@ impl Assembled for Bar {
     fn stays_in(&self, _: &MotionPlane, _: &[Stiffness]) -> bool {
         true
     }
+}
+
+fn length(nodes: &[usize; 2], masses: &NodalMasses) -> f64 {
+    (masses.x[nodes[1]] - masses.x[nodes[0]]).norm()
+}
+
+fn mass(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> f64 {
+    part.mass_per_length * part.free * length(nodes, masses)
+}
+
+fn lumped(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> LumpedElement {
+    let mass = mass(part, nodes, masses);
+    let own = |node: usize| if masses.has_mass(part.mass, node) { 0.5 * mass } else { 0.0 };
+    LumpedElement(nodes.iter().map(|&node| NodalShare { node, mass: own(node), J0: Mat3::zeros() }).collect())
 }
 
 fn block(part: &Bar, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {

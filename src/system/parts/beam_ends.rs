@@ -1,7 +1,7 @@
 //! Resultants at both ends of each element of the beams, by its equilibrium: internal forces on its end nodes, less the shares there of
 //! loads along it, of weight and of inertia. They balance joints, supports and what else acts at the node to what the iteration leaves.
 
-use super::beams::{in_section, share};
+use super::beams::{in_section, lumped};
 use super::masses::NodalMasses;
 use crate::elements::{Force, IntegrationPoint, subtract};
 use crate::math::{Mat3, Vec3};
@@ -9,6 +9,7 @@ use crate::model::{AnalysisKind, Beam, ExpectAt, MassKind, Model, PartType, Sect
 use crate::state::Configuration;
 use crate::system::inertia::{ConsistentMass, Inertia};
 use crate::system::loads::{Loading, load_on};
+use crate::system::mass_scaling::MassScaling;
 use crate::system::scale::Scale;
 use std::collections::HashMap;
 
@@ -39,8 +40,8 @@ impl BeamEnds {
         listed || model.expects.iter().any(|expect| matches!(expect.at, ExpectAt::Sections(_)))
     }
 
-    /// The ends of the beams of a model at its initial positions.
-    pub fn new(model: &Model, x: &[Vec3]) -> BeamEnds {
+    /// The ends of the beams of a model at its initial positions, with what is added to their masses.
+    pub fn new(model: &Model, x: &[Vec3], mass_scaling: Option<&MassScaling>) -> BeamEnds {
         let mut loads: HashMap<(usize, usize, usize), Vec<usize>> = HashMap::new();
         for (index, load) in model.loading.nodal.iter().enumerate() {
             if let Some((part, element)) = load.along {
@@ -56,12 +57,22 @@ impl BeamEnds {
                     let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
                     ConsistentMass::new(nodes, length * model.stiffnesses[spec.section].mass_per_length)
                 });
+                let own = lumped(beam, element, &model.stiffnesses, &masses);
+                let scaling = mass_scaling.map(|scaling| scaling.of(part, element));
                 ends.push([0, beam.order].map(|a| {
-                    let (mass, J0) = share(beam, (element, a), &model.stiffnesses, &masses);
+                    let share = &own.0[a];
+                    let (mass, J0) = scaling.map_or((share.mass, share.J0), |scaling| scaling.of(share));
                     let node = nodes[a];
                     let row = consistent.iter().flat_map(ConsistentMass::pairs).filter(|&(row, ..)| row == node);
                     BeamEnd {
-                        lumped: Inertia { node, mass, J0, rotary: J0 != Mat3::zeros(), turns: false },
+                        lumped: Inertia {
+                            node,
+                            mass,
+                            weighing: share.mass,
+                            J0,
+                            rotary: J0 != Mat3::zeros(),
+                            turns: false,
+                        },
                         row: row.map(|(_, column, m)| (column, m)).collect(),
                         frame: spec.frame,
                         loads: loads.remove(&(part, element, node)).unwrap_or_default(),

@@ -1,7 +1,7 @@
 //! Beams in the equation of motion: their masses and blocks, and the resultants in their sections.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
-use super::masses::NodalMasses;
+use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::elements::beam::{BeamGeometry, Beams, FibreModel};
 use crate::elements::{ElementBlock, Force, IntegrationPoint};
 use crate::math::{Mat3, Vec3, quadrature};
@@ -17,16 +17,22 @@ impl Assembled for Beam {
     fn add_masses(&self, stiffnesses: &[Stiffness], masses: &mut NodalMasses) {
         for (index, element) in self.elements.iter().enumerate() {
             let nodes = &element.nodes[..=self.order];
-            for (a, &node) in nodes.iter().enumerate() {
-                let (mass, inertia) = share(self, (index, a), stiffnesses, masses);
-                masses.lumped.add(node, mass, &inertia);
-            }
+            masses.add(&lumped(self, index, stiffnesses, masses));
             if self.mass == MassKind::Consistent {
                 let section = &stiffnesses[element.section];
                 let length = (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm();
                 masses.consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
             }
         }
+    }
+
+    fn lumped(&self, element: usize, stiffnesses: &[Stiffness], masses: &NodalMasses) -> Option<LumpedElement> {
+        Some(lumped(self, element, stiffnesses, masses))
+    }
+
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> f64 {
+        let nodes = &self.elements[element].nodes;
+        (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm() / self.order as f64
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
@@ -87,22 +93,20 @@ fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
     plane.decouples(&turn(&C.N)) && plane.decouples(&turn(&C.M)) && (!paired || plane.decouples_rotations(&rest))
 }
 
-/// Lumped mass and inertia tensor (global components at t = 0) of an element at its `a`-th node.
-pub(super) fn share(
-    beam: &Beam,
-    (element, a): (usize, usize),
-    stiffnesses: &[Stiffness],
-    masses: &NodalMasses,
-) -> (f64, Mat3) {
+/// Lumped masses and inertia tensors of an element at its nodes.
+pub(super) fn lumped(beam: &Beam, element: usize, stiffnesses: &[Stiffness], masses: &NodalMasses) -> LumpedElement {
     let (_, weights) = quadrature::lobatto(beam.order + 1);
     let element = &beam.elements[element];
-    let (node, section) = (element.nodes[a], &stiffnesses[element.section]);
+    let section = &stiffnesses[element.section];
     let length = (masses.x[element.nodes[beam.order]] - masses.x[element.nodes[0]]).norm();
     let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
-    let share = 0.5 * weights[a] * length;
-    let mass = if masses.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
-    let keep = beam.rotary_inertia && masses.has_rotary_inertia(beam.mass, node);
-    (mass, if keep { rotary * share } else { Mat3::zeros() })
+    let share = |(&node, weight): (&usize, &f64)| {
+        let share = 0.5 * weight * length;
+        let mass = if masses.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
+        let keep = beam.rotary_inertia && masses.has_rotary_inertia(beam.mass, node);
+        NodalShare { node, mass, J0: if keep { rotary * share } else { Mat3::zeros() } }
+    };
+    LumpedElement(element.nodes[..=beam.order].iter().zip(weights).map(share).collect())
 }
 
 /// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order: polynomials through the

@@ -1,8 +1,21 @@
 //! The masses of nodes and elements while they are summed.
 
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::model::{MassKind, Model};
 use crate::system::inertia::{ConsistentMass, Lumped};
+
+/// The lumped mass of an element: its shares at the nodes, in their order.
+pub struct LumpedElement(pub Vec<NodalShare>);
+
+/// The share of an element in the mass at a node.
+pub struct NodalShare {
+    /// The node.
+    pub node: usize,
+    /// Mass; zero where the deck leaves it out.
+    pub mass: f64,
+    /// Inertia tensor about the node, global components at t = 0; zero likewise.
+    pub J0: Mat3,
+}
 
 /// The masses of a scene while they are summed.
 pub struct NodalMasses<'s> {
@@ -24,6 +37,11 @@ impl<'s> NodalMasses<'s> {
         let dependents = model.constraints.dependents.iter();
         dependents.filter(|of| is_body[of.master]).for_each(|of| attached[of.node] = true);
         NodalMasses { x, attached, lumped: Lumped::new(x.len()), consistent: Vec::new() }
+    }
+
+    /// Adds the lumped mass of an element.
+    pub fn add(&mut self, element: &LumpedElement) {
+        element.0.iter().for_each(|share| self.lumped.add(share.node, share.mass, &share.J0));
     }
 
     /// True where a deformable part has mass at a node of its own.

@@ -13,7 +13,7 @@ pub mod shell_shear;
 pub mod shells;
 
 pub use assembled::{Assembled, Setting};
-pub use masses::NodalMasses;
+pub use masses::{LumpedElement, NodalMasses, NodalShare};
 
 use crate::model::{Part, PartKind};
 

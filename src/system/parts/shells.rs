@@ -1,7 +1,7 @@
 //! Shells in the equation of motion: their masses and blocks, and the resultants of their elements.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
-use super::masses::NodalMasses;
+use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::elements::shell::{
     self, CurvedQuadrilaterals, CurvedTriangles, NineNodes, Quadrilateral, Quadrilaterals, SixNodes, Triangle,
     Triangles,
@@ -47,25 +47,29 @@ impl ShellState {
 
 impl Assembled for Shell {
     fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
-        let h = self.plate.thickness;
         for element in &self.elements {
             let nodes = &element.nodes[..self.size()];
-            let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
-            for (&node, area) in nodes.iter().zip(shell::lumped_shares(&corners)) {
-                let mass = if masses.has_mass(self.mass, node) { self.density * h * area } else { 0.0 };
-                // The inertia about the normal is the same, where a director has none, so that no direction is without
-                // inertia.
-                let rotary = if masses.has_rotary_inertia(self.mass, node) {
-                    self.density * h.powi(3) / 12.0 * area
-                } else {
-                    0.0
-                };
-                masses.lumped.add(node, mass, &(rotary * Mat3::identity()));
-            }
+            masses.add(&lumped(self, nodes, masses));
             if self.mass == MassKind::Consistent {
-                masses.consistent.push(ConsistentMass::of_shell(nodes, &corners, self.density * h));
+                let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
+                masses.consistent.push(ConsistentMass::of_shell(nodes, &corners, self.density * self.plate.thickness));
             }
         }
+    }
+
+    fn lumped(&self, element: usize, _: &[Stiffness], masses: &NodalMasses) -> Option<LumpedElement> {
+        Some(lumped(self, &self.elements[element].nodes[..self.size()], masses))
+    }
+
+    /// Elements of order 2 have a node on each side.
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> f64 {
+        let (corners, parts) = match self.size() {
+            size @ (3 | 4) => (size, 1.0),
+            6 => (3, 2.0),
+            _ => (4, 2.0),
+        };
+        let corner = |k: usize| masses.x[self.elements[element].nodes[k % corners]];
+        (0..corners).map(|k| (corner(k + 1) - corner(k)).norm() / parts).fold(0.0, f64::max)
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
@@ -76,6 +80,20 @@ impl Assembled for Shell {
     fn stays_in(&self, _: &MotionPlane, _: &[Stiffness]) -> bool {
         self.elements.is_empty()
     }
+}
+
+fn lumped(part: &Shell, nodes: &[usize], masses: &NodalMasses) -> LumpedElement {
+    let h = part.plate.thickness;
+    let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
+    let areas = shell::lumped_shares(&corners);
+    let share = |(&node, area): (&usize, f64)| {
+        let mass = if masses.has_mass(part.mass, node) { part.density * h * area } else { 0.0 };
+        // The inertia about the normal is the same, where a director has none, so that no direction is without inertia.
+        let rotary =
+            if masses.has_rotary_inertia(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
+        NodalShare { node, mass, J0: rotary * Mat3::identity() }
+    };
+    LumpedElement(nodes.iter().zip(areas).map(share).collect())
 }
 
 fn block(part: &Shell, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
