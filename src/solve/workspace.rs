@@ -4,7 +4,6 @@ use super::context::{self, Context};
 use super::linear_system::LinearSystem;
 use super::load_steps::LoadSteps;
 use super::warning::Warnings;
-use crate::elements::Force;
 use crate::linear::TooLarge;
 use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Increment, Node};
@@ -34,8 +33,6 @@ pub struct Workspace {
     pub reach: f64,
     /// What load steps leave to those after them.
     pub load_steps: LoadSteps,
-    /// Room for the forces of contacts on all nodes, in load steps with contacts.
-    pub contact_forces: Vec<Force>,
     /// The matrix of the step: its tangent, or that of masses and joints.
     pub matrix: LinearSystem,
     /// Number of factorizations so far.
@@ -60,7 +57,6 @@ keep!(Workspace {
     prescribed,
     reach,
     load_steps,
-    contact_forces,
     matrix,
     factorizations,
     solves,
@@ -104,7 +100,6 @@ impl Workspace {
             prescribed: AtTimes::default(),
             reach: cx.length,
             load_steps: LoadSteps::default(),
-            contact_forces: if cx.system.has_contacts() && !cx.is_dynamic() { vec![[0.0; 6]; n] } else { Vec::new() },
             matrix: LinearSystem::new(solver, assembly),
             factorizations: 0,
             solves: 0,

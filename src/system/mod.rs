@@ -7,7 +7,7 @@ mod build;
 mod carry;
 pub mod connectivity;
 pub mod constraint_schur;
-mod contact_work;
+pub mod contact_work;
 mod contacts;
 pub mod dependents;
 mod destinations;

@@ -11,6 +11,7 @@ use crate::solve::work::WorkQuadrature;
 use crate::solve::workspace::Workspace;
 use crate::solve::{contacts, joints, links};
 use crate::state::{Configuration, State};
+use crate::system::contact_work;
 
 /// Accepts the equilibrium that was found: the state moves to the time `to`, written once. `work` is that of loads and damping where the
 /// stages of the step tell it better than its ends.
@@ -40,9 +41,8 @@ pub fn accept(
     joints::check(cx, ws)?;
     links::check(cx, ws, state, dt)?;
     jump::check_work(cx, ws, state, &account.dissipated, to)?;
-    if !ws.contact_forces.is_empty() && cx.wants_forces {
-        let Workspace { trial, history, contact_forces, .. } = ws;
-        account.contact_excess = cx.system.contact_work_in_excess(state, (trial, dt), history, contact_forces);
+    if !cx.is_dynamic() && cx.system.has_contacts() && cx.wants_forces {
+        account.contact_excess = contact_work::excess_of_mean(cx.system, state, (&ws.trial, dt), &mut ws.history);
     }
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())

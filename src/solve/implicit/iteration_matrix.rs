@@ -66,9 +66,6 @@ impl IterationMatrix {
         if !self.refresh.due(report.iterations, key) {
             return Ok(false);
         }
-        if report.iterations == 0 {
-            self.unheld = None;
-        }
         let may_stabilize = report.iterations == 0 && stabilization::may_help(cx);
         self.form(cx, ws, state, stage.scheme, (stage.scheme.instant * dt, lead), may_stabilize)?;
         if let Some(turning) = &mut self.turning {
@@ -119,7 +116,11 @@ impl IterationMatrix {
                 Ok(true) => {
                     let weights = (weights, held.as_ref());
                     match self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings) {
-                        Ok(()) => return Ok(()),
+                        Ok(()) => {
+                            // What stands on its joints, and falls, has as much stiffness as what hangs, of the other sign.
+                            let falls = matrix.solver.negative_eigenvalues() > cx.system.multipliers();
+                            return self.unheld.take_if(|_| falls).map_or(Ok(()), |unheld| Err(unheld.failure));
+                        }
                         Err(failure) => failure,
                     }
                 }
@@ -130,11 +131,16 @@ impl IterationMatrix {
                 Err(singular) => self.mechanisms.singular(cx, &now, singular.row, openings),
             };
             if !may_stabilize || self.is_stabilized || openings.any() {
-                return Err(self.unheld.take().map_or(failure, |unheld| unheld.failure));
+                return Err(failure);
             }
             self.unheld = Some(Unheld::new(cx, &ws.r, failure));
             self.is_stabilized = true;
         }
+    }
+
+    /// Why a load step has failed that began with a stabilized matrix: nothing holds the scene. `None` for other steps.
+    pub fn unheld(&mut self) -> Option<Failure> {
+        self.unheld.take().map(|unheld| unheld.failure)
     }
 
     /// True where the matrix at hand is stabilized: its correction leads on, but says nothing of convergence.
@@ -143,10 +149,15 @@ impl IterationMatrix {
     }
 
     /// Solves for the correction, which takes the place of the residual in `ws.r`.
-    pub fn solve(&mut self, ws: &mut Workspace) {
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where the matrix is stabilized and what nothing else holds would go far.
+    pub fn solve(&mut self, cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
         let Workspace { matrix, forces, r, trial, .. } = ws;
         turned(&mut self.turning, trial, r, |r| matrix.solve_augmented(&forces.multipliers, r));
         ws.solves += 1;
+        let goes_far = self.is_stabilized && !stabilization::stays_in_place(cx, &ws.r);
+        self.unheld.take_if(|_| goes_far).map_or(Ok(()), |unheld| Err(unheld.failure))
     }
 
     /// Solves with the matrix carried along to the configuration `nodes`, for right-hand sides without gaps in `ws.r`.

@@ -151,6 +151,8 @@ impl Newton {
         found: Result<StepReport, Failure>,
     ) -> Result<StepReport, Failure> {
         let found = found.and_then(|report| jump::check_motion(cx, ws, state, report.to).map(|()| report));
+        let unheld = self.matrix.unheld();
+        let found = found.map_err(|failure| unheld.filter(|_| !matches!(failure, Failure::Stopped)).unwrap_or(failure));
         match &found {
             Ok(report) => {
                 ws.load_steps.peak.keep(report.residual);
@@ -191,7 +193,7 @@ impl Newton {
                 continue;
             }
             progress.new_matrix = self.matrix.refresh(cx, ws, state, stage, self.lead.nodes(), &mut progress.report)?;
-            self.solve(cx, ws, &progress);
+            self.solve(cx, ws, &progress)?;
             if let Some((constraint, condition)) = &mut constraint {
                 let to = constraint.close(cx, ws, state, progress.report.to, *condition)?;
                 progress.move_time(cx, to);
@@ -257,7 +259,10 @@ impl Newton {
         shortened
     }
     /// Solves for the correction, which takes the place of the residual in `ws.r`.
-    fn solve(&mut self, cx: &Context, ws: &mut Workspace, progress: &StepProgress) {
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where nothing holds the scene.
+    fn solve(&mut self, cx: &Context, ws: &mut Workspace, progress: &StepProgress) -> Result<(), Failure> {
         if progress.new_matrix {
             self.forget_corrections();
         }
@@ -265,7 +270,7 @@ impl Newton {
             let gaps = &ws.forces.multipliers.gaps;
             line_search.keep_residual(&ws.r[..cx.nodal_unknowns()], gaps, progress.report.residual);
         }
-        self.matrix.solve(ws);
+        self.matrix.solve(cx, ws)
     }
 
     /// Adds the correction to the increments. Returns its size and that of the increments.

@@ -7,6 +7,9 @@ use crate::linear::{Solver, Sparse};
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 
+/// Part of the model's length, or of a radian, by which a first correction may move what springs hold. What hangs already hardly moves; what
+/// moves further would jump to where it hangs, which is no path of equilibria.
+const IN_PLACE: f64 = 0.05;
 /// Part of the springs above which a mode has a stiffness of its own. Joints are closed to 1e-7 where equations are redundant, and what they
 /// carry works in what is open.
 const HELD: f64 = 1e-5;
@@ -43,6 +46,12 @@ impl Unheld {
     }
 }
 
+/// True where a first correction leaves everything in its place.
+pub fn stays_in_place(cx: &Context, correction: &[f64]) -> bool {
+    let dofs = cx.plan.dofs.nodal_dofs();
+    correction.iter().zip(dofs).all(|(by, &(_, dof))| by.abs() * lever(cx, dof) <= IN_PLACE * cx.length)
+}
+
 /// The displacement that a unit of this degree of freedom stands for.
 fn lever(cx: &Context, dof: usize) -> f64 {
     if dof < 3 { 1.0 } else { cx.length }
@@ -56,9 +65,9 @@ pub struct HeldByForces {
 }
 
 impl HeldByForces {
-    /// True where forces resist a mode.
+    /// True where forces resist a mode. What they push on, as the weight of a mast that stands on a ball joint, they do not hold.
     pub fn resist(&self, mode: &Mode) -> bool {
         let [energy, terms] = mode.energy(&self.assembled);
-        energy.abs() > HELD * self.springs + ROUNDING * terms
+        energy > HELD * self.springs + ROUNDING * terms
     }
 }
