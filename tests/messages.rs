@@ -525,6 +525,8 @@ fn mass_scaling() {
     assert_snapshot!("mass_scaling_consistent", with("consistent"));
     assert_snapshot!("mass_scaling_of_nothing", with("none"));
     assert_snapshot!("mass_scaling_long_step", portal_and(&scaled("5e-5")));
+    assert_snapshot!("mass_scaling_beyond_the_end", portal_and(&scaled("1e150")));
+    assert_snapshot!("mass_scaling_short_step", portal_and(&scaled("1e-3")));
     let more = "[damping]\nmass_factor = 2e4\n[[environment.base_acceleration]]\ndirection = [1.0, 0.0, 0.0]\namplitude = \"pulse\"\n";
     assert_snapshot!("mass_scaling_and_the_ground", portal_and(&(scaled("1e-4") + more)));
     let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n";

@@ -282,6 +282,20 @@ fn automatic_steps_are_lines_over_their_tolerances() {
     assert!(rows.len() == 2 && rows.iter().all(|row| row["status"] == "done"), "{rows:?}");
 }
 
+/// A scheme without parameters takes those of `[integrator]`, beside one of the same kind with others: in the run of that `[integrator]` has these.
+#[test]
+fn a_scheme_stands_beside_itself_with_other_parameters() {
+    let keys = KEYS.replace(r#""newmark", "bathe""#, r#""generalized-alpha:spectral_radius=0.5", "generalized-alpha""#);
+    let own = "[integrator]\nscheme = \"generalized-alpha\"\nspectral_radius = 0.9\n";
+    let folder = folder(&format!("{OSCILLATOR}{own}{keys}"));
+    exact(folder.path());
+    let (text, _) = study(folder.path(), &["--repeats", "1", "--quiet"], 0);
+    let rows = table(&folder.path().join("x.study/study.csv"));
+    assert!(rows.len() == 8 && rows.iter().all(|row| row["status"] == "done"), "{text}");
+    // The shorter radius damps more, and errs more.
+    assert!(number(&rows[0], "error") > number(&rows[4], "error"), "{text}");
+}
+
 #[test]
 fn runs_that_fail_are_listed_as_failed() {
     // The shortest step is refused; two iterations are too few for a strip that swings in long ones.

@@ -186,7 +186,10 @@ pub fn prepare(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec
             prepared => prepared?,
         };
         loaded.mass_scaling = loaded.mass_scaling.take().or_else(|| system.mass_scaling().cloned());
-        let new = said.into_iter().filter(|said| !warnings.contains(said)).collect::<Vec<_>>();
+        let is_said = |one: &Diagnostic| {
+            warnings.iter().any(|said: &Diagnostic| said.message == one.message && said.place == one.place)
+        };
+        let new = said.into_iter().filter(|one| !is_said(one)).collect::<Vec<_>>();
         warnings.extend(new.into_iter().map(in_stage));
     }
     Ok((system, plan, warnings))

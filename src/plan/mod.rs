@@ -17,7 +17,7 @@ use crate::system::assembly::Assembly;
 use crate::system::connectivity::connectivity;
 use crate::system::{DofMap, NodeRows, System};
 use dof_status::DofStatus;
-pub use sideways::{Sideways, deforms_in_plane};
+pub use sideways::Sideways;
 pub use unreachable_targets::unreachable_targets;
 
 /// Number of nodes from which several threads pay in the loops over nodes.

@@ -51,6 +51,6 @@ impl Sideways {
 }
 
 /// True where something deforms in a plane motion.
-pub fn deforms_in_plane(system: &System) -> bool {
+fn deforms_in_plane(system: &System) -> bool {
     system.plane.is_some() && system.groups.iter().any(|group| group.kind.is_deformable())
 }

@@ -61,15 +61,18 @@ pub struct Works {
     supports: f64,
     /// The largest sum of their magnitudes: what supports do to loads may leave nothing of either.
     pub largest: f64,
+    /// The sum of the works of single loads and supports in all steps, without signs: twice what they do to each other where they cancel.
+    pub gross: f64,
     /// What loads may have done before they were in equilibrium, where they act at once.
     pub sudden: f64,
 }
 
-keep!(Works { loads, supports, largest, sudden });
+keep!(Works { loads, supports, largest, gross, sudden });
 
 impl Works {
-    /// Adds those of a step.
-    pub fn add(&mut self, loads: f64, supports: f64) {
+    /// Adds those of a step, and the sum of their terms without signs.
+    pub fn add(&mut self, [loads, supports]: [f64; 2], gross: f64) {
+        self.gross += gross;
         self.loads += loads;
         self.supports += supports;
         self.largest = self.largest.max(self.loads.abs() + self.supports.abs());

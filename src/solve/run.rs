@@ -248,12 +248,12 @@ impl<'a> Run<'a> {
         if cx.is_dynamic() || cx.plan.linear || along || !ws.load_steps.peak.stressed {
             return None;
         }
-        let (missed, energy) = self.balance().missed_in_statics();
+        let (works, (missed, energy)) = (&ws.load_steps.works, self.balance().missed_in_statics());
         // Loads that act at once do work before they are in equilibrium.
-        let beyond = (missed.abs() - ws.load_steps.works.sudden).max(0.0);
+        let beyond = (missed.abs() - works.sudden).max(0.0);
         // Where nothing gives way, what is done is that of the displacements which the iteration leaves.
         let left = cx.model.solution.iteration.tolerance * cx.length * ws.load_steps.peak.forces.force;
-        Some((beyond.copysign(missed), energy.max(ws.load_steps.works.largest).max(left)))
+        Some((beyond.copysign(missed), energy.max(works.largest).max(0.5 * works.gross).max(left)))
     }
 
     /// What was not judged.

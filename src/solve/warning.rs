@@ -188,11 +188,13 @@ fn crowded(contact: &str) -> String {
 /// What bounds the step where elements do not.
 fn scaled_step([wanted, longest]: [f64; 2], label: &str, cause: &str) -> String {
     let cause = match cause {
-        "" => "elements that have become shorter or stiffer, or have no mass where they are attached".to_owned(),
-        name => format!("`{name}`"),
+        "" => "elements have become shorter or stiffer, or have no mass where they are attached, or dampers are stiff"
+            .to_owned(),
+        name => format!("`{name}` asks for it"),
     };
     format!(
-        "the critical time step is {}, below the {} of `mass_scaling_step`: {cause} asks for it, in a motion of `{label}` most of all. Mass that          is added to elements for longer steps does nothing but harm",
+        "the critical time step is {}, below the {} of `mass_scaling_step`, which bounds that of elements alone: {cause}, in a motion of `{label}` \
+         most of all. A `mass_scaling_step` of that adds less mass and loses no time",
         short(longest),
         short(wanted)
     )
@@ -388,7 +390,9 @@ impl fmt::Display for Remark {
                 "motion out of the plane is not held at `{label}` in direction {direction}: buckling out of it is not judged"
             ),
             Remark::Jointed => {
-                write!(f, "buckling out of the plane is not judged in a scene with joints: `plane` = \"off\" judges it")
+                f.write_str(
+                    "whether the scene falls or buckles out of its plane is not judged where there are joints: `plane` = \"off\" judges it",
+                )
             }
             Remark::Slipping => f.write_str(
                 "friction slips along the path: whether equilibria are stable is not judged there; load steps judge it",

@@ -7,7 +7,7 @@ use super::group::Group;
 use super::inertia::Inertia;
 use super::parts::{NodalMasses, assembled};
 use crate::integrators::stability_limit::largest_stiffness;
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::model::{AnalysisKind, Model, Part, PartKind};
 use crate::state::{Configuration, Node};
 
@@ -91,7 +91,7 @@ impl MassScaling {
             told.added += (scaling.factor - 1.0) * own;
             told.factor = told.factor.max(scaling.factor);
             told.heavier += usize::from(scaling.factor > 1.0);
-            told.turning += usize::from(scaling.gyration > 0.0);
+            told.turning += usize::from(scaling.gyration != Mat3::zeros());
             for share in element.0.iter().filter(|share| share.mass > 0.0) {
                 let (mass, J0) = scaling.of(share);
                 let inertia = &mut inertias[place[share.node]];
@@ -159,7 +159,7 @@ fn needed(group: &Group, (model, masses): (&Model, &NodalMasses), nodes: &[Node]
         given.extend(K.chunks(length).zip(first..).map(|(K, e)| {
             let element = part.lumped(group.first + e, &model.stiffnesses, masses);
             let spacing = part.spacing(group.first + e, masses);
-            element.map_or(ElementScaling::KEPT, |element| scaling(K, (&element, spacing), limit))
+            element.map_or(ElementScaling::KEPT, |element| scaling(K, (&element, &spacing), limit))
         }));
     }
     given

@@ -19,6 +19,7 @@ mod polyhedra;
 mod rubbing;
 mod sheet_edges;
 mod sight;
+mod sliding_far;
 mod stages;
 mod stiffness;
 mod touch;

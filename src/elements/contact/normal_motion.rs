@@ -2,6 +2,7 @@
 
 use super::history::{PointHistory, PointHistoryMut};
 use super::law::ContactLaw;
+use super::restitution::normal_force;
 use crate::materials::Dissipation;
 use crate::state::Configuration;
 
@@ -44,6 +45,12 @@ pub(super) fn pass_over(
 /// last state to come from, and stays where it is.
 pub(super) fn way(old: PointHistory, part: f64) -> f64 {
     if old.is_known() { part } else { 1.0 }
+}
+
+/// The friction force at which a pair would have slipped at the last state: what begins to slip in a step has been pulled so far before.
+pub(super) fn slip_limit(law: &ContactLaw, old: PointHistory) -> f64 {
+    let depth = (old.lift(law) - old.gap()).max(0.0);
+    law.friction * normal_force(law.stiffness, &law.loss, depth, old.rate(), old.impact_speed()).force
 }
 
 /// Writes the motion along the normal, the impact and the power of its damping after `part` of the way from the last state to

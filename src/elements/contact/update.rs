@@ -3,7 +3,7 @@
 use super::force::{ContactForce, contact_force};
 use super::history::{self, PointHistory, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
-use super::normal_motion::{NormalMotion, pass_over, update_normal, way};
+use super::normal_motion::{NormalMotion, pass_over, slip_limit, update_normal, way};
 use super::point::ContactPoint;
 use crate::materials::Dissipation;
 use crate::math::Vec3;
@@ -61,7 +61,7 @@ fn update_friction(
         Some(friction) => {
             let end = pull + part * (friction.T.norm() - pull);
             new.set_friction_force(end);
-            (friction.slip, 0.5 * part * friction.slip.norm() * (pull + end))
+            (friction.slip, 0.5 * part * friction.slip.norm() * (pull.max(slip_limit(law, old)) + end))
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {

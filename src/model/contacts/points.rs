@@ -118,7 +118,9 @@ impl<'a, 'd> Finder<'a, 'd> {
                 continue;
             };
             for touch in found {
-                let key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
+                let mut key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
+                // A line may be named from either end.
+                key.sort_unstable();
                 if seen.insert(key) {
                     touches.push(touch);
                 }

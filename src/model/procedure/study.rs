@@ -317,10 +317,8 @@ impl<'d> Reader<'_, 'd> {
             let word = scheme.word();
             let mut entries = entries(at);
             let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| update.value.word());
-            if word == self.scheme.word()
-                && entries.is_empty()
-                && let Some(own) = own
-            {
+            let takes_own = word == self.scheme.word() && entries.is_empty();
+            if takes_own && let Some(own) = own {
                 entries = self::entries(own);
                 scheme = self.scheme.clone();
             } else if let Some(rotation) = rotation
@@ -331,6 +329,10 @@ impl<'d> Reader<'_, 'd> {
             check_yielding(&*scheme, &at.span, yields, self.report);
             let choice = choice(&scheme, &entries);
             if choices.iter().any(|other| other.label == choice.label) {
+                // One that takes the parameters of `[integrator]` is another in each run of the study: in one of them it is its like.
+                if takes_own && own.is_some_and(|own| !self::entries(own).is_empty()) {
+                    continue;
+                }
                 self.report.error::<()>(&at.span, format!("`{}` is listed twice", choice.label));
             }
             choices.push(choice);

@@ -20,7 +20,10 @@ pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec
     let line = |(joint, words): (usize, Vec<&str>)| {
         let name = &model.constraints.joints[joint].name;
         let (are, these) = if words.len() == 1 { ("is", "this reaction") } else { ("are", "these reactions") };
-        format!("joint `{name}`: {} {are} redundant; the joints share {these} by least norm", joined(&words))
+        format!(
+            "joint `{name}`: {} {are} redundant; the joints share {these} by least norm, weighted by the masses that they move",
+            joined(&words)
+        )
     };
     lines.into_iter().map(line).collect()
 }

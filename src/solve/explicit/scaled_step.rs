@@ -1,6 +1,7 @@
 //! What asks for shorter steps than those for which mass scaling has raised the masses of elements.
 
 use super::accelerations::Accelerations;
+use crate::elements::Moduli;
 use crate::math::Vec6;
 use crate::solve::context::Context;
 use crate::solve::warning::Warning;
@@ -9,6 +10,8 @@ use crate::state::{Configuration, State};
 
 /// Differences of residuals leave seven digits of the limit.
 const ROUNDING: f64 = 1e-4;
+/// Part of the stiffness of a mode from which one link or contact is what makes it fast.
+const MOST: f64 = 0.5;
 
 /// Warns, once, where the critical time step `longest` is below that of scaled elements; `mode` is the fastest motion by node, in the trial
 /// motion.
@@ -31,22 +34,33 @@ pub fn check_scaled_step(
     let Some(node) = cx.independent_nodes.iter().copied().max_by(|a, b| energy(a).total_cmp(&energy(b))) else {
         return;
     };
-    let (label, cause) = (cx.model.nodes[node].label.clone(), cause(cx, ws, state, node));
+    // Of a mode of unit inner product the stiffness is the square of its frequency, 4/Δt².
+    let stiffness = cx.independent_nodes.iter().map(energy).sum::<f64>() * (2.0 / longest).powi(2);
+    let (label, cause) = (cx.model.nodes[node].label.clone(), cause(cx, ws, state, (mode, stiffness)));
     ws.warnings.add(Warning::ScaledStep { wanted, longest, label, cause });
 }
 
-/// The link or contact that acts on a node, or on what is attached to it; empty where none does.
-fn cause(cx: &Context, ws: &Workspace, state: &State, node: usize) -> String {
-    let mut moved = vec![false; cx.model.nodes.len()];
-    moved[node] = true;
-    // A master stands before the nodes that depend on it.
-    cx.system.rigid_links.iter().for_each(|link| moved[link.node] |= moved[link.master]);
+/// The link or contact that has most of the stiffness of a mode; empty where none has.
+fn cause(cx: &Context, ws: &Workspace, state: &State, (mode, stiffness): (&[Vec6], f64)) -> String {
+    let mut motions = mode.to_vec();
+    cx.system.project(&ws.trial, &mut motions);
     let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
+    let mut K = Vec::new();
     for group in cx.system.groups.iter().filter(|group| !group.kind.is_deformable()) {
-        let now = group.configuration(&now);
-        let acts =
-            |&e: &usize| group.block.nodes(e).iter().any(|&node| moved[node]) && !group.block.is_inactive(e, &now);
-        if let Some(e) = (0..group.block.len()).find(acts) {
+        let (now, dofs) = (group.configuration(&now), group.block.dofs());
+        let mut of_mode = |e: usize| {
+            let motion: Vec<f64> =
+                group.block.nodes(e).iter().flat_map(|&node| motions[node].iter().copied().take(dofs)).collect();
+            K.clear();
+            K.resize(motion.len().pow(2), 0.0);
+            group.block.tangent(e, &now, 0.0, Moduli::Elastic, &mut K);
+            K.chunks(motion.len())
+                .zip(&motion)
+                .map(|(row, x)| x * row.iter().zip(&motion).map(|(k, y)| k * y).sum::<f64>())
+                .sum::<f64>()
+        };
+        let is_most = |&e: &usize| !group.block.is_inactive(e, &now) && of_mode(e) > MOST * stiffness;
+        if let Some(e) = (0..group.block.len()).find(is_most) {
             return group.part_of(e, cx.model).name().to_owned();
         }
     }

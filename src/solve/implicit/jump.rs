@@ -107,7 +107,7 @@ pub fn check_work(
         }
         ws.load_steps.works.sudden += sudden;
     }
-    ws.load_steps.works.add(of_loads, of_supports);
+    ws.load_steps.works.add([of_loads, of_supports], gross);
     ws.load_steps.stored = Some((to, after));
     Ok(())
 }

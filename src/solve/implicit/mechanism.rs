@@ -3,7 +3,7 @@
 
 use super::mode::Mode;
 use super::stabilization::HeldByForces;
-use crate::elements::Moduli;
+use crate::elements::{ElementBlock, Moduli};
 use crate::linear::Solver;
 use crate::math::{Vec6, angular, linear};
 use crate::model::Model;
@@ -60,37 +60,64 @@ pub fn strains_elements(
     motions: &[Vec6],
     length: f64,
 ) -> bool {
-    let (mut energy, mut terms) = (0.0, 0.0);
+    let mut strains = Strains { motions, length, energy: 0.0, terms: 0.0, largest: 0.0 };
     let mut K = Vec::new();
-    let mut largest: f64 = 0.0;
     for group in &system.groups {
         let (block, d, now) = (&group.block, group.block.dofs(), &group.configuration(now));
-        for e in (0..block.len()).filter(|&e| !(group.kind.is_unilateral() && block.is_inactive(e, now))) {
+        let is_unilateral = group.kind.is_unilateral();
+        each_pair(block.as_ref(), now, weights.rate, |_, nodes, K| strains.add(K, nodes, d, is_unilateral));
+        for e in (0..block.len()).filter(|&e| !(is_unilateral && block.is_inactive(e, now))) {
             let nodes = block.nodes(e);
-            let n = d * nodes.len();
             K.clear();
-            K.resize(n * n, 0.0);
+            K.resize((d * nodes.len()).pow(2), 0.0);
             block.tangent(e, now, weights.rate, weights.moduli, &mut K);
-            // Translation as a whole strains no element; without it motions have the digits of strains.
-            let common = if group.kind.is_unilateral() { Vec6::zeros() } else { motions[nodes[0]] };
-            let whole = |j: usize| motions[nodes[j / d]][j % d];
-            let own = |j: usize| if j % d < 3 { whole(j) - common[j % d] } else { whole(j) };
-            let floor = |j: usize| if j % d < 3 { MOVING } else { MOVING / length };
-            for (i, row) in K.chunks(n).enumerate() {
-                let sum = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k * of(j)).sum::<f64>();
-                let size =
-                    |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k.abs() * of(j)).sum::<f64>();
-                let force = sum(&own);
-                let size_of_force = size(&|j| own(j).abs().max(floor(j)));
-                if size_of_force > 0.0 {
-                    largest = largest.max(force.abs() / size_of_force);
-                }
-                energy += own(i) * force;
-                terms += whole(i).abs() * size(&|j| whole(j).abs());
-            }
+            strains.add(&K, nodes, d, is_unilateral);
         }
     }
-    energy.abs() > ENERGY * terms || largest > FORCE
+    strains.energy.abs() > ENERGY * strains.terms || strains.largest > FORCE
+}
+
+/// What a motion strains.
+struct Strains<'a> {
+    motions: &'a [Vec6],
+    length: f64,
+    /// Twice the energy of all elements, and the sum of the magnitudes of its terms.
+    energy: f64,
+    terms: f64,
+    /// The largest force, of the terms that it is summed from.
+    largest: f64,
+}
+
+impl Strains<'_> {
+    /// Adds those of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes.
+    fn add(&mut self, K: &[f64], nodes: &[usize], d: usize, is_unilateral: bool) {
+        // Translation as a whole strains no element; without it motions have the digits of strains.
+        let common = if is_unilateral { Vec6::zeros() } else { self.motions[nodes[0]] };
+        let whole = |j: usize| self.motions[nodes[j / d]][j % d];
+        let own = |j: usize| if j % d < 3 { whole(j) - common[j % d] } else { whole(j) };
+        let floor = |j: usize| if j % d < 3 { MOVING } else { MOVING / self.length };
+        for (i, row) in K.chunks(d * nodes.len()).enumerate() {
+            let sum = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k * of(j)).sum::<f64>();
+            let size = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k.abs() * of(j)).sum::<f64>();
+            let force = sum(&own);
+            let size_of_force = size(&|j| own(j).abs().max(floor(j)));
+            if size_of_force > 0.0 {
+                self.largest = self.largest.max(force.abs() / size_of_force);
+            }
+            self.energy += own(i) * force;
+            self.terms += whole(i).abs() * size(&|j| whole(j).abs());
+        }
+    }
+}
+
+/// Calls with the element, the nodes and the tangent of each pair that touches, of a block whose elements wander.
+fn each_pair(block: &dyn ElementBlock, now: &Configuration, rate: f64, mut act: impl FnMut(usize, &[usize], &[f64])) {
+    let Some(wandering) = block.wandering() else { return };
+    let partners = wandering.partners(now.nodes);
+    let mut room = vec![0.0; (6 * partners.most_nodes()).pow(2)];
+    wandering.pair_tangents(&partners, now, rate, &mut room, &mut |place, K| {
+        act(partners.pairs[place][0], partners.nodes(place), K);
+    });
 }
 
 /// The number of elements that neither push nor pull as they lie: links and tension-only bars that are open or slack, contacts that do
@@ -126,6 +153,8 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
     let mut K = Vec::new();
     system.groups.iter().find_map(|group| {
         let (block, now) = (&group.block, &group.configuration(now));
+        let mut touching = Vec::new();
+        each_pair(block.as_ref(), now, 0.0, |e, _, _| touching.push(e));
         let mut is_open = |&e: &usize| {
             let nodes = block.nodes(e);
             // What counts the turns of a joint never pushes, open or not.
@@ -134,6 +163,9 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
             }
             K.clear();
             K.resize((block.dofs() * nodes.len()).pow(2), 0.0);
+            if touching.contains(&e) {
+                return false;
+            }
             if !block.is_inactive(e, now) {
                 block.tangent(e, now, 0.0, Moduli::Algorithmic, &mut K);
             }

@@ -152,7 +152,11 @@ impl Newton {
     ) -> Result<StepReport, Failure> {
         let found = found.and_then(|report| jump::check_motion(cx, ws, state, report.to).map(|()| report));
         let unheld = self.matrix.unheld();
-        let found = found.map_err(|failure| unheld.filter(|_| !matches!(failure, Failure::Stopped)).unwrap_or(failure));
+        let found = found.map_err(|failure| match failure {
+            // The matrix with the forces of joints in it says best what these do not hold.
+            Failure::Stopped | Failure::Singular { .. } => failure,
+            _ => unheld.unwrap_or(failure),
+        });
         match &found {
             Ok(report) => {
                 ws.load_steps.peak.keep(report.residual);

@@ -10,7 +10,6 @@
 use super::out_of_plane::OutOfPlane;
 use super::tangent::{Criterion, Ends, Tangent};
 use crate::linear::{Factorization, TooLarge};
-use crate::plan::deforms_in_plane;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::linear_system::LinearSystem;
@@ -78,7 +77,7 @@ impl Stability {
     /// loads grow along the path there, which only a path of given arc length may not do.
     /// Returns true where the matrix of the step has been overwritten.
     pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64, grows: bool) -> bool {
-        if from == 0.0 && deforms_in_plane(cx.system) && !cx.system.joints.is_empty() {
+        if from == 0.0 && cx.system.plane.is_some() && !cx.system.joints.is_empty() {
             ws.warnings.remark(Remark::Jointed);
         }
         if self.sideways.as_mut().is_some_and(|out| !out.check(cx, ws, state, from)) {

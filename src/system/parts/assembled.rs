@@ -2,7 +2,7 @@
 
 use super::masses::{LumpedElement, NodalMasses};
 use crate::elements::ElementBlock;
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::model::Model;
 use crate::sections::Stiffness;
 use crate::system::plane::MotionPlane;
@@ -34,9 +34,10 @@ pub trait Assembled {
         None
     }
 
-    /// The longest distance of neighbouring nodes of an element that deforms, at t = 0.
-    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> f64 {
-        0.0
+    /// The squares of the distances of neighbouring nodes of an element that deforms, at t = 0, as a tensor S, global components: aᵀ S a is
+    /// that along which waves run that turn the element about the unit vector a, and zero where none do.
+    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> Mat3 {
+        Mat3::zeros()
     }
 
     /// The blocks of the part; some may be empty.

@@ -25,10 +25,6 @@ impl Assembled for Bar {
         Some(lumped(self, &self.elements[element], masses))
     }
 
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> f64 {
-        length(&self.elements[element], masses)
-    }
-
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
         pieces(self.elements.len()).map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
     }

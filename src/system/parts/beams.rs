@@ -30,9 +30,11 @@ impl Assembled for Beam {
         Some(lumped(self, element, stiffnesses, masses))
     }
 
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> f64 {
+    /// Torsion has the rotary inertia of the section, as it is.
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
         let nodes = &self.elements[element].nodes;
-        (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm() / self.order as f64
+        let along = (masses.x[nodes[self.order]] - masses.x[nodes[0]]) / self.order as f64;
+        along.norm_squared() * Mat3::identity() - along * along.transpose()
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {

@@ -61,15 +61,23 @@ impl Assembled for Shell {
         Some(lumped(self, &self.elements[element].nodes[..self.size()], masses))
     }
 
-    /// Elements of order 2 have a node on each side.
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> f64 {
+    /// Half the sum of the squares of its sides: of rectangles and of triangles with a right angle the sides themselves, of triangles with
+    /// equal ones their heights. Elements of order 2 have a node on each side.
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
         let (corners, parts) = match self.size() {
             size @ (3 | 4) => (size, 1.0),
             6 => (3, 2.0),
             _ => (4, 2.0),
         };
         let corner = |k: usize| masses.x[self.elements[element].nodes[k % corners]];
-        (0..corners).map(|k| (corner(k + 1) - corner(k)).norm() / parts).fold(0.0, f64::max)
+        let sides = (0..corners).map(|k| (corner(k + 1) - corner(k)) / parts);
+        let squares: Mat3 = sides.map(|side| 0.5 * side * side.transpose()).sum();
+        let across = squares.symmetric_eigen();
+        // Of the three the least is that along the normal. Turns about the normal bulge the longer side.
+        let normal = across.eigenvectors.column(across.eigenvalues.imin()).into_owned();
+        let long = across.eigenvalues.max();
+        let short = across.eigenvalues.sum() - long - across.eigenvalues.min();
+        (long + short) * Mat3::identity() - squares - short * normal * normal.transpose()
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {

@@ -223,6 +223,13 @@ impl Facet {
         }
     }
 
+    /// The unit vector of what of `g` leads across a line; zero where nothing does.
+    pub(super) fn across(&self, g: &Vec3, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
+        let along = p[1] - p[0];
+        let across = g - along * (g.dot(&along) / along.norm_squared());
+        across.try_normalize(1e-9 * along.norm()).unwrap_or_else(Vec3::zeros)
+    }
+
     /// A unit vector that leads out of the middle of what has no sides.
     pub(super) fn outward(&self, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
         match self.is_line() {

@@ -27,8 +27,9 @@ impl FacetPair<'_> {
         let n = &place.n;
         let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
         let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
+        let pressed = if self.sticks { f64::INFINITY } else { normal.force };
         if self.is_of_lines() {
-            let rub = line_friction::rub(self, place, LineMemory(memory.0), normal.force, nodes);
+            let rub = line_friction::rub(self, place, LineMemory(memory.0), pressed, nodes);
             let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
             return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), normal };
         }
@@ -43,7 +44,7 @@ impl FacetPair<'_> {
         }
         let from_anchor = self.seen_from(self.kept, &place.x, nodes) - self.kept.base(nodes) * memory.anchor();
         let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
-        let friction = friction_force(law.stiffness, law.friction, normal.force, &closest, &from_anchor, r, &phi);
+        let friction = friction_force(law.stiffness, law.friction, pressed, &closest, &from_anchor, r, &phi);
         let M = r * n.cross(&friction.T);
         PairForceOnPoint {
             F: normal.force * n - friction.T,

@@ -28,6 +28,8 @@ pub(super) struct FacetPair<'a> {
     pub kept: &'a Facet,
     /// Of a line, the nodes of the one that remembers: its neighbour where the place has gone on to it.
     pub kept_line: [usize; 2],
+    /// True where the spring of friction bears whatever pulls at it.
+    pub sticks: bool,
 }
 
 /// Where a point and a facet are to each other; global components.

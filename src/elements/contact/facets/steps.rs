@@ -71,7 +71,41 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
         })
     });
     nearby.touches = found;
-    is_missed
+    drop(nearby);
+    is_missed || 2.0 * way > of.margin && forgets(of, now)
+}
+
+/// True where what rubbed has slid on so far that nothing tells of it where it touches now, and friction would begin anew there: over more
+/// than a facet in one step.
+fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
+    if of.law.friction == 0.0 || of.is_of_balls {
+        return false;
+    }
+    let rubs = |e: usize, slot: usize| {
+        let motion = of.memory(of.of_point(e, now.history), slot).motion();
+        motion.is_known() && motion.gap() <= 0.0 && motion.friction_force() > 0.0
+    };
+    let all = |e: usize| (0..of.slots).filter(|&slot| rubs(e, slot)).count();
+    // By point: what rubbed there, what of that still touches, and what begins to. Lines hand on to each other.
+    let (mut e, mut known, mut begun) = (usize::MAX, 0, 0);
+    let mut on_all = [0, 0];
+    let mut is_lost = false;
+    of.each_touch(now.nodes, now.history, |point, touch, _| {
+        if point != e {
+            is_lost |= e != usize::MAX && begun > 0 && known < all(e);
+            (e, known, begun) = (point, 0, 0);
+        }
+        match touch.slot.map(|slot| (point, slot)).or(touch.from) {
+            Some((from, slot)) if rubs(from, slot) => (known, on_all[0]) = (known + 1, on_all[0] + 1),
+            Some(_) => {}
+            None if touch.gap < 0.0 => (begun, on_all[1]) = (begun + 1, on_all[1] + 1),
+            None => {}
+        }
+    });
+    match of.is_of_lines {
+        true => on_all[1] > 0 && on_all[0] < (0..of.points.len()).map(all).sum::<usize>(),
+        false => is_lost || e != usize::MAX && begun > 0 && known < all(e),
+    }
 }
 
 /// True where a point has come through the facet that it remembers, by nearly all of its reach.

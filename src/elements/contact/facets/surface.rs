@@ -56,7 +56,17 @@ impl FacetContacts {
         let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
         let inset = memory.map_or(touch.inset, PairMemory::inset);
         let (point, facing) = (self.point_at(e, touch.share), touch.facing);
-        FacetPair { law: &self.law, point, facet, facing, memory, inset, kept, kept_line: [ends[0], ends[1]] }
+        FacetPair {
+            law: &self.law,
+            point,
+            facet,
+            facing,
+            memory,
+            inset,
+            kept,
+            kept_line: [ends[0], ends[1]],
+            sticks: false,
+        }
     }
 
     /// A point and the facet that it remembers in this slot.
@@ -65,7 +75,17 @@ impl FacetContacts {
         let facet = &self.facets[memory.facet()];
         let point = self.point_at(e, None);
         let (memory, inset, kept_line) = (Some(memory), memory.inset(), [point.nodes[0], point.nodes[1]]);
-        FacetPair { law: &self.law, point, facet, facing: Facing::Normal, memory, inset, kept: facet, kept_line }
+        FacetPair {
+            law: &self.law,
+            point,
+            facet,
+            facing: Facing::Normal,
+            memory,
+            inset,
+            kept: facet,
+            kept_line,
+            sticks: false,
+        }
     }
 
     /// True where two lines touch that are parallel within some degrees, and not end to end.

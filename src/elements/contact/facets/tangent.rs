@@ -140,7 +140,8 @@ fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3)
 }
 
 /// Friction by central differences of its forces, each motion together with its rate. Forces are smooth over far longer ways than the
-/// step, a millionth of the size of the pair, and rounding leaves 1e-9 of them.
+/// step, a millionth of the size of the pair, and rounding leaves 1e-9 of them. What sticks does so a step away too: two that just touch
+/// would slip with the least of it.
 fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     let count = pair.point.count + pair.facet.corners;
     let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS + 2];
@@ -162,7 +163,8 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let kept_line = std::array::from_fn(|k| keep(pair.kept_line[k], count + MOST_CORNERS + k));
     let left = Facet { nodes: left, ..pair.kept.clone() };
     let kept = if std::ptr::eq(pair.kept, pair.facet) { &facet } else { &left };
-    let pair = FacetPair { point, facet: &facet, kept, kept_line, ..pair.clone() };
+    let slips = pair.force(place, nodes).friction.is_some_and(|friction| friction.slip != Vec3::zeros());
+    let pair = FacetPair { point, facet: &facet, kept, kept_line, sticks: !slips, ..pair.clone() };
     let length = place.reach.max(place.d.abs()).max(place.at.g.norm());
     for column in 0..6 * count {
         let (k, dof) = (column / 6, column % 6);

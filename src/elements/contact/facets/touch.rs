@@ -285,14 +285,18 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
         let nearest = share.map(|_| of.point_at(e, share).relative_position(origin, nodes));
         let p = facet.seen_from(nearest.as_ref().unwrap_or(&x), origin, nodes);
         let at = facet.closest(&p);
-        let normal = facet.facing(&at, &p);
+        let normal = match of.is_of_lines {
+            // Beyond its end the way to the nearest point leads along the line too.
+            true => facet.across(&at.g, &p),
+            false => facet.facing(&at, &p),
+        };
         let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);
         // It goes on to the same side alone, for of two layers that face alike it lies above the one and below the other; where it has come
         // through nearly to the middle, it is on either side of the next as rounding will have it.
         let is_deep = memory.motion().gap() < -0.5 * (facet.half + of.points[e].radius);
         let same_side = |touch: &FacetTouch| !facet.has_sides() || is_deep || memory.side() * touch.height() >= 0.0;
         let goes_on = |touch: &&mut FacetTouch| {
-            touch.slot.is_none() && likeness(touch) > NEIGHBOURS && same_side(touch) && is_close(of, touch, &at.g)
+            touch.slot.is_none() && likeness(touch) > NEIGHBOURS && same_side(touch) && is_close(of, e, touch, &at.g)
         };
         let best = found.iter_mut().filter(goes_on).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
         if let Some(touch) = best {
@@ -330,9 +334,10 @@ pub(super) fn take_over(of: &FacetScene, e: usize, nodes: &[Node], history: &[f6
     }
 }
 
-/// True where the facet from which a point came is no farther than a facet is large.
-fn is_close(of: &FacetScene, touch: &FacetTouch, g: &Vec3) -> bool {
-    g.norm() < touch.gap.abs() + 2.0 * of.facets[touch.facet].half + 4.0 * of.margin
+/// True where the facet from which a point came, `g` away from its middle, is no farther than a facet is large.
+fn is_close(of: &FacetScene, e: usize, touch: &FacetTouch, g: &Vec3) -> bool {
+    let reach = of.facets[touch.facet].half + of.points[e].radius;
+    g.norm() < touch.gap.abs() + 2.0 * reach + 4.0 * of.margin
 }
 
 /// The first place of memory that no touch has.

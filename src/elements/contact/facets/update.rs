@@ -6,7 +6,7 @@ use super::pair::{FacetPair, PairForceOnPoint, PairPlace, rotation_of};
 use super::surface::FacetContacts;
 use super::touch::{self, FacetTouch, TouchQuery};
 use crate::elements::contact::history::PointHistory;
-use crate::elements::contact::normal_motion::{NormalMotion, update_normal, way};
+use crate::elements::contact::normal_motion::{NormalMotion, slip_limit, update_normal, way};
 use crate::materials::Dissipation;
 use crate::math::rotation::{exp, matrix, renormalise};
 use crate::math::{Mat3, Vec3};
@@ -135,7 +135,7 @@ fn update_friction(
             let end = pull + part * (friction.T.norm() - pull);
             new.motion().set_friction_force(end);
             anchor += part * (friction.slip + n.dot(&(x - anchor)) * n);
-            0.5 * part * friction.slip.norm() * (pull + end)
+            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion())) + end)
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {
@@ -181,7 +181,7 @@ fn update_friction_of_lines(
             let end = pull + part * (friction.T.norm() - pull);
             stretch(friction.T / k, part);
             new.motion().set_friction_force(end);
-            0.5 * part * friction.slip.norm() * (pull + end)
+            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion())) + end)
         }
         // The two are apart: what was stretched lets go.
         None => {
