@@ -274,30 +274,45 @@ pub fn row(name: &str, kind: &str, seed: Option<u64>, finer: usize) -> Option<[f
     })
 }
 
-/// The worst row of each table in per cent of its largest value, on the published mesh and with moved nodes (of the hemisphere the worse of two draws):
+/// The worst row of a table in per cent of its largest value, on the published mesh and with moved nodes (of the hemisphere the worse of two draws):
 /// quadrilaterals, then triangles. Asked for are 1 on regular quadrilaterals and 2 elsewhere. The table of the hemisphere itself is 0.6 off the limit of fine meshes.
+fn is_met(name: &str, bounds: [f64; 4]) {
+    let cases = ["quadrilateral", "triangle"].into_iter().flat_map(|kind| {
+        [(kind, &[None][..]), (kind, if name == "hemisphere" { &[Some(1), Some(2)][..] } else { &[Some(1)] })]
+    });
+    let found: Vec<f64> = cases
+        .map(|(kind, draws)| {
+            let worst = |seed: &Option<u64>| 100.0 * row(name, kind, *seed, 1).expect("the end of the path")[0];
+            draws.iter().map(worst).fold(0.0, f64::max)
+        })
+        .collect();
+    println!("{name}: {found:.2?} %");
+    assert!(found.iter().zip(bounds).all(|(error, bound)| *error < bound), "{name}: {found:?} %, not {bounds:?}");
+}
+
 #[test]
-fn every_row_on_regular_and_on_moved_nodes() {
-    let rows = [
-        ("shear", [0.2, 0.2, 0.2, 0.2]),
-        ("moment", [0.2, 0.5, 0.2, 0.5]),
-        ("annulus", [1.0, 1.0, 1.5, 2.0]),
-        ("hemisphere", [0.8, 2.0, 2.1, 2.1]),
-        ("semi-cylinder", [1.0, 1.0, 1.0, 1.0]),
-        ("roof", [1.0, 1.0, 1.0, 1.0]),
-        ("thin roof", [1.0, 1.0, 1.0, 1.0]),
-    ];
-    for (name, bounds) in rows {
-        let cases = ["quadrilateral", "triangle"].into_iter().flat_map(|kind| {
-            [(kind, &[None][..]), (kind, if name == "hemisphere" { &[Some(1), Some(2)][..] } else { &[Some(1)] })]
-        });
-        let found: Vec<f64> = cases
-            .map(|(kind, draws)| {
-                let worst = |seed: &Option<u64>| 100.0 * row(name, kind, *seed, 1).expect("the end of the path")[0];
-                draws.iter().map(worst).fold(0.0, f64::max)
-            })
-            .collect();
-        println!("{name}: {found:.2?} %");
-        assert!(found.iter().zip(bounds).all(|(error, bound)| *error < bound), "{name}: {found:?} %, not {bounds:?}");
-    }
+fn every_row_of_cantilevers() {
+    is_met("shear", [0.2, 0.2, 0.2, 0.2]);
+    is_met("moment", [0.2, 0.5, 0.2, 0.5]);
+}
+
+#[test]
+fn every_row_of_the_annulus() {
+    is_met("annulus", [1.0, 1.0, 1.5, 2.0]);
+}
+
+#[test]
+fn every_row_of_the_hemisphere() {
+    is_met("hemisphere", [0.8, 2.0, 2.1, 2.1]);
+}
+
+#[test]
+fn every_row_of_the_semi_cylinder() {
+    is_met("semi-cylinder", [1.0, 1.0, 1.0, 1.0]);
+}
+
+#[test]
+fn every_row_of_roofs() {
+    is_met("roof", [1.0, 1.0, 1.0, 1.0]);
+    is_met("thin roof", [1.0, 1.0, 1.0, 1.0]);
 }

@@ -10,14 +10,16 @@ use crate::state::{Configuration, Node};
 /// Part of the reach by which a point that is known to be on one side of a facet may have come through its middle.
 const THROUGH: f64 = 0.9;
 
-/// True where a step from `start` to `now` must be shorter: a point would pass the middle of a facet on whose side it was not known to
-/// be, would come through it by nearly all of its reach, or come into an impact that the step does not resolve. Balls do not pass the
-/// middle of each other.
+/// True where a step from `start` to `now` must be shorter: a point would pass a facet, would come into an impact that the step does not
+/// resolve, or would slide on so far that its friction is forgotten.
 pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
     let way = farthest(of, now.nodes, |_, node| start[node].x);
-    if !way.is_finite() {
-        return true;
-    }
+    !way.is_finite() || passes_any(of, way, start, now) || 2.0 * way > of.margin && forgets(of, now)
+}
+
+/// True where a point would pass the middle of a facet on whose side it was not known to be, would come through it by nearly all of its
+/// reach, or come into an impact that the step does not resolve. Balls do not pass the middle of each other.
+fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration) -> bool {
     let mut nearby = of.nearby(now.nodes);
     let mut found = std::mem::take(&mut nearby.touches);
     let is_missed = (0..of.points.len()).any(|e| {
@@ -71,8 +73,7 @@ pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> 
         })
     });
     nearby.touches = found;
-    drop(nearby);
-    is_missed || 2.0 * way > of.margin && forgets(of, now)
+    is_missed
 }
 
 /// True where what rubbed has slid on so far that nothing tells of it where it touches now, and friction would begin anew there: over more
