@@ -527,6 +527,12 @@ fn mass_scaling() {
     assert_snapshot!("mass_scaling_long_step", portal_and(&scaled("5e-5")));
     assert_snapshot!("mass_scaling_beyond_the_end", portal_and(&scaled("1e150")));
     assert_snapshot!("mass_scaling_short_step", portal_and(&scaled("1e-3")));
+    let automatic = |step: &str| portal(&[("time_step = 1e-4\n", &format!("time_step = \"auto\"\n{}", scaled(step)))]);
+    assert_eq!(automatic("0.01").trim(), "");
+    assert_snapshot!("mass_scaling_unused_step", automatic("0.05"));
+    // Modes take no steps.
+    let modal = [("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n", "kind = \"modal\"\n")];
+    assert!(!portal(&[modal[0], ("[analysis]", &(scaled("0.5") + "[analysis]"))]).contains("motion"));
     let more = "[damping]\nmass_factor = 2e4\n[[environment.base_acceleration]]\ndirection = [1.0, 0.0, 0.0]\namplitude = \"pulse\"\n";
     assert_snapshot!("mass_scaling_and_the_ground", portal_and(&(scaled("1e-4") + more)));
     let analysis = "[analysis]\nkind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n";

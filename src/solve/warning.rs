@@ -83,7 +83,7 @@ pub enum Warning {
         longest: f64,
         /// The node that its fastest motion moves most.
         label: String,
-        /// The link or contact that acts there; empty where none does.
+        /// The link or contact that has most of the stiffness of that motion; empty where none has.
         cause: String,
     },
 }

@@ -37,6 +37,30 @@ fn bodies_hang_one_from_the_other() {
     }
 }
 
+/// A contact of faces elsewhere in the scene does not hinder it, whether it touches or not.
+#[test]
+fn bodies_hang_beside_contacts_of_faces() {
+    for gap in [0.01, -1e-5] {
+        let sheet = "[materials.steel]\nmodel = \"elastic\"\nyoungs_modulus = 2e11\npoisson_ratio = 0.3\ndensity = 7850.0\n\
+                     [points]\np = [4.0, -1.0, 0.0]\nq = [6.0, -1.0, 0.0]\nr = [6.0, 1.0, 0.0]\ns = [4.0, 1.0, 0.0]\n\
+                     [[shells]]\nname = \"sheet\"\ncorners = [\"p\", \"q\", \"r\", \"s\"]\nelements = 4\nthickness = 0.02\nmaterial = \"steel\"\n\
+                     rigid = true\n[[supports]]\nat = \"sheet\"\nfix = \"all\"\n";
+        let ball = format!(
+            "[[bodies]]\nname = \"ball\"\ncenter = [5.1, 0.1, {:?}]\nshape = {{ kind = \"sphere\", radius = 0.1 }}\nmass = 1.0\n\
+             [[supports]]\nat = \"ball\"\nfix = [\"ux\", \"uy\", \"rx\", \"ry\", \"rz\"]\n\
+             [[links]]\nname = \"spring\"\nfrom = {{ ground = [5.1, 0.1, 3.0] }}\nto = {{ body = \"ball\" }}\nstiffness = 1e4\n\
+             [[contacts]]\nname = \"on\"\nsurface = {{ part = \"sheet\" }}\nwith = \"ball\"\nstiffness = 1e6\n",
+            0.11 + gap
+        );
+        let text = STATIC.to_owned() + sheet + &ball + &body("lamp", [0.0, -1.0], CROSS, GROUND, 0.0);
+        let forces = &mut |frame: &Frame| frame.derived.joints.iter().map(|joint| joint.f.z).collect();
+        let done = run_source(&Source::new("beside.toml", &text, &[]), forces);
+        assert!(matches!(done.outcome, Outcome::Done), "{gap}: {:?}", done.outcome);
+        // The tolerance of the iteration.
+        assert!((done.rows.last().expect("rows")[0].abs() - 30.0).abs() < 1e-7, "{gap}: {:?}", done.rows.last());
+    }
+}
+
 /// A boom that its drive lifts while a weight hangs from its tip, by a joint or by a rod.
 #[test]
 fn a_crane_lifts_what_hangs_from_it() {

@@ -49,7 +49,11 @@ pub(super) fn way(old: PointHistory, part: f64) -> f64 {
 
 /// The friction force at which a pair would have slipped at the last state: what begins to slip in a step has been pulled so far before.
 pub(super) fn slip_limit(law: &ContactLaw, old: PointHistory) -> f64 {
-    let depth = (old.lift(law) - old.gap()).max(0.0);
+    let depth = old.lift(law) - old.gap();
+    // Damping alone would press what is still apart.
+    if depth <= 0.0 {
+        return 0.0;
+    }
     law.friction * normal_force(law.stiffness, &law.loss, depth, old.rate(), old.impact_speed()).force
 }
 

@@ -50,5 +50,5 @@ pub use part_answers::{Drawing, LineElement, LinearSpring, NodeWeights};
 pub use response::{AroundResonances, ResponseAsked, ResponseMethod};
 pub use shell::{Shell, ShellElement};
 pub use stage::{Actors, RunStage, Stop, StopQuantity};
-pub use step_length::{ArcLength, ERROR_TOLERANCE, FIRST_STEP, StepLength};
+pub use step_length::{ArcLength, ERROR_TOLERANCE, FEWEST_STEPS, FIRST_STEP, SAFE, SAFE_WHERE_STRUCK, StepLength};
 pub use study::{Choice, Confirm, Quantity, Study};

@@ -7,12 +7,14 @@ use super::displacement_target::DisplacementTarget;
 pub const ERROR_TOLERANCE: f64 = 1e-3;
 /// First automatic step, as a fraction of the run.
 pub const FIRST_STEP: f64 = 5e-3;
+/// Least number of automatic steps of central differences, where little or nothing resists: loads must still be resolved.
+pub const FEWEST_STEPS: f64 = 50.0;
 /// Automatic steps of central differences, as a fraction of the critical time step. Beam elements in large bending are
 /// unstable at 0.9, not at 0.86: what is stable at one configuration may grow where the stiffness oscillates.
-pub(super) const SAFE: f64 = 0.8;
+pub const SAFE: f64 = 0.8;
 /// The fraction where links or contacts may stiffen the scene: they cut steps, and a mode at the fraction p of the
 /// limit has up to 1/(1 − p²) of its energy at a step, which a shorter step takes for all of it.
-pub(super) const SAFE_WHERE_STRUCK: f64 = 0.5;
+pub const SAFE_WHERE_STRUCK: f64 = 0.5;
 
 /// The way in which steps get their lengths.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,21 +1,15 @@
 //! What mass scaling of elements does not go with.
 
 use crate::deck::Deck;
+use crate::diagnostic::Span;
 use crate::integrators::Scheme;
-use crate::model::data::{Analysis, MassKind, Part, StepLength};
+use crate::model::data::{Analysis, FEWEST_STEPS, MassKind, Part, SAFE, SAFE_WHERE_STRUCK, StepLength};
 use crate::model::report::Report;
 use crate::model::values::span;
 use crate::names::short;
 
 /// The key that asks for it, in the table of the scheme.
 pub const KEY: &str = "mass_scaling_step";
-/// Automatic steps are this part of the critical one.
-const SAFETY: f64 = 0.8;
-/// Automatic steps are no longer than the duration over this.
-const FEWEST: f64 = 50.0;
-/// The critical step of the longest automatic ones, over the duration.
-const USED: f64 = 1.0 / (SAFETY * FEWEST);
-
 /// Reports what a deck that asks for mass scaling cannot have, once all parts are known.
 pub fn check_mass_scaling(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, parts: &[Part], report: &mut Report) {
     let place = deck.integrator.as_ref().and_then(|integrator| integrator.values.place(KEY));
@@ -43,27 +37,39 @@ pub fn check_mass_scaling(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme,
         let message = format!("no mass makes a step of {} stable with this `mass_factor`", short(step));
         report.error_with::<()>(&alpha.span, message, format!("below {} one does", short(1.0 / step)));
     }
-    let duration = analysis.duration();
-    if step > duration {
-        let message = format!("`{KEY}` is longer than the motion, which takes {}", short(duration));
-        report.error_with::<()>(place, message, "the mass that elements would need for it grows with its square");
-    } else if let StepLength::StabilityLimited { .. } = &analysis.step_length
-        && step > USED * duration
-    {
-        let message = format!(
-            "`{KEY}` adds mass for steps that are not taken: automatic ones are {} at most here",
-            short(duration / FEWEST)
-        );
-        report.warn(place, message, format!("{} is enough", short(USED * duration)));
+    if analysis.modes.is_none() {
+        check_length(deck, analysis, (step, place), report);
     }
-    if let (StepLength::Fixed { step: length }, Some(at)) = (&analysis.step_length, span_of_step(deck)) {
-        if *length > step {
+}
+
+/// Reports a step that is longer than the motion, or than the steps that are taken.
+fn check_length(deck: &Deck, analysis: &Analysis, (step, place): (f64, &Span), report: &mut Report) {
+    // A stage may be shorter than the step that suits all.
+    if step > analysis.end_time {
+        let message = format!("`{KEY}` is longer than the motion, which takes {}", short(analysis.end_time));
+        report.error_with::<()>(place, message, "the mass that elements would need for it grows with its square");
+        return;
+    }
+    match (&analysis.step_length, span_of_step(deck)) {
+        (StepLength::Fixed { step: length }, Some(at)) if *length > step => {
             let message = format!("`time_step` is above `{KEY}`, the step that elements bear");
             let hint = "steps are cut back wherever they are too long: take 0.8 of it, as \"auto\" does";
             report.warn(at, message, hint);
-        } else if *length < 0.5 * step {
+        }
+        (StepLength::Fixed { step: length }, _) if *length < 0.5 * step => {
             let message = format!("`{KEY}` adds mass for steps that are not taken: `time_step` is {}", short(*length));
-            report.warn(place, message, format!("{} is enough", short(*length / SAFETY)));
+            report.warn(place, message, format!("{} is enough", short(*length / SAFE)));
+        }
+        (StepLength::Fixed { .. }, _) => {}
+        _ => {
+            let (longest, enough) = (analysis.duration() / FEWEST_STEPS, 1.0 / SAFE_WHERE_STRUCK);
+            if analysis.stage.is_none() && step > enough * longest {
+                let message = format!(
+                    "`{KEY}` adds mass for steps that are not taken: automatic ones are {} at most",
+                    short(longest)
+                );
+                report.warn(place, message, format!("{} is enough", short(enough * longest)));
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use super::scaled_step::check_scaled_step;
 use crate::integrators::stability_limit::longest_step;
 use crate::math::rotation::RotationUpdate;
 use crate::math::{Vec3, Vec6, angular, linear, stack};
-use crate::model::Model;
+use crate::model::{FEWEST_STEPS, Model};
 use crate::plan::Plan;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
@@ -24,8 +24,6 @@ const AGAIN: usize = 3;
 const STEPS: usize = 400;
 /// Relative change from one iteration to the next that ends them.
 const SETTLED: f64 = 1e-4;
-/// Least number of steps of a run, where little or nothing resists: loads must still be resolved.
-const FEWEST: f64 = 50.0;
 /// Largest rotation of a body in a step, in radians: no stiffness limits tops and mechanisms. The error θ²/24 of the
 /// angle that central differences have in an oscillation is 6.5e-4 in a full turn.
 const TURN: f64 = 0.05;
@@ -177,7 +175,7 @@ impl CriticalStep {
                 self.measure_here(cx, ws, accelerations, state, first)?;
             }
         }
-        let most = cx.model.analysis.duration() / FEWEST;
+        let most = cx.model.analysis.duration() / FEWEST_STEPS;
         let turning = self.turning_step(cx.model, state);
         Ok((fraction * self.longest.unwrap_or(left)).min(most).min(turning))
     }

@@ -118,8 +118,8 @@ impl IterationMatrix {
                     match self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings) {
                         Ok(()) => {
                             // What stands on its joints, and falls, has as much stiffness as what hangs, of the other sign.
-                            let falls = matrix.solver.negative_eigenvalues() > cx.system.multipliers();
-                            return self.unheld.take_if(|_| falls).map_or(Ok(()), |unheld| Err(unheld.failure));
+                            let falls = |_: &mut Unheld| matrix.solver.negative_eigenvalues() > cx.system.multipliers();
+                            return self.unheld.take_if(falls).map_or(Ok(()), |unheld| Err(unheld.failure));
                         }
                         Err(failure) => failure,
                     }

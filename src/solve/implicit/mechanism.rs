@@ -121,13 +121,13 @@ fn each_pair(block: &dyn ElementBlock, now: &Configuration, rate: f64, mut act: 
 }
 
 /// The number of elements that neither push nor pull as they lie: links and tension-only bars that are open or slack, contacts that do
-/// not touch.
+/// not touch. Those whose elements wander are left out: they have no tangent of their own, touching or not.
 pub fn open_elements(system: &System, now: &Configuration) -> usize {
     let open = |group: &Group| {
         let now = &group.configuration(now);
         (0..group.block.len()).filter(|&e| group.block.is_inactive(e, now)).count()
     };
-    system.groups.iter().map(open).sum()
+    system.groups.iter().filter(|group| group.block.wandering().is_none()).map(open).sum()
 }
 
 /// The name, in quotes, of a part that is open or slack `now`, and was not `before`, where that is given.
