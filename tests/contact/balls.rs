@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::restitution::Loss;
-use rdsolve::elements::contact::{ContactLaw, ContactPoint, Facet, FacetContacts, FacetTouchers, MOST_NODES};
+use rdsolve::elements::contact::{ContactLaw, ContactPoint, Extent, Facet, FacetContacts, FacetTouchers, MOST_NODES};
 use rdsolve::math::Vec3;
 use rdsolve::solve::Frame;
 use rdsolve::state::{Configuration, Node};
@@ -84,8 +84,14 @@ fn heap(count: usize) -> (FacetContacts, Vec<Node>) {
 fn ball(node: usize, radius: f64) -> (ContactPoint, Facet) {
     let mut weights = [0.0; MOST_NODES];
     weights[0] = 1.0;
-    let point =
-        ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius: 0.0, is_line: false };
+    let point = ContactPoint {
+        nodes: [node; MOST_NODES],
+        weights,
+        count: 1,
+        radius,
+        rolling_radius: 0.0,
+        extent: Extent::Point,
+    };
     (point, Facet::ball(node, radius, 0.0))
 }
 

@@ -3,9 +3,11 @@
 mod balls;
 mod boxes;
 mod capsules;
+mod capsules_on_lines;
 mod closing;
 mod depth;
 mod edges;
+mod edges_of_solids;
 mod element;
 mod faces;
 mod faces_alone;

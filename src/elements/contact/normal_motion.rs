@@ -12,10 +12,15 @@ pub(super) struct NormalMotion {
     pub gap: f64,
     /// The approach speed δ̇.
     pub rate: f64,
-    /// The normal force.
-    pub force: f64,
+    /// The power of damping, by [`damping_power`].
+    pub power: f64,
     /// An upper bound of the approach speed in any direction.
     pub speed: f64,
+}
+
+/// The power of damping under a normal force.
+pub(super) fn damping_power(law: &ContactLaw, gap: f64, rate: f64, force: f64) -> f64 {
+    if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 }
 }
 
 /// A time in which a gap cannot close at twice the speed; 0 where it is not looked for, or the gap is small.
@@ -67,7 +72,7 @@ pub(super) fn update_normal(
     old: PointHistory,
     new: &mut PointHistoryMut,
 ) -> f64 {
-    let &NormalMotion { gap, rate, force, speed } = at;
+    let &NormalMotion { gap, rate, power, speed } = at;
     let dt = part * now.dt;
     let beyond = (part - 1.0) * now.dt;
     let way = way(old, part);
@@ -75,7 +80,6 @@ pub(super) fn update_normal(
     let end_gap = if old.is_known() { toward(old.gap(), gap) } else { gap - rate * beyond };
     new.set_motion(end_gap, toward(old.rate(), rate), safe_time(law, end_gap, speed));
     new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
-    let power = if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 };
     new.set_damping_power(toward(old.damping_power(), power));
     0.5 * dt * (old.damping_power() + new.read().damping_power())
 }

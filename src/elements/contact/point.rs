@@ -6,6 +6,18 @@ use crate::state::Node;
 /// Largest number of nodes that a point may lie between.
 pub const MOST_NODES: usize = 9;
 
+/// What of its nodes touches.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// A point: a weighted sum of them.
+    Point,
+    /// The line between two of them, by the point of it that is nearest.
+    Line,
+    /// Such a line, whose ends touch as points of their own, as the ends of the lines that it meets do too: it presses by what is deeper
+    /// where it crosses these than the ends are.
+    Edge,
+}
+
 /// A point that may touch: a weighted sum of nodes; or a line between two nodes, of which the point that is nearest touches.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactPoint {
@@ -19,14 +31,19 @@ pub struct ContactPoint {
     pub radius: f64,
     /// The radius at which friction turns the nodes; 0 where they have no rotation.
     pub rolling_radius: f64,
-    /// True for the whole line between its two nodes. Its own weights are those of the middle.
-    pub is_line: bool,
+    /// A point, or the whole line between its two nodes, whose own weights are those of the middle.
+    pub extent: Extent,
 }
 
 impl ContactPoint {
     /// The nodes that carry the point.
     pub fn nodes(&self) -> &[usize] {
         &self.nodes[..self.count]
+    }
+
+    /// True for the whole line between its two nodes.
+    pub fn is_line(&self) -> bool {
+        self.extent != Extent::Point
     }
 
     /// The point of a line at which its second end has this share.

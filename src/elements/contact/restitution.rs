@@ -34,6 +34,14 @@ pub struct NormalForce {
     pub by_rate: f64,
 }
 
+impl std::ops::Neg for NormalForce {
+    type Output = NormalForce;
+
+    fn neg(self) -> NormalForce {
+        NormalForce { force: -self.force, by_depth: -self.by_depth, by_rate: -self.by_rate }
+    }
+}
+
 /// D of a coefficient of restitution from [`LEAST`] to 1.
 pub fn number(e: f64) -> f64 {
     if e >= 1.0 {

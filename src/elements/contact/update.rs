@@ -3,7 +3,7 @@
 use super::force::{ContactForce, contact_force};
 use super::history::{self, PointHistory, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
-use super::normal_motion::{NormalMotion, pass_over, slip_limit, update_normal, way};
+use super::normal_motion::{NormalMotion, damping_power, pass_over, slip_limit, update_normal, way};
 use super::point::ContactPoint;
 use crate::materials::Dissipation;
 use crate::math::Vec3;
@@ -28,7 +28,8 @@ pub(super) fn update_point(
     let touches = at.gap - old.lift(law) <= law.touching;
     let acting = touches.then(|| contact_force(contacts, point, &at, old, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let motion = NormalMotion { gap: at.gap, rate: at.rate(), force, speed };
+    let power = damping_power(law, at.gap, at.rate(), force);
+    let motion = NormalMotion { gap: at.gap, rate: at.rate(), power, speed };
     let mut spent = Dissipation { impact: update_normal(law, &motion, now, part, old, new), ..Dissipation::default() };
     // The multiplier stays that of the equilibrium, under which the gap at hand gives its force; the next step begins from there.
     new.set_lift(law, old.lift(law));

@@ -4,8 +4,9 @@ use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface};
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape};
 use crate::math::curved_faces;
+use crate::model::contacts::coarse_faces::warn_of_capsules;
 use crate::model::contacts::points::{Finder, SurfaceLines};
 use crate::model::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::model::places::place::Place;
@@ -75,6 +76,7 @@ fn faces<'d>(
             let hint = "give what else touches it a contact of its own";
             return finder.report.error_with(&names.span, "`itself` stands alone in `with`", hint);
         }
+        finder.report.reject_unused("a part that touches itself", &[("points", span(&contact.points))]);
         faces.touchers = FacetTouchers::Itself;
         let radius = contact.radius.as_ref().map_or(half, |at| at.value);
         if is_line {
@@ -95,6 +97,12 @@ fn faces<'d>(
     finder.on_lines = lines;
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
     faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
+    if !is_line {
+        warn_of_capsules(finder, owner, contact, part, (&elements, half));
+    } else {
+        // Capsules are lines themselves there, which see the ends of others.
+        faces.solids.retain(|carried| !matches!(carried.surface.shape, SurfaceShape::Capsule(_)));
+    }
     if !faces.solids.is_empty() {
         faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
     }

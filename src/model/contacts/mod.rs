@@ -1,7 +1,9 @@
 //! `[[contacts]]`: surfaces, the points that touch them, and what acts there.
 
+pub mod coarse_faces;
 pub mod faces;
 pub mod law;
+pub mod lines;
 pub mod method;
 pub mod opposite;
 pub mod points;

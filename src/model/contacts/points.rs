@@ -2,9 +2,9 @@
 
 use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
+use crate::deck::words::Names;
 use crate::diagnostic::At;
-use crate::elements::contact::facets::free_edges;
-use crate::elements::contact::{ContactPoint, ConvexBody, Facet, MOST_NODES, Toucher};
+use crate::elements::contact::{ContactPoint, ConvexBody, Extent, MOST_NODES, Toucher};
 use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
@@ -22,25 +22,32 @@ use std::sync::Arc;
 const MOST_POINTS: usize = 100;
 
 /// A point that may touch, as found.
-struct Touch {
+pub(super) struct Touch {
     nodes: NodeWeights,
     radius: f64,
-    /// True for the whole line between its two nodes.
-    is_line: bool,
+    /// A point, or the line between its two nodes.
+    pub(super) extent: Extent,
 }
 
 impl Touch {
-    fn node(node: usize, radius: f64) -> Touch {
-        Touch { nodes: vec![(node, 1.0)], radius, is_line: false }
+    /// A node.
+    pub(super) fn node(node: usize, radius: f64) -> Touch {
+        Touch { nodes: vec![(node, 1.0)], radius, extent: Extent::Point }
     }
 
-    fn line(ends: &[usize], radius: f64) -> Touch {
-        Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, is_line: true }
+    /// All between two nodes.
+    pub(super) fn line(ends: &[usize], radius: f64) -> Touch {
+        Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, extent: Extent::Line }
+    }
+
+    /// What crosses others between two nodes that touch for themselves.
+    pub(super) fn edge(ends: &[usize], radius: f64) -> Touch {
+        Touch { extent: Extent::Edge, ..Touch::line(ends, radius) }
     }
 }
 
 /// The lines from node to node of an element.
-fn lines_of(nodes: &[usize], radius: f64) -> Vec<Touch> {
+pub(super) fn lines_of(nodes: &[usize], radius: f64) -> Vec<Touch> {
     nodes.windows(2).map(|ends| Touch::line(ends, radius)).collect()
 }
 
@@ -81,13 +88,16 @@ pub struct Finder<'a, 'd> {
     pub convex: Vec<ConvexBody>,
     /// What is seen of all that was found.
     pub sight: Sight,
+    /// True where something was found between whose nodes or corners further points may lie.
+    pub divides: bool,
 }
 
 impl<'a, 'd> Finder<'a, 'd> {
     /// Finds what touches anything but convex shapes and lines.
     pub fn new(scene: &'a Scene<'d>, topology: &'a mut Topology, report: &'a mut Report<'d>) -> Self {
         let (convex, sight) = (Vec::new(), Sight::default());
-        Finder { scene, topology, report, on_convex: None, on_lines: SurfaceLines::None, convex, sight }
+        let (on_convex, on_lines, divides) = (None, SurfaceLines::None, false);
+        Finder { scene, topology, report, on_convex, on_lines, convex, sight, divides }
     }
 
     /// All points that may touch, each once; convex solids are left in `convex`.
@@ -112,11 +122,15 @@ impl<'a, 'd> Finder<'a, 'd> {
             return self.report.error(&names.span, "`with` is empty, so nothing touches the surface");
         }
         let (mut touches, mut seen, mut sound) = (Vec::new(), HashSet::new(), true);
+        let mut undivided = Vec::new();
         for at in &names.values {
             let Some(found) = self.touches_of_name(at, name, between, carrier) else {
                 sound = false;
                 continue;
             };
+            if found.iter().any(|touch| touch.extent != Extent::Point) {
+                undivided.push(at.value.as_str());
+            }
             for touch in found {
                 let mut key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
                 // A line may be named from either end.
@@ -126,13 +140,8 @@ impl<'a, 'd> Finder<'a, 'd> {
                 }
             }
         }
-        if between > 0
-            && sound
-            && !names.values.iter().any(|at| self.names_part(at))
-            && let Some(at) = &contact.points
-        {
-            let message = "`points` lie between the nodes of parts or the corners of bodies, and none is named here";
-            return self.report.error(&at.span, message);
+        if between > 0 && sound {
+            self.check_points(contact, names, &undivided)?;
         }
         if !sound {
             return None;
@@ -140,6 +149,27 @@ impl<'a, 'd> Finder<'a, 'd> {
         self.inflate(given.unwrap_or(0.0), contact)?;
         let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
+    }
+
+    /// Refuses `points` that lie nowhere, and warns of what they do not divide: lines touch with all of their length.
+    fn check_points(&mut self, contact: &'d words::Contact, names: &Names, undivided: &[&str]) -> Option<()> {
+        let at = contact.points.as_ref()?;
+        if !names.values.iter().any(|at| self.names_part(at)) {
+            let message = "`points` lie between the nodes of parts or the corners of bodies, and none is named here";
+            return self.report.error(&at.span, message);
+        }
+        if undivided.is_empty() {
+            return Some(());
+        }
+        let what = undivided.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let verb = if undivided.len() == 1 { "touches" } else { "touch" };
+        let message =
+            format!("`points` does not apply to {what}, which {verb} here with all of the length, not with points");
+        if !self.divides {
+            return self.report.error_with(&at.span, message, "leave `points` out");
+        }
+        self.report.warn(&at.span, message, "it divides what else is named in `with`");
+        Some(())
     }
 
     /// Makes convex solids larger by a contact radius, which hulls do not take.
@@ -217,15 +247,12 @@ impl<'a, 'd> Finder<'a, 'd> {
         // A point without rotation cannot be turned by friction.
         let turns = touch.nodes.iter().all(|&(node, _)| self.topology.turns(self.topology.root(node)));
         let rolling_radius = if friction && turns { radius } else { 0.0 };
-        ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius, is_line: touch.is_line }
+        ContactPoint { nodes, weights, count: touch.nodes.len(), radius, rolling_radius, extent: touch.extent }
     }
 
     fn touches_of(&mut self, place: Place, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
-        if let Some((part, lines)) = self.lines_of_place(place) {
-            self.sight.touchers.insert(Toucher::Ball);
-            let radius = self.contact_radius(part);
-            found.extend(lines.iter().flat_map(|nodes| lines_of(nodes, radius)));
-            return;
+        if let Some(lines) = self.lines_of_place(place, name, at) {
+            return found.extend(lines);
         }
         self.sight.touchers.insert(match place {
             Place::Body(body) => self.toucher_of_body(body),
@@ -236,10 +263,11 @@ impl<'a, 'd> Finder<'a, 'd> {
             Place::Body(body) => self.touches_of_body(body, name, between, at, found),
             Place::Part(part) => {
                 let radius = self.contact_radius(part);
+                self.divides = true;
                 self.open(&self.scene.parts.elements(part), part.kind.is_surface(), radius, Some(between));
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
                 let between = self.scene.parts.of(part).iter().flat_map(|part| part.places_between(between));
-                found.extend(between.map(|nodes| Touch { nodes, radius, is_line: false }));
+                found.extend(between.map(|nodes| Touch { nodes, radius, extent: Extent::Point }));
             }
             Place::Edge(part, _) => {
                 let radius = self.contact_radius(part);
@@ -250,31 +278,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         }
     }
 
-    /// The lines with which a place touches a surface of lines, by their nodes, and the part of which they are.
-    fn lines_of_place(&self, place: Place) -> Option<(PartIndex, Vec<Vec<usize>>)> {
-        let names = &self.scene.names;
-        let line = names.line_of(place).map(|part| (part, self.scene.parts.elements(part)));
-        match (self.on_lines, place) {
-            (SurfaceLines::None, _) => None,
-            (SurfaceLines::FreeEdges, Place::Edge(part, _)) => Some((part, vec![self.scene.nodes_of(place)])),
-            (SurfaceLines::FreeEdges, _) => {
-                line.or_else(|| names.surface_of(place).map(|part| (part, self.free_edges(part))))
-            }
-            (SurfaceLines::Axes, _) => line,
-        }
-    }
-
-    /// The free edges of a shell, by their nodes.
-    pub fn free_edges(&self, part: PartIndex) -> Vec<Vec<usize>> {
-        let of_element = |nodes: &Vec<usize>| -> Vec<Facet> {
-            let corners = curved_faces::facets(nodes.len()).iter();
-            corners.map(|of| Facet::new(&of.iter().map(|&k| nodes[k]).collect::<Vec<_>>(), 0.0)).collect()
-        };
-        let facets: Vec<Facet> = self.scene.parts.elements(part).iter().flat_map(of_element).collect();
-        free_edges(&facets).into_iter().map(|ends| ends.to_vec()).collect()
-    }
-
-    fn toucher_of_body(&self, body: usize) -> Toucher {
+    pub(super) fn toucher_of_body(&self, body: usize) -> Toucher {
         let shape = &self.scene.bodies[body].shape;
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
         match shape.touching(0) {
@@ -355,6 +359,7 @@ impl<'a, 'd> Finder<'a, 'd> {
             Touching::Points { points, radius } if is_drawn => (points, radius),
             Touching::Ball(_) | Touching::Points { .. } => return found.push(Touch::node(node, 0.0)),
         };
+        self.divides = true;
         self.sight.openings.extend(width.map(|width| Opening { width, radius, divides: true }));
         let (center, label) = (self.topology.x(node), self.scene.bodies[body].name.clone());
         for (k, point) in points.into_iter().enumerate() {

@@ -76,7 +76,8 @@ fn sides_in_words(model: &Model, contact: &Contact) -> String {
 fn touching_in_words(contact: &Contact) -> String {
     let radius = contact.points.iter().map(|point| point.radius).fold(0.0, f64::max);
     let radius = if radius > 0.0 { format!(" of contact radius {}", short(radius)) } else { String::new() };
-    let words = if contact.points.iter().any(|point| point.is_line) { ["line", "lines"] } else { ["point", "points"] };
+    let words =
+        if contact.points.iter().any(|point| point.is_line()) { ["line", "lines"] } else { ["point", "points"] };
     let points = counted(contact.points.len(), words[0], words[1]).map(|points| points + &radius);
     let solids = solids_in_words(contact).map(|solids| solids + " with all their surface");
     points.into_iter().chain(solids).collect::<Vec<_>>().join(" and ")

@@ -2,7 +2,7 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use crate::elements::contact::{
-    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, FacetContacts, MOST_NODES, SurfaceShape,
+    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, Extent, FacetContacts, MOST_NODES, SurfaceShape,
 };
 use crate::model::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::sections::Stiffness;
@@ -66,8 +66,9 @@ fn facet_blocks(
     setting: &Setting,
 ) -> Vec<NumberedBlock> {
     let mut blocks: Vec<NumberedBlock> = Vec::new();
-    for (count, is_line) in (1..=MOST_NODES).map(|count| (count, false)).chain([(2, true)]) {
-        let is_alike = |point: &&ContactPoint| point.count == count && point.is_line == is_line;
+    let of_points = (1..=MOST_NODES).map(|count| (count, Extent::Point));
+    for (count, extent) in of_points.chain([(2, Extent::Line), (2, Extent::Edge)]) {
+        let is_alike = |point: &&ContactPoint| point.count == count && point.extent == extent;
         let points: Vec<ContactPoint> = points.iter().filter(is_alike).cloned().collect();
         if !points.is_empty() {
             let block = FacetContacts::new(law, faces.touchers, points, faces.facets.clone(), setting.x);

@@ -4,7 +4,7 @@ use super::memory::Memory;
 use super::pair::{ConvexPair, PairForce, PairKinematics};
 use super::touch::approaching;
 use crate::elements::contact::history::{PointHistory, PointHistoryMut};
-use crate::elements::contact::normal_motion::{NormalMotion, pass_over, update_normal, way};
+use crate::elements::contact::normal_motion::{NormalMotion, damping_power, pass_over, update_normal, way};
 use crate::materials::Dissipation;
 use crate::math::rotation::{exp, matrix};
 use crate::math::{Vec3, angular, linear};
@@ -28,7 +28,7 @@ pub(super) fn update_pair(
     let acting = pair.force(&at, old);
     let (gap, rate) = acting.as_ref().map_or_else(|| approach(&at), |acting| (-acting.depth.D, acting.rate));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let motion = NormalMotion { gap, rate, force, speed };
+    let motion = NormalMotion { gap, rate, power: damping_power(law, gap, rate, force), speed };
     let mut spent =
         Dissipation { impact: update_normal(law, &motion, now, part, old, &mut new), ..Dissipation::default() };
     if law.friction > 0.0 {

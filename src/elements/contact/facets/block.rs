@@ -58,8 +58,9 @@ impl ElementBlock for FacetContacts {
         let (k, mut stored) = (self.law.stiffness, 0.0);
         self.each_touch(now.nodes, now.history, |_, _, pair| {
             let place = pair.place(now.nodes);
-            let T = pair.force(&place, now.nodes).friction.map_or(0.0, |friction| friction.T.norm_squared());
-            stored += 0.5 * k * place.gap().min(0.0).powi(2) + 0.5 * T / k;
+            let force = pair.force(&place, now.nodes);
+            let T = force.friction.as_ref().map_or(0.0, |friction| friction.T.norm_squared());
+            stored += force.stored(k, place.gap()) + 0.5 * T / k;
         });
         stored
     }

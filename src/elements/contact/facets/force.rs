@@ -1,5 +1,6 @@
 //! What a point and a facet do to each other where they touch: the normal force, and friction.
 
+use super::crossing;
 use super::line_friction;
 use super::memory::{LineMemory, PairMemory};
 use super::pair::{FacetPair, PairForceOnPoint, PairPlace, Rub, rotation_of};
@@ -18,20 +19,22 @@ impl FacetPair<'_> {
             return PairForceOnPoint::NONE;
         }
         let rate = place.rate();
-        let speed = match self.memory.map(PairMemory::motion) {
+        let speed = |rate: f64| match self.memory.map(PairMemory::motion) {
             Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
             Some(old) => old.rate().max(rate),
             None => rate,
         };
-        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed);
+        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed(rate));
         let n = &place.n;
-        let free = PairForceOnPoint { normal, friction: None, F: normal.force * n, M: Vec3::zeros(), C: Vec3::zeros() };
+        let less = if self.is_of_edges() { crossing::end_force(self, speed, nodes) } else { None };
+        let (M, C) = (Vec3::zeros(), Vec3::zeros());
+        let free = PairForceOnPoint { normal, less, friction: None, F: normal.force * n, M, C };
         let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
-        let pressed = if self.sticks { f64::INFINITY } else { normal.force };
+        let pressed = if self.sticks { f64::INFINITY } else { free.pressed().max(0.0) };
         if self.is_of_lines() {
             let rub = line_friction::rub(self, place, LineMemory(memory.0), pressed, nodes);
             let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
-            return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), normal };
+            return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), ..free };
         }
         let r = self.point.rolling_radius;
         let q = rotation_of(self.kept, nodes);
@@ -51,7 +54,7 @@ impl FacetPair<'_> {
             M,
             C: place.d * n.cross(&friction.T) - M,
             friction: Some(Rub { T: friction.T, slip: friction.slip }),
-            normal,
+            ..free
         }
     }
 }

@@ -46,11 +46,19 @@ pub(super) fn nearest(r: &Vec3, u: &Vec3, v: &Vec3) -> [f64; 2] {
 
 /// The share of the second end of a line that touches in its point nearest to the line of a facet; `None` for a point.
 pub(super) fn share(point: &ContactPoint, facet: &Facet, nodes: &[Node]) -> Option<f64> {
-    if !point.is_line {
+    if !point.is_line() {
         return None;
     }
     let [a, b, c, d] = [point.nodes[0], point.nodes[1], facet.nodes[0], facet.nodes[1]].map(|node| &nodes[node]);
     Some(nearest(&a.relative_position(c), &b.relative_position(a), &d.relative_position(c))[0])
+}
+
+/// True for lines whose nearest points are not told by where they cross.
+pub(super) fn are_parallel(point: &ContactPoint, facet: &Facet, nodes: &[Node]) -> bool {
+    let along = |ends: &[usize]| nodes[ends[1]].relative_position(&nodes[ends[0]]);
+    let (u, v) = (along(point.nodes()), along(facet.nodes()));
+    let (uu, vv, uv) = (u.norm_squared(), v.norm_squared(), u.dot(&v));
+    uu * vv - uv * uv <= PARALLEL * uu * vv
 }
 
 /// The second derivative of the distance by two of the four ends, as a function of their places.

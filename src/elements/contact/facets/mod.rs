@@ -6,13 +6,15 @@
 //! that linear and angular momentum are kept to rounding. Facets of one plane are one plane: nothing that slides over them feels
 //! their edges. A point that has come through to the other side is still pushed back to its own.
 //!
-//! Lines that touch lines do so where they are nearest to each other, wherever that is on both.
+//! Lines that touch lines do so where they are nearest to each other, wherever that is on both; edges of solids do where they cross, for their
+//! corners are points.
 //!
-//! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count,
+//! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `crossing` edges whose ends touch for themselves, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count,
 //! `facing` what tells on which side a point is, `pair` two of them, `force` what acts between them, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
 //! see, `steps` bounds the steps, `resultant` sums what is shown.
 
 mod block;
+mod crossing;
 mod facet;
 mod facing;
 mod force;

@@ -4,7 +4,7 @@ use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
 use super::memory::PairMemory;
 use crate::elements::contact::law::ContactLaw;
-use crate::elements::contact::point::{ContactPoint, MOST_NODES};
+use crate::elements::contact::point::{ContactPoint, Extent, MOST_NODES};
 use crate::elements::contact::restitution::NormalForce;
 use crate::math::rotation::{log, renormalise};
 use crate::math::{Mat3, Vec3};
@@ -82,6 +82,8 @@ pub(super) struct Rub {
 /// What acts between a point and a facet.
 pub(super) struct PairForceOnPoint {
     pub normal: NormalForce,
+    /// Of edges, what is taken off because an end of theirs presses already.
+    pub less: Option<EndForce>,
     pub friction: Option<Rub>,
     /// Force on the point.
     pub F: Vec3,
@@ -95,8 +97,33 @@ impl PairForceOnPoint {
     pub const NONE: PairForceOnPoint = {
         let zero = Vec3::new(0.0, 0.0, 0.0);
         let normal = NormalForce { force: 0.0, by_depth: 0.0, by_rate: 0.0 };
-        PairForceOnPoint { normal, friction: None, F: zero, M: zero, C: zero }
+        PairForceOnPoint { normal, less: None, friction: None, F: zero, M: zero, C: zero }
     };
+}
+
+/// What an end of one of two edges does to the other.
+pub(super) struct EndForce {
+    pub normal: NormalForce,
+    /// The depth.
+    pub depth: f64,
+    /// The power of its damping.
+    pub power: f64,
+    /// Force on the edge that touches, and the signed shares of the ends of both edges in the vector between them.
+    pub F: Vec3,
+    pub shares: [f64; 2],
+    pub W: [f64; 2],
+}
+
+impl PairForceOnPoint {
+    /// The force along the normal that friction is limited by.
+    pub fn pressed(&self) -> f64 {
+        self.normal.force - self.less.as_ref().map_or(0.0, |end| end.normal.force)
+    }
+
+    /// The spring energy of the normal force, at a gap.
+    pub fn stored(&self, stiffness: f64, gap: f64) -> f64 {
+        0.5 * stiffness * (gap.min(0.0).powi(2) - self.less.as_ref().map_or(0.0, |end| end.depth.powi(2)))
+    }
 }
 
 impl<'a> FacetPair<'a> {
@@ -106,9 +133,14 @@ impl<'a> FacetPair<'a> {
         self.point.parts().chain(of_facet)
     }
 
+    /// True for lines that press where they cross by what they are deeper than their ends.
+    pub fn is_of_edges(&self) -> bool {
+        self.point.extent == Extent::Edge
+    }
+
     /// True for a point of a line against a line.
     pub fn is_of_lines(&self) -> bool {
-        self.point.is_line
+        self.point.is_line()
     }
 
     /// Where the two are to each other.
@@ -158,6 +190,11 @@ impl<'a> FacetPair<'a> {
         }
         for (k, &node) in self.facet.nodes().iter().enumerate() {
             add(node, -place.W[k] * force.F, place.W[k] * force.C);
+        }
+        if let Some(end) = &force.less {
+            for (node, share) in self.point.nodes().iter().zip(end.shares).chain(self.facet.nodes().iter().zip(end.W)) {
+                add(*node, -share * end.F, Vec3::zeros());
+            }
         }
     }
 }

@@ -8,6 +8,7 @@ use super::touch;
 use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::point::ContactPoint;
 use crate::elements::contact::resultant::ContactAction;
+use crate::math::Vec3;
 use crate::state::{Configuration, Node};
 
 /// Calls with what each point that touches does to a facet, its moment about the origin.
@@ -16,8 +17,13 @@ pub fn each_facet_touch(of: &FacetContacts, now: &Configuration, act: &mut dyn F
         let place = pair.place(now.nodes);
         let force = pair.force(&place, now.nodes);
         let x = now.nodes[pair.point.nodes[0]].x + place.x;
-        let m = force.C - (x - place.at.g).cross(&force.F);
-        act(ContactAction { on: pair.facet.nodes[0], by: pair.point.nodes[0], f: -force.F, m });
+        let (mut f, mut m) = (-force.F, force.C - (x - place.at.g).cross(&force.F));
+        if let Some(end) = &force.less {
+            let x: Vec3 = pair.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * now.nodes[node].x).sum();
+            f += end.F;
+            m += x.cross(&end.F);
+        }
+        act(ContactAction { on: pair.facet.nodes[0], by: pair.point.nodes[0], f, m });
     });
 }
 
@@ -48,7 +54,7 @@ pub fn facet_gap(
         let x = point.relative_position(origin, nodes);
         let at = origin.x[axis] + x[axis];
         // Half of what a line has along the coordinate.
-        let spread = if point.is_line { x[axis].abs() } else { 0.0 };
+        let spread = if point.is_line() { x[axis].abs() } else { 0.0 };
         let look = |&(low, high, number): &FacetSpan, least: &mut f64| {
             let facet = &facets[number];
             if (low - at).max(at - high) - spread - point.radius < *least && may_touch(e, number) {

@@ -6,7 +6,7 @@ use super::memory::{self, PairMemory};
 use super::mesh;
 use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::law::ContactLaw;
-use crate::elements::contact::point::ContactPoint;
+use crate::elements::contact::point::{ContactPoint, Extent};
 use crate::math::Vec3;
 use crate::state::Node;
 use std::borrow::Cow;
@@ -37,6 +37,8 @@ pub struct FacetScene {
     is_among: bool,
     /// True where the points are lines between their two nodes, and the facets lines too.
     pub(super) is_of_lines: bool,
+    /// True where these lines touch but where they cross, and others see to their ends.
+    pub(super) is_of_edges: bool,
     /// Of lines that touch: by end, the other ends of the lines that meet there; and the same of the facets.
     line_ends: [LineEnds; 2],
     /// True where forces on the surface are forces of the surface, and have no resultant.
@@ -88,7 +90,8 @@ impl FacetScene {
         involved.extend(facets.iter().flat_map(Facet::nodes));
         involved.sort_unstable();
         involved.dedup();
-        let is_of_lines = points.first().is_some_and(|point| point.is_line);
+        let is_of_lines = points.first().is_some_and(|point| point.is_line());
+        let is_of_edges = points.first().is_some_and(|point| point.extent == Extent::Edge);
         let near_along = match touchers {
             FacetTouchers::Itself if is_of_lines => lines_near_along(&points, &facets, x),
             FacetTouchers::Itself => {
@@ -120,6 +123,7 @@ impl FacetScene {
             is_inner: touchers != FacetTouchers::Others,
             is_among: touchers == FacetTouchers::Among,
             is_of_lines,
+            is_of_edges,
             line_ends,
             points,
             facets,
@@ -155,7 +159,7 @@ impl FacetScene {
     }
 
     /// True where two lines are nearest to each other here, `g` from the facet to the line that touches: not where, beyond an end of one of
-    /// them, the line that goes on there is nearer, nor where that one counts.
+    /// them, the line that goes on there is nearer, nor where that one counts. Edges count where they cross.
     pub(super) fn is_nearest(
         &self,
         e: usize,
@@ -165,6 +169,11 @@ impl FacetScene {
         nodes: &[Node],
     ) -> bool {
         let (own, of_facet) = (end_at(share), end_at(of_facet));
+        if self.is_of_edges {
+            return own.is_none()
+                && of_facet.is_none()
+                && !lines::are_parallel(&self.points[e], &self.facets[facet], nodes);
+        }
         let ends = &self.points[e].nodes;
         let other = &self.facets[facet].nodes;
         own.is_none_or(|k| self.line_ends[0].is_least(e, ends[k], g, nodes))
@@ -222,7 +231,7 @@ impl FacetScene {
 fn turned(law: &ContactLaw, points: &[ContactPoint], facets: &[Facet], involved: &[usize]) -> Vec<usize> {
     match law.friction > 0.0 {
         // A bar that touches as a line has no rotations.
-        true if points.first().is_some_and(|point| point.is_line) => {
+        true if points.first().is_some_and(|point| point.is_line()) => {
             let rolling = points.iter().filter(|point| point.rolling_radius > 0.0);
             rolling.flat_map(ContactPoint::nodes).chain(facets.iter().flat_map(Facet::nodes)).copied().collect()
         }

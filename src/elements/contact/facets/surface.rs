@@ -92,7 +92,7 @@ impl FacetContacts {
     pub fn is_side_by_side(&self, now: &Configuration) -> bool {
         /// The square of the cosine of six degrees.
         const ALONG: f64 = 0.989;
-        if !self.is_of_lines {
+        if !self.is_of_lines || self.is_of_edges {
             return false;
         }
         let mut found = false;

@@ -7,11 +7,13 @@
 //!  δd = n·δg,   δg = δx − Σ N δX,   B = −Σ ∇N (n·δX),   δn = B + Q δg/d,   δ²d = 2 B·δg + δg·Q δg/d − d B·B
 //! ```
 
+use super::crossing;
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::line_friction;
 use super::lines::LineHessian;
 use super::pair::{FacetPair, MOST_OF_PAIR, PairPlace};
 use crate::elements::contact::point::ContactPoint;
+use crate::elements::contact::restitution::NormalForce;
 use crate::math::rotation::{exp, renormalise};
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
@@ -33,7 +35,13 @@ struct NearestMotion {
 /// nodes and those of the facet, six directions each.
 pub(super) fn add_tangent(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     match pair.is_of_lines() {
-        true => add_normal_of_lines(pair, place, nodes, rate_weight, K),
+        true => {
+            let force = pair.force(place, nodes);
+            add_normal_of_lines((pair, place), force.normal, nodes, rate_weight, K);
+            if let (Some(end), Some((of_end, at_end))) = (&force.less, crossing::deepest_end(pair, nodes)) {
+                add_normal_of_lines((&of_end, &at_end), -end.normal, nodes, rate_weight, K);
+            }
+        }
         false => add_normal(pair, place, nodes, rate_weight, K),
     }
     if pair.law.friction > 0.0 && pair.memory.is_some() {
@@ -70,9 +78,14 @@ fn add_normal(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: 
     }
 }
 
-/// The same for the force between two lines.
-fn add_normal_of_lines(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
-    let normal = pair.force(place, nodes).normal;
+/// The same for a normal force between two lines.
+fn add_normal_of_lines(
+    (pair, place): (&FacetPair, &PairPlace),
+    normal: NormalForce,
+    nodes: &[Node],
+    rate_weight: f64,
+    K: &mut [f64],
+) {
     let (n, hessian) = (&place.n, LineHessian::new(pair, place, nodes));
     let ends: Vec<(usize, f64)> = pair.parts(&place.W).collect();
     let N = n * n.transpose();
@@ -204,6 +217,7 @@ fn friction_forces(pair: &FacetPair, nodes: &[Node]) -> [f64; 6 * MOST_OF_PAIR] 
     let place = pair.place(nodes);
     let mut force = pair.force(&place, nodes);
     force.F -= force.normal.force * place.n;
+    force.less = None;
     pair.spread(&place, &force, |node, push, moment| {
         for i in 0..3 {
             f[6 * node + i] += push[i];

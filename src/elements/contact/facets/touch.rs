@@ -308,7 +308,8 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
 /// Lets each touch of a line of which nothing is remembered take what its neighbour remembers, where the nearest point has gone on from that
 /// over the node that both have. `history` is that of the block.
 pub(super) fn take_over(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
-    if !of.is_of_lines {
+    // Where edges end nothing of them presses any more.
+    if !of.is_of_lines || of.is_of_edges {
         return;
     }
     for touch in found.iter_mut().filter(|touch| touch.slot.is_none()) {

@@ -6,7 +6,7 @@ use super::pair::{FacetPair, PairForceOnPoint, PairPlace, rotation_of};
 use super::surface::FacetContacts;
 use super::touch::{self, FacetTouch, TouchQuery};
 use crate::elements::contact::history::PointHistory;
-use crate::elements::contact::normal_motion::{NormalMotion, slip_limit, update_normal, way};
+use crate::elements::contact::normal_motion::{NormalMotion, damping_power, slip_limit, update_normal, way};
 use crate::materials::Dissipation;
 use crate::math::rotation::{exp, matrix, renormalise};
 use crate::math::{Mat3, Vec3};
@@ -85,7 +85,10 @@ fn update_pair(
     let old = pair.memory.unwrap_or(PairMemory(&nothing));
     let acting = (place.gap() <= of.law.touching).then(|| pair.force(&place, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let motion = NormalMotion { gap: place.gap(), rate: place.rate(), force, speed: place.w.norm() };
+    let (gap, rate) = (place.gap(), place.rate());
+    let less = acting.as_ref().and_then(|acting| acting.less.as_ref()).map_or(0.0, |end| end.power);
+    let power = damping_power(&of.law, gap, rate, force) - less;
+    let motion = NormalMotion { gap, rate, power, speed: place.w.norm() };
     let mut spent = Dissipation {
         impact: update_normal(&of.law, &motion, now, part, old.motion(), &mut new.motion()),
         ..Dissipation::default()
@@ -199,7 +202,7 @@ fn begun(
     acting: Option<&PairForceOnPoint>,
     now: &Configuration,
 ) -> Vec3 {
-    let force = acting.map_or(0.0, |acting| acting.normal.force);
+    let force = acting.map_or(0.0, PairForceOnPoint::pressed);
     if now.dt > 0.0 || force <= 0.0 {
         return Vec3::zeros();
     }

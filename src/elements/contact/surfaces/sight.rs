@@ -78,11 +78,8 @@ impl Toucher {
     /// What of the one and of beams by their radius is not seen; `None` where they see each other in full.
     pub fn unseen_by_lines(self) -> Option<&'static str> {
         match self {
-            Toucher::Ball => None,
-            // The nodes of the beams see the faces of the box.
-            Toucher::Box => Some("edges of the box that cross lines"),
-            Toucher::Hull => Some("edges of the hull that cross lines"),
-            Toucher::Capsule => Some("the side of the capsule that crosses lines"),
+            // The nodes of the lines see the faces of boxes and hulls.
+            Toucher::Ball | Toucher::Box | Toucher::Hull | Toucher::Capsule => None,
             Toucher::Rims => Some("ends and side of the cylinder between its points"),
             Toucher::Nodes => Some("what lies between nodes"),
         }
