@@ -23,7 +23,7 @@ pub fn warn_of_capsules<'d>(
     const DIGITS: f64 = 1e-6;
     let x = |node: usize| finder.topology.x(node);
     let sides = |nodes: &Vec<usize>| -> f64 {
-        let corners = if nodes.len() % 3 == 0 && nodes.len() != 9 { 3 } else { 4 };
+        let corners = if matches!(nodes.len(), 3 | 6) { 3 } else { 4 };
         let corners = corners.min(nodes.len());
         (0..corners).map(|k| (x(nodes[k]) - x(nodes[(k + 1) % corners])).norm()).fold(0.0, f64::max)
     };
