@@ -7,7 +7,7 @@ use super::masses::Masses;
 use super::multipliers::REGULARIZATION;
 use super::schur_factor::SchurFactor;
 use crate::elements::Force;
-use crate::math::{Vec6, angular, linear, stack};
+use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::snapshot::keep;
 use crate::state::Node;
 use std::ops::Range;
@@ -41,6 +41,14 @@ pub struct ConstraintSchur {
 }
 
 keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, raised });
+
+/// What an equation moves by a unit force: of translations that of forces alone, without the turns that arms make, by which joints of one body that sit
+/// elsewhere would share otherwise.
+fn same_kind(G: &[Vec6; 2], W: &[Vec6; 2]) -> f64 {
+    let of = |part: fn(&Vec6) -> Vec3| G.iter().zip(W).map(|(G, W)| part(G).dot(&part(W))).sum::<f64>();
+    let translations = of(linear);
+    if translations > 0.0 { translations } else { of(angular) }
+}
 
 /// The translations, and the rotations, of each joint.
 fn alike(system: &System) -> Vec<Range<usize>> {
@@ -146,7 +154,10 @@ impl ConstraintSchur {
         if *shares {
             for range in alike.iter() {
                 let own = || range.clone().filter(|&k| !inert[k]);
-                let mean = own().map(|k| entry(k, k)).sum::<f64>() / own().count().max(1) as f64;
+                let count = own().count().max(1) as f64;
+                let without_arms = own().map(|k| same_kind(&G[k], &W[k])).sum::<f64>();
+                let sum = if without_arms > 0.0 { without_arms } else { own().map(|k| entry(k, k)).sum::<f64>() };
+                let mean = sum / count;
                 raised[range.clone()].fill(REGULARIZATION * mean);
             }
         }

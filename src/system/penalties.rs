@@ -99,7 +99,8 @@ impl Diagonal {
 
     /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
     /// the largest K g² of translations, or of rotations for an equation between these. With `even`, K is the mean of the translations of a node,
-    /// or of its rotations, which does not depend on axes.
+    /// or of its rotations, which does not depend on axes, and arms are left out where the equation acts on more: joints of one body then share alike
+    /// wherever they sit.
     fn stiffness(
         &self,
         G: &[Vec6; 2],
@@ -107,7 +108,7 @@ impl Diagonal {
         projections: &[Vec<Mat6>],
         values: &[f64],
     ) -> [f64; 2] {
-        let (mut compliance, mut largest) = (0.0, 0.0f64);
+        let (mut compliance, mut of_kind, mut largest) = (0.0, 0.0, 0.0f64);
         for &Place { end, node, index, slots, .. } in &self.0 {
             let g = projections[node][index].tr_mul(&G[end]);
             let size = |slot: &Option<u32>| slot.map(|slot| values[slot as usize].abs());
@@ -123,9 +124,13 @@ impl Diagonal {
                     compliance += g * g / K;
                 }
                 if rotational == (dof > 2) {
+                    of_kind += if K > 0.0 { g * g / K } else { 0.0 };
                     largest = largest.max(K * g * g);
                 }
             }
+        }
+        if even && of_kind > 0.0 {
+            compliance = of_kind;
         }
         [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
