@@ -8,6 +8,7 @@ use crate::elements::Force;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node, State};
 use crate::system::Side;
+use crate::system::energy::kinetic_energy;
 
 /// Takes the state over a jump of the loads or of prescribed velocities. Other velocities are continuous, accelerations jump by M Δa = Δf
 /// and reactions with them; otherwise the scheme would take the old acceleration into the next step and lose an order.
@@ -34,7 +35,7 @@ fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Resul
     if ws.prescribed.start == ws.prescribed.end {
         return Ok(());
     }
-    let (nodes, energy) = (state.nodes.clone(), cx.system.kinetic_energy(&state.nodes));
+    let (nodes, energy) = (state.nodes.clone(), kinetic_energy(cx.system, &state.nodes));
     let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.start);
     for (restraint, given) in restraints.filter(|(restraint, _)| restraint.motion.is_some()) {
         let node = &mut state.nodes[restraint.node];
@@ -47,7 +48,7 @@ fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Resul
     if !cx.system.joints.is_empty() || !impulse.is_empty() {
         project_velocities(cx, ws, &mut state.nodes, &impulse);
     }
-    state.work.external += cx.system.kinetic_energy(&state.nodes) - energy;
+    state.work.external += kinetic_energy(cx.system, &state.nodes) - energy;
     state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
     Ok(())
 }

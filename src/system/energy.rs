@@ -98,11 +98,9 @@ impl Energy {
     }
 }
 
-impl System {
-    /// The kinetic energy of a motion.
-    pub fn kinetic_energy(&self, nodes: &[Node]) -> f64 {
-        motion(self, nodes).0
-    }
+/// The kinetic energy of a motion.
+pub fn kinetic_energy(system: &System, nodes: &[Node]) -> f64 {
+    motion(system, nodes).0
 }
 
 /// Kinetic energy, linear momentum, and angular momentum about the origin.

@@ -206,23 +206,25 @@ pub(super) fn set(
         let firm = firm(j);
         for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
             let kind = usize::from(row.is_rotational());
-            let heaviest = largest[kind];
-            if let Some(firm) = firm {
-                *s = firm[kind];
-                if *s > NOTHING * heaviest {
-                    continue;
-                }
-                *s = 0.0;
-            }
-            *s = match heaviest > 0.0 {
-                _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
-                _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
-                true => heaviest,
-                false if firmest[kind] > 0.0 => firmest[kind],
-                false => 1.0,
-            };
+            *s = beside(*s, firm.map(|firm| firm[kind]), largest[kind], firmest[kind]);
         }
         first += joint.equations.len();
+    }
+}
+
+/// The penalty factor of an equation by what it acts against, `s`, or by that of a joint that holds weights by itself, beside the largest of both.
+fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
+    let s = match firm {
+        Some(firm) if firm > NOTHING * heaviest => return firm,
+        Some(_) => 0.0,
+        None => s,
+    };
+    match heaviest > 0.0 {
+        _ if s * MODERATE >= heaviest && s > 0.0 => s,
+        _ if s > 0.0 => heaviest * (s / heaviest).sqrt().sqrt(),
+        true => heaviest,
+        false if firmest > 0.0 => firmest,
+        false => 1.0,
     }
 }
 

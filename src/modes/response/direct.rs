@@ -63,13 +63,7 @@ pub fn response(
     }
     // Next to zero, where what is only held by joints has no pivot that vanishes.
     let shift = -NEXT_TO_ZERO * pencil.least_ratio();
-    // Where equations of joints are redundant, signs of pivots may be those of rounding: the lowest mode decides.
-    let unstable = !unsymmetric
-        && pencil.factor(shift).is_ok_and(|below| below > 0)
-        && natural_pairs(&mut pencil, ModeExtent::Count(1)).map_or(true, |pairs| {
-            let shapes = Shapes::new(&pencil);
-            shapes.natural(&pencil, &pairs).iter().any(|mode| mode.root[0] > 0.0)
-        });
+    let unstable = !unsymmetric && is_unstable(&mut pencil, shift);
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
@@ -84,19 +78,31 @@ pub fn response(
     found.factorizations += all.len();
     found.solves += all.len();
     found.doubts.extend(gyroscopic.doubts);
-    if !at.loads_have_potential() {
-        found.doubts.push(
-            "loads that follow, and moments about axes fixed in space, have no potential: whether the state is stable, and the steady motion \
-             lasts, is not judged here; `kind = \"modal\"` with `damped = true` tells (flutter)"
-                .to_owned(),
-        );
-    }
+    found.doubts.extend(unjudged(at));
     if unstable {
         found.doubts.push("the state is unstable: no steady motion about it lasts".to_owned());
     }
     found.doubts.extend(direct.doubts());
     found.response = Some(response);
     Ok(found)
+}
+
+/// True where the lowest mode grows. Where equations of joints are redundant, signs of pivots below the shift may be those of rounding alone.
+fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
+    pencil.factor(shift).is_ok_and(|below| below > 0)
+        && natural_pairs(pencil, ModeExtent::Count(1)).map_or(true, |pairs| {
+            let shapes = Shapes::new(pencil);
+            shapes.natural(pencil, &pairs).iter().any(|mode| mode.root[0] > 0.0)
+        })
+}
+
+/// What is not judged of a state whose loads have no potential, in words.
+fn unjudged(at: &Linearized) -> Option<String> {
+    (!at.loads_have_potential()).then(|| {
+        "loads that follow, and moments about axes fixed in space, have no potential: whether the state is stable, and the steady motion \
+         lasts, is not judged here; `kind = \"modal\"` with `damped = true` tells (flutter)"
+            .to_owned()
+    })
 }
 
 /// True for motions beside a frequency that are the same to what the frequencies differ by, many times over: near a resonance they are
