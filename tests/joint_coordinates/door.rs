@@ -13,7 +13,7 @@ fn deck(R: &Mat3, scheme: &str) -> String {
     let row = |x: f64, y: f64, z: f64| list(R * Vec3::new(x, y, z));
     let J = R * Mat3::from_diagonal(&Vec3::new(0.05, 0.02, 0.07)) * R.transpose();
     let mut text = format!(
-        "[analysis]\nkind = \"dynamic\"\nend_time = 0.2\ntime_step = 0.001\nplane = \"off\"\n[integrator]\n{scheme}\n[environment]\ngravity = {}\n\
+        "[analysis]\nkind = \"dynamic\"\nend_time = 0.2\ntime_step = 0.001\nplane = \"off\"\n[integrator]\n{scheme}\n[iteration]\ntolerance = 1e-10\n[environment]\ngravity = {}\n\
          [output]\njoints = true\n[[bodies]]\nname = \"door\"\nmass = 1.0\ncenter = {}\ninertia = [{:?}, {:?}, {:?}, {:?}, {:?}, {:?}]\n",
         row(0.0, 0.0, -9.81),
         row(0.0, 0.3, 0.0),
