@@ -45,7 +45,8 @@ fn forces(R: &Mat3, scheme: &str) -> [Vec3; 2] {
     [0, 3].map(|k| R.transpose() * Vec3::new(last[k], last[k + 1], last[k + 2]))
 }
 
-/// 1e-6 is what equations that are redundant leave of their gaps, 1e-7, with room for the steps before.
+/// Rounding in a redundant equation is amplified by the inverse of what regularises it, 1e7: some 1e-13 of the forces of the iteration make 1e-6 of those
+/// shared, which the multipliers keep from step to step; esdirk3 has 2e-6 after 200 steps.
 #[test]
 fn redundant_hinges_share_alike_however_the_scene_lies() {
     let mut rng = SmallRng::seed_from_u64(3);
@@ -60,8 +61,8 @@ fn redundant_hinges_share_alike_however_the_scene_lies() {
             let [one, other] = forces(&R, scheme);
             let size = one.norm();
             assert!(size > 4.0, "{scheme} {k}: {one:?}");
-            assert!((one - other).norm() < 1e-6 * size, "{scheme} {k}: {one:?} {other:?}");
-            assert!(one.x.abs() < 1e-6 * size, "{scheme} {k}: {one:?}");
+            assert!((one - other).norm() < 1e-5 * size, "{scheme} {k}: {one:?} {other:?}");
+            assert!(one.x.abs() < 1e-5 * size, "{scheme} {k}: {one:?}");
         }
     }
 }
