@@ -1,9 +1,18 @@
 //! Functions of time for loads and prescribed motions, with exact derivatives and integrals.
 //!
 //! Prescribed motion needs all of them: an amplitude may be a displacement, a velocity or an acceleration, and the other
-//! two follow. At a kink or a jump the value to the right counts; the impulse of a jump's derivative is left out.
+//! two follow. At a kink or a jump derivatives have two limits; the impulse of a jump's derivative is left out.
 
 use std::f64::consts::PI;
+
+/// The side of a jump or a kink on which a value is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// The limit from earlier times, which a step that ends there sees.
+    Before,
+    /// The limit from later times, which a step that begins there sees.
+    After,
+}
 
 /// A factor over time. `start` and `end` bound where it acts; `end` may be infinite.
 #[derive(Debug, Clone, PartialEq)]
@@ -241,35 +250,61 @@ impl Amplitude {
         }
     }
 
-    /// First derivative.
-    pub fn rate(&self, t: f64) -> f64 {
+    /// First derivative; at a kink the limit of a side.
+    pub fn rate(&self, t: f64, side: Side) -> f64 {
         match *self {
-            Amplitude::Table(StraightLines { ref points, .. }) => match around(points, t) {
+            Amplitude::Table(StraightLines { ref points, .. }) => match beside(points, t, side) {
                 (Some(a), Some(b)) => slope(a, b),
                 _ => 0.0,
             },
-            Amplitude::Sine { angular_frequency: w, phase, start, end } if start <= t && t < end => {
+            Amplitude::Sine { angular_frequency: w, phase, start, end } if lies_in([start, end], t, side) => {
                 w * (w * (t - start) + phase).cos()
             }
-            Amplitude::SineSquared { angular_frequency: w, start, end } if start <= t && t < end => {
+            Amplitude::SineSquared { angular_frequency: w, start, end } if lies_in([start, end], t, side) => {
                 w * (2.0 * w * (t - start)).sin()
             }
-            Amplitude::Ramp { start, end } if start <= t && t < end => 1.0 / (end - start),
+            Amplitude::Ramp { start, end } if lies_in([start, end], t, side) => 1.0 / (end - start),
             _ => 0.0,
         }
     }
 
-    /// Second derivative.
-    pub fn second_rate(&self, t: f64) -> f64 {
+    /// Second derivative; where it jumps the limit of a side.
+    pub fn second_rate(&self, t: f64, side: Side) -> f64 {
         match *self {
-            Amplitude::Sine { angular_frequency: w, phase, start, end } if start <= t && t < end => {
+            Amplitude::Sine { angular_frequency: w, phase, start, end } if lies_in([start, end], t, side) => {
                 -w * w * (w * (t - start) + phase).sin()
             }
-            Amplitude::SineSquared { angular_frequency: w, start, end } if start <= t && t < end => {
+            Amplitude::SineSquared { angular_frequency: w, start, end } if lies_in([start, end], t, side) => {
                 2.0 * w * w * (2.0 * w * (t - start)).cos()
             }
             _ => 0.0,
         }
+    }
+
+    /// The kink that a time misses by less than `slack`, or that time.
+    pub fn snapped(&self, t: f64, slack: f64) -> f64 {
+        let near = |kink: f64| (kink - t).abs() <= slack;
+        let found = match *self {
+            Amplitude::Table(StraightLines { ref points, .. }) => {
+                let (before, after) = around(points, t);
+                [before, after].into_iter().flatten().map(|point| point[0]).find(|&time| near(time))
+            }
+            Amplitude::Sine { start, end, .. }
+            | Amplitude::SineSquared { start, end, .. }
+            | Amplitude::Ramp { start, end }
+            | Amplitude::Step { start, end } => [start, end].into_iter().find(|&time| near(time)),
+            Amplitude::Constant | Amplitude::Harmonic { .. } => None,
+        };
+        found.unwrap_or(t)
+    }
+
+    /// Where the first derivative jumps, in order of time.
+    pub fn slope_jumps(&self) -> Vec<f64> {
+        let jumps = |time: &f64| self.rate(*time, Side::Before) != self.rate(*time, Side::After);
+        let mut all = self.kinks();
+        all.dedup();
+        all.retain(jumps);
+        all
     }
 
     /// ∫₀ᵗ a(s) ds.
@@ -322,6 +357,23 @@ fn over(start: f64, end: f64, t: f64, inside: impl Fn(f64) -> (f64, f64)) -> (f6
     }
     let (first, second) = inside(t.min(end) - start);
     (first, second + first * (t - end).max(0.0))
+}
+
+/// True between two times, or at the end of which the other side is asked for.
+fn lies_in([start, end]: [f64; 2], t: f64, side: Side) -> bool {
+    match side {
+        Side::Before => start < t && t <= end,
+        Side::After => start <= t && t < end,
+    }
+}
+
+/// The points between which a table goes on from `t`, or comes to it.
+fn beside(points: &[[f64; 2]], t: f64, side: Side) -> (Option<[f64; 2]>, Option<[f64; 2]>) {
+    if side == Side::After {
+        return around(points, t);
+    }
+    let after = points.partition_point(|p| p[0] < t);
+    (after.checked_sub(1).map(|before| points[before]), points.get(after).copied())
 }
 
 /// The points at or before `t` and after it.
@@ -412,12 +464,16 @@ mod tests {
                 let t = random.random_range(-0.5..1.95);
                 if smooth(t, h) {
                     let rate = (a.value(t + h) - a.value(t - h)) / (2.0 * h);
-                    let second = (a.rate(t + h) - a.rate(t - h)) / (2.0 * h);
-                    assert!((a.rate(t) - rate).abs() < 1e-6, "{a:?} at {t}: {} for {rate}", a.rate(t));
+                    let second = (a.rate(t + h, Side::After) - a.rate(t - h, Side::After)) / (2.0 * h);
                     assert!(
-                        (a.second_rate(t) - second).abs() < 1e-5,
+                        (a.rate(t, Side::After) - rate).abs() < 1e-6,
+                        "{a:?} at {t}: {} for {rate}",
+                        a.rate(t, Side::After)
+                    );
+                    assert!(
+                        (a.second_rate(t, Side::Before) - second).abs() < 1e-5,
                         "{a:?} at {t}: {} for {second}",
-                        a.second_rate(t)
+                        a.second_rate(t, Side::Before)
                     );
                 }
             }
@@ -492,7 +548,7 @@ mod tests {
         assert_eq!([0.999, 1.0, 1.999, 2.0].map(|t| step.value(t)), [0.0, 1.0, 1.0, 0.0]);
         let ramp = Amplitude::Ramp { start: 1.0, end: 3.0 };
         assert_eq!([0.0, 1.0, 2.0, 3.0, 4.0].map(|t| ramp.value(t)), [0.0, 0.0, 0.5, 1.0, 1.0]);
-        assert_eq!([0.0, 1.0, 3.0].map(|t| ramp.rate(t)), [0.0, 0.5, 0.0]);
+        assert_eq!([0.0, 1.0, 3.0].map(|t| ramp.rate(t, Side::After)), [0.0, 0.5, 0.0]);
         let jump = Amplitude::Table(StraightLines::new(vec![[0.0, 1.0], [1.0, 1.0], [1.0, 5.0], [2.0, 5.0]]));
         assert_eq!([0.5, 1.0, 3.0].map(|t| jump.value(t)), [1.0, 5.0, 5.0]);
         assert_eq!(Amplitude::Table(StraightLines::new(vec![])).value(1.0), 0.0);

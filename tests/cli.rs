@@ -377,3 +377,25 @@ fn numbers_beyond_the_range_are_said_to_be_missing() {
     let done = rdsolve(folder.path(), &["ball.toml"]).code(0);
     assert!(!said(&done).contains("empty"), "{}", said(&done));
 }
+
+/// A bound of the greatest absolute value is one of its size, whichever way the motion goes.
+#[test]
+fn bounds_of_the_greatest_absolute_value_are_of_its_size() {
+    let deck = |force: f64, bound: &str| {
+        format!(
+            "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 0.5\n[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[links]]\nname = \"k\"\n\
+             from = {{ node = \"a\" }}\nto = {{ node = \"b\" }}\nlaw = \"linear\"\nstiffness = 100.0\n[[supports]]\nat = \"a\"\nfix = \"all\"\n\
+             [[supports]]\nat = \"b\"\nfix = [\"uy\", \"uz\"]\n[[loads]]\nat = \"b\"\nforce = [{force:?}, 0.0, 0.0]\n\
+             [[expect]]\nat = \"b\"\nquantity = \"ux\"\npeak = \"abs\"\n{bound}\n"
+        )
+    };
+    for force in [2.0, -2.0] {
+        for (bound, code) in
+            [("at_most = 0.01", 5), ("at_most = 0.03", 0), ("at_least = 0.01", 0), ("at_least = 0.03", 5)]
+        {
+            let folder = folder(&deck(force, bound));
+            let code_found = rdsolve(folder.path(), &["ball.toml"]).get_output().status.code();
+            assert_eq!(code_found, Some(code), "{force} {bound}");
+        }
+    }
+}

@@ -28,6 +28,7 @@ mod iterations;
 mod joint_coordinates;
 mod joint_forces;
 mod joints;
+mod kinks;
 mod left_out;
 mod line_loads;
 mod linear;

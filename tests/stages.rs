@@ -957,6 +957,39 @@ fn a_column_buckles_in_a_later_stage_as_in_the_first() {
     assert!(said.contains("negative eigenvalues of the tangent: 2"), "{said}");
 }
 
+/// After a stage that unloads nothing acts any more but rounding, which is no moment without a potential: a bar that was bent and let go buckles
+/// under a load beyond Euler's as one that was never bent, whatever the direction.
+#[test]
+fn a_column_buckles_after_a_stage_that_unloads() {
+    for direction in [[1.0, 0.0, 0.0], [1.0, 2.0, 3.0]] {
+        let size = direction.iter().map(|x: &f64| x * x).sum::<f64>().sqrt();
+        let d = direction.map(|x| x / size);
+        // π² EI/4L² of a round bar of 12 mm, clamped at its foot.
+        let euler = std::f64::consts::PI.powi(3) * 200e9 * 0.006f64.powi(4) / 16.0;
+        let deck = stage("bend", "static", 1.0, 0.25, "")
+            + &stage("unload", "static", 1.0, 0.25, "")
+            + &stage("press", "static", 1.0, 0.05, "")
+            + &format!(
+                "[materials.m]\nmodel = \"elastic\"\nyoungs_modulus = 200e9\npoisson_ratio = 0.3\n[sections.s]\nshape = \"tube\"\n\
+                 radius = 0.006\nthickness = 0.006\n[points]\na = [0.0, 0.0, 0.0]\nb = {d:?}\n[[beams]]\nname = \"c\"\npath = [\"a\", \"b\"]\n\
+                 elements = 2\norder = 2\nmaterial = \"m\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\n\
+                 fix = \"all\"\n[[loads]]\nat = \"b\"\nforce = [0.0, 50.0, 20.0]\nstages = \"bend\"\n\
+                 [[loads]]\nat = \"b\"\nforce = {:?}\nstages = \"press\"\n",
+                d.map(|x| -2.0 * euler * x)
+            );
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("deck.toml"), deck).unwrap();
+        let output =
+            assert_cmd::Command::cargo_bin("rdsolve").unwrap().current_dir(&folder).arg("deck.toml").output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        let time = said.split("unstable from t = ").nth(1).and_then(|rest| rest.split(' ').next());
+        let time: f64 = time.unwrap_or_else(|| panic!("{said}")).parse().unwrap();
+        // Half of the load of the last stage, between the ends of a step of a twentieth of it.
+        assert!((time - 2.5).abs() < 0.05, "{said}");
+        assert!(said.contains("negative eigenvalues of the tangent: 2"), "{said}");
+    }
+}
+
 /// Nor does it take moments of shells: shear forces of triangles are those of the balance at their nodes, in each stage.
 #[test]
 fn shear_forces_of_triangles_are_the_same_in_a_later_stage() {

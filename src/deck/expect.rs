@@ -53,6 +53,6 @@ pub enum Peak {
     Max,
     /// The least value.
     Min,
-    /// The greatest absolute value.
+    /// The value, with its sign, where it is greatest in size; bounds are those of the size.
     Abs,
 }

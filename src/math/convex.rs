@@ -23,6 +23,11 @@ pub struct Spherocylinder {
 }
 
 impl ConvexShape {
+    /// True for a sphere.
+    pub fn is_sphere(&self) -> bool {
+        matches!(self, ConvexShape::Spherocylinder(shape) if shape.half == Vec3::zeros())
+    }
+
     /// The polyhedron that it is, where it is one.
     pub fn as_polyhedron(&self) -> Option<&Arc<Polyhedron>> {
         match self {

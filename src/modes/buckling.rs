@@ -64,6 +64,10 @@ impl SymmetricOperator for Buckling<'_, '_> {
         self.K.multiply(x, y);
     }
 
+    fn may_move(&mut self, x: &[f64]) -> bool {
+        self.pencil.may_move(x)
+    }
+
     fn is_stopped(&self) -> bool {
         self.pencil.at.is_stopped()
     }

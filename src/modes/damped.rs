@@ -32,6 +32,9 @@ const DOUBTFUL: f64 = 0.1;
 
 /// A root grows where its real part is larger than this part of it.
 const GROWS: f64 = 1e-7;
+/// Roots whose distance from the shift is larger than that of the nearest by the inverse of this are at infinity: motions that joints forbid,
+/// or without mass, have such.
+const INFINITE: f64 = 1e-10;
 /// Modes for which there is room where a frequency is given.
 const UP_TO: usize = 100;
 
@@ -114,9 +117,10 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     let rounding = if free { shapes.rounding(&pencil).sqrt() } else { 0.0 };
     let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
     let mut pairs = nearest(&mut pencil, &gyroscopic, near, extent)?;
+    let largest = pairs.iter().map(|pair| size(pair.theta)).fold(0.0, f64::max);
+    let unknowns = pencil.at.unknowns();
     pairs.retain(|pair| {
-        let larger = dot(&pair.real, &pair.real) >= dot(&pair.imaginary, &pair.imaginary);
-        pencil.allows(&(if larger { &pair.real } else { &pair.imaginary })[..pencil.at.unknowns()])
+        size(pair.theta) > INFINITE * largest && pencil.allows(&[&pair.real[..unknowns], &pair.imaginary[..unknowns]])
     });
     let mut list =
         roots(&pairs, near).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
@@ -169,10 +173,6 @@ fn nearest(
     let enough = |thetas: &[Complex]| enough(thetas, near, extent);
     let converged = arnoldi.converge(&mut operator, TOLERANCE, most, enough);
     converged.ok_or_else(|| operator.pencil.not_converged(wanted))
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn size(root: Complex) -> f64 {

@@ -31,7 +31,7 @@ impl Gyroscopic {
             }
             let node = &at.state.nodes[root];
             let omega = node.omega;
-            if omega.norm() == 0.0 {
+            if !at.spins(&omega) {
                 continue;
             }
             let name = || at.model.nodes[root].label.clone();

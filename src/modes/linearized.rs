@@ -62,6 +62,12 @@ impl Linearized<'_> {
         acting.all(|(load, _)| load.has_potential(self.system.plane))
     }
 
+    /// True for an angular velocity that is no rounding: it turns by more than that over the time of the analysis.
+    pub fn spins(&self, omega: &Vec3) -> bool {
+        const ROUNDING: f64 = 1e-12;
+        omega.norm() * self.model.analysis.end_time > ROUNDING
+    }
+
     /// The nodes of the state, at rest.
     pub fn nodes_at_rest(&self) -> Vec<Node> {
         let zero = Vec3::zeros();

@@ -105,7 +105,9 @@ pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<V
         0 => Vec::new(),
         _ => complete(pencil, goal)?,
     };
-    pairs.retain(|(_, vector)| pencil.allows(vector));
+    // The shapes that follow need no memory beside the factor more than what the count has left behind.
+    pencil.solver.rest();
+    pairs.retain(|(_, vector)| pencil.allows(&[vector.as_slice()]));
     Ok(pairs)
 }
 
@@ -151,7 +153,7 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
                 .to_owned(),
         );
     }
-    let spins = |node: usize| at.model.nodes[node].omega.norm() > 0.0;
+    let spins = |node: usize| at.spins(&at.model.nodes[node].omega);
     if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
         doubts.push(format!(
             "`{}` spins, and its gyroscopic moments are left out: `damped = true` takes them in",

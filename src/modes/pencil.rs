@@ -307,15 +307,19 @@ impl<'a> Pencil<'a> {
         rhs[..*unknowns].to_vec()
     }
 
-    /// True where joints allow a motion. Their equations are regularised, so that what they forbid still has a frequency, one that means
-    /// nothing.
-    pub fn allows(&mut self, x: &[f64]) -> bool {
+    /// True where joints allow a motion, of one or more parts of which none need be large. Their equations are regularised, so that what they
+    /// forbid still has a frequency, one that means nothing.
+    pub fn allows(&mut self, parts: &[&[f64]]) -> bool {
         let Pencil { at, nodes, forces, .. } = self;
-        let motions = at.motions(nodes, x);
         let gaps = &mut forces.multipliers.gaps;
-        at.system.gaps_of_motion(nodes, &motions, gaps);
-        let largest = motions.iter().map(|motion| motion.amax()).fold(0.0, f64::max);
-        gaps.iter().all(|gap| gap.abs() <= FORBIDDEN * largest)
+        let (mut widest, mut largest) = (0.0f64, 0.0f64);
+        for part in parts {
+            let motions = at.motions(nodes, part);
+            at.system.gaps_of_motion(nodes, &motions, gaps);
+            widest = gaps.iter().fold(widest, |widest, gap| widest.max(gap.abs()));
+            largest = motions.iter().fold(largest, |largest, motion| largest.max(motion.amax()));
+        }
+        widest <= FORBIDDEN * largest
     }
 
     /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both.
@@ -361,6 +365,10 @@ impl SymmetricOperator for Pencil<'_> {
 
     fn metric(&mut self, x: &[f64], y: &mut [f64]) {
         self.mass.multiply(x, y);
+    }
+
+    fn may_move(&mut self, x: &[f64]) -> bool {
+        self.forces.multipliers.gaps.is_empty() || self.allows(&[x])
     }
 
     fn is_stopped(&self) -> bool {

@@ -33,7 +33,10 @@ pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<En
     let largest = |shape: &Vec<Vec6>| shape.iter().map(|motion| motion.amax().powi(2)).fold(0.0, f64::max);
     let mut all: Vec<Energies> =
         shapes.iter().map(|shape| Energies { largest: largest(shape), ..Energies::default() }).collect();
-    let (mut K, mut phi) = (Vec::new(), Vec::new());
+    if shapes.is_empty() {
+        return all;
+    }
+    let (mut K, mut phi, mut sums) = (Vec::new(), Vec::new(), Sums::new(shapes.len()));
     for group in &at.system.groups {
         let (block, own) = (&group.block, &group.configuration(&now));
         let width = if block.is_empty() { 0 } else { block.dofs() * block.nodes(0).len() };
@@ -48,10 +51,13 @@ pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<En
                 true => group.part,
                 false => place(&at.model.parts, group.part, group.part_of(e, at.model)),
             };
-            for (shape, energies) in shapes.iter().zip(&mut all) {
-                phi.clear();
-                phi.extend(block.nodes(e).iter().flat_map(|&n| shape[n].iter().copied().take(block.dofs())));
-                energies.add(&at.model.parts, part, &K, &phi);
+            phi.clear();
+            for &node in block.nodes(e) {
+                (0..block.dofs()).for_each(|dof| phi.extend(shapes.iter().map(|shape| shape[node][dof])));
+            }
+            sums.form(&K, &phi);
+            for (s, energies) in all.iter_mut().enumerate() {
+                energies.add(&at.model.parts, part, sums.of_shape(s));
             }
         }
     }
@@ -68,18 +74,54 @@ fn place(parts: &[Part], from: usize, part: &Part) -> usize {
     from + parts[from..].iter().position(|other| std::ptr::eq(other, part)).unwrap_or(0)
 }
 
-impl Energies {
-    /// Adds the energy of an element with this matrix, row-major, in this motion.
-    fn add(&mut self, parts: &[Part], part: usize, K: &[f64], phi: &[f64]) {
-        let (mut energy, mut own, mut all) = (0.0, 0.0, 0.0);
-        for (row, left) in K.chunks(phi.len()).zip(phi) {
-            for (k, right) in row.iter().zip(phi) {
-                let term = left * k * right;
-                energy += term;
-                own += term.abs();
-                all += k.abs();
+/// Sums over the entries of the matrix of an element, for all shapes side by side.
+struct Sums {
+    /// φᵀ K φ of each shape.
+    energy: Vec<f64>,
+    /// The same of the sizes of all terms.
+    without_signs: Vec<f64>,
+    /// One row of K φ, and of the sizes of its terms.
+    row: [Vec<f64>; 2],
+    /// The sum of the sizes of all entries.
+    entries: f64,
+}
+
+impl Sums {
+    fn new(shapes: usize) -> Sums {
+        let zeros = || vec![0.0; shapes];
+        Sums { energy: zeros(), without_signs: zeros(), row: [zeros(), zeros()], entries: 0.0 }
+    }
+
+    /// Those of a matrix, row-major, and motions, the shapes side by side.
+    fn form(&mut self, K: &[f64], phi: &[f64]) {
+        let Sums { energy, without_signs, row: [row, sizes], entries } = self;
+        let shapes = row.len();
+        energy.fill(0.0);
+        without_signs.fill(0.0);
+        *entries = K.iter().map(|k| k.abs()).sum();
+        for (k, left) in K.chunks(phi.len() / shapes).zip(phi.chunks(shapes)) {
+            row.fill(0.0);
+            sizes.fill(0.0);
+            for (k, right) in k.iter().zip(phi.chunks(shapes)) {
+                for ((row, size), right) in row.iter_mut().zip(&mut *sizes).zip(right) {
+                    *row += k * right;
+                    *size += (k * right).abs();
+                }
             }
+            energy.iter_mut().zip(left).zip(&*row).for_each(|((sum, left), row)| *sum += left * row);
+            without_signs.iter_mut().zip(left).zip(&*sizes).for_each(|((sum, left), size)| *sum += left.abs() * size);
         }
+    }
+
+    /// The energy of a shape, the same without signs, and the latter were all its motions 1.
+    fn of_shape(&self, s: usize) -> [f64; 3] {
+        [self.energy[s], self.without_signs[s], self.entries]
+    }
+}
+
+impl Energies {
+    /// Adds an element of a part by its [`Sums::of_shape`].
+    fn add(&mut self, parts: &[Part], part: usize, [energy, own, all]: [f64; 3]) {
         self.without_signs += own;
         match self.parts.last_mut() {
             Some(last) if parts[last.part].is_one_with(&parts[part]) => last.strain += energy,

@@ -5,7 +5,7 @@
 use super::error_bars::{ComparedHistory, Told};
 use super::table::Answers;
 use super::tables::TABLES;
-use crate::model::{Expect, ExpectAt, Model, Tolerance, When};
+use crate::model::{Expect, ExpectAt, Model, OverFrequencies, Tolerance, When};
 use crate::snapshot::keep;
 use crate::solve::{Frame, Observer, OtherRun, Wanted};
 use serde::Serialize;
@@ -293,8 +293,8 @@ impl Watch {
     fn difference(&self, value: f64) -> f64 {
         let Expect { quantity, value: expected, tolerance, .. } = &self.expect;
         match tolerance {
-            Tolerance::AtLeast => (expected - value).max(0.0),
-            Tolerance::AtMost => (value - expected).max(0.0),
+            Tolerance::AtLeast => (expected - self.bounded(value)).max(0.0),
+            Tolerance::AtMost => (self.bounded(value) - expected).max(0.0),
             // A phase is the same after a full turn.
             _ if quantity.ends_with("_phase") => {
                 let apart = (value - expected).rem_euclid(360.0);
@@ -304,7 +304,17 @@ impl Watch {
         }
     }
 
-    /// Judges the value taken.
+    /// What a bound is a bound of: of the greatest absolute value the size, else the value.
+    fn bounded(&self, value: f64) -> f64 {
+        let is_size = match self.expect.at {
+            ExpectAt::Response(_, over) => over == OverFrequencies::Abs,
+            // Of modes there is one value.
+            ExpectAt::Mode(_) => false,
+            _ => self.expect.when == When::Abs,
+        };
+        if is_size { value.abs() } else { value }
+    }
+
     /// The time of a sample in words; nothing of modes and of responses, which have none.
     fn moment(&self, sample: Sample) -> String {
         match self.expect.at {
@@ -343,7 +353,7 @@ impl Watch {
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),
             (_, Some(sample), _) if bound.is_some() => {
                 let bound = bound.unwrap_or_default();
-                Some(format!("{}{} is not {bound} {expected}", sample.value, self.moment(sample)))
+                Some(format!("{}{} is not {bound} {expected}", self.bounded(sample.value), self.moment(sample)))
             }
             (_, Some(sample), _) => Some(format!(
                 "{}{} is not {expected} within {limit}{}",
@@ -354,7 +364,7 @@ impl Watch {
         };
         Verdict {
             label: label.clone(),
-            value: self.sample.map(|sample| sample.value),
+            value: self.sample.map(|sample| if bound.is_some() { self.bounded(sample.value) } else { sample.value }),
             time: self.sample.map(|sample| sample.time),
             expected: *expected,
             step_error: self.step_error,

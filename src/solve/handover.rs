@@ -319,8 +319,12 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
     let mut forces = Forces::new(system, state.nodes.len());
     let mut loading = Loading::default();
     forces.multipliers.values.copy_from_slice(&state.multipliers);
-    Excitation::new(model).loading(state.time, Side::After, &mut loading);
-    let scale = system.residual(&state.configuration(), &loading, &mut forces);
+    let excitation = Excitation::new(model);
+    // After unloading what acts is rounding itself: what the stage will bring on tells what is large.
+    excitation.loading(model.analysis.end_time, Side::Before, &mut loading);
+    let later = system.residual(&state.configuration(), &loading, &mut forces);
+    excitation.loading(state.time, Side::After, &mut loading);
+    let scale = system.residual(&state.configuration(), &loading, &mut forces).or_larger(&later);
     for restraint in &model.constraints.restraints {
         forces.on_nodes[restraint.node][restraint.dof] = 0.0;
     }

@@ -19,6 +19,7 @@ mod handover;
 mod implicit;
 mod initial_transient;
 mod joints;
+mod jumps;
 mod large_strains;
 mod linear_system;
 mod links;

@@ -60,8 +60,8 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     }
     between(&loads.start, &loads.end, instant, &mut loads.instant);
     let prescribed = &mut ws.prescribed;
-    cx.excitation.prescribed(from, &mut prescribed.start);
-    cx.excitation.prescribed(to, &mut prescribed.end);
+    cx.excitation.prescribed(from, Side::After, &mut prescribed.start);
+    cx.excitation.prescribed(to, Side::Before, &mut prescribed.end);
     prescribed.instant.clear();
     prescribed.instant.extend(prescribed.start.iter().zip(&prescribed.end).map(|(a, b)| Prescribed {
         u: instant * (b.u - a.u),

@@ -1,12 +1,11 @@
-//! The state at t = 0, with positions and velocities as given and accelerations from equilibrium, and the state after a
-//! jump of the loads.
+//! The state at t = 0, with positions and velocities as given and accelerations from equilibrium.
 
 use super::context::Context;
 use super::failure::Failure;
 use super::joints;
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::elements::{Force, Moduli};
+use crate::elements::Moduli;
 use crate::math::{Vec3, Vec6, rotation, stack};
 use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
@@ -23,7 +22,7 @@ pub const DIGITS: f64 = 1e-5;
 pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
     let mut state = given_state(cx);
     cx.excitation.loading(0.0, Side::After, &mut ws.loads.instant);
-    cx.excitation.prescribed(0.0, &mut ws.prescribed.start);
+    cx.excitation.prescribed(0.0, Side::After, &mut ws.prescribed.start);
     prescribe(cx, ws, &mut state);
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
     if cx.system.has_contacts() {
@@ -176,67 +175,6 @@ fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool
 /// Translations and rotations are judged together: where one of them is zero, rounding of the other is no change.
 pub fn speed(cx: &Context, v: &Vec3, omega: &Vec3) -> f64 {
     v.amax().max(omega.amax() * cx.length)
-}
-
-/// Takes the state over a jump of the loads. Velocities are continuous, accelerations jump by M Δa = Δf and reactions
-/// with them; otherwise the scheme would take the old acceleration into the next step and lose an order.
-///
-/// # Errors
-/// [`Failure::Singular`] where a mass matrix cannot be inverted.
-pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
-    if !cx.is_dynamic() {
-        return Ok(());
-    }
-    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-    cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
-    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-    let before = ws.forces.on_nodes.clone();
-    jump_from(cx, ws, state, &before, Side::After)
-}
-
-/// Takes the state over the failure of material points or links in the step of length `dt` that was taken last, of which the history at its
-/// beginning is still at hand: their forces are gone, and accelerations and reactions jump as at a jump of the loads.
-///
-/// # Errors
-/// [`Failure::Singular`] where a mass matrix cannot be inverted.
-pub fn release(cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
-    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-    cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
-    let unbroken = Configuration { nodes: &state.nodes, history: &ws.history, dt, lead: None };
-    cx.system.residual(&unbroken, &ws.loads.instant, &mut ws.forces);
-    let before = ws.forces.on_nodes.clone();
-    jump_from(cx, ws, state, &before, Side::Before)
-}
-
-/// As [`jump`], from the forces out of balance on all nodes `before` it; `side`: the loads that act then.
-///
-/// # Errors
-/// [`Failure::Singular`] where a mass matrix cannot be inverted.
-pub fn jump_from(
-    cx: &Context,
-    ws: &mut Workspace,
-    state: &mut State,
-    before: &[Force],
-    side: Side,
-) -> Result<(), Failure> {
-    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-    cx.excitation.loading(state.time, side, &mut ws.loads.instant);
-    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-    for (after, before) in ws.forces.on_nodes.iter_mut().zip(before) {
-        after.iter_mut().zip(before).for_each(|(after, before)| *after -= before);
-    }
-    if cx.is_dynamic() {
-        let massless = factor_mass(cx, ws, &state.configuration())?;
-        add_accelerations(cx, ws, state, &massless);
-    }
-    if cx.wants_forces {
-        // Reactions jump by what the new accelerations leave of the new loads.
-        cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-        for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
-            *reaction -= ws.forces.on_nodes[restraint.node][restraint.dof] - before[restraint.node][restraint.dof];
-        }
-    }
-    Ok(())
 }
 
 /// Adds M⁻¹ f to the accelerations, with the mass matrix factorized. Degrees of freedom without mass have no equation

@@ -5,14 +5,15 @@ use super::context::Context;
 use super::failure::Failure;
 use super::handover::Handover;
 use super::joints;
+use super::jumps::{impulse, jump_from};
 use super::start::{
-    DIGITS, add_accelerations, factor_mass, jump_from, project_velocities, speed, update_rates_of_dependent_nodes,
+    DIGITS, add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes,
 };
 use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::elements::Force;
-use crate::math::{Vec3, Vec6, stack};
-use crate::state::{Configuration, Node, State};
+use crate::math::{Vec6, stack};
+use crate::state::{Node, State};
 use crate::system::Side;
 
 /// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed.
@@ -22,7 +23,7 @@ use crate::system::Side;
 pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Result<State, Failure> {
     let mut state = handover.state.clone();
     cx.excitation.loading(state.time, Side::After, &mut ws.loads.instant);
-    cx.excitation.prescribed(state.time, &mut ws.prescribed.start);
+    cx.excitation.prescribed(state.time, Side::After, &mut ws.prescribed.start);
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     if let Some(load_steps) = &handover.load_steps {
         ws.load_steps = load_steps.clone();
@@ -91,39 +92,6 @@ fn go_on_algorithmic(state: &mut State, (before, algorithmic): (&[Node], &[Vec6]
     let jumps = state.nodes.iter().zip(before).map(|(now, then)| stack(&(now.a - then.a), &(now.alpha - then.alpha)));
     let all = state.algorithmic_accelerations.iter_mut().zip(algorithmic);
     all.zip(jumps).for_each(|((now, then), jump)| *now = then + jump);
-}
-
-/// The impulse −M Δv on the unknowns of nodes, Δv what supports give to or take from the velocities `before`: it is what passes by mass that
-/// is off the held directions, or off their axes. Empty where velocities are those before.
-fn impulse(cx: &Context, ws: &mut Workspace, state: &State, (before, massless): (&[Node], &[usize])) -> Vec<f64> {
-    let zero = Vec3::zeros();
-    let at_rest = |node: &Node| Node { v: zero, omega: zero, a: zero, alpha: zero, ..*node };
-    let mut nodes: Vec<Node> = state.nodes.iter().map(at_rest).collect();
-    let mut forces = |nodes: &mut Vec<Node>| -> Vec<f64> {
-        update_rates_of_dependent_nodes(cx, ws, nodes);
-        let now = Configuration { nodes, ..state.configuration() };
-        cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
-        cx.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| ws.forces.on_nodes[node][dof]).collect()
-    };
-    let without = forces(&mut nodes);
-    let mut jumps = false;
-    for restraint in &cx.model.constraints.restraints {
-        let (node, now, before) = (&mut nodes[restraint.node], &state.nodes[restraint.node], &before[restraint.node]);
-        let k = restraint.dof % 3;
-        let (a, jump) = match restraint.dof {
-            0..3 => (&mut node.a, now.v[k] - before.v[k]),
-            _ => (&mut node.alpha, now.omega[k] - before.omega[k]),
-        };
-        a[k] = jump;
-        jumps |= jump != 0.0;
-    }
-    if !jumps {
-        return Vec::new();
-    }
-    let mut impulse = forces(&mut nodes);
-    impulse.iter_mut().zip(without).for_each(|(with, without)| *with -= without);
-    massless.iter().for_each(|&row| impulse[row] = 0.0);
-    impulse
 }
 
 /// True where joints have changed velocities that the deck gives in this stage, from `trial` to `nodes`. That they end motion which the

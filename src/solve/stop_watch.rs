@@ -196,7 +196,7 @@ impl StopWatch {
                 {
                     cx.excitation.loading(time, side, loads);
                     take_held(cx, held, time, loads);
-                    cx.excitation.prescribed(time, motions);
+                    cx.excitation.prescribed(time, side, motions);
                 }
                 let mut sum = *work;
                 let which = (actors.nodal.clone(), actors.pressures.clone());

@@ -4,8 +4,8 @@ use super::context::Context;
 use super::explicit::{CentralDifferenceStepper, RungeKuttaStepper};
 use super::failure::Failure;
 use super::implicit::Implicit;
+use super::jumps;
 use super::report::StepReport;
-use super::start;
 use super::workspace::Workspace;
 use crate::integrators::Stepping;
 use crate::linear::TooLarge;
@@ -56,14 +56,14 @@ impl<'a> TimeStepper<'a> {
         }
     }
 
-    /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last, as [`start::release`] does.
+    /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last, as [`jumps::release`] does.
     /// Explicit schemes find the accelerations anew in every step, which are so short that half of one is no matter.
     ///
     /// # Errors
     /// [`Failure::Singular`] where a mass matrix cannot be inverted.
     pub fn release(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
         if let TimeStepper::Implicit(stepper) = self {
-            start::release(cx, ws, state, dt)?;
+            jumps::release(cx, ws, state, dt)?;
             stepper.restart(state);
         }
         Ok(())

@@ -4,11 +4,13 @@
 
 use super::equations::System;
 use super::masses::Masses;
+use super::multipliers::REGULARIZATION;
 use super::schur_factor::SchurFactor;
 use crate::elements::Force;
-use crate::math::{Vec6, angular, linear, stack};
+use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::snapshot::keep;
 use crate::state::Node;
+use std::ops::Range;
 
 /// An entry counts as zero below this fraction of the largest in its equation.
 const NEGLIGIBLE: f64 = 1e-12;
@@ -20,6 +22,11 @@ pub struct ConstraintSchur {
     rows: Vec<[Option<usize>; 2]>,
     /// True where constraint equations may be redundant.
     shares: bool,
+    /// The translations, and the rotations, of each joint. Loads that redundant equations share would depend on the axes in which these are
+    /// written, were the diagonal of each raised by a part of its own.
+    alike: Vec<Range<usize>>,
+    /// By how much the diagonal is raised.
+    raised: Vec<f64>,
     /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit multiplier causes at them.
     G: Vec<[Vec6; 2]>,
     W: Vec<[Vec6; 2]>,
@@ -33,7 +40,29 @@ pub struct ConstraintSchur {
     scratch: Vec<f64>,
 }
 
-keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares });
+keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, raised });
+
+/// What an equation moves by a unit force: of translations that of forces alone, without the turns that arms make, by which joints of one body that sit
+/// elsewhere would share otherwise.
+fn same_kind(G: &[Vec6; 2], W: &[Vec6; 2]) -> f64 {
+    let of = |part: fn(&Vec6) -> Vec3| G.iter().zip(W).map(|(G, W)| part(G).dot(&part(W))).sum::<f64>();
+    let translations = of(linear);
+    if translations > 0.0 { translations } else { of(angular) }
+}
+
+/// The translations, and the rotations, of each joint.
+fn alike(system: &System) -> Vec<Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    for (joint, first) in system.numbered() {
+        let kinds = joint.equations.chunk_by(|a, b| a.is_rotational() == b.is_rotational());
+        all.extend(kinds.scan(first, |begin, kind| {
+            let from = *begin;
+            *begin += kind.len();
+            Some(from..*begin)
+        }));
+    }
+    all
+}
 
 impl ConstraintSchur {
     /// Returns `None` where there is no memory, where an end depends on its master in some directions only, or where gears
@@ -66,7 +95,19 @@ impl ConstraintSchur {
         let factor = SchurFactor::new(system, &rows)?;
         let x = vec![0.0; count];
         let inert = vec![false; count];
-        Some(ConstraintSchur { rows, shares, G: zeros.clone(), W: zeros, inert, factor, scratch: x.clone(), x })
+        let (alike, raised) = (alike(system), vec![0.0; count]);
+        Some(ConstraintSchur {
+            rows,
+            shares,
+            alike,
+            raised,
+            G: zeros.clone(),
+            W: zeros,
+            inert,
+            factor,
+            scratch: x.clone(),
+            x,
+        })
     }
 
     /// Forms and factorizes G M⁻¹ Gᵀ at the given configuration. Returns false where it is singular: the joints cannot
@@ -98,8 +139,8 @@ impl ConstraintSchur {
     }
 
     fn factor(&mut self) -> bool {
-        let ConstraintSchur { rows, G, W, inert, factor, shares, .. } = self;
-        factor.factor(inert, *shares, |k, l| {
+        let ConstraintSchur { rows, G, W, inert, factor, shares, alike, raised, .. } = self;
+        let entry = |k: usize, l: usize| {
             let mut sum = 0.0;
             for (i, master) in rows[k].iter().enumerate() {
                 for (j, other) in rows[l].iter().enumerate() {
@@ -109,7 +150,18 @@ impl ConstraintSchur {
                 }
             }
             sum
-        })
+        };
+        if *shares {
+            for range in alike.iter() {
+                let own = || range.clone().filter(|&k| !inert[k]);
+                let count = own().count().max(1) as f64;
+                let without_arms = own().map(|k| same_kind(&G[k], &W[k])).sum::<f64>();
+                let sum = if without_arms > 0.0 { without_arms } else { own().map(|k| entry(k, k)).sum::<f64>() };
+                let mean = sum / count;
+                raised[range.clone()].fill(REGULARIZATION * mean);
+            }
+        }
+        factor.factor(inert, raised, entry)
     }
 
     /// True where the system is sparse.

@@ -98,6 +98,11 @@ impl Energy {
     }
 }
 
+/// The kinetic energy of a motion.
+pub fn kinetic_energy(system: &System, nodes: &[Node]) -> f64 {
+    motion(system, nodes).0
+}
+
 /// Kinetic energy, linear momentum, and angular momentum about the origin.
 fn motion(system: &System, nodes: &[Node]) -> (f64, Vec3, Vec3) {
     let mut kinetic = 0.0;

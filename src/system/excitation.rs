@@ -2,7 +2,7 @@
 //! motion.
 
 use super::loads::Loading;
-use crate::amplitude::{Amplitude, Jump};
+use crate::amplitude::{Amplitude, Jump, Side};
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, History, Model, PrescribedMotion, Restraint};
 use crate::snapshot::keep;
@@ -19,15 +19,6 @@ pub struct Prescribed {
 }
 
 keep!(Prescribed: Default { u, v, a });
-
-/// The side of a jump on which a load is wanted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// The limit from earlier times, which a step that ends at the jump sees.
-    Before,
-    /// The limit from later times, which a step that begins at the jump sees.
-    After,
-}
 
 /// The functions of time that a model prescribes.
 pub struct Excitation<'a> {
@@ -85,12 +76,13 @@ impl<'a> Excitation<'a> {
         if model.analysis.step_length.is_arc_length() {
             let end = model.analysis.end_time;
             let loads = model.loading.amplitudes.iter();
-            excitation.loads =
-                loads.map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t))).collect();
+            excitation.loads = loads
+                .map(|a| Extrapolation::new(a.begin().min(0.0), end, |t| a.value(t), |t| a.rate(t, Side::After)))
+                .collect();
             let beyond = |restraint: &Restraint| {
                 let Some(motion) = &restraint.motion else { return Extrapolation::new(0.0, end, |_| 0.0, |_| 0.0) };
                 let amplitude = &model.loading.amplitudes[motion.amplitude];
-                let given = |t: f64| prescribed_motion(motion, amplitude, t);
+                let given = |t: f64| excitation.given(motion, t, Side::After);
                 Extrapolation::new(amplitude.begin().min(0.0), end, |t| given(t).u, |t| given(t).v)
             };
             excitation.motions = model.constraints.restraints.iter().map(beyond).collect();
@@ -164,7 +156,9 @@ impl<'a> Excitation<'a> {
             AnalysisKind::Static => 1.0 / self.model.analysis.end_time,
         };
         let beyond = |i: usize| self.loads.get(i).and_then(|beyond| beyond.at(t));
-        let rate = |i: usize| beyond(i).map_or_else(|| self.model.loading.amplitudes[i].rate(t), |(_, slope)| slope);
+        let rate = |i: usize| {
+            beyond(i).map_or_else(|| self.model.loading.amplitudes[i].rate(t, Side::After), |(_, slope)| slope)
+        };
         loading.factors.clear();
         loading.factors.extend(self.model.loading.nodal.iter().map(|load| load.amplitude.map_or(plain, rate)));
         loading.pressures.clear();
@@ -176,16 +170,16 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// Writes the prescribed motion at time `t` into `out`, in the order of the model's restraints. A static analysis
-    /// has displacements but no rates, or dampers would act in it.
-    pub fn prescribed(&self, t: f64, out: &mut Vec<Prescribed>) {
+    /// Writes the prescribed motion at time `t` into `out`, in the order of the model's restraints; where velocities and accelerations jump
+    /// those of `side`. A static analysis has displacements but no rates, or dampers would act in it.
+    pub fn prescribed(&self, t: f64, side: Side, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();
         out.extend(self.model.constraints.restraints.iter().enumerate().map(
             |(i, restraint)| match &restraint.motion {
                 None => Prescribed::default(),
                 Some(motion) => {
-                    let given = |t: f64| prescribed_motion(motion, &self.model.loading.amplitudes[motion.amplitude], t);
+                    let given = |t: f64| self.given(motion, t, side);
                     match self.motions.get(i) {
                         Some(beyond) => Prescribed { u: beyond.value(t, |t| given(t).u), ..Prescribed::default() },
                         None if dynamic => given(t),
@@ -195,15 +189,21 @@ impl<'a> Excitation<'a> {
             },
         ));
     }
-}
 
-fn prescribed_motion(motion: &PrescribedMotion, amplitude: &Amplitude, t: f64) -> Prescribed {
-    let (u, v, a) = match motion.history {
-        History::Displacement => (amplitude.value(t), amplitude.rate(t), amplitude.second_rate(t)),
-        History::Velocity => (amplitude.integral(t), amplitude.value(t), amplitude.rate(t)),
-        History::Acceleration => (amplitude.double_integral(t), amplitude.integral(t), amplitude.value(t)),
-    };
-    Prescribed { u: motion.scale * u, v: motion.scale * v, a: motion.scale * a }
+    /// A prescribed motion at a time within the run.
+    fn given(&self, motion: &PrescribedMotion, t: f64, side: Side) -> Prescribed {
+        let amplitude = &self.model.loading.amplitudes[motion.amplitude];
+        let value = || self.within(motion.amplitude, t, side);
+        let kink = amplitude.snapped(t, self.slack);
+        let (u, v, a) = match motion.history {
+            History::Displacement => {
+                (amplitude.value(t), amplitude.rate(kink, side), amplitude.second_rate(kink, side))
+            }
+            History::Velocity => (amplitude.integral(t), value(), amplitude.rate(kink, side)),
+            History::Acceleration => (amplitude.double_integral(t), amplitude.integral(t), value()),
+        };
+        Prescribed { u: motion.scale * u, v: motion.scale * v, a: motion.scale * a }
+    }
 }
 
 /// Interpolates loads within a step: y ← a + s (b − a).

@@ -38,11 +38,12 @@ mod tangent_weights;
 mod thread_partition;
 mod turning_body;
 
+pub use crate::amplitude::Side;
 pub use carry::carry_history;
 pub use contacts::{ContactState, ContactTouch, open_gap};
 pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};
-pub use excitation::{Excitation, Prescribed, Side, between};
+pub use excitation::{Excitation, Prescribed, between};
 pub use group::Group;
 pub use inertia::Inertia;
 pub use joints::JointState;

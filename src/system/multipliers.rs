@@ -31,6 +31,11 @@ impl Multipliers {
         Multipliers { values: vec![0.0; rows], gaps: vec![0.0; rows], penalties: vec![0.0; rows], regularization }
     }
 
+    /// True where equations may be redundant, and share loads.
+    pub fn may_share(&self) -> bool {
+        self.regularization == REGULARIZATION
+    }
+
     /// Copies multipliers and penalty factors; the gaps belong to a configuration and are computed anew.
     pub fn copy_from(&mut self, other: &Multipliers) {
         self.values.copy_from_slice(&other.values);

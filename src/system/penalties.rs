@@ -98,21 +98,39 @@ impl Diagonal {
     }
 
     /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
-    /// the largest K g² of translations, or of rotations for an equation between these.
-    fn stiffness(&self, G: &[Vec6; 2], rotational: bool, projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
-        let (mut compliance, mut largest) = (0.0, 0.0f64);
+    /// the largest K g² of translations, or of rotations for an equation between these. With `even`, K is the mean of the translations of a node,
+    /// or of its rotations, which does not depend on axes, and arms are left out where the equation acts on more: joints of one body then share alike
+    /// wherever they sit.
+    fn stiffness(
+        &self,
+        G: &[Vec6; 2],
+        (rotational, even): (bool, bool),
+        projections: &[Vec<Mat6>],
+        values: &[f64],
+    ) -> [f64; 2] {
+        let (mut compliance, mut of_kind, mut largest) = (0.0, 0.0, 0.0f64);
         for &Place { end, node, index, slots, .. } in &self.0 {
             let g = projections[node][index].tr_mul(&G[end]);
-            for (dof, (g, slot)) in g.iter().zip(slots).enumerate() {
-                let Some(slot) = slot else { continue };
-                let K = values[slot as usize].abs();
+            let size = |slot: &Option<u32>| slot.map(|slot| values[slot as usize].abs());
+            let mean = |dofs: &[Option<u32>]| {
+                let known = || dofs.iter().filter_map(size);
+                known().sum::<f64>() / known().count().max(1) as f64
+            };
+            let means = if even { [mean(&slots[..3]), mean(&slots[3..])] } else { [0.0; 2] };
+            for (dof, (g, slot)) in g.iter().zip(&slots).enumerate() {
+                let Some(own) = size(slot) else { continue };
+                let K = if even { means[usize::from(dof > 2)] } else { own };
                 if K > 0.0 {
                     compliance += g * g / K;
                 }
                 if rotational == (dof > 2) {
+                    of_kind += if K > 0.0 { g * g / K } else { 0.0 };
                     largest = largest.max(K * g * g);
                 }
             }
+        }
+        if even && of_kind > 0.0 {
+            compliance = of_kind;
         }
         [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
@@ -136,6 +154,9 @@ impl Diagonal {
 
 /// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
 const MODERATE: f64 = 1e4;
+
+/// Forces of joints whose factor is this part of the largest are rounding: such a joint bears nothing.
+const NOTHING: f64 = 1e-12;
 
 /// Finds the penalty factors, which rest on the matrix before any joint has added to it.
 ///
@@ -163,7 +184,8 @@ pub(super) fn set(
         let [translations, rotations] = firm.unwrap_or_default();
         firmest = [firmest[0].max(translations), firmest[1].max(rotations)];
         for (k, row) in joint.equations.iter().enumerate().filter(|_| firm.is_none()) {
-            let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), row.is_rotational(), projections, values);
+            let how = (row.is_rotational(), multipliers.may_share());
+            let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), how, projections, values);
             let s = match joint.is_driven(k) {
                 true => {
                     drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])[0])
@@ -174,6 +196,9 @@ pub(super) fn set(
             let largest = &mut largest[usize::from(row.is_rotational())];
             *largest = largest.max(s).max(heaviest);
         }
+        if multipliers.may_share() && firm.is_none() {
+            make_even(joint, &mut multipliers.penalties[first..]);
+        }
         first += joint.equations.len();
     }
     let mut first = 0;
@@ -181,20 +206,38 @@ pub(super) fn set(
         let firm = firm(j);
         for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
             let kind = usize::from(row.is_rotational());
-            if let Some(firm) = firm {
-                *s = firm[kind];
-                continue;
-            }
-            let heaviest = largest[kind];
-            *s = match heaviest > 0.0 {
-                _ if *s * MODERATE >= heaviest && *s > 0.0 => *s,
-                _ if *s > 0.0 => heaviest * (*s / heaviest).sqrt().sqrt(),
-                true => heaviest,
-                false if firmest[kind] > 0.0 => firmest[kind],
-                false => 1.0,
-            };
+            *s = beside(*s, firm.map(|firm| firm[kind]), largest[kind], firmest[kind]);
         }
         first += joint.equations.len();
+    }
+}
+
+/// The penalty factor of an equation by what it acts against, `s`, or by that of a joint that holds weights by itself, beside the largest of both.
+fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
+    let s = match firm {
+        Some(firm) if firm > NOTHING * heaviest => return firm,
+        Some(_) => 0.0,
+        None => s,
+    };
+    match heaviest > 0.0 {
+        _ if s * MODERATE >= heaviest && s > 0.0 => s,
+        _ if s > 0.0 => heaviest * (s / heaviest).sqrt().sqrt(),
+        true => heaviest,
+        false if firmest > 0.0 => firmest,
+        false => 1.0,
+    }
+}
+
+/// Gives the translations of a joint one penalty factor, and its rotations one, by their mean compliance. Redundant equations share loads in
+/// proportion to the factors: with one of each its own, loads would depend on the axes in which equations are written.
+fn make_even(joint: &Joint, penalties: &mut [f64]) {
+    for rotational in [false, true] {
+        let is_one = |k: &usize| joint.equations[*k].is_rotational() == rotational && !joint.is_driven(*k);
+        let rows = || (0..joint.equations.len()).filter(is_one);
+        let compliance = rows().map(|k| penalties[k].recip()).sum::<f64>() / rows().count().max(1) as f64;
+        if compliance > 0.0 && compliance.is_finite() {
+            rows().for_each(|k| penalties[k] = compliance.recip());
+        }
     }
 }
 

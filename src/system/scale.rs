@@ -25,7 +25,7 @@ impl Scale {
     }
 
     /// The larger of two scales, of forces and of moments.
-    pub(super) fn or_larger(&self, other: &Scale) -> Scale {
+    pub fn or_larger(&self, other: &Scale) -> Scale {
         Scale { force: larger(self.force, other.force), moment: larger(self.moment, other.moment) }
     }
 

@@ -2,7 +2,6 @@
 //! both joints hold.
 
 use super::equations::System;
-use super::multipliers::REGULARIZATION;
 use crate::linear::{Factorization, Solver, Structure};
 use crate::math::lanes::LANES;
 use crate::snapshot::{keep, keep_either};
@@ -58,12 +57,12 @@ impl SchurFactor {
         matches!(self, SchurFactor::Sparse(_))
     }
 
-    /// Writes the entries, which `entry` gives by row and column, and factorizes. Equations that are `inert` stay by themselves; where
-    /// equations share loads the diagonal is raised a little. Returns false where the matrix is singular.
-    pub fn factor(&mut self, inert: &[bool], shares: bool, entry: impl Fn(usize, usize) -> f64) -> bool {
+    /// Writes the entries, which `entry` gives by row and column, and factorizes. Equations that are `inert` stay by themselves; the
+    /// diagonal is `raised` by so much. Returns false where the matrix is singular.
+    pub fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
         match self {
-            SchurFactor::Dense(factor) => factor.factor(inert, shares, entry),
-            SchurFactor::Sparse(factor) => factor.factor(inert, shares, entry),
+            SchurFactor::Dense(factor) => factor.factor(inert, raised, entry),
+            SchurFactor::Sparse(factor) => factor.factor(inert, raised, entry),
         }
     }
 
@@ -97,7 +96,7 @@ impl SchurFactor {
 }
 
 impl DenseFactor {
-    fn factor(&mut self, inert: &[bool], shares: bool, entry: impl Fn(usize, usize) -> f64) -> bool {
+    fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
         let n = self.count;
         for k in 0..n {
             for l in 0..=k {
@@ -109,9 +108,7 @@ impl DenseFactor {
         self.L.copy_from_slice(&self.S);
         let L = &mut self.L;
         for k in 0..n {
-            if shares {
-                L[k * n + k] *= 1.0 + REGULARIZATION;
-            }
+            L[k * n + k] += raised[k];
             for l in 0..k {
                 let sum = scalar_product(&L[k * n..k * n + l], &L[l * n..l * n + l]);
                 L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
@@ -177,19 +174,19 @@ impl SparseFactor {
         Some(SparseFactor { values: vec![0.0; pairs.len()], pairs, slots, solver })
     }
 
-    fn factor(&mut self, inert: &[bool], shares: bool, entry: impl Fn(usize, usize) -> f64) -> bool {
+    fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
         let matrix = self.solver.values();
         matrix.fill(0.0);
         for ((&[k, l], value), [slot, mirror]) in self.pairs.iter().zip(&mut self.values).zip(&self.slots) {
             let (k, l) = (k as usize, l as usize);
             *value = if inert[k] || inert[l] { 0.0 } else { entry(k, l) };
-            let raised = match (k == l, inert[k]) {
+            let entry = match (k == l, inert[k]) {
                 (true, true) => 1.0,
-                (true, false) if shares => *value * (1.0 + REGULARIZATION),
+                (true, false) => *value + raised[k],
                 _ => *value,
             };
-            matrix[*slot] += raised;
-            matrix[*mirror] += raised;
+            matrix[*slot] += entry;
+            matrix[*mirror] += entry;
         }
         self.solver.factor().is_ok() && self.solver.negative_eigenvalues() == 0
     }
@@ -263,8 +260,8 @@ mod tests {
             0 | 1 => ((k * l) as f64).sin(),
             _ => 0.0,
         };
-        for shares in [false, true] {
-            assert!(dense.factor(&inert, shares, entry) && sparse.factor(&inert, shares, entry));
+        for raised in [[0.0; 35], [1e-6; 35]] {
+            assert!(dense.factor(&inert, &raised, entry) && sparse.factor(&inert, &raised, entry));
             let given: Vec<f64> = (0..35).map(|i| (i as f64).cos()).collect();
             let solved = |factor: &mut SchurFactor| {
                 let (mut x, mut rest) = (given.clone(), given.clone());
@@ -279,6 +276,6 @@ mod tests {
         }
         // What is not positive definite is refused by both.
         let flat = |_: usize, _: usize| 1.0;
-        assert!(!dense.factor(&[false; 35], false, flat) && !sparse.factor(&[false; 35], false, flat));
+        assert!(!dense.factor(&[false; 35], &[0.0; 35], flat) && !sparse.factor(&[false; 35], &[0.0; 35], flat));
     }
 }

@@ -3,6 +3,7 @@
 
 mod bennett;
 mod derivatives;
+mod door;
 mod drives;
 mod gears;
 mod hanging;

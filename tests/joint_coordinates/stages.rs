@@ -121,9 +121,10 @@ fn turns_outlast_a_static_stage() {
             _ => 1.5 + (time - 2.0) + (time - 2.0) * (time - 2.0),
         };
         assert!((coordinate - 37.0 * turned).abs() < 1e-9 * 37.0, "{time}: {coordinate}");
-        // Drive and spring hold each other: 9 N m at the end, of which the drive has 1e-5 after a step of 9 radians.
+        // Drive and spring hold each other; what accelerated the wheel up to the kink, J α = 18.5 N m, is taken off over the stage. The drive's
+        // part of it has 1e-5 after a step of 9 radians.
         let is_held = (1.25..2.0).contains(&time);
-        assert!(!is_held || effort.abs() < 1e-4, "{time}: {effort}");
+        assert!(!is_held || (effort - 18.5 * (2.0 - time)).abs() < 1e-3, "{time}: {effort}");
     }
 }
 

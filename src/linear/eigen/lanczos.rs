@@ -14,6 +14,8 @@ use std::collections::VecDeque;
 
 /// What is left of a vector after orthogonalisation counts as nothing below this part of it.
 const NEGLIGIBLE: f64 = 1e-11;
+/// What is left counts below this part of it where it lies in the range of the operator.
+const DOUBTFUL: f64 = 1e-5;
 /// Vectors beyond those wanted, by which restarts go on.
 const ROOM: usize = 24;
 
@@ -25,6 +27,10 @@ pub trait SymmetricOperator {
     fn apply(&mut self, x: &[&[f64]]) -> Vec<Vec<f64>>;
     /// y ← B x.
     fn metric(&mut self, x: &[f64], y: &mut [f64]);
+    /// False for what is no vector of the range of S but rounding: of vectors outside the range S may make anything.
+    fn may_move(&mut self, _: &[f64]) -> bool {
+        true
+    }
     /// True where the search is to end at once.
     fn is_stopped(&self) -> bool {
         false
@@ -120,7 +126,9 @@ impl Lanczos {
             operator.metric(&w, &mut Bw);
         }
         let length = dot(&w, &Bw).max(0.0).sqrt();
-        if length > NEGLIGIBLE * before && length.is_normal() {
+        let is_new = length > NEGLIGIBLE * before && length.is_normal();
+        // Where there is nothing new any more, what the range does not hold is left of rounding.
+        if is_new && (length > DOUBTFUL * before || operator.may_move(&w)) {
             self.basis.push(w, 1.0 / length);
             column.push(length);
         }

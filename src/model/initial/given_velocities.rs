@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use crate::amplitude::Amplitude;
+use crate::amplitude::{Amplitude, Side};
 use crate::diagnostic::Span;
 use crate::math::Vec3;
 use crate::model::data::{DIRECTIONS, GivenVelocity, History, Restraint};
@@ -189,7 +189,7 @@ fn start_velocity(restraint: &Restraint, amplitudes: &[Amplitude]) -> f64 {
     restraint.motion.as_ref().map_or(0.0, |motion| {
         let amplitude = &amplitudes[motion.amplitude];
         match motion.history {
-            History::Displacement => motion.scale * amplitude.rate(0.0),
+            History::Displacement => motion.scale * amplitude.rate(0.0, Side::After),
             History::Velocity => motion.scale * amplitude.value(0.0),
             History::Acceleration => 0.0,
         }

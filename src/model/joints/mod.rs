@@ -3,7 +3,7 @@
 pub mod along;
 pub mod gears;
 
-use crate::amplitude::Amplitude;
+use crate::amplitude::{Amplitude, Side};
 use crate::constraints::joint::{ConstraintEquation, rotations, translations};
 use crate::constraints::joints::JointKind;
 use crate::deck::Deck;
@@ -151,7 +151,7 @@ fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], node
     let driven = drive.ratio
         * scale
         * match history {
-            History::Displacement => amplitude.rate(0.0),
+            History::Displacement => amplitude.rate(0.0, Side::After),
             History::Velocity => amplitude.value(0.0),
             History::Acceleration => 0.0,
         };

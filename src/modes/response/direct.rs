@@ -3,9 +3,10 @@
 use super::super::fault::ModesFault;
 use super::super::gyroscopic::Gyroscopic;
 use super::super::linearized::Linearized;
-use super::super::modal::natural_frequencies;
+use super::super::modal::{natural_frequencies, natural_pairs};
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
+use super::super::shape::Shapes;
 use super::super::steady::{Response, ResponseRow};
 use super::dynamic_stiffness::DynamicStiffness;
 use super::excitation::{C64, HarmonicExcitation};
@@ -14,7 +15,7 @@ use super::matrices::Matrices;
 use super::resonance::{Resonance, resonances_in_words};
 use crate::linear::{Factorization, Solver};
 use crate::math::Vec6;
-use crate::model::{ModeKind, ResponseAsked};
+use crate::model::{ModeExtent, ModeKind, ResponseAsked};
 use crate::names::short;
 use crate::system::assembly::Assembly;
 use std::f64::consts::TAU;
@@ -62,7 +63,7 @@ pub fn response(
     }
     // Next to zero, where what is only held by joints has no pivot that vanishes.
     let shift = -NEXT_TO_ZERO * pencil.least_ratio();
-    let unstable = if unsymmetric { 0 } else { pencil.factor(shift).unwrap_or(0) };
+    let unstable = !unsymmetric && is_unstable(&mut pencil, shift);
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
@@ -77,12 +78,31 @@ pub fn response(
     found.factorizations += all.len();
     found.solves += all.len();
     found.doubts.extend(gyroscopic.doubts);
-    if unstable > 0 {
+    found.doubts.extend(unjudged(at));
+    if unstable {
         found.doubts.push("the state is unstable: no steady motion about it lasts".to_owned());
     }
     found.doubts.extend(direct.doubts());
     found.response = Some(response);
     Ok(found)
+}
+
+/// True where the lowest mode grows. Where equations of joints are redundant, signs of pivots below the shift may be those of rounding alone.
+fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
+    pencil.factor(shift).is_ok_and(|below| below > 0)
+        && natural_pairs(pencil, ModeExtent::Count(1)).map_or(true, |pairs| {
+            let shapes = Shapes::new(pencil);
+            shapes.natural(pencil, &pairs).iter().any(|mode| mode.root[0] > 0.0)
+        })
+}
+
+/// What is not judged of a state whose loads have no potential, in words.
+fn unjudged(at: &Linearized) -> Option<String> {
+    (!at.loads_have_potential()).then(|| {
+        "loads that follow, and moments about axes fixed in space, have no potential: whether the state is stable, and the steady motion \
+         lasts, is not judged here; `kind = \"modal\"` with `damped = true` tells (flutter)"
+            .to_owned()
+    })
 }
 
 /// True for motions beside a frequency that are the same to what the frequencies differ by, many times over: near a resonance they are

@@ -72,7 +72,7 @@ pub fn response(
         response.add(frequency, row);
         resonances.extend(mode.map(|mode| Resonance { frequency, mode: Some(mode) }));
     }
-    let truncated = truncation(&pencil, &natural, highest, gyroscopic.acts());
+    let truncated = truncation((&natural, extent), pencil.at.unknowns(), highest, gyroscopic.acts());
     let mut doubts = gyroscopic.doubts;
     doubts.extend(resonances_in_words(&resonances));
     doubts.extend(truncated);
@@ -84,11 +84,15 @@ pub fn response(
 }
 
 /// What the modes that were not found leave out, in words, where it may be seen.
-fn truncation(pencil: &Pencil, natural: &[f64], highest: f64, spins: bool) -> Option<String> {
+fn truncation((natural, extent): (&[f64], ModeExtent), unknowns: usize, highest: f64, spins: bool) -> Option<String> {
     /// Of the highest mode: what answers as a spring is then at least twice as fast, and wrong by a tenth at most.
     const NEAR: f64 = 0.5;
-    let last = natural.last().copied().unwrap_or_default();
-    if natural.len() >= pencil.at.unknowns() || !(spins || highest > NEAR * last) {
+    let (last, all) = match extent {
+        ModeExtent::UpTo(frequency) => (frequency, false),
+        // Fewer than were asked for are all that there are.
+        ModeExtent::Count(count) => (natural.last().copied().unwrap_or_default(), natural.len() < count),
+    };
+    if all || natural.len() >= unknowns || !(spins || highest > NEAR * last) {
         return None;
     }
     let what = if spins { "gyroscopic moments and damping" } else { "damping" };

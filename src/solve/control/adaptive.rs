@@ -20,7 +20,7 @@ pub trait StepController: Keep {
     /// of explicit schemes.
     ///
     /// # Errors
-    /// As for [`crate::solve::start::release`].
+    /// As for [`crate::solve::jumps::release`].
     fn release(&mut self, _: &Context, _: &mut Workspace, _: &mut State, _dt: f64) -> Result<(), Failure> {
         Ok(())
     }

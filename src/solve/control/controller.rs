@@ -12,9 +12,9 @@ use crate::model::StepLength;
 use crate::snapshot::{Keep, Snapshot};
 use crate::solve::context::Context;
 use crate::solve::initial_transient;
+use crate::solve::jumps;
 use crate::solve::march::{March, RunPosition};
 use crate::solve::outcome::Outcome;
-use crate::solve::start;
 use crate::solve::time_stepper::TimeStepper;
 use crate::solve::workspace::Workspace;
 
@@ -128,7 +128,7 @@ fn through_intervals(
     for interval in &rest[march.place.interval.min(rest.len())..] {
         controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {
-            start::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
+            jumps::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
             controller.restart(march.cx, march.ws, march.state);
             initial_transient::pass_over(march.cx, march.ws, march.state);
         }

@@ -19,10 +19,10 @@ use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::implicit::{Implicit, IterationMatrix};
+use crate::solve::jumps;
 use crate::solve::motion::Stage;
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
-use crate::solve::start;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
 
@@ -287,7 +287,7 @@ impl StepController for ErrorController<'_> {
     }
 
     fn release(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
-        start::release(cx, ws, state, dt)?;
+        jumps::release(cx, ws, state, dt)?;
         self.restart(cx, ws, state);
         Ok(())
     }

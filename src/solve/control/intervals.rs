@@ -1,6 +1,6 @@
 //! The output times and events that steps must end at, and the intervals between them.
 
-use crate::model::{Cadence, Model, When};
+use crate::model::{AnalysisKind, Cadence, History, Model, When};
 use crate::snapshot::Keep;
 use crate::solve::context::Context;
 use crate::solve::march::March;
@@ -32,7 +32,7 @@ pub struct Interval {
     pub steps: usize,
     /// True where its end is an output time.
     pub due: bool,
-    /// True where a load jumps at its end.
+    /// True where a load, or the velocity of a prescribed motion, jumps at its end.
     pub jump: bool,
     /// True where runs are compared at its end.
     pub compared: bool,
@@ -215,7 +215,58 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
         interval.from = from;
         from = interval.to;
     }
-    Schedule { intervals, samples }
+    Schedule { intervals: parted(intervals, &kicks(model), 1e-9 * end), samples }
+}
+
+/// Times at which the velocity of a prescribed motion jumps, in order. Where the jumps of a motion follow each other within a few steps they
+/// are samples of one that is smooth.
+fn kicks(model: &Model) -> Vec<f64> {
+    /// Steps between jumps, at least.
+    const APART: f64 = 4.0;
+    let apart = APART * model.analysis.nominal_step();
+    let mut all = Vec::new();
+    if model.analysis.kind != AnalysisKind::Dynamic {
+        return all;
+    }
+    for motion in model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref()) {
+        let amplitude = &model.loading.amplitudes[motion.amplitude];
+        let times: Vec<f64> = match motion.history {
+            History::Displacement => amplitude.slope_jumps(),
+            History::Velocity => amplitude.jumps().iter().map(|jump| jump.time).collect(),
+            History::Acceleration => Vec::new(),
+        };
+        let alone = |k: usize| {
+            let far = |other: Option<&f64>| other.is_none_or(|other| (other - times[k]).abs() >= apart * (1.0 - 1e-9));
+            far(k.checked_sub(1).and_then(|before| times.get(before))) && far(times.get(k + 1))
+        };
+        all.extend((0..times.len()).filter(|&k| alone(k)).map(|k| times[k]));
+    }
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// The intervals, with ends where steps end at such times; times within a step, and at the end of the run, part nothing.
+fn parted(intervals: Vec<Interval>, times: &[f64], slack: f64) -> Vec<Interval> {
+    let mut out = Vec::with_capacity(intervals.len());
+    let last = intervals.len().saturating_sub(1);
+    for (i, mut rest) in intervals.into_iter().enumerate() {
+        let within = [rest.from, rest.to].map(|end| times.partition_point(|time| *time <= end + slack));
+        for &time in &times[within[0]..within[1]] {
+            let k = ((time - rest.from) / (rest.to - rest.from) * rest.steps as f64).round() as usize;
+            if (rest.time(k) - time).abs() > slack || k == 0 {
+                continue;
+            }
+            if k == rest.steps {
+                rest.jump |= i < last;
+            } else {
+                let at = rest.time(k);
+                out.push(Interval { to: at, steps: k, due: false, jump: true, compared: false, ..rest });
+                rest = Interval { from: at, steps: rest.steps - k, ..rest };
+            }
+        }
+        out.push(rest);
+    }
+    out
 }
 
 /// The number of steps no longer than `dt`. A rounding error beyond a whole number needs no extra step.

@@ -262,7 +262,8 @@ impl RungeKuttaStepper {
 fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     // The prescribed motion at the end of the step is at hand.
     if c < 1.0 {
-        cx.excitation.prescribed(time, &mut ws.prescribed.instant);
+        let side = if c == 0.0 { Side::After } else { Side::Before };
+        cx.excitation.prescribed(time, side, &mut ws.prescribed.instant);
     } else {
         ws.prescribed.instant.copy_from_slice(&ws.prescribed.end);
     }

@@ -79,6 +79,14 @@ pub(in crate::elements::contact) struct ConvexPair<'a> {
     pub other: &'a CarriedConvex,
 }
 
+impl ConvexPair<'_> {
+    /// The stiffness along the faces: with a sphere that of a point, as it is against the normal.
+    fn tangential_stiffness(&self) -> f64 {
+        let is_point = self.one.shape.is_sphere() || self.other.shape.is_sphere();
+        self.law.stiffness / if is_point { POINTS } else { 1.0 }
+    }
+}
+
 /// A pair at an instant. E is the frame of the one that is touched: its columns are its axes, global components.
 #[derive(Clone, Copy)]
 pub(in crate::elements::contact) struct PairKinematics<'a> {
@@ -140,7 +148,11 @@ impl<'a> ConvexPair<'a> {
         let normal = normal_force(law.stiffness, &law.loss, depth.D, rate, speed);
         let mut W = -normal.force * depth.g;
         let rubs = law.friction > 0.0 && old.is_known();
-        let rubbing = rubs.then(|| rubbing(law, &at.pose, &depth, normal.force, &Memory::read(old))).flatten();
+        let rubbing = rubs
+            .then(|| {
+                rubbing((self.tangential_stiffness(), law.friction), &at.pose, &depth, normal.force, &Memory::read(old))
+            })
+            .flatten();
         if let Some(rubbing) = &rubbing {
             W += rubbing.W;
         }

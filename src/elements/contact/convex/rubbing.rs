@@ -7,7 +7,6 @@
 use super::depth::Depth;
 use super::memory::Memory;
 use super::pose::ConvexPose;
-use crate::elements::contact::law::ContactLaw;
 use crate::math::{Vec3, Vec6, linear, stack};
 
 /// Friction of a pair.
@@ -26,9 +25,15 @@ pub struct Rubbing {
     pub slip: f64,
 }
 
-/// The friction of a pair that is `depth` deep under the normal force `N`; `None` where the normal force has no direction along
+/// The friction of a pair that is `depth` deep under the normal force `N`, with a spring of stiffness `k` along the faces; `None` where the normal force has no direction along
 /// which anything could move.
-pub fn rubbing(law: &ContactLaw, pose: &ConvexPose, depth: &Depth, N: f64, memory: &Memory) -> Option<Rubbing> {
+pub fn rubbing(
+    (k, friction): (f64, f64),
+    pose: &ConvexPose,
+    depth: &Depth,
+    N: f64,
+    memory: &Memory,
+) -> Option<Rubbing> {
     let normal = -linear(&depth.g);
     let n = normal.try_normalize(0.0)?;
     let arm = depth.c - pose.y;
@@ -40,7 +45,7 @@ pub fn rubbing(law: &ContactLaw, pose: &ConvexPose, depth: &Depth, N: f64, memor
     let turned = depth.lever * twist;
     let length = (e.norm_squared() + turned * turned).sqrt();
     // What presses is N |∂D|: on an edge less than N.
-    let (k, limit) = (law.stiffness, law.friction * N * normal.norm());
+    let limit = friction * N * normal.norm();
     let slips = k * length > limit;
     let factor = if slips { limit / length } else { k };
     let T = factor * e;

@@ -137,7 +137,7 @@ where
     K: CurvedStrains<N, V, P, Q>,
 {
     let h = plate.thickness;
-    let points = K::strains(surface, h);
+    let points = K::strains(surface, plate);
     let C = plate.plane_stress();
     let mut elastic = ShellStiffness::ZERO;
     for point in &points {

@@ -15,6 +15,7 @@
 //! second degree, so bending needs no correction for chords.
 
 mod block;
+mod bubble;
 mod geometry;
 mod kinematics;
 mod quadrilateral;

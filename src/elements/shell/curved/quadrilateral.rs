@@ -5,6 +5,7 @@
 
 use super::sampling::{CurvedStrains, Sampling};
 use super::surface::CurvedSurface;
+use crate::elements::shell::geometry::Plate;
 use crate::elements::shell::plane_strains::PointStrains;
 use crate::math::curved_faces::{CurvedFace, NineNodes};
 use nalgebra::SMatrix;
@@ -88,7 +89,7 @@ impl CurvedStrains<9, V, P, Q> for NineNodes {
         &SAMPLING
     }
 
-    fn strains(surface: &CurvedSurface<9>, _: f64) -> Vec<PointStrains<P, P>> {
+    fn strains(surface: &CurvedSurface<9>, _: &Plate) -> Vec<PointStrains<P, P>> {
         let point = |at| surface.point::<NineNodes>(at);
         // The mean of the four points.
         let (mut mean, mut area) = (SMatrix::<f64, 3, P>::zeros(), 0.0);

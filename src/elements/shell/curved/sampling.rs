@@ -1,6 +1,7 @@
 //! Where the strains of a curved element are taken, and how they are interpolated between these places.
 
 use super::surface::CurvedSurface;
+use crate::elements::shell::geometry::Plate;
 use crate::elements::shell::plane_strains::PointStrains;
 use crate::math::curved_faces::CurvedFace;
 
@@ -19,7 +20,7 @@ pub trait CurvedStrains<const N: usize, const V: usize, const P: usize, const Q:
     /// Where strains are taken in an element, which depends on its shape.
     fn sampling(surface: &CurvedSurface<N>, thickness: f64) -> &'static Sampling<N, V, P, Q>;
     /// Strains at the integration points, of the membrane from products of slopes, and of bending likewise.
-    fn strains(surface: &CurvedSurface<N>, thickness: f64) -> Vec<PointStrains<P, P>>;
+    fn strains(surface: &CurvedSurface<N>, plate: &Plate) -> Vec<PointStrains<P, P>>;
     /// The coefficients of the shears in those along r and s at a point.
     fn shear(at: [f64; 2]) -> [[f64; Q]; 2];
 }

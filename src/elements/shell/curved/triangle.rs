@@ -10,8 +10,10 @@
 //! With nodes off the middles of straight sides the strains of a flat element are not of first degree in r and s: they are taken at
 //! the integration points, as they are.
 
+use super::bubble::soften;
 use super::sampling::{CurvedStrains, Sampling};
 use super::surface::CurvedSurface;
+use crate::elements::shell::geometry::Plate;
 use crate::elements::shell::plane_strains::PointStrains;
 use crate::math::curved_faces::{CurvedFace, SixNodes};
 use nalgebra::{Matrix3, SMatrix};
@@ -141,10 +143,11 @@ impl CurvedStrains<6, V, P, Q> for SixNodes {
         if is_uneven(surface, thickness) { &UNTIED } else { &TIED }
     }
 
-    fn strains(surface: &CurvedSurface<6>, thickness: f64) -> Vec<PointStrains<P, P>> {
-        let uneven = is_uneven(surface, thickness);
-        let point = |(k, &at): (usize, &[f64; 2])| {
-            let point = surface.point::<SixNodes>(at);
+    fn strains(surface: &CurvedSurface<6>, plate: &Plate) -> Vec<PointStrains<P, P>> {
+        let uneven = is_uneven(surface, plate.thickness);
+        let points = POINTS.map(|at| surface.point::<SixNodes>(at));
+        let strains = |(k, at): (usize, [f64; 2])| {
+            let point = points[k];
             let mut rows = SMatrix::<f64, 3, P>::zeros();
             if uneven {
                 rows.fixed_columns_mut::<3>(3 * k).copy_from(&Matrix3::identity());
@@ -154,7 +157,9 @@ impl CurvedStrains<6, V, P, Q> for SixNodes {
             let rows = point.along_axes() * rows;
             PointStrains { membrane: rows, bending: rows, weight: point.area / 6.0 }
         };
-        POINTS.iter().enumerate().map(point).collect()
+        let mut strains: Vec<_> = POINTS.into_iter().enumerate().map(strains).collect();
+        soften(&mut strains, &points, &plate.plane_stress());
+        strains
     }
 
     fn shear(at: [f64; 2]) -> [[f64; Q]; 2] {
