@@ -22,8 +22,8 @@ pub struct Contact {
     /// The surface that is touched. Not with `among`.
     pub surface: Maybe<OneOf<Surface>>,
     /// What touches it, by name: points, bodies (corners of a box or hull, ends of a capsule, on a box, hull, capsule or sphere all of
-    /// them; rims of a cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells and their edges; for a part as
-    /// surface also "itself". Not with `among`.
+    /// them; on beams, bars and free edges all of a capsule, corners and edges of a box or hull; rims of a cylinder; a sphere as it is),
+    /// sets, groups of the mesh, beams, bars, shells and their edges; for a part as surface also "itself". Not with `among`.
     pub with: Maybe<Names>,
     /// In place of `surface` and `with`: bodies that are spheres, boxes, hulls or capsules, and points with a `radius`, of which each
     /// may touch each; boxes, hulls and capsules that a joint holds together do not.
@@ -87,7 +87,8 @@ pub struct Surface {
     /// bends; or of a beam or bar, by its `radius`, which of a beam is half the depth of its section by default.
     pub part: Maybe<String>,
     /// True: of a shell that is the `part`, the free edges are the surface in place of the faces, round, by `radius`, which is half the
-    /// thickness by default. Shells in `with` touch them with their own free edges, beams and bars with all of their length. Default: false.
+    /// thickness by default. Shells in `with` touch them with their own free edges, beams, bars and capsules with all of their length,
+    /// boxes and hulls with corners and edges. Default: false.
     pub edges: Maybe<bool>,
 }
 

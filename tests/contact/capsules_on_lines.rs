@@ -235,3 +235,37 @@ fn it_rests_across_two_beams() {
         assert!((last[2 * k + 1] + force / 1e6).abs() < 1e-4 * force / 1e6, "{last:?}");
     }
 }
+
+/// Steps by their own error, and those at the limit of stability, meet it too, at any speed.
+#[test]
+fn automatic_steps_meet_it() {
+    let (k, radius) = (1e7, 0.03);
+    for (scheme, step) in [
+        ("scheme = \"generalized-alpha\"", "time_step = \"auto\", error_tolerance = 1e-5"),
+        ("scheme = \"esdirk3\"", "time_step = \"auto\", error_tolerance = 1e-5"),
+        ("scheme = \"central-difference\"", "time_step = \"auto\""),
+    ] {
+        for v in [0.1, 10.0] {
+            let motion = format!(
+                "analysis = {{ kind = \"dynamic\", end_time = {:?}, {step} }}\nintegrator = {{ {scheme} }}\n\
+                 output = {{ energy = true, contacts = true, every = 1 }}\n",
+                0.02 / v + 0.01
+            );
+            let text = format!(
+                "{motion}{STEEL}{}{}velocity = [0.0, 0.0, {:?}]\n{}",
+                under("beam", "elements = 3\nrigid = true\n"),
+                capsule([0.07, 0.11], 0.3, radius, 4.0, 0.06),
+                -v,
+                hit("beam", &format!("stiffness = {k:?}"))
+            );
+            let done = go(&text, &mut watch);
+            assert!(matches!(done.outcome, Outcome::Done), "{scheme} {v}: {:?}", done.outcome);
+            let (first, last) = (&done.rows[0], done.rows.last().unwrap());
+            let pressed = done.rows.iter().map(|row| row[3]).fold(0.0, f64::max);
+            println!("{scheme} {v}: {} steps, {pressed} {last:?}", done.rows.len());
+            assert!(pressed > 0.1 * first[1] && last[3] == 0.0, "{scheme} {v}: {pressed} {last:?}");
+            // What the tolerance allows, and what central differences leave of an impact at their own steps.
+            assert!((last[1] / first[1] - 1.0).abs() < 1e-3, "{scheme} {v}: {first:?} {last:?}");
+        }
+    }
+}

@@ -100,3 +100,36 @@ fn what_is_wider_than_the_openings_is_not_said() {
     assert!(said(&beam(4), &round(0.036)).is_empty());
     assert_eq!(said(&beam(4), &round(0.035)).len(), 1);
 }
+
+const LOG: &str = "[[bodies]]\nname = \"log\"\nmass = 1.0\n\
+                   shape = { kind = \"capsule\", ends = [[0.5, -0.2, 0.6], [0.5, 0.2, 0.6]], radius = 0.02 }\n";
+
+/// What touches with lines has nothing that `points` would divide: alone it is refused, beside what has points it is said.
+#[test]
+fn points_that_divide_nothing_are_said() {
+    let things = beam(4) + LOG + &body("kind = \"box\", size = [0.1, 0.1, 0.1]");
+    let on_beam = |with: &str, points| contact("part = \"beam\"", "X", points).replace("\"X\"", with);
+    let about = |said: &[[String; 2]]| said.iter().find(|[said, _]| said.contains("`points` does not apply")).cloned();
+    let [alone, beside, without] =
+        [("\"log\"", Some(3)), ("[\"log\", \"body\"]", Some(3)), ("[\"log\", \"body\"]", None)]
+            .map(|(with, points)| about(&said(&things, &on_beam(with, points))));
+    let line = "`points` does not apply to `log`, which touches here with all of the length, not with points";
+    assert_eq!(alone, Some([line.to_owned(), "leave `points` out".to_owned()]));
+    assert_eq!(beside, Some([line.to_owned(), "it divides what else is named in `with`".to_owned()]));
+    assert_eq!(without, None);
+}
+
+/// Edges of a mesh that is coarser than a capsule is wide may sink into its side; with as many points as the hint asks for they do not.
+#[test]
+fn capsules_on_coarse_faces_are_said_until_there_are_points() {
+    let plate = "[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [2, 2]\n\
+                 material = \"steel\"\nthickness = 0.01\n";
+    let sinks = |points| {
+        let said = said(&(plate.to_owned() + LOG), &contact("part = \"plate\"", "log", points));
+        said.into_iter().find(|[said, _]| said.contains("sees the side of capsule `log` by nodes of `plate`"))
+    };
+    // 0.4 long, 0.05 wide with the thickness.
+    let [_, hint] = sinks(None).expect("a warning");
+    assert!(hint.contains("`points` = 7 or more"), "{hint}");
+    assert!(sinks(Some(6)).is_some() && sinks(Some(7)).is_none());
+}
