@@ -8,12 +8,13 @@
 use super::fault::ModesFault;
 use super::gyroscopic::Gyroscopic;
 use super::linearized::Linearized;
-use super::modal::{fewer, lowest_square};
+use super::modal::{LOW, fewer, lowest_square, natural_pairs};
 use super::mode::{EigenMode, Modes};
 use super::pencil::{Pencil, weights};
 use super::shape::Shapes;
 use crate::linear::eigen::{Arnoldi, Complex, ComplexPair, Operator};
 use crate::linear::{Factorization, Solver, Sparse};
+use crate::math::Vec6;
 use crate::model::{ModeExtent, ModeKind};
 use crate::system::assembly::Assembly;
 use std::f64::consts::TAU;
@@ -98,8 +99,9 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         if pencil.mass.is_zero() {
             return Err(ModesFault::NoMass);
         }
-        let square = lowest_square(&mut pencil)?;
-        (square, pencil.shift < 0.0, pencil.factorizations)
+        let (square, free) = lowest_square(&mut pencil)?;
+        let free = if free { Some(free_modes(&mut pencil, square)?) } else { None };
+        (square, free, pencil.factorizations)
     };
     let mut own = None;
     if gyroscopic.acts() || !at.loads_have_potential() {
@@ -114,16 +116,15 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
     let shapes = Shapes::new(&pencil);
     let shift = square.sqrt();
-    let rounding = if free { shapes.rounding(&pencil).sqrt() } else { 0.0 };
+    let rounding = if free.is_some() { shapes.rounding(&pencil).sqrt() } else { 0.0 };
     let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
-    let mut pairs = nearest(&mut pencil, &gyroscopic, near, extent)?;
-    let largest = pairs.iter().map(|pair| size(pair.theta)).fold(0.0, f64::max);
-    let unknowns = pencil.at.unknowns();
-    pairs.retain(|pair| {
-        size(pair.theta) > INFINITE * largest && pencil.allows(&[&pair.real[..unknowns], &pair.imaginary[..unknowns]])
-    });
+    let pairs = allowed(&mut pencil, &gyroscopic, near, extent)?;
     let mut list =
         roots(&pairs, near).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
+    if let Some(free) = free.filter(|_| at.loads_have_potential()) {
+        list.retain(|mode| mode.root != [0.0; 2]);
+        list.extend(free);
+    }
     list.sort_by(|a, b| size(a.root).total_cmp(&size(b.root)));
     match extent {
         ModeExtent::Count(count) => list.truncate(count),
@@ -142,6 +143,46 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
     let (kind, masses) = (ModeKind::Natural, shapes.masses);
     Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response: None })
+}
+
+/// The motions without stiffness. Each is a root at zero, of however much damping; their roots are multiple ones with too few vectors, of which a
+/// Krylov space holds some.
+fn free_modes(pencil: &mut Pencil, square: f64) -> Result<Vec<EigenMode>, ModesFault> {
+    let pairs = natural_pairs(pencil, ModeExtent::UpTo((LOW * square).sqrt() / TAU))?;
+    let modes = Shapes::new(pencil).natural(pencil, &pairs).into_iter();
+    let is_free = |mode: &EigenMode| size(mode.root) <= ZERO * square.sqrt();
+    let as_complex = |mode: EigenMode| {
+        let quadrature = vec![Vec6::zeros(); mode.shape.len()];
+        EigenMode { root: [0.0; 2], quadrature, modal_mass: 0.0, lost: None, ..mode }
+    };
+    Ok(modes.filter(is_free).map(as_complex).collect())
+}
+
+/// The eigenvalues of as many roots as are asked for, without those that joints forbid and those at infinity. Where these take the places of others the
+/// search is for more.
+fn allowed(
+    pencil: &mut Pencil,
+    gyroscopic: &Gyroscopic,
+    near: Near,
+    extent: ModeExtent,
+) -> Result<Vec<ComplexPair>, ModesFault> {
+    let mut asked = extent;
+    loop {
+        let mut pairs = nearest(pencil, gyroscopic, near, asked)?;
+        let (found, unknowns) = (pairs.len(), pencil.at.unknowns());
+        let largest = pairs.iter().map(|pair| size(pair.theta)).fold(0.0, f64::max);
+        pairs.retain(|pair| {
+            size(pair.theta) > INFINITE * largest
+                && pencil.allows(&[&pair.real[..unknowns], &pair.imaginary[..unknowns]])
+        });
+        let listed = roots(&pairs, near).count();
+        match (extent, asked) {
+            (ModeExtent::Count(count), ModeExtent::Count(so_far)) if listed < count && so_far <= count + found => {
+                asked = ModeExtent::Count(so_far + count - listed);
+            }
+            _ => return Ok(pairs),
+        }
+    }
 }
 
 /// The eigenvalues 1/(s − σ) of the roots nearest to the shift, as many as are asked for.

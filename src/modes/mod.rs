@@ -24,7 +24,7 @@ pub use fault::ModesFault;
 pub use linearized::Linearized;
 pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, Modes, Share};
-pub use rest::multipliers_at_rest;
+pub use rest::{multipliers_at_rest, own_stiffnesses};
 pub use steady::{Response, ResponseRow};
 
 use crate::linear::Solver;

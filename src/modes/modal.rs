@@ -29,12 +29,17 @@ const SEARCHES: usize = 8;
 const ROUNDING: f64 = 1e-14;
 /// Expansions after which a shift is judged.
 const PROBE: usize = 12;
+/// Part of a shift below which an eigenvalue is zero, or next to it.
+pub(super) const LOW: f64 = 1e-4;
+/// By what part the eigenvalue up to which modes are counted moves where it meets one.
+const NEAR: f64 = 1e-7;
 /// Shifts that are tried.
 const SHIFTS: usize = 30;
 /// A shift within these multiples of the lowest frequency squared that is not zero serves as well as any other.
 const FITS: [f64; 2] = [0.03, 1e3];
-/// Eigenvalues that are smaller than others by such a factor are zero, or next to it: a shift at zero would drown the others.
-const APART: f64 = 1e9;
+/// Eigenvalues that are smaller than others by such a factor are zero, or next to it: with a shift at zero the others would have no more digits than
+/// what is left of sixteen.
+const APART: f64 = 1e5;
 
 /// Finds the natural modes that the model asks for.
 ///
@@ -163,17 +168,18 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
     doubts
 }
 
-/// An estimate of the lowest ω² that is not zero.
+/// An estimate of the lowest ω² that is not zero, and whether others are, or next to it.
 ///
 /// # Errors
 /// The matrix is singular whatever the shift.
-pub(super) fn lowest_square(pencil: &mut Pencil) -> Result<f64, ModesFault> {
+pub(super) fn lowest_square(pencil: &mut Pencil) -> Result<(f64, bool), ModesFault> {
     let mut lanczos = settle(pencil)?;
     let thetas = lanczos.probe(pencil, PROBE);
     let shift = pencil.shift;
-    let mut values = thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta);
-    let least = 1e-4 * shift.abs();
-    Ok(values.find(|lambda| *lambda > least).unwrap_or(if least > 0.0 { shift.abs() } else { 1.0 }))
+    let values = || thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta);
+    let least = LOW * shift.abs();
+    let square = values().find(|lambda| *lambda > least).unwrap_or(if least > 0.0 { shift.abs() } else { 1.0 });
+    Ok((square, values().any(|lambda| lambda <= least)))
 }
 
 /// The modes that are to be found.
@@ -187,7 +193,7 @@ struct Goal {
 /// The number of eigenvalues below `s`, which moves a little where it meets one.
 fn count_below(pencil: &mut Pencil, s: f64) -> Result<usize, ModesFault> {
     let mut row = 0;
-    for moved in [1.0, 1.0 + 1e-9, 1.0 + 1e-7] {
+    for moved in [1.0, 1.0 + 1e-9, 1.0 + NEAR] {
         pencil.at.check_stop()?;
         match pencil.count_below(s * moved) {
             Ok(count) => return Ok(count),
@@ -212,16 +218,16 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
         let last = found.iter().copied().fold(shift, f64::max);
         let missing = match (below, next.map(value)) {
             (Some(below), _) => wanted - found.iter().filter(|lambda| **lambda <= below).count().min(wanted),
-            (None, None) => 0,
             // Modes of equal frequency are counted together.
             (None, Some(next)) if next - last <= 1e-4 * (last - shift) => {
                 goal += 1;
                 continue;
             }
-            (None, Some(next)) => {
+            (None, next) => {
                 // The space is the largest thing beside the factor.
                 lanczos.narrow();
-                let there = count_below(pencil, last + 0.1 * (next - last))?;
+                let above = next.map_or(0.5 * (last - shift), |next| 0.1 * (next - last));
+                let there = count_below(pencil, last + above)?;
                 let missing = there.saturating_sub(found.len());
                 if missing > 0 {
                     pencil.factor(shift).map_err(|row| pencil.singular(row))?;
@@ -230,8 +236,11 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
             }
         };
         goal = found.len() + missing;
-        if missing == 0 || !lanczos.start(pencil, missing) {
-            return Ok(sorted(lanczos.into_pairs(), shift, wanted));
+        // What new vectors would find may lie in those that have not been expanded yet.
+        if missing == 0 || !lanczos.start(pencil, missing) && lanczos.is_expanded() {
+            let mut pairs = sorted(lanczos.into_pairs(), shift, wanted);
+            pairs.retain(|(lambda, _)| below.is_none_or(|below| *lambda <= below * (1.0 + NEAR)));
+            return Ok(pairs);
         }
     }
     Err(ModesFault::Missed { found: wanted, there: goal })
@@ -267,12 +276,25 @@ fn settle(pencil: &mut Pencil) -> Result<Lanczos, ModesFault> {
         }
         let mut lanczos = Lanczos::new(pencil, WIDTH, threads);
         let thetas = lanczos.probe(pencil, PROBE);
+        if shift == 0.0 && (thetas.len() < PROBE || thetas[0] < 0.0) && is_drowned(pencil, &thetas) {
+            shift = -1e-6 * pencil.least_ratio();
+            continue;
+        }
         match better_shift(shift, &thetas) {
             Some(better) if better != shift => shift = better,
             _ => return Ok(lanczos),
         }
     }
     Err(pencil.singular(row))
+}
+
+/// True for values of 1/λ, the largest first, of which that is of a motion which nothing but rounding resists: beside it others are lost. Rounding may
+/// make it negative where the pivots are not.
+fn is_drowned(pencil: &Pencil, thetas: &[f64]) -> bool {
+    /// Times the rounding of rigid motions.
+    const NEXT_TO: f64 = 1e4;
+    let rounding = Shapes::new(pencil).rounding(pencil);
+    thetas.first().is_none_or(|theta| *theta < 0.0 || 1.0 / theta <= NEXT_TO * rounding)
 }
 
 /// A shift that suits the first estimates of 1/(λ − σ), the largest first, better; `None` where this one will do.
@@ -283,7 +305,7 @@ fn better_shift(shift: f64, thetas: &[f64]) -> Option<f64> {
         let gap = values.windows(2).position(|pair| pair[1] > APART * pair[0].abs())?;
         return Some(-values[gap + 1]);
     }
-    let elastic = values.iter().copied().find(|lambda| lambda.abs() > 1e-4 * shift.abs())?;
+    let elastic = values.iter().copied().find(|lambda| lambda.abs() > LOW * shift.abs())?;
     if elastic < 0.0 {
         return None;
     }

@@ -319,21 +319,23 @@ impl<'a> Pencil<'a> {
             widest = gaps.iter().fold(widest, |widest, gap| widest.max(gap.abs()));
             largest = motions.iter().fold(largest, |largest, motion| largest.max(motion.amax()));
         }
-        widest <= FORBIDDEN * largest
+        largest > 0.0 && widest <= FORBIDDEN * largest
     }
 
-    /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both.
+    /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both. What is this far below the largest is
+    /// rounding of a motion that nothing resists.
     pub fn least_ratio(&mut self) -> f64 {
+        const ROUNDING: f64 = 1e-12;
         self.form(weights(0.0, 0.0), false);
-        let mut least = f64::INFINITY;
-        for row in 0..self.unknowns {
+        let mut ratios = vec![0.0; self.unknowns];
+        for (row, ratio) in ratios.iter_mut().enumerate() {
             let mass: f64 = self.mass.row(row).filter(|(column, _)| *column == row).map(|(_, m)| m).sum();
-            let Some(slot) = self.solver.slot(row, row) else { continue };
-            let stiffness = self.solver.values()[slot];
-            if mass > 0.0 && stiffness > 0.0 {
-                least = least.min(stiffness / mass);
+            if let Some(slot) = self.solver.slot(row, row).filter(|_| mass > 0.0) {
+                *ratio = self.solver.values()[slot] / mass;
             }
         }
+        let largest = ratios.iter().copied().fold(0.0, f64::max);
+        let least = ratios.into_iter().filter(|ratio| *ratio > ROUNDING * largest).fold(f64::INFINITY, f64::min);
         if least.is_finite() { least } else { 1.0 }
     }
 

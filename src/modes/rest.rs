@@ -1,7 +1,7 @@
-//! Whether a scene rests in a state: supports and joints carry all that acts, and nothing has to move for it.
+//! Whether a scene rests in a state: supports and joints carry all that acts, and nothing has to move for it; and what resists its motion there.
 
 use super::linearized::Linearized;
-use super::pencil::Pencil;
+use super::pencil::{Pencil, weights};
 use crate::linear::Solver;
 use crate::state::Configuration;
 use crate::system::assembly::Assembly;
@@ -50,4 +50,11 @@ pub fn multipliers_at_rest(at: &Linearized, linear: (&mut Solver, &mut Assembly)
     let dofs = at.plan.dofs.nodal_dofs().iter().zip(&moved);
     let largest = dofs.map(|((_, dof), moved)| if *dof < 3 { moved.abs() } else { moved.abs() * length });
     (largest.fold(0.0, f64::max) <= STILL * length).then(|| pencil.forces.multipliers.values.clone())
+}
+
+/// The stiffness of each unknown of nodes against its own motion, the others held: the sizes of the diagonal of K.
+pub fn own_stiffnesses(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Vec<f64> {
+    let K = Pencil::new(*at, linear).matrix(weights(0.0, 0.0));
+    let own = |row: usize| K.row(row).filter(|(column, _)| *column == row).map(|(_, value)| value).sum::<f64>().abs();
+    (0..K.rows()).map(own).collect()
 }

@@ -8,14 +8,15 @@ use super::outcome::Outcome;
 use super::recorder::AcceptedStep;
 use super::report::StepReport;
 use super::warning::Warning;
-use super::workspace::Workspace;
 use crate::model::{ModeKind, PrescribedMotion};
-use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest};
-use crate::state::State;
+use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest, own_stiffnesses};
 use crate::system::{Loading, Side};
 
 /// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
 const BALANCED: f64 = 1e-3;
+/// What moves nothing by more than this part of the largest coordinate, against its own stiffness, is rounding, as is this part of all loads
+/// where nothing acts.
+const ROUNDING: f64 = 1e-12;
 /// The interval of a run that has come to the state of its modes.
 const AT_ITS_END: usize = usize::MAX;
 
@@ -91,24 +92,47 @@ fn rests(march: &mut March) -> bool {
     true
 }
 
-/// The largest force out of balance relative to the largest force, in a state that a stage has reached; `None` in a deck without stages.
-fn unbalanced(cx: &Context, ws: &mut Workspace, state: &State, loading: &Loading) -> Option<f64> {
+/// The largest force out of balance relative to the largest force, in a state that a stage has reached; `None` where it is in balance, and
+/// in a deck without stages.
+fn unbalanced(march: &mut March, loading: &Loading) -> Option<f64> {
+    let March { cx, ws, state, stop, .. } = march;
     cx.model.analysis.stage.as_ref()?;
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     let scale = cx.system.residual(&state.configuration(), loading, &mut ws.forces);
     let moment = scale.moment_beside_forces(cx.length);
-    let part = |&(node, dof): &(usize, usize)| {
-        let (left, of) = (ws.forces.on_nodes[node][dof].abs(), if dof < 3 { scale.force } else { moment });
-        if left == 0.0 { 0.0 } else { left / of }
+    let left = |&(node, dof): &(usize, usize)| ws.forces.on_nodes[node][dof].abs();
+    let part = |of: &(usize, usize)| match left(of) {
+        0.0 => 0.0,
+        left => left / if of.1 < 3 { scale.force } else { moment },
     };
-    Some(cx.plan.dofs.nodal_dofs().iter().map(part).fold(0.0, f64::max))
+    let all = cx.plan.dofs.nodal_dofs();
+    let most = all.iter().map(part).fold(0.0, f64::max);
+    if most <= BALANCED {
+        return None;
+    }
+    let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored: loading, stop };
+    let stiffness = own_stiffnesses(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly));
+    let reach = state.nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
+    let [force, moment] = loads_at_full_size(cx, reach);
+    let is_rounding = |(of, own): (&(usize, usize), &f64)| {
+        left(of) <= ROUNDING * if of.1 < 3 { own * reach + force } else { own + moment }
+    };
+    (!all.iter().zip(&stiffness).all(is_rounding)).then_some(most)
+}
+
+/// The sums of the forces and of the moments of all loads on nodes, whatever of them acts, arms being no longer than `reach`.
+fn loads_at_full_size(cx: &Context, reach: f64) -> [f64; 2] {
+    let loads = &cx.model.loading.nodal;
+    let force: f64 = loads.iter().map(|load| load.force.norm()).sum();
+    let moment: f64 = loads.iter().map(|load| load.moment.norm()).sum();
+    [force, moment + reach * force]
 }
 
 /// Finds the modes about the state and shows them.
 fn show(march: &mut March) -> Result<(), Outcome> {
+    let [loading, factored] = &loads(march.cx);
+    let left = unbalanced(march, loading);
     let March { cx, ws, state, stop, .. } = march;
-    let [loading, factored] = &loads(cx);
-    let left = unbalanced(cx, ws, state, loading);
     if cx.model.analysis.modes.as_ref().is_some_and(|asked| asked.damped) {
         // Bodies spin about the equilibrium as they do at t = 0.
         for (node, given) in state.nodes.iter_mut().zip(&cx.model.nodes) {
@@ -121,7 +145,7 @@ fn show(march: &mut March) -> Result<(), Outcome> {
         ModesFault::Stopped => Outcome::Stopped { time: march.state.time },
         fault => march.failed(Failure::Modes(fault)),
     })?;
-    modes.doubts.extend(left.filter(|left| *left > BALANCED).map(|left| {
+    modes.doubts.extend(left.map(|left| {
         format!(
             "the state is not in equilibrium under what acts and holds here: {left:.1e} of the forces is out of balance, and what it will \
              become is not what these modes are about"

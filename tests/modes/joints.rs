@@ -127,3 +127,96 @@ fn factors_on_joints_do_not_depend_on_the_pose() {
         }
     }
 }
+
+/// Many poses, of which some leave a rounding error that looks like stiffness.
+fn many_poses() -> Vec<Mat3> {
+    let mut rng = SmallRng::seed_from_u64(11);
+    (0..40).map(|_| *UnitQuaternion::new_unchecked(turn(&mut rng)).to_rotation_matrix().matrix()).collect()
+}
+
+/// A beam on a hinge swings freely, which rounding may take for a stiffness of any size: what bends is found beside it in any pose.
+#[test]
+fn a_beam_that_swings_bends_the_same_in_any_pose() {
+    let deck = |R: &Mat3, analysis: &str| {
+        let row = |x: f64, y: f64, z: f64| {
+            let v = R * Vec3::new(x, y, z);
+            format!("[{:?}, {:?}, {:?}]", v.x, v.y, v.z)
+        };
+        format!(
+            "analysis = {{ kind = \"modal\", {analysis} }}\npoints = {{ p = [0.0, 0.0, 0.0], q = {} }}\n\
+             materials.m = {{ model = \"elastic\", youngs_modulus = 210e9, poisson_ratio = 0.3, density = 7850.0 }}\n\
+             sections.s = {{ shape = \"rectangle\", width = 0.03, height = 0.02 }}\n\
+             [[beams]]\nname = \"be\"\npath = [\"p\", \"q\"]\nelements = 2\nmaterial = \"m\"\nsection = \"s\"\norientation = {}\n\
+             [[joints]]\nname = \"j\"\nkind = \"revolute\"\nfrom = {{ node = \"p\" }}\nto = {{ ground = [0.0, 0.0, 0.0] }}\naxis = {}\n",
+            row(1.0, 0.0, 0.0),
+            row(0.0, 1.0, 0.0),
+            row(0.0, 1.0, 0.0)
+        )
+    };
+    for analysis in ["modes = 10", "up_to = 500.0", "modes = 6, damped = true"] {
+        let wanted = omegas(&modes(&deck(&Mat3::identity(), analysis)));
+        assert!(wanted[0] == 0.0 && wanted[1] > 100.0 && wanted.len() > 5, "{analysis}: {wanted:?}");
+        for R in many_poses() {
+            let found = modes(&deck(&R, analysis));
+            let omegas = omegas(&found);
+            assert_eq!(omegas.len(), wanted.len(), "{analysis}: {omegas:?} {wanted:?}");
+            assert!(omegas[0] < 1e-3 && off(&omegas[1..], &wanted[1..]) < 1e-6, "{analysis}: {omegas:?} {wanted:?}");
+            assert_eq!(found.unstable, 0, "{analysis}");
+        }
+    }
+}
+
+/// A body that slides freely beside one on springs: seven modes, one of them zero, whatever is asked for and however the slide lies.
+#[test]
+fn a_free_slide_hides_nothing() {
+    for R in many_poses() {
+        let axis = R * Vec3::new(1.0, 0.0, 0.0);
+        for analysis in ["modes = 4", "modes = 20", "modes = 4\ndamped = true", "modes = 20\ndamped = true"] {
+            let text = format!(
+                "[analysis]\nkind = \"modal\"\n{analysis}\n[[bodies]]\nname = \"a\"\ncenter = [-0.3, -0.2, 0.09]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+                 [[joints]]\nname = \"j\"\nkind = \"prismatic\"\nfrom = {{ ground = [-0.45, -0.12, -0.015] }}\nto = {{ body = \"a\", point = [-0.45, -0.12, -0.015] }}\n\
+                 axis = [{:?}, {:?}, {:?}]\n[[bodies]]\nname = \"b\"\ncenter = [-1.06, 0.19, -0.43]\nmass = 2.0\ninertia = [1.0, 1.0, 1.0]\n\
+                 [[links]]\nname = \"k\"\nfrom = {{ ground = [-1.06, 0.19, -0.43] }}\nto = {{ body = \"b\" }}\nbushing = [100.0, 100.0, 100.0, 50.0, 50.0, 50.0]\n",
+                axis.x, axis.y, axis.z
+            );
+            let found = modes(&text);
+            let omegas = omegas(&found);
+            assert_eq!(omegas.len(), if analysis.contains("20") { 7 } else { 4 }, "{analysis}: {omegas:?}");
+            let exact = 50f64.sqrt();
+            assert!(omegas[0] < 1e-6 * exact && off(&omegas[1..], &vec![exact; omegas.len() - 1]) < 1e-6, "{omegas:?}");
+            assert_eq!(found.unstable, 0, "{analysis}");
+        }
+    }
+}
+
+/// Motions without stiffness are roots at zero, each listed once beside what damps and vibrates: four of a slide and a ball, six of a bushing.
+#[test]
+fn damped_modes_list_every_free_motion() {
+    for R in many_poses() {
+        let axis = R * Vec3::new(1.0, 0.0, 0.0);
+        for analysis in
+            ["modes = 20", "up_to = 0.01", "up_to = 5.0", "modes = 20\ndamped = true", "modes = 6\ndamped = true"]
+        {
+            let text = format!(
+                "[analysis]\nkind = \"modal\"\n{analysis}\n[[bodies]]\nname = \"a\"\ncenter = [-0.3, -0.2, 0.09]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+                 [[joints]]\nname = \"j\"\nkind = \"prismatic\"\nfrom = {{ ground = [-0.45, -0.12, -0.015] }}\nto = {{ body = \"a\", point = [-0.45, -0.12, -0.015] }}\n\
+                 axis = [{:?}, {:?}, {:?}]\n[[bodies]]\nname = \"b\"\ncenter = [-1.06, 0.19, -0.43]\nmass = 2.0\ninertia = [1.0, 1.0, 1.0]\n\
+                 [[bodies]]\nname = \"c\"\ncenter = [0.4, 0.3, 0.2]\nmass = 1.0\ninertia = [1.0, 2.0, 3.0]\n\
+                 [[joints]]\nname = \"ball\"\nkind = \"spherical\"\nfrom = {{ ground = [0.4, 0.3, 0.0] }}\nto = {{ body = \"c\" }}\n\
+                 [[links]]\nname = \"k\"\nfrom = {{ ground = [-1.06, 0.19, -0.43] }}\nto = {{ body = \"b\" }}\nbushing = [100.0, 110.0, 130.0, 50.0, 60.0, 70.0]\n\
+                 bushing_damping = [0.1, 0.2, 0.3, 0.05, 0.06, 0.07]\n",
+                axis.x, axis.y, axis.z
+            );
+            let omegas = omegas(&modes(&text));
+            let zeros = omegas.iter().filter(|omega| **omega < 1e-5).count();
+            let all = if analysis.contains("0.01") {
+                4
+            } else if analysis.contains("= 6") {
+                6
+            } else {
+                10
+            };
+            assert_eq!((zeros, omegas.len()), (4, all), "{analysis}: {omegas:?}");
+        }
+    }
+}

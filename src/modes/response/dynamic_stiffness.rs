@@ -11,6 +11,8 @@ use crate::linear::{Factorization, Solver, Sparse, Structure, TooLarge};
 const MOST: usize = 3;
 /// What may be left of a right-hand side, relative to its largest entry.
 const LEFT: f64 = 1e-14;
+/// A part of a solution that is beyond what is read of it.
+const NEGLIGIBLE: f64 = 1e-6;
 /// Refinements of a solution.
 const REFINEMENTS: usize = 4;
 
@@ -79,7 +81,8 @@ impl DynamicStiffness {
         self.solver.factor().is_ok()
     }
 
-    /// Solves for the response to `f`, and returns what is left of the equations relative to the largest entry of `f`.
+    /// Solves for the response to `f`, and returns what is left of the equations relative to the largest entry of `f`; 0 where what is left is the
+    /// rounding of stiff terms, which corrects the solution by next to nothing.
     pub fn solve(&mut self, f: &[C64], x: &mut [C64]) -> f64 {
         let largest = f.iter().map(|f| f.norm()).fold(0.0, f64::max);
         x.fill(C64::new(0.0, 0.0));
@@ -87,9 +90,9 @@ impl DynamicStiffness {
             return 0.0;
         }
         let mut rest = f.to_vec();
-        let mut left = 1.0;
+        let (mut left, mut change) = (1.0, f64::INFINITY);
         for _ in 0..=REFINEMENTS {
-            self.correct(&rest, x);
+            change = self.correct(&rest, x);
             rest.copy_from_slice(f);
             for entry in &self.entries {
                 let [real, imaginary] = entry.at(self.omega);
@@ -102,18 +105,22 @@ impl DynamicStiffness {
                 break;
             }
         }
-        left
+        if change <= NEGLIGIBLE { 0.0 } else { left }
     }
 
-    /// Adds the solution for `f` to `x`.
-    fn correct(&mut self, f: &[C64], x: &mut [C64]) {
+    /// Adds the solution for `f` to `x`, and returns the part of its largest entry by which it changes.
+    fn correct(&mut self, f: &[C64], x: &mut [C64]) -> f64 {
         for ([real, imaginary], f) in self.places.iter().zip(f) {
             (self.scratch[*real], self.scratch[*imaginary]) = (f.re, f.im);
         }
         self.solver.solve(&mut self.scratch);
+        let (mut change, mut largest) = (0.0f64, 0.0f64);
         for ([real, imaginary], x) in self.places.iter().zip(x) {
-            *x += C64::new(self.scratch[*real], self.scratch[*imaginary]);
+            let more = C64::new(self.scratch[*real], self.scratch[*imaginary]);
+            *x += more;
+            (change, largest) = (change.max(more.norm()), largest.max(x.norm()));
         }
+        change / largest
     }
 }
 
