@@ -49,6 +49,7 @@ mod records;
 mod report;
 mod resultants;
 mod resume;
+mod rounding;
 mod safety_cab;
 mod schemes;
 mod shells;

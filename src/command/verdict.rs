@@ -85,7 +85,7 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     if !(motion.is_finite() && balance.lost().is_finite()) {
         return Some("numerical dissipation: not measured, for energies lie beyond the range of numbers".to_owned());
     }
-    if motion <= 0.0 {
+    if motion <= balance.rounding {
         return None;
     }
     let percent = |energy: f64| of_motion(energy, balance);
@@ -145,7 +145,7 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     if model.analysis.kind != AnalysisKind::Dynamic {
         return None;
     }
-    let (motion, unseen) = (balance.motion(), settling_energy(model));
+    let (motion, unseen) = (balance.motion(), settling_energy(model).max(balance.rounding));
     let part = |energy: f64| format!("{} % of the largest energy", to_digits(100.0 * energy / balance.peak, 2));
     let shorter = match model.analysis.step_length {
         StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
@@ -168,7 +168,7 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     } else if balance.lost() > SEEN * motion.max(unseen) {
         let lost = of_motion(balance.lost(), balance);
         Some(format!("numerical dissipation: the time integration has removed {lost}; {remedy}"))
-    } else if balance.dissipated > ON_THE_WAY * balance.peak {
+    } else if balance.dissipated > ON_THE_WAY * balance.peak.max(balance.rounding) {
         Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.dissipated)))
     } else {
         None

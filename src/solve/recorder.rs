@@ -16,7 +16,7 @@ use crate::model::{Cadence, Model};
 use crate::modes::Modes;
 use crate::snapshot::keep;
 use crate::state::State;
-use crate::system::energy::{Balance, Energy};
+use crate::system::energy::{Balance, Energy, work_of_rounding};
 use std::time::{Duration, Instant};
 
 /// The account of a run. It is allocated once.
@@ -143,6 +143,8 @@ impl Recorder {
                 energy = Some(sum(self.initial_energy));
             }
         }
+        self.growth.balance.rounding =
+            work_of_rounding(cx.system, &cx.model.loading, &state.nodes, cx.model.analysis.duration());
         if let Some(energy) = energy.filter(|_| !cx.is_dynamic()) {
             self.growth.balance.update(&energy);
         }

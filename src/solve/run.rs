@@ -231,12 +231,14 @@ impl<'a> Run<'a> {
     }
 
     /// The part by which central differences with automatic steps overshoot displacements on the mean, where the steps that are stable are too
-    /// long for the motion itself: an oscillation comes out larger by 1/√(1 − (ω Δt/2)²). `None` for other steps.
+    /// long for the motion itself: an oscillation comes out larger by 1/√(1 − (ω Δt/2)²). `None` for other steps, and for a motion that is
+    /// rounding.
     pub fn overshoot(&self) -> Option<f64> {
         let [resisted, all] = self.workspace.warnings.resisted;
         let square = 0.25 * resisted / all;
         let is_automatic = matches!(self.context.model.analysis.step_length, StepLength::StabilityLimited { .. });
-        (is_automatic && square > 0.0 && square < 1.0).then(|| 1.0 / (1.0 - square).sqrt() - 1.0)
+        let is_seen = 0.5 * all > self.recorder.own().steps as f64 * self.balance().rounding;
+        (is_automatic && is_seen && square > 0.0 && square < 1.0).then(|| 1.0 / (1.0 - square).sqrt() - 1.0)
     }
 
     /// What the work of the load steps of a static analysis has too much, or lacks, for what is stored and dissipated at the end, and the

@@ -4,7 +4,7 @@ use super::equations::System;
 use super::parts::{Storage, storage};
 use super::thread_partition;
 use crate::math::Vec3;
-use crate::model::{Model, Part};
+use crate::model::{Load, Loading, Model, Part};
 use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Configuration, Node, State};
 
@@ -98,6 +98,20 @@ impl Energy {
     }
 }
 
+/// The energy of motions that positions do not hold: the work of all loads at their full size along a part of the largest coordinate, and the
+/// kinetic energy of velocities that come so far within the `duration`.
+pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], duration: f64) -> f64 {
+    /// Some thousand times the rounding of a position, which steps add up.
+    const ROUNDING: f64 = 1e-12;
+    let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
+    let of_inertias = system.inertias.iter().map(|inertia| inertia.mass).sum::<f64>();
+    let mass = of_inertias + system.consistent.iter().flat_map(|mass| &mass.m).sum::<f64>();
+    let of_load = |load: &Load| load.force.norm() * reach + load.moment.norm();
+    let of_loads = mass * loading.gravity.norm() * reach + loading.nodal.iter().map(of_load).sum::<f64>();
+    let speed = if duration > 0.0 { ROUNDING * reach / duration } else { 0.0 };
+    ROUNDING * of_loads + 0.5 * mass * speed * speed
+}
+
 /// The kinetic energy of a motion.
 pub fn kinetic_energy(system: &System, nodes: &[Node]) -> f64 {
     motion(system, nodes).0
@@ -140,6 +154,8 @@ pub struct Balance {
     pub available: f64,
     /// Energy dissipated by plastic flow.
     pub plastic: f64,
+    /// The energy that rounding may make, see [`work_of_rounding`]: of less nothing is said.
+    pub rounding: f64,
     /// What stages before have missed, and the work done in them.
     before: [f64; 2],
     start: Option<f64>,
@@ -150,7 +166,20 @@ pub struct Balance {
     exchanged: [Range; 3],
 }
 
-keep!(Balance { dissipated, generated, peak, available, plastic, before, start, external, released, lost, exchanged });
+keep!(Balance {
+    dissipated,
+    generated,
+    peak,
+    available,
+    plastic,
+    rounding,
+    before,
+    start,
+    external,
+    released,
+    lost,
+    exchanged
+});
 
 /// The least and the largest value so far.
 #[derive(Debug, Clone, Copy, Default)]
@@ -203,8 +232,8 @@ impl Balance {
     /// that is compared: the largest work, or the change of what is stored.
     pub fn missed_in_statics(&self) -> (f64, f64) {
         /// Of the largest energy: what is less is rounding of it, in a stage in which nothing happens.
-        const ROUNDING: f64 = 1e-9;
-        (self.lost, self.external.max(self.exchanged[1].width()).max(ROUNDING * self.peak))
+        const OF_PEAK: f64 = 1e-9;
+        (self.lost, self.external.max(self.exchanged[1].width()).max(OF_PEAK * self.peak).max(self.rounding))
     }
 
     /// Algorithmic dissipation up to now. In the middle of an impact it may have been larger: schemes that take equilibrium
