@@ -165,10 +165,10 @@ pub(super) fn negative_eigenvalues<const B: usize>(A: &DenseBlock<B>) -> usize {
     let mut remaining = [true; B];
     let mut count = 0;
     loop {
-        let (mut diagonal, mut pair) = ((0.0, 0), (0.0, 0, 0));
+        let (mut diagonal, mut pair) = (None, (0.0, 0, 0));
         for i in (0..B).filter(|&i| remaining[i]) {
-            if M[i][i].abs() >= diagonal.0 {
-                diagonal = (M[i][i].abs(), i);
+            if diagonal.is_none_or(|(most, _)| M[i][i].abs() >= most) {
+                diagonal = Some((M[i][i].abs(), i));
             }
             for j in (0..i).filter(|&j| remaining[j]) {
                 if M[j][i].abs() > pair.0 {
@@ -176,11 +176,9 @@ pub(super) fn negative_eigenvalues<const B: usize>(A: &DenseBlock<B>) -> usize {
                 }
             }
         }
-        if !remaining.contains(&true) {
-            return count;
-        }
-        if diagonal.0 >= SINGLE * pair.0 {
-            let k = diagonal.1;
+        let Some((largest, k)) = diagonal else { return count };
+        // What is no number is a pivot of its own, so that the loop ends.
+        if largest >= SINGLE * pair.0 || largest.is_nan() {
             remaining[k] = false;
             count += usize::from(M[k][k] < 0.0);
             if M[k][k] != 0.0 {

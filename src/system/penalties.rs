@@ -5,7 +5,7 @@ use super::equations::System;
 use super::multipliers::Multipliers;
 use crate::constraints::joint::{ConstraintEquation, Joint};
 use crate::linear::Solver;
-use crate::math::{Mat6, Vec6, angular, linear};
+use crate::math::{Mat6, Vec3, Vec6, angular, linear};
 use crate::state::Node;
 
 /// What the penalty factors of all joints rest on.
@@ -14,6 +14,10 @@ pub(super) struct Diagonals {
     /// By node: the sum of [`Diagonal::moment`] over the joints that act on it, and the longest of their arms. Written where no inertia is in
     /// the matrix.
     on_nodes: Vec<[f64; 2]>,
+    /// By constraint equation: its force, or zero where that is rounding.
+    forces: Vec<f64>,
+    /// The size of the scene.
+    extent: f64,
 }
 
 impl Diagonals {
@@ -23,14 +27,38 @@ impl Diagonals {
         Diagonals {
             joints: system.joints.iter().map(of).collect(),
             on_nodes: vec![[0.0; 2]; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
+            forces: vec![0.0; system.multipliers()],
+            extent: 0.0,
+        }
+    }
+
+    /// Takes the forces of the equations, without what rounding makes: of a gap that the penalty factor of before has answered, and of a
+    /// moment beside the force of the same joint.
+    fn take(&mut self, system: &System, nodes: &[Node], multipliers: &Multipliers) {
+        let farthest = |from: &Vec3| nodes.iter().map(|node| (node.x - from).amax()).fold(0.0, f64::max);
+        let (reach, extent) = (farthest(&Vec3::zeros()), nodes.first().map_or(0.0, |node| farthest(&node.x)));
+        self.extent = extent;
+        for (joint, first) in system.numbered() {
+            let rows = first..first + joint.equations.len();
+            let all = || joint.equations.iter().zip(&multipliers.values[rows.clone()]);
+            let translations = all().filter(|(row, _)| !row.is_rotational());
+            let force = translations.map(|(_, lambda)| lambda.abs()).fold(0.0, f64::max);
+            let to = self.forces[rows.clone()].iter_mut().zip(&multipliers.penalties[rows.clone()]);
+            for ((row, lambda), (to, penalty)) in all().zip(to) {
+                let rounding = match row.is_rotational() {
+                    true => f64::max(NOTHING * penalty.max(reach * force), FAINT * extent * force),
+                    false => NOTHING * penalty * reach,
+                };
+                *to = if lambda.abs() > rounding { *lambda } else { 0.0 };
+            }
         }
     }
 
     /// Measures the stiffness that the forces of joints have.
-    fn measure(&mut self, system: &System, nodes: &[Node], projections: &[Vec<Mat6>], forces: &[f64]) {
+    fn measure(&mut self, system: &System, nodes: &[Node], projections: &[Vec<Mat6>]) {
         self.on_nodes.fill([0.0; 2]);
         for ((joint, first), diagonal) in system.numbered().zip(&self.joints) {
-            let [moment, arm] = diagonal.moment(joint, nodes, projections, &forces[first..]);
+            let [moment, arm] = diagonal.moment(joint, nodes, projections, (&self.forces[first..], self.extent));
             for place in &diagonal.0 {
                 let [sum, longest] = &mut self.on_nodes[place.independent];
                 *sum += moment;
@@ -137,7 +165,13 @@ impl Diagonal {
 
     /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
     /// signs, that its equations exert on independent nodes. And the longest of these arms.
-    fn moment(&self, joint: &Joint, nodes: &[Node], projections: &[Vec<Mat6>], values: &[f64]) -> [f64; 2] {
+    fn moment(
+        &self,
+        joint: &Joint,
+        nodes: &[Node],
+        projections: &[Vec<Mat6>],
+        (values, extent): (&[f64], f64),
+    ) -> [f64; 2] {
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
         let longest = self.0.iter().map(|place| arm(place.node, place.index)).fold(0.0, f64::max);
@@ -146,7 +180,10 @@ impl Diagonal {
             let on = |&Place { end, node, index, .. }: &Place| {
                 arm(node, index) * linear(&G[end]).amax() + angular(&G[end]).amax()
             };
-            lambda.abs() * self.0.iter().map(on).fold(0.0, f64::max)
+            let lever = self.0.iter().map(on).fold(0.0, f64::max);
+            // The lever of a force that goes through a node is rounding.
+            let is_one = row.is_rotational() || lever > FAINT * extent;
+            if is_one { lambda.abs() * lever } else { 0.0 }
         };
         [joint.equations.iter().zip(values).map(of).sum(), longest]
     }
@@ -155,8 +192,12 @@ impl Diagonal {
 /// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
 const MODERATE: f64 = 1e4;
 
-/// Forces of joints whose factor is this part of the largest are rounding: such a joint bears nothing.
+/// Forces of joints whose factor is this part of the largest are rounding: such a joint bears nothing. And so are forces that are this part of
+/// what a gap as large as the scene, or a turn of one, would be answered with.
 const NOTHING: f64 = 1e-12;
+
+/// A moment of a joint that is this part of its force along the scene gives no measure of its stiffness, whatever the iteration has made of it.
+const FAINT: f64 = 1e-6;
 
 /// Finds the penalty factors, which rest on the matrix before any joint has added to it.
 ///
@@ -172,8 +213,9 @@ pub(super) fn set(
     values: &[f64],
     at_rest: bool,
 ) {
+    diagonals.take(system, nodes, multipliers);
     if at_rest {
-        diagonals.measure(system, nodes, projections, &multipliers.values);
+        diagonals.measure(system, nodes, projections);
     }
     let firm = |j: usize| if at_rest { diagonals.firm(j, values) } else { None };
     let (mut largest, mut firmest) = ([0.0f64; 2], [0.0f64; 2]);
@@ -187,9 +229,11 @@ pub(super) fn set(
             let how = (row.is_rotational(), multipliers.may_share());
             let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), how, projections, values);
             let s = match joint.is_driven(k) {
-                true => {
-                    drive_penalty(s, row, diagonal.moment(joint, nodes, projections, &multipliers.values[first..])[0])
-                }
+                true => drive_penalty(
+                    s,
+                    row,
+                    diagonal.moment(joint, nodes, projections, (&diagonals.forces[first..], diagonals.extent))[0],
+                ),
                 false => s,
             };
             multipliers.penalties[first + k] = s;
