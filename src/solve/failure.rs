@@ -129,6 +129,13 @@ pub enum Failure {
         /// The angle of its rotation in the step, in radians.
         angle: f64,
     },
+    /// A step of a motion turns a node of a shell too far against its element.
+    NodeTurns {
+        /// The name of the node.
+        label: String,
+        /// The angle of its rotation in the step against the mean of the element, in radians.
+        angle: f64,
+    },
     /// An element has passed through zero length or area, or has turned over.
     TurnedOver {
         /// The name of its part.
@@ -184,6 +191,7 @@ keep_either!(Failure {
     19 => NotFinite { largest },
     20 => Stopped,
     21 => ContactNotClosed { name, out },
+    22 => NodeTurns { label, angle },
 });
 
 /// A residual force, or a gap, with its name.
@@ -365,6 +373,7 @@ impl Failure {
             | Failure::NoLoadIncrement { .. }
             | Failure::TooManySteps { .. }
             | Failure::LoadStepTurns { .. }
+            | Failure::NodeTurns { .. }
             | Failure::TurnedOver { .. }
             | Failure::EquilibriumJumps { .. } => self.message_of_path(),
             _ => self.message_of_length(),
@@ -395,6 +404,10 @@ impl Failure {
             Failure::LoadStepTurns { label, angle } => format!(
                 "a load step turns `{label}` by {angle:.1} radians, too far to follow: shorter steps do not help, the \
                  equilibrium jumps (a mechanism, or snap-through); a dynamic analysis shows the motion"
+            ),
+            Failure::NodeTurns { label, angle } => format!(
+                "a step turns `{label}` by {angle:.1} radians against the rest of its shell element: the iteration has found another \
+                 equilibrium than that of the motion (a shorter `time_step`)"
             ),
             Failure::TurnedOver { name } => format!(
                 "an element of `{name}` is turned over or compressed through zero length, where it is no longer what it \

@@ -3,16 +3,19 @@
 //! far away. Such steps are cut, or end the run.
 
 use crate::materials::Dissipation;
-use crate::math::{angular, linear};
+use crate::math::{Vec3, angular, linear};
 use crate::model::DIRECTIONS;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, State};
+use crate::system::Scale;
 
 /// Largest rotation of a node in a load step, in radians. Below it the chord of a turning element keeps a positive part along its old
 /// direction with room to spare, and the work of moments follows from the rotation vector of the step alone.
 const LARGEST_TURN: f64 = 1.25;
+/// Largest rotation of a node of a shell against the mean of its element in a step of a motion, in radians: a step that is resolved bends no element so far.
+const LARGEST_TWIST: f64 = 0.5;
 /// Work within this part of all work done, for either sign, is not missed: a step has its own error, and equilibrium its tolerance.
 const ACCURACY: f64 = 1e-3;
 /// Part of ½ |Δf| |Δq| by which the work of loads that grow by Δf may depart from that of their mean. Where forces grow with the n-th power
@@ -24,16 +27,21 @@ const CURVED: f64 = 0.6;
 /// in their halves, until the path is smooth or plainly jumps. A jump leaves its loss in one half.
 const DOUBTFUL: f64 = 0.2;
 
+/// The work of forces along this part of the model's length is rounding, as is that of moments along this angle.
+const NOTHING: f64 = 1e-12;
 /// Motions below this part of the model's length are no jumps; their energy may be rounding.
 const STILL: f64 = 1e-6;
 
-/// Refuses a load step that turns a node too far or an element over.
+/// Refuses a load step that turns a node too far or an element over, and a step of a motion that turns a node of a shell against its element.
 ///
 /// # Errors
-/// [`Failure::LoadStepTurns`], [`Failure::TurnedOver`].
+/// [`Failure::LoadStepTurns`], [`Failure::TurnedOver`], [`Failure::NodeTurns`].
 pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Result<(), Failure> {
-    if cx.is_dynamic() || cx.plan.linear {
+    if cx.plan.linear {
         return Ok(());
+    }
+    if cx.is_dynamic() {
+        return check_shells(cx, ws);
     }
     for &node in &cx.independent_nodes {
         let turn = angular(&cx.plan.dofs.of(node).mask(&ws.increments[node].q)).norm();
@@ -45,6 +53,26 @@ pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Res
         let over = |&e: &usize| group.block.is_turned_over(e, &state.nodes, &ws.trial);
         if let Some(e) = (0..group.block.len()).find(over) {
             return Err(Failure::TurnedOver { name: group.part_of(e, cx.model).name().to_owned() });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a step in which a node of a shell turns too far against the others of its element. Drilling has next to no inertia and is resisted
+/// little, the less the farther it has gone: an iteration may end where a node has turned about the normal by a right angle.
+fn check_shells(cx: &Context, ws: &Workspace) -> Result<(), Failure> {
+    let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&ws.increments[node].q));
+    if !cx.independent_nodes.iter().any(|&node| turn(node).norm() > LARGEST_TWIST) {
+        return Ok(());
+    }
+    for group in cx.system.groups.iter().filter(|group| group.kind.is_surface()) {
+        for e in 0..group.block.len() {
+            let own = || group.block.nodes(e).iter().filter(|node| cx.independent_nodes.binary_search(node).is_ok());
+            let mean = own().map(|&node| turn(node)).sum::<Vec3>() / own().count().max(1) as f64;
+            let against = |node: usize| (turn(node) - mean).norm();
+            if let Some(&node) = own().find(|node| against(**node) > LARGEST_TWIST) {
+                return Err(Failure::NodeTurns { label: cx.model.nodes[node].label.clone(), angle: against(node) });
+            }
         }
     }
     Ok(())
@@ -87,7 +115,9 @@ pub fn check_work(
     let taken = after - before + plastic + viscous + stored + friction + impact + eroded;
     let ([of_loads, of_supports], gross, spread) = work_of_step(cx, ws, state, loads);
     let work = of_loads + of_supports;
-    let rounding = ACCURACY * (gross + before.abs().min(after.abs()) * f64::EPSILON.sqrt());
+    let Scale { force, moment } = ws.load_steps.peak.forces;
+    let rounding = ACCURACY * (gross + before.abs().min(after.abs()) * f64::EPSILON.sqrt())
+        + NOTHING * (force * cx.length + moment);
     let missed = (work - taken).abs();
     if missed > rounding {
         // Loads that act at once, at t = 0 or at a jump, do work before they are in equilibrium.

@@ -91,8 +91,12 @@ struct Strains<'a> {
 impl Strains<'_> {
     /// Adds those of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes.
     fn add(&mut self, K: &[f64], nodes: &[usize], d: usize, is_unilateral: bool) {
-        // Translation as a whole strains no element; without it motions have the digits of strains.
-        let common = if is_unilateral { Vec6::zeros() } else { self.motions[nodes[0]] };
+        // Translation as a whole strains no element, unless one of its nodes is a number and no place; without it motions have the digits of
+        // strains.
+        let mut common = if is_unilateral { Vec6::zeros() } else { self.motions[nodes[0]] };
+        for direction in (0..3).filter(|&direction| !is_free(K, d, direction)) {
+            common[direction] = 0.0;
+        }
         let whole = |j: usize| self.motions[nodes[j / d]][j % d];
         let own = |j: usize| if j % d < 3 { whole(j) - common[j % d] } else { whole(j) };
         let floor = |j: usize| if j % d < 3 { MOVING } else { MOVING / self.length };
@@ -108,6 +112,16 @@ impl Strains<'_> {
             self.terms += whole(i).abs() * size(&|j| whole(j).abs());
         }
     }
+}
+
+/// True where the forces of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes, do not change as all
+/// nodes move alike in a direction.
+fn is_free(K: &[f64], d: usize, direction: usize) -> bool {
+    let width = K.len().isqrt();
+    K.chunks(width.max(1)).all(|row| {
+        let along = || row.iter().skip(direction).step_by(d);
+        along().sum::<f64>().abs() <= FORCE * along().map(|k| k.abs()).sum::<f64>()
+    })
 }
 
 /// Calls with the element, the nodes and the tangent of each pair that touches, of a block whose elements wander.
