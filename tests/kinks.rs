@@ -1,6 +1,7 @@
 //! Prescribed motions whose velocity jumps: a step that ends there has the velocity before it, one that begins there that after it.
 
-use crate::support::{read_deck, run};
+use crate::support::{read_deck, run, run_source};
+use rdsolve::diagnostic::Source;
 use rdsolve::solve::Outcome;
 
 const IMPLICIT: [&str; 6] = [
@@ -155,6 +156,36 @@ fn what_draws_a_spring_does_its_work() {
             let [_, external, _] = ending(&text(scheme, step), "b");
             // The force is linear in time, which all of these schemes integrate.
             assert!((external - 0.5).abs() < 1e-9, "{scheme} {step}: {external}");
+        }
+    }
+}
+
+/// Stages that part where the velocity jumps are the run in one piece: motion, work and the impulse of the support, whether the stages are alike or a
+/// load that nothing feels comes with one of them.
+#[test]
+fn stages_that_part_at_kinks_go_on_over_them() {
+    for scheme in IMPLICIT.into_iter().chain(EXPLICIT) {
+        let whole = deck(scheme, 0.0025) + "[[masses]]\nat = \"a\"\nmass = 2.0\n";
+        let [x, external, numerical] = ending(&whole, "b");
+        let stage = |(k, duration): (usize, f64)| {
+            format!("[[stages]]\nname = \"s{k}\"\nkind = \"dynamic\"\nduration = {duration:?}\ntime_step = 0.0025\n")
+        };
+        let stages: String = [0.1, 0.1, 0.2, 0.2].into_iter().enumerate().map(stage).collect();
+        let parted =
+            whole.replace("[analysis]\nkind = \"dynamic\"\nend_time = 0.6\ntime_step = 0.0025\n", "") + &stages;
+        for load in ["", "[[loads]]\nat = \"b\"\nforce = [0.0, 1.0, 0.0]\nstages = \"s1\"\n"] {
+            let source = Source::new("stages.toml", parted.clone() + load, &[]);
+            let done = run_source(&source, &mut |frame| {
+                let energy = frame.derived.energy.as_ref().expect("energies");
+                let node = frame.model.nodes.iter().position(|node| node.label == "b").expect("the mass");
+                vec![frame.state.nodes[node].x.x - 1.0, energy.external, energy.numerical]
+            });
+            assert!(matches!(done.outcome, Outcome::Done), "{scheme} {load}: {:?}", done.outcome);
+            let last = done.rows.last().expect("a row");
+            // The iteration, of 0.03 m and some J.
+            for (got, wanted) in last.iter().zip([x, external, numerical]) {
+                assert!((got - wanted).abs() < 1e-9, "{scheme} {load}: {last:?} for {:?}", [x, external, numerical]);
+            }
         }
     }
 }

@@ -27,13 +27,32 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     jump_from(cx, ws, state, &before, Side::After)
 }
 
+/// As [`jump`], at the beginning of a stage in which the motion goes on: the loads have jumped at the end of the stage before, which keeps the
+/// velocities that supports have had.
+///
+/// # Errors
+/// [`Failure::Singular`] where a mass matrix cannot be inverted.
+pub fn kick(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    cx.excitation.loading(state.time, Side::After, &mut ws.loads.instant);
+    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
+    let before = ws.forces.on_nodes.clone();
+    if jump_velocities(cx, ws, state)? {
+        jump_from(cx, ws, state, &before, Side::After)?;
+    }
+    Ok(())
+}
+
 /// Gives prescribed degrees of freedom the velocities that they have from now on, and what joints and masses tie to them what follows. The
-/// impulse of the supports does the work by which the kinetic energy changes.
-fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
+/// impulse of the supports does the work by which the kinetic energy changes. False where velocities do not jump.
+///
+/// # Errors
+/// [`Failure::Singular`] where a mass matrix cannot be inverted.
+pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<bool, Failure> {
     cx.excitation.prescribed(state.time, Side::Before, &mut ws.prescribed.end);
     cx.excitation.prescribed(state.time, Side::After, &mut ws.prescribed.start);
     if ws.prescribed.start == ws.prescribed.end {
-        return Ok(());
+        return Ok(false);
     }
     let (nodes, energy) = (state.nodes.clone(), kinetic_energy(cx.system, &state.nodes));
     let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.start);
@@ -50,7 +69,7 @@ fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Resul
     }
     state.work.external += kinetic_energy(cx.system, &state.nodes) - energy;
     state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
-    Ok(())
+    Ok(true)
 }
 
 /// Takes the state over the failure of material points or links in the step of length `dt` that was taken last, of which the history at its

@@ -5,7 +5,7 @@ use super::context::Context;
 use super::failure::Failure;
 use super::handover::Handover;
 use super::joints;
-use super::jumps::{impulse, jump_from};
+use super::jumps::{impulse, jump_from, jump_velocities, kick};
 use super::start::{
     DIGITS, add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes,
 };
@@ -16,7 +16,7 @@ use crate::math::{Vec6, stack};
 use crate::state::{Node, State};
 use crate::system::Side;
 
-/// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed.
+/// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed but velocities of supports that jump there.
 ///
 /// # Errors
 /// As for [`super::start::start`].
@@ -33,8 +33,11 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
         state.algorithmic_accelerations = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
     }
     if let Some(before) = &handover.out_of_balance {
+        jump_velocities(cx, ws, &mut state)?;
         jump_from(cx, ws, &mut state, before, Side::After)?;
-    } else if !cx.model.analysis.goes_on() {
+    } else if cx.model.analysis.goes_on() {
+        kick(cx, ws, &mut state)?;
+    } else {
         balance(cx, ws, handover, &mut state)?;
     }
     ws.trial.clone_from(&state.nodes);
