@@ -174,3 +174,38 @@ fn projected_and_following_loads_keep_to_their_axes() {
         assert!((force - expected).abs() < 0.05, "{force} for {expected}");
     }
 }
+
+/// A rigid beam carries a load per length as a bent line does: its whole force, at its centre.
+#[test]
+fn rigid_beams_take_loads_per_length() {
+    let deck = r#"
+        analysis = { kind = "static", end_time = 1.0, time_step = 0.5 }
+        output = { reactions = true }
+        materials.steel = { model = "elastic", youngs_modulus = 2e11, poisson_ratio = 0.3, density = 7850.0 }
+        sections.rod = { shape = "tube", radius = 0.02, thickness = 0.02 }
+        points = { a = [0.0, 0.0, 0.0], b = [2.0, 0.0, 0.0], c = [2.0, 1.0, 0.0] }
+        [[beams]]
+        name = "rod"
+        path = ["a", "b", "c"]
+        elements = 4
+        order = 2
+        material = "steel"
+        section = "rod"
+        orientation = [0.0, 0.0, 1.0]
+        rigid = true
+        [[supports]]
+        at = "rod"
+        fix = "all"
+        [[loads]]
+        at = AT
+        force_per_length = [0.0, 30.0, -100.0]
+        [sets]
+        group = ["rod"]
+        "#;
+    for at in ["\"rod\"", "\"group\""] {
+        let rows = tables_of(&read_deck(&deck.replace("AT", at))).rows("reactions.csv");
+        let [fy, fz] = ["uy", "uz"].map(|direction| reaction(&rows, direction));
+        // 3 m, to rounding of the halves.
+        assert!((fy + 90.0).abs() < 1e-9 && (fz - 300.0).abs() < 1e-9, "{at}: {fy} {fz}");
+    }
+}

@@ -170,13 +170,13 @@ impl<'d> Spread<'_, 'd> {
                     nodes.windows(2).for_each(|pair| self.along([pair[0], pair[1]]));
                 }
             }
-            (Place::Part(part), Some(_)) if is_line(part) => self.along_part(part, name, report),
+            (Place::Part(_) | Place::Body(_), Some(_)) if self.line_of(place).is_some() => {
+                self.line_of(place).into_iter().for_each(|part| self.along_part(part, name, report));
+            }
             (Place::Set(_), Some(_)) if self.is_of_lines(place) => {
-                for leaf in self.scene.names.leaves(place) {
-                    if let Place::Part(part) = leaf {
-                        self.along_part(part, name, report);
-                    }
-                }
+                let leaves = self.scene.names.leaves(place);
+                let parts: Vec<PartIndex> = leaves.into_iter().filter_map(|leaf| self.line_of(leaf)).collect();
+                parts.into_iter().for_each(|part| self.along_part(part, name, report));
             }
             (Place::Group(_) | Place::Set(_), Some(_)) => {
                 let pairs = line_of(self.scene, place, name, self.topology, report);
@@ -208,7 +208,15 @@ impl<'d> Spread<'_, 'd> {
     /// True where a set is one of beams and bars alone.
     fn is_of_lines(&self, set: Place) -> bool {
         let leaves = self.scene.names.leaves(set);
-        !leaves.is_empty() && leaves.iter().all(|leaf| matches!(leaf, Place::Part(part) if is_line(*part)))
+        !leaves.is_empty() && leaves.into_iter().all(|leaf| self.line_of(leaf).is_some())
+    }
+
+    /// The beam or bar that a place is, a rigid one too.
+    fn line_of(&self, place: Place) -> Option<PartIndex> {
+        match place {
+            Place::Part(_) | Place::Body(_) => self.scene.names.line_of(place),
+            _ => None,
+        }
     }
 
     /// Distributes a load per length over a beam or bar; over one that is rigid in equal halves to the ends of its elements.
