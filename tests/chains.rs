@@ -1,7 +1,9 @@
 //! Chains of bodies: time that grows with their number alone, whatever holds them together.
 
 use crate::support::{read_deck, run_to_the_end};
+use rdsolve::plan::Plan;
 use rdsolve::solve::Counts;
+use rdsolve::system::System;
 use std::fmt::Write;
 
 /// A chain that falls from the horizontal, its first body held: bodies that hang one on the other by `hold`.
@@ -81,4 +83,28 @@ fn iterations_do_not_grow_with_a_chain() {
     let [short, long] = [100, 3000].map(|bodies| run(&chain(bodies, "newmark", jointed)).1.iterations);
     // Steps of the falling end are as hard as they are: 5.4 for 4.4 a step.
     assert!(long as f64 <= 1.5 * short as f64, "{short} {long}");
+}
+
+/// Redundant equations are found beside a chain that is far too long for a search through all of its joints, and none without a loop.
+#[test]
+fn redundant_equations_are_found_beside_a_long_chain() {
+    let redundant = |text: &str| {
+        let model = read_deck(text);
+        let system = System::new(&model).expect("a system");
+        let rows = Plan::new(&model, &system, 1).redundant_constraints.expect("a search");
+        let joint = |row: &usize| model.constraints.joints[system.row(*row).expect("a row").0].name.clone();
+        rows.iter().map(joint).collect::<Vec<_>>()
+    };
+    let open = chain(800, "newmark", jointed);
+    assert!(redundant(&open).is_empty());
+    // A lid on the second body, on two hinges in line: the second one repeats what the first one holds.
+    let mut lid =
+        "[[bodies]]\nname = \"lid\"\ncenter = [0.1, 0.3, 0.0]\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\n".to_owned();
+    for (name, x) in [("first", 0.05), ("second", 0.15)] {
+        lid += &format!(
+            "[[joints]]\nname = \"{name}\"\nkind = \"revolute\"\naxis = [1.0, 0.0, 0.0]\nfrom = {{ body = \"b1\", point = [{x:?}, 0.1, 0.0] }}\n\
+             to = {{ body = \"lid\", point = [{x:?}, 0.1, 0.0] }}\n"
+        );
+    }
+    assert_eq!(redundant(&(open + &lid)), ["second"; 5]);
 }

@@ -6,17 +6,21 @@ use crate::model::Model;
 use crate::state::Node;
 use crate::system::dependents;
 use crate::system::{DofMap, System};
+use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// An equation is redundant where less than this fraction of its gradient is linearly independent of earlier ones.
 const NEW: f64 = 1e-8;
 /// Largest number of operations for the search; larger sets of joints are not searched.
 const MOST: f64 = 5e7;
 
-/// The largest distance of a node from the center of all; 1 where they are at one place.
+/// The largest distance of a node from the center of all; 1 where they are at one place, to rounding.
 fn size(nodes: &[Node]) -> f64 {
+    const ROUNDING: f64 = 1e-9;
+    let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
     let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max);
-    if length > 0.0 { length } else { 1.0 }
+    if length > ROUNDING * reach { length } else { 1.0 }
 }
 
 /// Numbers of the multipliers whose equations depend linearly on those before them; `None` where there are too many to
@@ -34,7 +38,9 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let mut column = vec![None; directions];
     let mut columns = 0;
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
+    let mut joints: Vec<Range<usize>> = Vec::with_capacity(system.joints.len());
     for joint in &system.joints {
+        joints.push(sparse.len()..sparse.len() + joint.equations.len());
         let [a, b] = joint.nodes.map(|n| &nodes[n]);
         for (k, row) in joint.equations.iter().enumerate() {
             let mut entries = Vec::new();
@@ -62,14 +68,50 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
             sparse.push(entries);
         }
     }
-    if (count * count) as f64 * columns as f64 > MOST {
+    let rows = without_branches(&sparse, &joints, columns);
+    if (rows.len() * rows.len()) as f64 * columns as f64 > MOST {
         return None;
     }
-    Some(dependent_rows(&sparse, columns))
+    let loops: Vec<&[(usize, f64)]> = rows.iter().map(|&row| &sparse[row][..]).collect();
+    Some(dependent_rows(&loops, columns).into_iter().map(|row| rows[row]).collect())
+}
+
+/// The rows that may depend on each other. A joint whose equations are independent in the degrees of freedom on which no other joint acts, as
+/// that at the end of a chain, has no part in what depends on what; without it the next one is at the end.
+fn without_branches(sparse: &[Vec<(usize, f64)>], joints: &[Range<usize>], columns: usize) -> Vec<usize> {
+    let columns_of = |joint: &Range<usize>| -> BTreeSet<usize> {
+        sparse[joint.clone()].iter().flatten().map(|&(column, _)| column).collect()
+    };
+    let touched: Vec<BTreeSet<usize>> = joints.iter().map(columns_of).collect();
+    let mut acting: Vec<Vec<usize>> = vec![Vec::new(); columns];
+    for (joint, touched) in touched.iter().enumerate() {
+        touched.iter().for_each(|&column| acting[column].push(joint));
+    }
+    let mut kept = vec![true; joints.len()];
+    let mut todo: Vec<usize> = (0..joints.len()).collect();
+    while let Some(joint) = todo.pop() {
+        let own: Vec<usize> = touched[joint].iter().copied().filter(|&column| acting[column].len() == 1).collect();
+        let in_own = |row: &Vec<(usize, f64)>| -> Vec<(usize, f64)> {
+            let rounding = NEW * row.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
+            let entries = row.iter().filter(|(_, value)| value.abs() > rounding);
+            entries.filter_map(|&(column, value)| Some((own.binary_search(&column).ok()?, value))).collect()
+        };
+        let rows: Vec<Vec<(usize, f64)>> = sparse[joints[joint].clone()].iter().map(in_own).collect();
+        let rows: Vec<&[(usize, f64)]> = rows.iter().map(|row| &row[..]).collect();
+        if !kept[joint] || rows.len() > own.len() || !dependent_rows(&rows, own.len()).is_empty() {
+            continue;
+        }
+        kept[joint] = false;
+        for &column in &touched[joint] {
+            acting[column].retain(|&other| other != joint);
+            todo.extend(acting[column].iter().filter(|_| acting[column].len() == 1));
+        }
+    }
+    joints.iter().zip(kept).filter(|(_, kept)| *kept).flat_map(|(joint, _)| joint.clone()).collect()
 }
 
 /// The numbers of rows that depend linearly on those before them.
-fn dependent_rows(sparse: &[Vec<(usize, f64)>], columns: usize) -> Vec<usize> {
+fn dependent_rows(sparse: &[&[(usize, f64)]], columns: usize) -> Vec<usize> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     let mut redundant = Vec::new();
     for (number, entries) in sparse.iter().enumerate() {
