@@ -5,7 +5,9 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::restitution::Loss;
-use rdsolve::elements::contact::{ContactLaw, ContactPoint, Extent, Facet, FacetContacts, FacetTouchers, MOST_NODES};
+use rdsolve::elements::contact::{
+    ContactLaw, ContactPoint, Facet, FacetContacts, FacetTouchers, MOST_NODES, TouchKind,
+};
 use rdsolve::math::Vec3;
 use rdsolve::solve::Frame;
 use rdsolve::state::{Configuration, Node};
@@ -90,7 +92,7 @@ fn ball(node: usize, radius: f64) -> (ContactPoint, Facet) {
         count: 1,
         radius,
         rolling_radius: 0.0,
-        extent: Extent::Point,
+        extent: TouchKind::Point,
     };
     (point, Facet::ball(node, radius, 0.0))
 }

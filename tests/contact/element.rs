@@ -6,7 +6,7 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::surfaces::{Capsule, Cuboid, Cylinder, Plane, Sphere};
-use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, Extent, MOST_NODES, Surface, SurfaceShape};
+use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Surface, SurfaceShape, TouchKind};
 use rdsolve::math::Vec3;
 use rdsolve::math::polyhedron::Polyhedron;
 use rdsolve::math::rotation::{exp, matrix};
@@ -54,7 +54,7 @@ fn touch(
     (0..count).for_each(|k| weights[k] = parts[k] / sum);
     let mut of = [1; MOST_NODES];
     (0..count).for_each(|k| of[k] = 1 + k);
-    let point = ContactPoint { nodes: of, weights, count, radius, rolling_radius: radius, extent: Extent::Point };
+    let point = ContactPoint { nodes: of, weights, count, radius, rolling_radius: radius, extent: TouchKind::Point };
 
     // The carrier anywhere, the point a little inside the surface.
     let mut nodes = vec![Node::at_rest(vector(rng, 1.0)); count + 1];

@@ -4,7 +4,9 @@ use super::touch::vector;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::contact::restitution::{Loss, number};
-use rdsolve::elements::contact::{ContactLaw, ContactPoint, Extent, Facet, FacetContacts, FacetTouchers, MOST_NODES};
+use rdsolve::elements::contact::{
+    ContactLaw, ContactPoint, Facet, FacetContacts, FacetTouchers, MOST_NODES, TouchKind,
+};
 use rdsolve::elements::{ElementBlock, Wandering};
 use rdsolve::math::Vec3;
 use rdsolve::math::rotation::{exp, matrix};
@@ -30,7 +32,7 @@ pub fn law(friction: f64, loss: Loss) -> ContactLaw {
 fn point(node: usize, radius: f64, rolling_radius: f64) -> ContactPoint {
     let mut weights = [0.0; MOST_NODES];
     weights[0] = 1.0;
-    ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius, extent: Extent::Point }
+    ContactPoint { nodes: [node; MOST_NODES], weights, count: 1, radius, rolling_radius, extent: TouchKind::Point }
 }
 
 /// A ball against facets: the last node is its own. Or lines against lines.

@@ -6,7 +6,7 @@ use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::restitution::{Loss, number};
-use rdsolve::elements::contact::{ContactPoint, Extent, Facet, FacetTouchers, MOST_NODES};
+use rdsolve::elements::contact::{ContactPoint, Facet, FacetTouchers, MOST_NODES, TouchKind};
 use rdsolve::math::Vec3;
 use rdsolve::math::rotation::exp;
 use rdsolve::state::Node;
@@ -15,19 +15,19 @@ fn line(a: usize, b: usize, radius: f64, rolling_radius: f64) -> ContactPoint {
     let (mut nodes, mut weights) = ([a; MOST_NODES], [0.0; MOST_NODES]);
     nodes[1] = b;
     weights[..2].fill(0.5);
-    ContactPoint { nodes, weights, count: 2, radius, rolling_radius, extent: Extent::Line }
+    ContactPoint { nodes, weights, count: 2, radius, rolling_radius, extent: TouchKind::Line }
 }
 
 /// Two lines that touch somewhere, everything turned and moving, after they have slid.
-fn touching(rng: &mut StdRng, friction: f64, loss: Loss, slide: f64, extent: Extent) -> Scene {
+fn touching(rng: &mut StdRng, friction: f64, loss: Loss, slide: f64, extent: TouchKind) -> Scene {
     let (half, radius) = (0.05, 0.07);
     let (u, v) = (vector(rng, 1.0), vector(rng, 1.0));
     let n = u.cross(&v).normalize();
     let apart = half + radius - rng.random_range(0.005..0.02);
     // Shares beyond the ends make these touch; of edges, which end there, every other lies within reach of an end.
     let mut share = || match extent {
-        Extent::Edge if rng.random_range(0..2) == 0 => rng.random_range(0.005..0.04),
-        Extent::Edge => rng.random_range(0.1..0.9),
+        TouchKind::Edge if rng.random_range(0..2) == 0 => rng.random_range(0.005..0.04),
+        TouchKind::Edge => rng.random_range(0.1..0.9),
         _ => rng.random_range(-0.3..1.3),
     };
     let (s, t) = (share(), share());
@@ -53,7 +53,7 @@ fn each(mut check: impl FnMut(Scene, f64, &str)) {
     let mut rng = StdRng::seed_from_u64(3);
     for (friction, slide) in [(0.0, 1e-3), (0.8, 1e-4), (0.2, 5e-3)] {
         for loss in [Loss::None, Loss::Restitution { number: number(0.5), floor: 0.1 }] {
-            for extent in [Extent::Line, Extent::Edge] {
+            for extent in [TouchKind::Line, TouchKind::Edge] {
                 for _ in 0..60 {
                     let scene = touching(&mut rng, friction, loss, slide, extent);
                     check(scene, friction, &format!("{extent:?}, friction {friction}, {loss:?}"));

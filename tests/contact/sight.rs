@@ -107,11 +107,13 @@ const LOG: &str = "[[bodies]]\nname = \"log\"\nmass = 1.0\n\
 /// What touches with lines has nothing that `points` would divide: alone it is refused, beside what has points it is said.
 #[test]
 fn points_that_divide_nothing_are_said() {
-    let things = beam(4) + LOG + &body("kind = \"box\", size = [0.1, 0.1, 0.1]");
+    let plate = "[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [4, 4]\n\
+                 material = \"steel\"\nthickness = 0.01\n";
+    let things = beam(4) + LOG + plate;
     let on_beam = |with: &str, points| contact("part = \"beam\"", "X", points).replace("\"X\"", with);
     let about = |said: &[[String; 2]]| said.iter().find(|[said, _]| said.contains("`points` does not apply")).cloned();
     let [alone, beside, without] =
-        [("\"log\"", Some(3)), ("[\"log\", \"body\"]", Some(3)), ("[\"log\", \"body\"]", None)]
+        [("\"log\"", Some(3)), ("[\"log\", \"plate\"]", Some(3)), ("[\"log\", \"plate\"]", None)]
             .map(|(with, points)| about(&said(&things, &on_beam(with, points))));
     let line = "`points` does not apply to `log`, which touches here with all of the length, not with points";
     assert_eq!(alone, Some([line.to_owned(), "leave `points` out".to_owned()]));

@@ -44,7 +44,7 @@ pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
 pub use multipliers::{augment, pushes};
-pub use point::{ContactPoint, Extent, MOST_NODES};
+pub use point::{ContactPoint, MOST_NODES, TouchKind};
 pub use resultant::{ContactAction, each_pair_touch, each_touch, last_gap, last_pair_gap, least_gap, pair_gap};
 pub use steps::{longest_step, misses};
 pub use surface::Surface;

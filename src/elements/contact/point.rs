@@ -8,7 +8,7 @@ pub const MOST_NODES: usize = 9;
 
 /// What of its nodes touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
+pub enum TouchKind {
     /// A point: a weighted sum of them.
     Point,
     /// The line between two of them, by the point of it that is nearest.
@@ -32,7 +32,7 @@ pub struct ContactPoint {
     /// The radius at which friction turns the nodes; 0 where they have no rotation.
     pub rolling_radius: f64,
     /// A point, or the whole line between its two nodes, whose own weights are those of the middle.
-    pub extent: Extent,
+    pub extent: TouchKind,
 }
 
 impl ContactPoint {
@@ -43,7 +43,7 @@ impl ContactPoint {
 
     /// True for the whole line between its two nodes.
     pub fn is_line(&self) -> bool {
-        self.extent != Extent::Point
+        self.extent != TouchKind::Point
     }
 
     /// The point of a line at which its second end has this share.

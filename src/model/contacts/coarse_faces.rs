@@ -28,15 +28,8 @@ pub fn warn_of_capsules<'d>(
         (0..corners).map(|k| (x(nodes[k]) - x(nodes[(k + 1) % corners])).norm()).fold(0.0, f64::max)
     };
     let longest = elements.iter().map(sides).fold(0.0, f64::max);
-    let has_edges = finder.scene.deck.contacts.iter().any(|other| {
-        let surface = other.surface.as_ref();
-        surface.is_some_and(|table| {
-            table.edges.as_ref().is_some_and(|at| at.value)
-                && table.part.as_ref().is_some_and(|at| at.value == part.value)
-        })
-    });
     let places: Vec<Vec3> = elements.iter().flatten().map(|&node| x(node)).collect();
-    if has_edges && is_flat(&places) {
+    if has_contact_of_edges(finder, &part.value) && is_flat(&places) {
         return;
     }
     let names = contact.with.iter().flat_map(|list| &list.values);
@@ -72,6 +65,14 @@ pub fn warn_of_capsules<'d>(
         );
         finder.report.warn(owner.span, message, hint);
     }
+}
+
+/// True where the free edges of a part are the surface of a contact.
+fn has_contact_of_edges(finder: &Finder, part: &str) -> bool {
+    let mut surfaces = finder.scene.deck.contacts.iter().filter_map(|contact| contact.surface.as_ref());
+    surfaces.any(|table| {
+        table.edges.as_ref().is_some_and(|at| at.value) && table.part.as_ref().is_some_and(|at| at.value == part)
+    })
 }
 
 /// True for places of one plane.

@@ -96,12 +96,9 @@ fn faces<'d>(
     let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
     finder.on_lines = lines;
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
-    faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value));
+    faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value), is_line);
     if !is_line {
         warn_of_capsules(finder, owner, contact, part, (&elements, half));
-    } else {
-        // Capsules are lines themselves there, which see the ends of others.
-        faces.solids.retain(|carried| !matches!(carried.surface.shape, SurfaceShape::Capsule(_)));
     }
     if !faces.solids.is_empty() {
         faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
@@ -197,12 +194,14 @@ fn lines_of_surface(
     }
 }
 
-/// The surfaces of all bodies in a list that are boxes, hulls or capsules.
-fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64) -> Vec<CarriedSurface> {
+/// The surfaces of all bodies in a list that are boxes, hulls or capsules; beside `lines` without capsules, which are lines themselves there and see the
+/// ends of others.
+fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64, lines: bool) -> Vec<CarriedSurface> {
     let places = names.iter().filter_map(|at| scene.names.place(&at.value));
     let leaves = places.flat_map(|place| scene.names.leaves(place));
     let bodies = leaves.filter_map(|place| if let Place::Body(body) = place { Some(body) } else { None });
-    bodies.filter_map(|body| solid_of(scene, body, inflated)).collect()
+    let solids = bodies.filter_map(|body| solid_of(scene, body, inflated));
+    solids.filter(|carried| !lines || !matches!(carried.surface.shape, SurfaceShape::Capsule(_))).collect()
 }
 
 /// All nodes of facets, each once.

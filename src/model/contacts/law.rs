@@ -2,7 +2,7 @@
 
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution::{self, Loss};
-use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, Extent, MOST_NODES};
+use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
 use crate::math::Vec3;
 use crate::model::contacts::method::{self, is_augmented};
 use crate::model::contacts::opposite::Opposite;
@@ -266,7 +266,7 @@ fn with_convex((points, convex): (&[ContactPoint], &[ConvexBody])) -> (Vec<Conta
             count: 1,
             radius: 0.5 * one.shape.least(),
             rolling_radius: 0.0,
-            extent: Extent::Point,
+            extent: TouchKind::Point,
         }
     };
     let levers = points.iter().map(|_| 0.0).chain(convex.iter().map(|one| one.shape.reach())).collect();

@@ -5,7 +5,7 @@ use super::points::{Finder, SurfaceLines, Touch, lines_of};
 use crate::deck::parts::PartIndex;
 use crate::diagnostic::At;
 use crate::elements::contact::facets::free_edges;
-use crate::elements::contact::{Extent, Facet, Toucher};
+use crate::elements::contact::{Facet, TouchKind, Toucher};
 use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::{Vec3, curved_faces};
 use crate::model::places::place::Place;
@@ -91,7 +91,7 @@ impl<'d> Finder<'_, 'd> {
         if found.is_empty() {
             return None;
         }
-        let is_of_lines = found.iter().all(|touch| touch.extent == Extent::Line);
+        let is_of_lines = found.iter().all(|touch| touch.extent == TouchKind::Line);
         self.sight.touchers.insert(if is_of_lines { Toucher::Ball } else { Toucher::Nodes });
         Some(found)
     }

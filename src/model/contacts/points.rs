@@ -4,7 +4,7 @@ use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::deck::words::Names;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, ConvexBody, Extent, MOST_NODES, Toucher};
+use crate::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, TouchKind, Toucher};
 use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
@@ -26,23 +26,23 @@ pub(super) struct Touch {
     nodes: NodeWeights,
     radius: f64,
     /// A point, or the line between its two nodes.
-    pub(super) extent: Extent,
+    pub(super) extent: TouchKind,
 }
 
 impl Touch {
     /// A node.
     pub(super) fn node(node: usize, radius: f64) -> Touch {
-        Touch { nodes: vec![(node, 1.0)], radius, extent: Extent::Point }
+        Touch { nodes: vec![(node, 1.0)], radius, extent: TouchKind::Point }
     }
 
     /// All between two nodes.
     pub(super) fn line(ends: &[usize], radius: f64) -> Touch {
-        Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, extent: Extent::Line }
+        Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, extent: TouchKind::Line }
     }
 
     /// What crosses others between two nodes that touch for themselves.
     pub(super) fn edge(ends: &[usize], radius: f64) -> Touch {
-        Touch { extent: Extent::Edge, ..Touch::line(ends, radius) }
+        Touch { extent: TouchKind::Edge, ..Touch::line(ends, radius) }
     }
 }
 
@@ -128,7 +128,7 @@ impl<'a, 'd> Finder<'a, 'd> {
                 sound = false;
                 continue;
             };
-            if found.iter().any(|touch| touch.extent != Extent::Point) {
+            if found.iter().any(|touch| touch.extent != TouchKind::Point) {
                 undivided.push(at.value.as_str());
             }
             for touch in found {
@@ -267,7 +267,7 @@ impl<'a, 'd> Finder<'a, 'd> {
                 self.open(&self.scene.parts.elements(part), part.kind.is_surface(), radius, Some(between));
                 found.extend(self.scene.nodes_of(place).into_iter().map(|node| Touch::node(node, radius)));
                 let between = self.scene.parts.of(part).iter().flat_map(|part| part.places_between(between));
-                found.extend(between.map(|nodes| Touch { nodes, radius, extent: Extent::Point }));
+                found.extend(between.map(|nodes| Touch { nodes, radius, extent: TouchKind::Point }));
             }
             Place::Edge(part, _) => {
                 let radius = self.contact_radius(part);

@@ -2,7 +2,7 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use crate::elements::contact::{
-    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, Extent, FacetContacts, MOST_NODES, SurfaceShape,
+    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, FacetContacts, MOST_NODES, SurfaceShape, TouchKind,
 };
 use crate::model::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::sections::Stiffness;
@@ -66,8 +66,8 @@ fn facet_blocks(
     setting: &Setting,
 ) -> Vec<NumberedBlock> {
     let mut blocks: Vec<NumberedBlock> = Vec::new();
-    let of_points = (1..=MOST_NODES).map(|count| (count, Extent::Point));
-    for (count, extent) in of_points.chain([(2, Extent::Line), (2, Extent::Edge)]) {
+    let of_points = (1..=MOST_NODES).map(|count| (count, TouchKind::Point));
+    for (count, extent) in of_points.chain([(2, TouchKind::Line), (2, TouchKind::Edge)]) {
         let is_alike = |point: &&ContactPoint| point.count == count && point.extent == extent;
         let points: Vec<ContactPoint> = points.iter().filter(is_alike).cloned().collect();
         if !points.is_empty() {

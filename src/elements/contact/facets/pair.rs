@@ -4,7 +4,7 @@ use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
 use super::memory::PairMemory;
 use crate::elements::contact::law::ContactLaw;
-use crate::elements::contact::point::{ContactPoint, Extent, MOST_NODES};
+use crate::elements::contact::point::{ContactPoint, MOST_NODES, TouchKind};
 use crate::elements::contact::restitution::NormalForce;
 use crate::math::rotation::{log, renormalise};
 use crate::math::{Mat3, Vec3};
@@ -135,7 +135,7 @@ impl<'a> FacetPair<'a> {
 
     /// True for lines that press where they cross by what they are deeper than their ends.
     pub fn is_of_edges(&self) -> bool {
-        self.point.extent == Extent::Edge
+        self.point.extent == TouchKind::Edge
     }
 
     /// True for a point of a line against a line.

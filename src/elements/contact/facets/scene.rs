@@ -6,7 +6,7 @@ use super::memory::{self, PairMemory};
 use super::mesh;
 use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::law::ContactLaw;
-use crate::elements::contact::point::{ContactPoint, Extent};
+use crate::elements::contact::point::{ContactPoint, TouchKind};
 use crate::math::Vec3;
 use crate::state::Node;
 use std::borrow::Cow;
@@ -70,6 +70,25 @@ pub enum FacetTouchers {
     Among,
 }
 
+/// For each point the facets that are near it along the surface, where a part touches itself.
+fn near_along(
+    touchers: FacetTouchers,
+    (points, facets): (&[ContactPoint], &[Facet]),
+    is_of_lines: bool,
+    x: &[Vec3],
+) -> Vec<Vec<u32>> {
+    match touchers {
+        FacetTouchers::Itself if is_of_lines => lines_near_along(points, facets, x),
+        FacetTouchers::Itself => {
+            let nodes: Vec<usize> = points.iter().map(|point| point.nodes[0]).collect();
+            // Half a circle about a fold as sharp as the thickness allows.
+            let along = |k: usize, facet: &Facet| std::f64::consts::FRAC_PI_2 * (points[k].radius + facet.half);
+            mesh::near_along(facets, &nodes, along, &|node| x[node])
+        }
+        FacetTouchers::Others | FacetTouchers::Among => Vec::new(),
+    }
+}
+
 impl FacetScene {
     /// `points` have equally many nodes, one or more, or are lines, as all facets then are; `x` are the places of all nodes at t = 0.
     pub fn new(
@@ -91,17 +110,8 @@ impl FacetScene {
         involved.sort_unstable();
         involved.dedup();
         let is_of_lines = points.first().is_some_and(|point| point.is_line());
-        let is_of_edges = points.first().is_some_and(|point| point.extent == Extent::Edge);
-        let near_along = match touchers {
-            FacetTouchers::Itself if is_of_lines => lines_near_along(&points, &facets, x),
-            FacetTouchers::Itself => {
-                let nodes: Vec<usize> = points.iter().map(|point| point.nodes[0]).collect();
-                // Half a circle about a fold as sharp as the thickness allows.
-                let along = |k: usize, facet: &Facet| std::f64::consts::FRAC_PI_2 * (points[k].radius + facet.half);
-                mesh::near_along(&facets, &nodes, along, &|node| x[node])
-            }
-            FacetTouchers::Others | FacetTouchers::Among => Vec::new(),
-        };
+        let is_of_edges = points.first().is_some_and(|point| point.extent == TouchKind::Edge);
+        let near_along = near_along(touchers, (&points, &facets), is_of_lines, x);
         let of_points = points.iter().filter(|_| is_of_lines).map(|point| [point.nodes[0], point.nodes[1]]);
         let of_facets = facets.iter().filter(|_| is_of_lines).map(|facet| [facet.nodes[0], facet.nodes[1]]);
         let line_ends = [LineEnds::new(of_points), LineEnds::new(of_facets)];
