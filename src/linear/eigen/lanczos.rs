@@ -112,6 +112,11 @@ impl Lanczos {
         self.basis.len() > before
     }
 
+    /// True where every vector of the space has been expanded.
+    pub fn is_expanded(&self) -> bool {
+        self.H.len() == self.basis.len()
+    }
+
     /// Makes a vector orthogonal to all others and adds what is left of it; returns its products with the others, and last its
     /// length.
     fn add(&mut self, operator: &mut dyn SymmetricOperator, mut w: Vec<f64>) -> Vec<f64> {
