@@ -1,6 +1,6 @@
 //! Capsules on beams and on free edges of shells, which they touch with all of their length: dropped between nodes, rolling, sliding, at rest.
 
-use super::go;
+use super::{go, watch};
 use rdsolve::solve::{Frame, Outcome};
 use std::f64::consts::PI;
 
@@ -48,13 +48,6 @@ fn under(what: &str, more: &str) -> String {
 fn hit(what: &str, more: &str) -> String {
     let edges = if what == "beam" { "" } else { ", edges = true" };
     format!("[[contacts]]\nname = \"hit\"\nsurface = {{ part = \"under\"{edges} }}\nwith = \"log\"\n{more}\n")
-}
-
-/// Time, mechanical energy, what the scheme took, energy of the contact, its force on the log, momentum, angular momentum.
-fn watch(frame: &Frame) -> Vec<f64> {
-    let e = frame.derived.energy.expect("energies");
-    let force = frame.derived.contacts.first().map_or(0.0, |contact| -contact.f.z);
-    vec![frame.state.time, e.mechanical, e.numerical, e.contact, force, e.p.x, e.p.y, e.p.z, e.l.x, e.l.y, e.l.z]
 }
 
 /// Falling between the nodes of a free rigid beam, or of the edge of a sheet, and between its own ends: two masses on a spring, v √(k m) at

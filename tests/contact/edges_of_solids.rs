@@ -1,6 +1,6 @@
 //! Edges of boxes and hulls that cross beams and free edges of shells between corners and nodes; and bodies made of shells on edges.
 
-use super::go;
+use super::{go, watch};
 use rdsolve::solve::{Frame, Outcome};
 use std::f64::consts::PI;
 
@@ -64,13 +64,6 @@ fn rods(what: &str, at: &[f64], contact: &str) -> String {
         );
     }
     text
-}
-
-/// Time, mechanical energy, what the scheme took, energy of the contact, its force on the block, momentum, angular momentum.
-fn watch(frame: &Frame) -> Vec<f64> {
-    let e = frame.derived.energy.expect("energies");
-    let force = frame.derived.contacts.first().map_or(0.0, |contact| -contact.f.z);
-    vec![frame.state.time, e.mechanical, e.numerical, e.contact, force, e.p.x, e.p.y, e.p.z, e.l.x, e.l.y, e.l.z]
 }
 
 /// A block falls across a free rod, or across the edge of a sheet, which both of its lower edges cross between all nodes: two springs between

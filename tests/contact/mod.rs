@@ -33,3 +33,10 @@ use rdsolve::solve::Frame;
 pub fn go(text: &str, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
     run_to_the_end(&read_deck(text), probe)
 }
+
+/// Time, mechanical energy, what the scheme took, energy of the contact, its force on what touches along z, momentum, angular momentum.
+pub fn watch(frame: &Frame) -> Vec<f64> {
+    let e = frame.derived.energy.expect("energies");
+    let force = frame.derived.contacts.first().map_or(0.0, |contact| -contact.f.z);
+    vec![frame.state.time, e.mechanical, e.numerical, e.contact, force, e.p.x, e.p.y, e.p.z, e.l.x, e.l.y, e.l.z]
+}
