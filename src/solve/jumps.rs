@@ -33,26 +33,30 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
 pub fn kick(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
+    cx.excitation.prescribed(state.time, Side::Before, &mut ws.prescribed.end);
+    cx.excitation.prescribed(state.time, Side::After, &mut ws.prescribed.start);
+    // Accelerations of supports that jump are no event within a stage either.
+    if ws.prescribed.start.iter().zip(&ws.prescribed.end).all(|(after, before)| after.v == before.v) {
+        return Ok(());
+    }
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     cx.excitation.loading(state.time, Side::After, &mut ws.loads.instant);
     cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     let before = ws.forces.on_nodes.clone();
-    if jump_velocities(cx, ws, state)? {
-        jump_from(cx, ws, state, &before, Side::After)?;
-    }
-    Ok(())
+    jump_velocities(cx, ws, state)?;
+    jump_from(cx, ws, state, &before, Side::After)
 }
 
 /// Gives prescribed degrees of freedom the velocities that they have from now on, and what joints and masses tie to them what follows. The
-/// impulse of the supports does the work by which the kinetic energy changes. False where velocities do not jump.
+/// impulse of the supports does the work by which the kinetic energy changes.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
-pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<bool, Failure> {
+pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
     cx.excitation.prescribed(state.time, Side::Before, &mut ws.prescribed.end);
     cx.excitation.prescribed(state.time, Side::After, &mut ws.prescribed.start);
     if ws.prescribed.start == ws.prescribed.end {
-        return Ok(false);
+        return Ok(());
     }
     let (nodes, energy) = (state.nodes.clone(), kinetic_energy(cx.system, &state.nodes));
     let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.start);
@@ -69,7 +73,7 @@ pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> R
     }
     state.work.external += kinetic_energy(cx.system, &state.nodes) - energy;
     state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
-    Ok(true)
+    Ok(())
 }
 
 /// Takes the state over the failure of material points or links in the step of length `dt` that was taken last, of which the history at its

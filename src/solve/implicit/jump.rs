@@ -61,11 +61,15 @@ pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Res
 /// Refuses a step in which a node of a shell turns too far against the others of its element. Drilling has next to no inertia and is resisted
 /// little, the less the farther it has gone: an iteration may end where a node has turned about the normal by a right angle.
 fn check_shells(cx: &Context, ws: &Workspace) -> Result<(), Failure> {
+    let shells = || cx.system.groups.iter().filter(|group| group.kind.is_surface());
+    if shells().next().is_none() {
+        return Ok(());
+    }
     let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&ws.increments[node].q));
     if !cx.independent_nodes.iter().any(|&node| turn(node).norm() > LARGEST_TWIST) {
         return Ok(());
     }
-    for group in cx.system.groups.iter().filter(|group| group.kind.is_surface()) {
+    for group in shells() {
         for e in 0..group.block.len() {
             let own = || group.block.nodes(e).iter().filter(|node| cx.independent_nodes.binary_search(node).is_ok());
             let mean = own().map(|&node| turn(node)).sum::<Vec3>() / own().count().max(1) as f64;
