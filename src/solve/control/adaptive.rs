@@ -16,8 +16,8 @@ pub trait StepController: Keep {
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     fn restart(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State);
 
-    /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last. Nothing is done by controllers
-    /// of explicit schemes.
+    /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last. Nothing is done for central
+    /// differences.
     ///
     /// # Errors
     /// As for [`crate::solve::jumps::release`].

@@ -6,6 +6,7 @@ use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::explicit::RungeKuttaStepper;
 use crate::solve::failure::Failure;
+use crate::solve::jumps;
 use crate::solve::report::StepReport;
 use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
@@ -98,6 +99,10 @@ impl FollowTolerance for EmbeddedErrorController {
 
 impl StepController for EmbeddedErrorController {
     fn restart(&mut self, _: &Context, _: &mut Workspace, _: &mut State) {}
+
+    fn release(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
+        jumps::release(cx, ws, state, dt)
+    }
 
     fn propose(&mut self, cx: &Context, _: &mut Workspace, _: &State, _: f64) -> Result<f64, Failure> {
         // The length does not fall below the least step: if that fails too, its failure says why.
