@@ -94,14 +94,18 @@ impl Operator for Quadratic<'_, '_> {
 /// The reason why there are none.
 pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
     let gyroscopic = Gyroscopic::of(at);
-    let (square, free, natural) = {
+    let (near, free, natural) = {
         let mut pencil = Pencil::new(*at, (&mut *linear.0, &mut *linear.1));
         if pencil.mass.is_zero() {
             return Err(ModesFault::NoMass);
         }
         let (square, free) = lowest_square(&mut pencil)?;
-        let free = if free { Some(free_modes(&mut pencil, square)?) } else { None };
-        (square, free, pencil.factorizations)
+        let shift = square.sqrt();
+        let rounding = if free { Shapes::new(&pencil).rounding(&pencil).sqrt() } else { 0.0 };
+        let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
+        let has_potential = at.loads_have_potential();
+        let free = if free && has_potential { Some(free_modes(&mut pencil, near)?) } else { None };
+        (near, free, pencil.factorizations)
     };
     let mut own = None;
     if gyroscopic.acts() || !at.loads_have_potential() {
@@ -115,13 +119,10 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     };
     let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
     let shapes = Shapes::new(&pencil);
-    let shift = square.sqrt();
-    let rounding = if free.is_some() { shapes.rounding(&pencil).sqrt() } else { 0.0 };
-    let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
     let pairs = allowed(&mut pencil, &gyroscopic, near, extent)?;
     let mut list =
         roots(&pairs, near).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
-    if let Some(free) = free.filter(|_| at.loads_have_potential()) {
+    if let Some(free) = free {
         list.retain(|mode| mode.root != [0.0; 2]);
         list.extend(free);
     }
@@ -136,7 +137,7 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     {
         doubts.push(fewer(found, count));
     }
-    if near.zero > DOUBTFUL * shift {
+    if near.zero > DOUBTFUL * near.shift {
         doubts.push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
     }
     let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
@@ -147,10 +148,11 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
 
 /// The motions without stiffness. Each is a root at zero, of however much damping; their roots are multiple ones with too few vectors, of which a
 /// Krylov space holds some.
-fn free_modes(pencil: &mut Pencil, square: f64) -> Result<Vec<EigenMode>, ModesFault> {
-    let pairs = natural_pairs(pencil, ModeExtent::UpTo((LOW * square).sqrt() / TAU))?;
+fn free_modes(pencil: &mut Pencil, near: Near) -> Result<Vec<EigenMode>, ModesFault> {
+    let up_to = near.zero.max(LOW.sqrt() * near.shift);
+    let pairs = natural_pairs(pencil, ModeExtent::UpTo(up_to / TAU))?;
     let modes = Shapes::new(pencil).natural(pencil, &pairs).into_iter();
-    let is_free = |mode: &EigenMode| size(mode.root) <= ZERO * square.sqrt();
+    let is_free = |mode: &EigenMode| size(mode.root) <= near.zero;
     let as_complex = |mode: EigenMode| {
         let quadrature = vec![Vec6::zeros(); mode.shape.len()];
         EigenMode { root: [0.0; 2], quadrature, modal_mass: 0.0, lost: None, ..mode }
