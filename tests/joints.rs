@@ -472,6 +472,19 @@ fn a_four_bar_linkage_turns_a_hundred_times_and_stays_closed() {
     );
 }
 
+/// Where all nodes lie at one place, what the mean of their coordinates rounds to is no length.
+#[test]
+fn a_driven_screw_at_one_place_has_six_independent_equations() {
+    let model = crate::support::read_deck(
+        "analysis = { kind = \"static\", end_time = 1.0, time_step = 0.5 }\namplitudes.r = { kind = \"ramp\", end = 1.0 }\n\
+         bodies = [{ name = \"b\", center = [0.2, 0.0, 0.1], mass = 1.0, inertia = [1.0, 1.0, 1.0] }]\n\
+         [[joints]]\nname = \"j\"\nkind = \"screw\"\nfrom = { ground = [0.2, 0.0, 0.1] }\nto = { body = \"b\" }\naxis = [0.0, 0.0, 1.0]\n\
+         lead = 0.3\nmotion = { position = 0.5, amplitude = \"r\" }\n",
+    );
+    let system = System::new(&model).expect("a system");
+    assert_eq!(Plan::new(&model, &system, 1).redundant_constraints.as_deref(), Some(&[][..]));
+}
+
 #[test]
 fn hinges_that_say_the_same_share_the_weight() {
     // A door on three hinges in a line: 15 rows, 5 of them new.

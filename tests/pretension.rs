@@ -208,3 +208,21 @@ fn tangents_are_those_of_forces() {
         }
     }
 }
+
+/// Ends have no order: the bolt carries the load alone once the flange is open, named from either side.
+#[test]
+fn a_bolt_may_be_named_from_the_end_that_moves() {
+    let pull = "[[loads]]\nat = \"plate\"\nforce = [100e3, 0.0, 0.0]\nstages = [\"serve\"]\n";
+    let text = bolted(&format!("{PULL}{SERVE}"), "stiffness = 2e8", pull);
+    let ends = "from = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"plate\" }\nstiffness";
+    let exchanged = text.replace(ends, "from = { node = \"plate\" }\nto = { ground = [0.0, 0.0, 0.0] }\nstiffness");
+    assert_ne!(text, exchanged);
+    let [one, other] = [&text, &exchanged].map(|text| rows(text, &["bolt", "flange"]));
+    assert_eq!(one.len(), other.len());
+    for (a, b) in one.iter().zip(&other) {
+        for k in [2, 3] {
+            // Of 100 kN.
+            assert!((a[k] - b[k]).abs() < 1e-4, "{a:?} {b:?}");
+        }
+    }
+}

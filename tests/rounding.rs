@@ -111,3 +111,19 @@ fn a_rack_moves_along_any_axis() {
         }
     }
 }
+
+/// Moments that do no work on a driven slide and on a weld: neither a jump of the equilibrium nor missing work.
+#[test]
+fn moments_that_joints_take_do_no_work() {
+    let body = "analysis = { kind = \"static\", end_time = 1.0, time_step = 0.5 }\namplitudes.way = { kind = \"ramp\", end = 1.0 }\n\
+                loads = [{ at = \"b\", moment = [-0.52, 1.27, 0.86] }]\n\
+                bodies = [{ name = \"b\", center = [0.2, 0.3, -0.4], mass = 1.0, inertia = [1.0, 1.0, 1.0] }]\n";
+    let slide = "[[joints]]\nname = \"j\"\nkind = \"prismatic\"\nfrom = { body = \"b\" }\nto = { ground = [0.2, 0.3, -0.4] }\n\
+                 axis = [-0.2, -0.6, 0.8]\nmotion = { position = 0.1, amplitude = \"way\" }\n";
+    let weld = "[[joints]]\nname = \"j\"\nkind = \"fixed\"\nfrom = { body = \"b\", point = [1.13, 0.0, -0.39] }\n\
+                to = { ground = [1.13, 0.0, -0.39] }\n";
+    for joint in [slide, weld] {
+        let said = said(&format!("{body}{joint}"));
+        assert!(!said.contains("work"), "{said}");
+    }
+}

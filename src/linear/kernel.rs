@@ -204,3 +204,15 @@ pub(super) fn negative_eigenvalues<const B: usize>(A: &DenseBlock<B>) -> usize {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_number_does_not_hold_up_the_count() {
+        assert_eq!(negative_eigenvalues::<3>(&[[-2.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, -1.0]]), 2);
+        negative_eigenvalues::<3>(&[[f64::NAN; 3]; 3]);
+        negative_eigenvalues::<3>(&[[1.0, f64::INFINITY, 0.0], [f64::INFINITY, 1.0, f64::NAN], [0.0, f64::NAN, 0.0]]);
+    }
+}

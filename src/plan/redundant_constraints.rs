@@ -87,10 +87,11 @@ fn without_branches(sparse: &[Vec<(usize, f64)>], joints: &[Range<usize>], colum
     for (joint, touched) in touched.iter().enumerate() {
         touched.iter().for_each(|&column| acting[column].push(joint));
     }
+    let mut left: Vec<usize> = acting.iter().map(Vec::len).collect();
     let mut kept = vec![true; joints.len()];
     let mut todo: Vec<usize> = (0..joints.len()).collect();
     while let Some(joint) = todo.pop() {
-        let own: Vec<usize> = touched[joint].iter().copied().filter(|&column| acting[column].len() == 1).collect();
+        let own: Vec<usize> = touched[joint].iter().copied().filter(|&column| left[column] == 1).collect();
         let in_own = |row: &Vec<(usize, f64)>| -> Vec<(usize, f64)> {
             let rounding = NEW * row.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
             let entries = row.iter().filter(|(_, value)| value.abs() > rounding);
@@ -103,8 +104,10 @@ fn without_branches(sparse: &[Vec<(usize, f64)>], joints: &[Range<usize>], colum
         }
         kept[joint] = false;
         for &column in &touched[joint] {
-            acting[column].retain(|&other| other != joint);
-            todo.extend(acting[column].iter().filter(|_| acting[column].len() == 1));
+            left[column] -= 1;
+            if left[column] == 1 {
+                todo.extend(acting[column].iter().filter(|other| kept[**other]));
+            }
         }
     }
     joints.iter().zip(kept).filter(|(_, kept)| *kept).flat_map(|(joint, _)| joint.clone()).collect()

@@ -98,8 +98,8 @@ impl Energy {
     }
 }
 
-/// The energy of motions that positions do not hold: the work of all loads at their full size along a part of the largest coordinate, and the
-/// kinetic energy of velocities that come so far within the `duration`.
+/// The energy of motions that positions do not hold: the work of weight and of all loads on nodes at their full size along a part of the largest
+/// coordinate, and the kinetic energy of velocities that come so far within the `duration`.
 pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], duration: f64) -> f64 {
     /// Some thousand times the rounding of a position, which steps add up.
     const ROUNDING: f64 = 1e-12;

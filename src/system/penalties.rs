@@ -32,9 +32,12 @@ impl Diagonals {
         }
     }
 
-    /// Takes the forces of the equations, without what rounding makes: of a gap that the penalty factor of before has answered, and of a
-    /// moment beside the force of the same joint.
-    fn take(&mut self, system: &System, nodes: &[Node], multipliers: &Multipliers) {
+    /// Takes the forces of the equations where something rests on them, a drive or a scene `at_rest`, without what rounding makes: of a gap that
+    /// the penalty factor of before has answered, and of a moment beside the force of the same joint.
+    fn take(&mut self, system: &System, nodes: &[Node], multipliers: &Multipliers, at_rest: bool) {
+        if !at_rest && !system.joints.iter().any(|joint| joint.drive.is_some()) || system.joints.is_empty() {
+            return;
+        }
         let farthest = |from: &Vec3| nodes.iter().map(|node| (node.x - from).amax()).fold(0.0, f64::max);
         let (reach, extent) = (farthest(&Vec3::zeros()), nodes.first().map_or(0.0, |node| farthest(&node.x)));
         self.extent = extent;
@@ -213,7 +216,7 @@ pub(super) fn set(
     values: &[f64],
     at_rest: bool,
 ) {
-    diagonals.take(system, nodes, multipliers);
+    diagonals.take(system, nodes, multipliers, at_rest);
     if at_rest {
         diagonals.measure(system, nodes, projections);
     }
