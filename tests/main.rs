@@ -20,6 +20,7 @@ mod error_bars;
 mod esdirk;
 mod explicit;
 mod extreme;
+mod factor_in_file;
 mod folders;
 mod foreign_input;
 mod inside_steps;

@@ -242,6 +242,7 @@ impl<const B: usize> BlockLu<B> {
         Stats {
             unknowns: self.graph.unknowns(),
             nonzeros: self.start[self.elimination.groups()] * B * B,
+            in_file: false,
             numbers: self.blocks.len() * B * B,
             flops: self.elimination.block_flops * (B * B * B) as f64,
             ordering: self.elimination.name,

@@ -5,6 +5,7 @@
 
 use super::block_slot::BlockSlot;
 use super::elimination::Elimination;
+use super::factor_store::FactorStore;
 use super::fronts::{Fronts, Matrix};
 use super::graph::Graph;
 use super::memory::{self, TooLarge};
@@ -42,13 +43,14 @@ pub struct Cholesky {
     /// The lower triangle, and the spare place at the end. Written by assembly.
     values: Vec<f64>,
     /// The factor, L or L with D on its diagonal. Written by `factor`.
-    L: Vec<f64>,
+    L: FactorStore,
     /// The matrix factored last is positive definite, and `L` is that of L Lᵀ. Written by `factor`.
     definite: bool,
     /// Right-hand side and solution in the order of elimination. Written by `solve`.
     x: Vec<f64>,
 }
 
+/// A factor in a file is not kept but formed again from the matrix.
 impl Keep for Cholesky {
     fn keep(&mut self, snapshot: &mut Snapshot) {
         let Cholesky {
@@ -66,8 +68,17 @@ impl Keep for Cholesky {
             x: _,
         } = self;
         values.keep(snapshot);
-        L.keep(snapshot);
         definite.keep(snapshot);
+        let mut is_kept = !L.is_file();
+        is_kept.keep(snapshot);
+        if is_kept {
+            let mut length = L.len();
+            length.keep(snapshot);
+            if length == L.len() { L.iter_mut().for_each(|number| number.keep(snapshot)) } else { snapshot.tear() }
+        } else if snapshot.gives() {
+            // Where nothing had been factored there is nothing to be formed, and nobody asks for it.
+            let _ = self.form(self.definite, &NEVER);
+        }
     }
 }
 
@@ -75,30 +86,40 @@ impl Cholesky {
     /// The factorisation of a pattern, without numbers.
     ///
     /// # Errors
-    /// The factor does not fit into memory.
+    /// Neither memory nor disk holds the factor.
     pub(super) fn new(graph: Graph, threads: usize) -> Result<Self, TooLarge> {
+        Cholesky::with_store(graph, threads, FactorStore::new)
+    }
+
+    /// The same, with the place for the factor by `store`: from the number of unknowns, of its numbers, and of those that have to be in memory
+    /// beside them.
+    fn with_store(
+        graph: Graph,
+        threads: usize,
+        store: impl Fn(usize, usize, usize) -> Result<FactorStore, TooLarge>,
+    ) -> Result<Self, TooLarge> {
         let elimination = Elimination::new(&graph).or_dissected(&graph).postordered(&graph);
         let triangle = LowerTriangle::new(&graph, &elimination);
-        memory::require(graph.unknowns(), elimination.nonzeros + triangle.entries())?;
+        memory::require(graph.unknowns(), triangle.entries())?;
         let bytes = size_of::<f64>() as f64 * elimination.nonzeros as f64;
-        let too_large = |_| TooLarge { unknowns: graph.unknowns(), needed: bytes };
+        let too_large = |_| TooLarge { unknowns: graph.unknowns(), needed: bytes, scratch: None };
         // Places of entries are counted in 32 bits.
         u32::try_from(triangle.entries()).map_err(|_| too_large(FaerError::IndexOverflow))?;
         let symbolic = symbolic(upper_pattern(&triangle).as_ref()).map_err(too_large)?;
         let threads = if elimination.flops > WORTH_THREADS { threads } else { 1 };
         let layout = Layout::new(&symbolic, &triangle);
-        let numbers = triangle.entries() + symbolic.len_val() + layout.updates(threads);
-        memory::require(graph.unknowns(), numbers)?;
+        let others = triangle.entries() + layout.updates(threads);
+        let L = store(graph.unknowns(), symbolic.len_val(), others)?;
         let rows = |g: usize| graph.first[g] as u32..graph.first[g + 1] as u32;
         Ok(Cholesky {
             ordering: elimination.name,
             flops: elimination.flops,
             values: vec![0.0; triangle.entries() + 1],
-            L: vec![0.0; symbolic.len_val()],
+            numbers: others + L.len(),
+            L,
             definite: true,
             x: vec![0.0; graph.unknowns()],
             fronts: Fronts::new(layout, threads),
-            numbers,
             place: elimination.position.iter().map(|&place| place as u32).collect(),
             external: elimination.order.iter().flat_map(|&g| rows(g)).collect(),
             graph,
@@ -223,6 +244,7 @@ impl Cholesky {
             unknowns: self.graph.unknowns(),
             nonzeros: self.L.len(),
             numbers: self.numbers,
+            in_file: self.L.is_file(),
             flops: self.flops,
             ordering: self.ordering,
         }
@@ -261,4 +283,75 @@ fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> Result<supernodal::Symboli
         MemStack::new(&mut buffer),
         Default::default(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::Structure;
+
+    /// A grid of nodes with three unknowns each.
+    fn grid(side: usize) -> Structure {
+        let at = |i: usize, j: usize| i * side + j;
+        let cells = (0..(side - 1) * (side - 1)).map(|cell| [cell / (side - 1), cell % (side - 1)]);
+        let corners = |[i, j]: [usize; 2]| vec![at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+        Structure { sizes: vec![3; side * side], connectivity: cells.map(corners).collect(), ..Structure::default() }
+    }
+
+    /// Writes a matrix that is definite, or, with a `shift`, not.
+    fn fill(of: &mut Cholesky, side: usize, shift: f64) {
+        let n = 3 * side * side;
+        of.values().fill(0.0);
+        for row in 0..n {
+            for column in 0..=row {
+                if let Some(slot) = of.slot(row, column) {
+                    let own = if row == column { 30.0 + (row % 7) as f64 - shift } else { -1.0 / (1 + row % 5) as f64 };
+                    of.values()[slot] = own;
+                }
+            }
+        }
+    }
+
+    /// A factor in a file has the bits of one in memory, and a snapshot of it, which holds the matrix alone, is formed again, wherever
+    /// the factor lies then.
+    #[test]
+    fn a_factor_in_a_file_is_that_in_memory() {
+        let side = 12;
+        let make = |file: bool| {
+            let store = |unknowns: usize, numbers: usize, others: usize| match file {
+                true => FactorStore::in_file(numbers).map_err(|scratch| TooLarge {
+                    unknowns,
+                    needed: 0.0,
+                    scratch: Some(scratch),
+                }),
+                false => FactorStore::new(unknowns, numbers, others),
+            };
+            Cholesky::with_store(Graph::new(&grid(side)), 1, store).unwrap()
+        };
+        let solved = |of: &mut Cholesky| {
+            let mut b: Vec<f64> = (0..3 * side * side).map(|row| (row % 11) as f64 - 4.0).collect();
+            of.solve([&mut b]);
+            b
+        };
+        for shift in [0.0, 25.0] {
+            let [mut memory, mut file] = [false, true].map(make);
+            assert!(file.stats().in_file && !memory.stats().in_file);
+            for of in [&mut memory, &mut file] {
+                fill(of, side, shift);
+                assert_eq!(of.factor(&NEVER), Ok(true));
+            }
+            let wanted = solved(&mut memory);
+            assert!(wanted.iter().all(|x| x.is_finite() && *x != 0.0));
+            assert_eq!(solved(&mut file), wanted);
+            assert_eq!(file.negative_eigenvalues(), memory.negative_eigenvalues());
+            for (from, to) in [(true, true), (true, false), (false, true)] {
+                let mut taken = Snapshot::taken();
+                if from { &mut file } else { &mut memory }.keep(&mut taken);
+                let (mut given, mut other) = (Snapshot::of(taken.into_bytes()), make(to));
+                other.keep(&mut given);
+                assert!(given.is_used_up());
+                assert_eq!(solved(&mut other), wanted, "from a file: {from}, to a file: {to}");
+            }
+        }
+    }
 }

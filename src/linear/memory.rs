@@ -1,7 +1,7 @@
 //! Checks that the memory holds a factor before it is taken: a system that promises more memory than it has ends the
 //! programs that come to use it, without a message.
 
-use crate::snapshot::keep;
+use crate::snapshot::{keep, keep_either};
 use std::fmt;
 
 /// Bytes for each unknown beside the numbers of a factorisation, at least: vectors of the solution, and lists of the structure. Whole runs of
@@ -15,17 +15,43 @@ pub struct TooLarge {
     pub unknowns: usize,
     /// Bytes needed at least.
     pub needed: f64,
+    /// Why the factor does not lie in a file either; `None` where all else has no room in memory.
+    pub scratch: Option<NoScratch>,
 }
 
-keep!(TooLarge { unknowns, needed });
+/// Why there is no file for a factor.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoScratch {
+    /// The disk has no room.
+    Full,
+    /// The folder for temporary files is itself in memory.
+    InMemory,
+    /// Nothing can be written there.
+    NotWritable,
+}
+
+keep!(TooLarge { unknowns, needed, scratch });
+keep_either!(NoScratch { 0 => Full, 1 => InMemory, 2 => NotWritable });
 
 impl fmt::Display for TooLarge {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let (unknowns, needed) = (self.unknowns, self.needed / 1e9);
         write!(
             f,
-            "the matrix of {unknowns} unknowns needs at least {needed:.1} GB when factorised: more memory than there is; a coarser mesh \
-             needs less, and `scheme = \"central-difference\"` factorises nothing of this size"
+            "the matrix of {unknowns} unknowns needs at least {needed:.1} GB when factorised: more memory than there is"
+        )?;
+        if let Some(reason) = self.scratch {
+            let folder = std::env::temp_dir();
+            let folder = folder.display();
+            match reason {
+                NoScratch::Full => write!(f, ", and more than the disk of {folder} holds")?,
+                NoScratch::InMemory => write!(f, ", and {folder} is itself in memory")?,
+                NoScratch::NotWritable => write!(f, ", and nothing can be written in {folder}")?,
+            }
+            f.write_str("; TMPDIR may name a folder on a disk with room for the factor")?;
+        }
+        f.write_str(
+            "; a coarser mesh needs less, and `scheme = \"central-difference\"` factorises nothing of this size",
         )
     }
 }
@@ -41,7 +67,7 @@ pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     let fits = available().is_none_or(|available| needed <= available);
     // A limit of this process does not show in what the system has available. The memory is given back at once, untouched.
     let granted = Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok();
-    if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed }) }
+    if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
 }
 
 /// Bytes that programs may still take, as Linux says; none on other systems.
@@ -72,5 +98,9 @@ mod tests {
             "the matrix of 9000000 unknowns needs at least 16004.5 GB when factorised: more memory than there is; a coarser mesh \
              needs less, and `scheme = \"central-difference\"` factorises nothing of this size"
         );
+        let error = TooLarge { unknowns: 2, needed: 2e9, scratch: Some(NoScratch::Full) };
+        let folder = std::env::temp_dir();
+        let said = error.to_string();
+        assert!(said.contains(&format!("and more than the disk of {} holds; TMPDIR", folder.display())), "{said}");
     }
 }

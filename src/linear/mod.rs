@@ -3,7 +3,7 @@
 //! All that depends on the structure alone (order of elimination, fill, the place of each number) is settled once in
 //! [`Solver::new`]; [`Solver::factor`] and [`Solver::solve`] then run over flat lists and, on one thread, allocate nothing.
 //! There are two factorisations: LU on small dense blocks for small systems and unsymmetric values, and supernodal
-//! Cholesky for large symmetric ones. Iterative methods are left out.
+//! Cholesky for large symmetric ones, whose factor lies in a file where the memory does not hold it. Iterative methods are left out.
 
 mod block_lu;
 mod block_slot;
@@ -12,6 +12,7 @@ mod dense;
 mod dissection;
 pub mod eigen;
 mod elimination;
+mod factor_store;
 mod factorization;
 mod fronts;
 mod graph;

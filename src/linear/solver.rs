@@ -197,12 +197,24 @@ impl Solver {
             Solver::Block6(_) => "LU on 6×6 blocks",
             Solver::Cholesky(_) => "supernodal Cholesky",
         };
-        let Stats { unknowns, nonzeros, numbers, flops, ordering } = self.stats();
+        let Stats { unknowns, nonzeros, numbers, in_file, flops, ordering } = self.stats();
         let megabytes = (size_of::<f64>() * numbers) as f64 / 1e6;
+        let file = if in_file { format!(", {}", self.scratch()) } else { String::new() };
         let threads = if self.is_worth_threads() { "all threads" } else { "one thread" };
         format!(
             "{name}: {unknowns} unknowns, {nonzeros} nonzeros in the factor, {megabytes:.1} MB, {flops:.3e} flops, {ordering} order, \
-             {threads}"
+             {threads}{file}"
+        )
+    }
+
+    /// Where the factor lies, and how large it is, where that is a file.
+    pub fn scratch(&self) -> String {
+        let gigabytes = (size_of::<f64>() * self.stats().nonzeros) as f64 / 1e9;
+        let folder = std::env::temp_dir();
+        format!(
+            "{gigabytes:.2} GB of the factor lie in a file in {} (TMPDIR), for the memory does not hold them: every solution takes the time \
+             in which the disk is read twice",
+            folder.display()
         )
     }
 

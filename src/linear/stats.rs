@@ -7,8 +7,10 @@ pub struct Stats {
     pub unknowns: usize,
     /// Numbers stored in the factor.
     pub nonzeros: usize,
-    /// Numbers held in memory: the matrix, its factor and what the factorisation needs beside them.
+    /// Numbers held: the matrix, its factor and what the factorisation needs beside them.
     pub numbers: usize,
+    /// True where those of the factor lie in a file, not in memory.
+    pub in_file: bool,
     /// Additions and multiplications of one factorisation.
     pub flops: f64,
     /// Name of the elimination order.

@@ -352,7 +352,7 @@ impl Warnings {
     }
 }
 
-/// What a run does not judge, and says in its log: no doubt about results, but no more than was looked at.
+/// What a run does not judge, or does more slowly than elsewhere, and says in its log: no doubt about results.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Remark {
     /// Motion out of the plane is not held there, as at t = 0 alone: buckling out of the plane is judged as if it were.
@@ -369,9 +369,17 @@ pub enum Remark {
     Jointed,
     /// Something slips along a path of given arc length: its stability is not judged.
     Slipping,
+    /// The factor of the matrix lies in a file; where, in words.
+    FactorInFile(String),
 }
 
-keep_either!(Remark { 0 => JudgedAsHeld { places }, 1 => NotHeld { place }, 2 => Jointed, 3 => Slipping });
+keep_either!(Remark {
+    0 => JudgedAsHeld { places },
+    1 => NotHeld { place },
+    2 => Jointed,
+    3 => Slipping,
+    4 => FactorInFile(place),
+});
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
@@ -394,6 +402,7 @@ impl fmt::Display for Remark {
                     "whether the scene falls or buckles out of its plane is not judged where there are joints: `plane` = \"off\" judges it",
                 )
             }
+            Remark::FactorInFile(place) => f.write_str(place),
             Remark::Slipping => f.write_str(
                 "friction slips along the path: whether equilibria are stable is not judged there; load steps judge it",
             ),

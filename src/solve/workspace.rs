@@ -3,7 +3,7 @@
 use super::context::{self, Context};
 use super::linear_system::LinearSystem;
 use super::load_steps::LoadSteps;
-use super::warning::Warnings;
+use super::warning::{Remark, Warnings};
 use crate::linear::TooLarge;
 use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Increment, Node};
@@ -89,6 +89,10 @@ impl Workspace {
     pub fn new(cx: &Context) -> Result<Workspace, TooLarge> {
         let n = cx.model.nodes.len();
         let (solver, assembly) = cx.plan.build(cx.system)?;
+        let mut warnings = Warnings::default();
+        if solver.stats().in_file {
+            warnings.remark(Remark::FactorInFile(solver.scratch()));
+        }
         Ok(Workspace {
             trial: context::at_rest(cx.model),
             increments: vec![Increment::ZERO; n],
@@ -105,7 +109,7 @@ impl Workspace {
             solves: 0,
             rotation_drift: 0.0,
             joint_violation: 0.0,
-            warnings: Warnings::default(),
+            warnings,
         })
     }
 }
