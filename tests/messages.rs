@@ -165,6 +165,20 @@ fn lengths_that_nothing_can_be_computed_with_are_refused_wherever_they_stand() {
     }
 }
 
+/// Of Fortran and C, with a unit, with a comma.
+#[test]
+fn numbers_as_others_write_them() {
+    let edits = [
+        ("end_time = 0.3", "end_time = .3"),
+        ("time_step = 1e-4", "time_step = 1d-4"),
+        ("width = 0.05", "width = 0,05"),
+        ("height = 0.05", "height = 5 cm"),
+        ("knee_right = [1.5, 0.0, 2.0]", "knee_right = [1.5, 0., 2.0]"),
+    ];
+    assert_snapshot!("number_slips", portal(&edits));
+    assert_snapshot!("number_slip_in_set", said(PORTAL, &["analysis.end_time=.3"]));
+}
+
 #[test]
 fn syntax() {
     assert_snapshot!("broken_line", portal(&[("height = 0.05", "height = ")]));

@@ -21,6 +21,7 @@ pub mod links;
 pub mod loads;
 pub mod materials;
 pub mod mesh;
+pub mod number_slips;
 pub mod output;
 pub mod part_table;
 pub mod parts;

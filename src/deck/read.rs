@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Problem, Value, Wanted, Wrong};
-use super::{Deck, Spoiled, aliases, hints, lengths, set, study};
+use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, set, study};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::{nearest, quoted};
 
@@ -67,11 +67,14 @@ impl Reader {
         self.spoiled.extend(words.map(|word| Spoiled { table: None, key: word.to_owned() }));
         let next_header = || text[end..].find("\n[").map_or(text.len(), |next| end + next);
         self.broken.push(begin..if line.starts_with('[') { next_header() } else { end });
-        let message = match error.message() {
-            "duplicate key" => format!("`{}` is given twice", text.get(span.clone()).unwrap_or_default()),
-            message => format!("this is not TOML: {message}"),
+        let problem = match (error.message(), number_slips::explain(text, at)) {
+            ("duplicate key", _) => {
+                Diagnostic::error(format!("`{}` is given twice", text.get(span.clone()).unwrap_or_default()))
+            }
+            (_, Some((message, hint))) => Diagnostic::error(message).hint(hint),
+            (message, None) => Diagnostic::error(format!("this is not TOML: {message}")),
         };
-        self.problems.push(Diagnostic::error(message).at(&span));
+        self.problems.push(problem.at(&span));
     }
 
     fn is_broken(&self, at: usize) -> bool {
@@ -86,6 +89,9 @@ impl Reader {
         }
         for span in wrong {
             let key = self.strike(root, &span).map_or_else(|| "this".to_owned(), |entry| format!("`{}`", entry.key));
+            if self.is_broken(span.start) {
+                continue;
+            }
             self.problems.push(Diagnostic::error(format!("{key} must be a finite number")).at(&span));
         }
     }

@@ -10,6 +10,7 @@
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
+use super::number_slips;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::names::nearest;
 
@@ -75,10 +76,11 @@ pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argumen
     let mut table = DeTable::parse(padded)
         .map_err(|error| {
             let place = error.span().unwrap_or(all.clone());
-            let hint = match argument[equals + 1 - offset..].trim_start() {
+            let slip = number_slips::explain(padded, place.start);
+            let hint = match (argument[equals + 1 - offset..].trim_start(), &slip) {
                 _ if place.start < equals => "the key is a dotted path, such as beams.portal.elements or loads.0.force",
-                value if value.contains(',') => "several numbers need brackets, such as [1.0, 0.0, 0.0]",
-                value if value.starts_with(|c: char| c.is_ascii_digit()) => "a number, without arithmetic and units",
+                (_, Some((_, hint))) => hint,
+                (value, None) if value.contains(',') => "several numbers need brackets, such as [1.0, 0.0, 0.0]",
                 _ => "text with blanks or signs needs quotes",
             };
             Diagnostic::error(format!("this is not KEY=VALUE with a TOML value: {}", error.message()))

@@ -1,5 +1,6 @@
 //! The file of a sweep: the deck, what varies in it, and what is collected.
 
+use crate::deck::number_slips;
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::{nearest, quoted};
 use std::collections::HashSet;
@@ -118,7 +119,8 @@ pub fn read(source: &Source) -> (Option<SweepFile>, Vec<Diagnostic>) {
     let mut reader = Reader { source, problems: Vec::new() };
     for error in errors {
         let span = error.span().unwrap_or(0..0);
-        reader.error(&span, format!("this is not TOML: {}", error.message()));
+        let slip = number_slips::explain(&source.text, span.start).map(|(message, hint)| format!("{message}: {hint}"));
+        reader.error(&span, slip.unwrap_or_else(|| format!("this is not TOML: {}", error.message())));
     }
     let file = reader.file(root.get_ref());
     let problems = reader.problems;

@@ -1,0 +1,115 @@
+//! What was meant by numbers as other languages and programs write them, and TOML does not.
+
+/// What is wrong with the number at byte `at` of a text, and what to write instead; `None` where there is none that looks like one.
+pub fn explain(text: &str, at: usize) -> Option<(String, String)> {
+    let (before, after) = text.split_at_checked(at)?;
+    let is_part = |c: char| c.is_ascii_alphanumeric() || "+-._".contains(c);
+    let begin = before.trim_end_matches(is_part).len();
+    let end = at + after.find(|c: char| !is_part(c)).unwrap_or(after.len());
+    let (before, word, after) = (&text[..begin], &text[begin..end], &text[end..]);
+    if let Some(meant) = meant(word) {
+        return Some((format!("`{word}` is not a number in TOML"), format!("write {meant}")));
+    }
+    if let Some(number) = with_comma(before, word, after) {
+        let (message, hint) = (format!("`{number}` is not a number in TOML"), number.replace(',', "."));
+        return Some((message, format!("the decimal mark is a point: {hint}")));
+    }
+    let unit = word.trim_start_matches(|c: char| c.is_ascii_digit() || "+-._".contains(c));
+    let has_unit = !unit.is_empty() || after.trim_start_matches(' ').starts_with(char::is_alphabetic);
+    (word.starts_with(|c: char| c.is_ascii_digit()) && has_unit).then(|| {
+        ("this is not TOML".to_owned(), "a number stands alone, without a unit and without arithmetic".to_owned())
+    })
+}
+
+/// The number with a decimal comma of which `word` is what stands before the comma or behind it; `None` where there is none.
+fn with_comma(before: &str, word: &str, after: &str) -> Option<String> {
+    let is_whole = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
+    let is_other = |c: char| !c.is_ascii_alphanumeric() && !"+-._".contains(c);
+    let number = match (before.strip_suffix(','), after.strip_prefix(',')) {
+        (Some(before), _) => format!("{},{word}", before.rsplit(is_other).next()?),
+        (None, Some(after)) => format!("{word},{}", after.split(is_other).next()?),
+        _ => return None,
+    };
+    let (whole, decimals) = number.split_once(',')?;
+    (is_whole(whole) && is_whole(decimals)).then_some(number)
+}
+
+/// The number that a word is meant to be, as TOML writes it: digits on both sides of the point, none in vain before it, and `e` before
+/// the exponent. `None` where it is one already, or none at all.
+fn meant(word: &str) -> Option<String> {
+    let digits = word.trim_start_matches(['+', '-']);
+    let sign = &word[..word.len() - digits.len()];
+    if sign.len() > 1 || !digits.contains(|c: char| c.is_ascii_digit()) {
+        return None;
+    }
+    let (mantissa, exponent) = match digits.find(|c| "eEdD".contains(c)) {
+        Some(at) => (&digits[..at], Some(&digits[at + 1..])),
+        None => (digits, None),
+    };
+    let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let all_digits = |text: &str| text.chars().all(|c| c.is_ascii_digit() || c == '_');
+    if !all_digits(whole) || !all_digits(decimals) {
+        return None;
+    }
+    let or_zero = |text: &str| if text.is_empty() { "0".to_owned() } else { text.to_owned() };
+    let mut meant = format!("{sign}{}", or_zero(whole.trim_start_matches('0')));
+    if mantissa.contains('.') {
+        meant += &format!(".{}", or_zero(decimals));
+    }
+    if let Some(exponent) = exponent {
+        exponent.parse::<i32>().ok()?;
+        meant += &format!("e{exponent}");
+    }
+    (meant != word).then_some(meant)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_other_programs_are_known() {
+        for (word, wanted) in [
+            ("900.", "900.0"),
+            (".5", "0.5"),
+            ("-.5e-3", "-0.5e-3"),
+            ("1.e3", "1.0e3"),
+            ("1d3", "1e3"),
+            ("1.5D-3", "1.5e-3"),
+            ("007", "7"),
+            ("00.5", "0.5"),
+        ] {
+            assert_eq!(meant(word).as_deref(), Some(wanted), "{word}");
+            assert!(toml::from_str::<toml::Table>(&format!("x = {wanted}")).is_ok(), "{wanted}");
+        }
+        for word in ["1.0", "1e5", "-2", "", "e3", ".", "1.2.3", "a1", "1ee3", "--1", "0x10"] {
+            assert_eq!(meant(word), None, "{word}");
+        }
+    }
+
+    #[test]
+    fn the_place_may_be_anywhere_in_the_number() {
+        let said = |text: &str, at: &str| explain(text, text.find(at).expect("the place")).map(|(_, hint)| hint);
+        assert_eq!(said("x = 900., y", ", y").as_deref(), Some("write 900.0"));
+        assert_eq!(said("x = [.5]", ".").as_deref(), Some("write 0.5"));
+        for at in ["0", ",", "5"] {
+            assert_eq!(said("x = 0,5", at).as_deref(), Some("the decimal mark is a point: 0.5"), "{at}");
+        }
+        for at in ["1", ",", "2"] {
+            assert_eq!(said("x = 1.0,2.0", at), None, "{at}");
+        }
+        assert_eq!(
+            said("x = 5 mm", "5").as_deref(),
+            Some("a number stands alone, without a unit and without arithmetic")
+        );
+        assert_eq!(
+            said("x = 5mm", "5").as_deref(),
+            Some("a number stands alone, without a unit and without arithmetic")
+        );
+        for text in ["x = steel", "x = ", "x = \"a", "é = 1"] {
+            for at in 0..=text.len() {
+                assert_eq!(explain(text, at).filter(|_| !text.contains('1')), None, "{text} {at}");
+            }
+        }
+    }
+}
