@@ -39,7 +39,7 @@ fn with_comma(before: &str, word: &str, after: &str) -> Option<String> {
 fn meant(word: &str) -> Option<String> {
     let digits = word.trim_start_matches(['+', '-']);
     let sign = &word[..word.len() - digits.len()];
-    if sign.len() > 1 || !digits.contains(|c: char| c.is_ascii_digit()) {
+    if sign.len() > 1 {
         return None;
     }
     let (mantissa, exponent) = match digits.find(|c| "eEdD".contains(c)) {
@@ -48,7 +48,8 @@ fn meant(word: &str) -> Option<String> {
     };
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let all_digits = |text: &str| text.chars().all(|c| c.is_ascii_digit() || c == '_');
-    if !all_digits(whole) || !all_digits(decimals) {
+    // What begins with the letter of an exponent is a name.
+    if !all_digits(whole) || !all_digits(decimals) || whole.is_empty() && decimals.is_empty() {
         return None;
     }
     let or_zero = |text: &str| if text.is_empty() { "0".to_owned() } else { text.to_owned() };
