@@ -18,7 +18,7 @@ use crate::snapshot::{Keep, Snapshot};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{FaerError, SymbolicSparseColMat, SymbolicSparseColMatRef};
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// The flag of what nobody stops.
 pub(super) static NEVER: AtomicBool = AtomicBool::new(false);
@@ -174,32 +174,37 @@ impl Cholesky {
     /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
     /// the same bits. Only the pool of several threads allocates. False where `stop` is raised before it is done.
     pub(super) fn factor(&mut self, stop: &AtomicBool) -> Result<bool, Singular> {
-        self.definite = self.graph.multipliers == 0 && self.form(true, stop).is_ok();
-        if !self.definite
-            && let Err(position) = self.form(false, stop)
-        {
-            return if stop.load(Ordering::Relaxed) { Ok(false) } else { Err(self.singular(position)) };
+        let mut formed = if self.graph.multipliers == 0 { self.form(true, stop) } else { Err(0) };
+        self.definite = formed.is_ok();
+        if !self.definite {
+            formed = self.form(false, stop);
         }
-        self.check_pivots().map(|()| true)
+        match formed {
+            Ok(None) => Ok(true),
+            Err(_) if stop.load(Ordering::Relaxed) => Ok(false),
+            Ok(Some(position)) | Err(position) => Err(self.singular(position)),
+        }
     }
 
     /// Forms L D Lᵀ at once.
     pub(super) fn factor_indefinite(&mut self) -> Result<(), Singular> {
         self.definite = false;
-        self.form(false, &NEVER).map_err(|position| self.singular(position))?;
-        self.check_pivots()
-    }
-
-    fn form(&mut self, definite: bool, stop: &AtomicBool) -> Result<(), usize> {
-        let matrix = Matrix { triangle: &self.triangle, values: &self.values, definite, stop };
-        self.fronts.factor(matrix, &mut self.L)
-    }
-
-    fn check_pivots(&self) -> Result<(), Singular> {
-        match self.fronts.tree.vanishing(&self.triangle, &self.values, &self.L, self.definite) {
-            Some(position) => Err(self.singular(position)),
-            None => Ok(()),
+        match self.form(false, &NEVER) {
+            Ok(None) => Ok(()),
+            Ok(Some(position)) | Err(position) => Err(self.singular(position)),
         }
+    }
+
+    /// Forms the factor, and returns the position of the first pivot that vanishes, if any does.
+    ///
+    /// # Errors
+    /// As for [`Fronts::factor`].
+    fn form(&mut self, definite: bool, stop: &AtomicBool) -> Result<Option<usize>, usize> {
+        self.L.forget();
+        let vanishing = AtomicUsize::new(usize::MAX);
+        let matrix = Matrix { triangle: &self.triangle, values: &self.values, definite, stop, vanishing: &vanishing };
+        self.fronts.factor(matrix, &mut self.L)?;
+        Ok(Some(vanishing.into_inner()).filter(|&position| position != usize::MAX))
     }
 
     /// Gives back the memory of update matrices until there is something to factor.

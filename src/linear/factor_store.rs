@@ -12,7 +12,7 @@ use std::ops::{Deref, DerefMut};
 pub(super) enum FactorStore {
     Memory(Vec<f64>),
     /// A file without a name, which is gone with the last use of it.
-    File(MmapMut),
+    File(MmapMut, File),
 }
 
 impl FactorStore {
@@ -44,13 +44,25 @@ impl FactorStore {
             return Ok(FactorStore::Memory(Vec::new()));
         }
         // SAFETY: the file has no name, so that nobody else opens or shortens it while it is mapped, and all of its bytes are reserved.
-        let map = unsafe { MmapMut::map_mut(&file) };
-        map.map(FactorStore::File).map_err(|_| NoScratch::NotWritable)
+        let map = unsafe { MmapMut::map_mut(&file) }.map_err(|_| NoScratch::NotWritable)?;
+        // Panels are read and written in order: pages are then fetched ahead, and let go behind. That is advice and may be ignored.
+        #[cfg(unix)]
+        let _ = map.advise(memmap2::Advice::Sequential);
+        Ok(FactorStore::File(map, file))
+    }
+
+    /// Makes the numbers zeros, for all are to be written anew: the system has not to read what stands in the file before it writes a page.
+    /// Nothing happens in memory, or where the system has no such thing.
+    pub fn forget(&self) {
+        #[cfg(target_os = "linux")]
+        if let FactorStore::File(map, file) = self {
+            let _ = rustix::fs::fallocate(file, rustix::fs::FallocateFlags::ZERO_RANGE, 0, map.len() as u64);
+        }
     }
 
     /// True where the numbers lie in a file.
     pub fn is_file(&self) -> bool {
-        matches!(self, FactorStore::File(_))
+        matches!(self, FactorStore::File(..))
     }
 }
 
@@ -60,7 +72,7 @@ impl Deref for FactorStore {
     fn deref(&self) -> &[f64] {
         match self {
             FactorStore::Memory(numbers) => numbers,
-            FactorStore::File(map) => bytemuck::cast_slice(map),
+            FactorStore::File(map, _) => bytemuck::cast_slice(map),
         }
     }
 }
@@ -69,7 +81,7 @@ impl DerefMut for FactorStore {
     fn deref_mut(&mut self) -> &mut [f64] {
         match self {
             FactorStore::Memory(numbers) => numbers,
-            FactorStore::File(map) => bytemuck::cast_slice_mut(map),
+            FactorStore::File(map, _) => bytemuck::cast_slice_mut(map),
         }
     }
 }

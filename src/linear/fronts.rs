@@ -10,6 +10,7 @@
 use super::dense::{join, potrf, trsm};
 use super::indefinite::{ldlt, ldlt_scratch};
 use super::packed::Packed;
+use super::pivot::PIVOT_TOLERANCE;
 use super::pool::LendingPool;
 use super::tree::{Front, Layout, StackSizes, Tree};
 use super::triangle::LowerTriangle;
@@ -18,7 +19,7 @@ use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, Par};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 /// Fronts are assembled in pieces of about so many numbers, which stay in a core's cache.
 const PIECE: usize = 1 << 15;
@@ -137,6 +138,8 @@ pub(super) struct Matrix<'a> {
     pub definite: bool,
     /// Raised where the factorisation is to end before it is done.
     pub stop: &'a AtomicBool,
+    /// Lowered to the position of the first pivot that vanishes beside its entry of the diagonal.
+    pub vanishing: &'a AtomicUsize,
 }
 
 impl Fronts {
@@ -264,21 +267,40 @@ impl Tree {
 
         let shape = Packed::new(rows);
         let update = &mut own[front.update..][..shape.len()];
-        let panel = MatMut::from_column_major_slice_mut(panel, height, columns);
+        let matrix = MatMut::from_column_major_slice_mut(&mut *panel, height, columns);
         let scratch = MemStack::new(scratch);
         if K.definite {
-            let (mut square, mut below) = panel.split_at_row_mut(columns);
+            let (mut square, mut below) = matrix.split_at_row_mut(columns);
             if !potrf(square.rb_mut(), scratch, threads) {
                 return Err(front.begin);
             }
             trsm(square.rb(), below.rb_mut(), false, threads);
             shape.subtract(Accum::Replace, (below.rb(), below.rb()), update, threads);
         } else {
-            ldlt(panel, (shape, &mut *update), scaled, scratch, threads).map_err(|column| front.begin + column)?;
+            ldlt(matrix, (shape, &mut *update), scaled, scratch, threads).map_err(|column| front.begin + column)?;
+        }
+        if let Some(position) = self.vanishing(s, K, panel) {
+            K.vanishing.fetch_min(position, Ordering::Relaxed);
         }
         let diagonal = |place: usize| shape.diagonal(place - columns);
         self.assemble(s, columns..height, (update, &diagonal), &|_, _| {}, &update_of, threads);
         Ok(())
+    }
+
+    /// The position of the first pivot of supernode `s` that vanishes beside the diagonal entry of the matrix; `panel` is that of the factor.
+    fn vanishing(&self, s: usize, K: Matrix, panel: &[f64]) -> Option<usize> {
+        let (mut columns, height) = (self.columns(s), self.fronts[s].height());
+        let begin = columns.start;
+        let mut k = K.triangle.group(begin);
+        columns.find(|&position| {
+            while K.triangle.first(k + 1) <= position {
+                k += 1;
+            }
+            let own = panel[(position - begin) * (height + 1)];
+            let pivot = if K.definite { own * own } else { own };
+            let entry = K.values[K.triangle.diagonal(k, position - K.triangle.first(k))];
+            pivot.abs() <= PIVOT_TOLERANCE * entry.abs()
+        })
     }
 
     /// Adds the update matrices of the children of `s` to `columns` of its front, after `begin`. `diagonal` gives the place of each entry of the

@@ -2,7 +2,6 @@
 //! All of it follows from the structure alone.
 
 use super::packed::Packed;
-use super::pivot::PIVOT_TOLERANCE;
 use super::triangle::LowerTriangle;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use std::ops::Range;
@@ -261,26 +260,6 @@ impl Tree {
     /// The place in L of each diagonal entry.
     pub fn diagonal(&self) -> impl Iterator<Item = usize> {
         self.fronts.iter().flat_map(|front| (0..front.columns).map(|j| front.panel + j * front.height() + j))
-    }
-
-    /// The position of the first pivot of `L` that vanishes beside the diagonal entry of the matrix `K`.
-    pub fn vanishing(&self, triangle: &LowerTriangle, K: &[f64], L: &[f64], definite: bool) -> Option<usize> {
-        let mut k = 0;
-        for front in &self.fronts {
-            for j in 0..front.columns {
-                let position = front.begin + j;
-                while triangle.first(k + 1) <= position {
-                    k += 1;
-                }
-                let own = L[front.panel + j * front.height() + j];
-                let pivot = if definite { own * own } else { own };
-                let entry = K[triangle.diagonal(k, position - triangle.first(k))];
-                if pivot.abs() <= PIVOT_TOLERANCE * entry.abs() {
-                    return Some(position);
-                }
-            }
-        }
-        None
     }
 
     /// Ranges of supernodes that are whole subtrees, ascending, and the supernodes above them.
