@@ -323,7 +323,7 @@ def measure_spheres(runs, most, others):
                 found |= state([float(row["z"]) for row in rows], *([numbers(row, keys) for row in rows] for keys in (VELOCITY, TURNING)))
                 found["pairs"] = next(row["touching"] for row in last_rows(found["out"] / "contacts.csv") if row["contact"] == "pairs")
             elif not (found := other(program, "spheres", n)):
-                print(f"| {n} | {program} | not installed |")
+                print(f"| {n} | {program} | not installed, or failed |")
                 continue
             step = found["seconds"] / (steps / 2)
             grown.setdefault(program, []).append((n, step))
@@ -360,7 +360,7 @@ def measure_chains(runs, most, others):
                 continue
             if program in OTHERS:
                 if not (found := other(program, "chain", n)):
-                    print(f"| {n} | {program} | not installed |")
+                    print(f"| {n} | {program} | not installed, or failed |")
                     continue
                 step, at = found["seconds"] / (steps / 2), found["last"]
             else:
