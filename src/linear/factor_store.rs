@@ -45,9 +45,6 @@ impl FactorStore {
         }
         // SAFETY: the file has no name, so that nobody else opens or shortens it while it is mapped, and all of its bytes are reserved.
         let map = unsafe { MmapMut::map_mut(&file) }.map_err(|_| NoScratch::NotWritable)?;
-        // Panels are read and written in order: pages are then fetched ahead, and let go behind. That is advice and may be ignored.
-        #[cfg(unix)]
-        let _ = map.advise(memmap2::Advice::Sequential);
         Ok(FactorStore::File(map, file))
     }
 
