@@ -21,17 +21,21 @@ pub fn explain(text: &str, at: usize) -> Option<(String, String)> {
     })
 }
 
-/// The number with a decimal comma of which `word` is what stands before the comma or behind it; `None` where there is none.
+/// The number with a decimal comma of which `word` is what stands before the comma or behind it; `None` where there is none. It is all of a value: in
+/// an array a comma stands between two numbers.
 fn with_comma(before: &str, word: &str, after: &str) -> Option<String> {
     let is_whole = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
     let is_other = |c: char| !c.is_ascii_alphanumeric() && !"+-._".contains(c);
-    let number = match (before.strip_suffix(','), after.strip_prefix(',')) {
-        (Some(before), _) => format!("{},{word}", before.rsplit(is_other).next()?),
-        (None, Some(after)) => format!("{word},{}", after.split(is_other).next()?),
+    let (rest, whole, decimals) = match (before.strip_suffix(','), after.strip_prefix(',')) {
+        (Some(before), _) => {
+            let whole = before.rsplit(is_other).next()?;
+            (&before[..before.len() - whole.len()], whole, word)
+        }
+        (None, Some(after)) => (before, word, after.split(is_other).next()?),
         _ => return None,
     };
-    let (whole, decimals) = number.split_once(',')?;
-    (is_whole(whole) && is_whole(decimals)).then_some(number)
+    let is_number = is_whole(whole) && is_whole(decimals) && rest.trim_end().ends_with('=');
+    is_number.then(|| format!("{whole},{decimals}"))
 }
 
 /// The number that a word is meant to be, as TOML writes it: digits on both sides of the point, none in vain before it, and `e` before
@@ -96,6 +100,8 @@ mod tests {
         for at in ["0", ",", "5"] {
             assert_eq!(said("x = 0,5", at).as_deref(), Some("the decimal mark is a point: 0.5"), "{at}");
         }
+        // An array that is not closed.
+        assert_eq!(explain("x = [4,4", 8), None);
         for at in ["1", ",", "2"] {
             assert_eq!(said("x = 1.0,2.0", at), None, "{at}");
         }
