@@ -1204,12 +1204,13 @@ fn contacts_of_faces() {
                 shape = { kind = \"cylinder\", radius = 0.1, length = 0.2, axis = [0.0, 0.0, 1.0] }\n\
                 [[bodies]]\nname = \"lump\"\ncenter = [10.5, 0.5, 8.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n";
     let bodies = |contact: &str| said(&format!("{FACES}{cube}[[contacts]]\nname = \"touch\"\n{contact}\n"), &[]);
-    assert_eq!(
-        bodies("surface = { body = \"brick\" }\nwith = [\"marble\", \"roll\"]\npoints = 3\nstiffness = 1e5"),
-        ""
+    assert_snapshot!(
+        "points_of_solids",
+        bodies("surface = { body = \"brick\" }\nwith = [\"marble\", \"roll\"]\npoints = 3\nstiffness = 1e5")
     );
-    assert_snapshot!("among_cylinders", bodies("among = [\"brick\", \"roll\"]"));
-    assert_snapshot!("surface_of_a_cylinder", bodies("surface = { body = \"roll\" }\nwith = \"brick\""));
+    assert_eq!(bodies("among = [\"brick\", \"roll\"]\nstiffness = 1e5"), "");
+    assert_eq!(bodies("surface = { body = \"roll\" }\nwith = \"brick\"\nstiffness = 1e5"), "");
+    assert_snapshot!("among_bodies_without_shape", bodies("among = [\"brick\", \"lump\"]"));
     assert_snapshot!("surface_of_no_shape", bodies("surface = { body = \"lump\", radius = 0.1 }\nwith = \"brick\""));
     let hull = |points: &str, more: &str| {
         let body =

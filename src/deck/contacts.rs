@@ -21,12 +21,12 @@ pub struct Contact {
     pub name: Maybe<String>,
     /// The surface that is touched. Not with `among`.
     pub surface: Maybe<OneOf<Surface>>,
-    /// What touches it, by name: points, bodies (corners of a box or hull, ends of a capsule, on a box, hull, capsule or sphere all of
-    /// them; on beams, bars and free edges all of a capsule, corners and edges of a box or hull; rims of a cylinder; a sphere as it is),
-    /// sets, groups of the mesh, beams, bars, shells and their edges; for a part as surface also "itself". Not with `among`.
+    /// What touches it, by name: points, bodies (all of them on a box, hull, sphere, cylinder or capsule; on planes and faces corners of a
+    /// box or hull and ends of a capsule, on planes all of a cylinder, on faces its rims; on beams, bars and free edges all of a capsule,
+    /// corners and edges of a box or hull, and 16 lines along a cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells and their edges; for a part as surface also "itself". Not with `among`.
     pub with: Maybe<Names>,
-    /// In place of `surface` and `with`: bodies that are spheres, boxes, hulls or capsules, and points with a `radius`, of which each
-    /// may touch each; boxes, hulls and capsules that a joint holds together do not.
+    /// In place of `surface` and `with`: bodies that are spheres, boxes, hulls, cylinders or capsules, and points with a `radius`, of which
+    /// each may touch each; bodies other than spheres that a joint holds together do not.
     pub among: Maybe<Names>,
     /// Names of the stages in which it is there. Default: all.
     pub stages: Maybe<Names>,
@@ -49,7 +49,7 @@ pub struct Contact {
     /// Coulomb's coefficient of friction, 0 or more. Default: 0.
     pub friction: Maybe<f64>,
     /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
-    /// boxes, ends of capsules and rims of cylinders, at most 100. Default: 0.
+    /// boxes, ends of capsules and rims of cylinders where these touch by points, at most 100. Default: 0.
     pub points: Maybe<u64>,
 }
 

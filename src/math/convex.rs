@@ -1,6 +1,7 @@
-//! Convex shapes about an origin inside: polyhedra, and what is round about a segment.
+//! Convex shapes about an origin inside: polyhedra, cylinders, and what is round about a segment; and the half space below an origin.
 
 use super::Vec3;
+use super::cylinder::RoundCylinder;
 use super::polyhedron::Polyhedron;
 use std::sync::Arc;
 
@@ -11,6 +12,11 @@ pub enum ConvexShape {
     Polyhedron(Arc<Polyhedron>),
     /// A capsule, or a sphere.
     Spherocylinder(Spherocylinder),
+    /// A cylinder with flat ends.
+    Cylinder(Arc<RoundCylinder>),
+    /// All below the plane through the origin that is normal to the third axis. What reaches no farther than a quarter of the cube that it holds meets of it no
+    /// more than that cube, moved along under it.
+    HalfSpace(Arc<Polyhedron>),
 }
 
 /// All that is no farther than a radius from a segment through the origin.
@@ -23,6 +29,16 @@ pub struct Spherocylinder {
 }
 
 impl ConvexShape {
+    /// The half space as it is to what reaches no farther than this.
+    pub fn half_space(reach: f64) -> ConvexShape {
+        ConvexShape::HalfSpace(Arc::new(Polyhedron::cuboid(Vec3::repeat(4.0 * reach))))
+    }
+
+    /// True for a cylinder.
+    pub fn is_cylinder(&self) -> bool {
+        matches!(self, ConvexShape::Cylinder(_))
+    }
+
     /// True for a sphere.
     pub fn is_sphere(&self) -> bool {
         matches!(self, ConvexShape::Spherocylinder(shape) if shape.half == Vec3::zeros())
@@ -32,7 +48,7 @@ impl ConvexShape {
     pub fn as_polyhedron(&self) -> Option<&Arc<Polyhedron>> {
         match self {
             ConvexShape::Polyhedron(shape) => Some(shape),
-            ConvexShape::Spherocylinder(_) => None,
+            ConvexShape::Spherocylinder(_) | ConvexShape::Cylinder(_) | ConvexShape::HalfSpace(_) => None,
         }
     }
 
@@ -41,11 +57,26 @@ impl ConvexShape {
         self.as_polyhedron()?.half()
     }
 
-    /// Radius of the ball about the origin that holds it.
+    /// True where it is its own image in the plane through the origin normal to an axis of this number, to rounding.
+    pub fn is_symmetric(&self, axis: usize) -> bool {
+        match self {
+            ConvexShape::Polyhedron(shape) => shape.half().is_some(),
+            ConvexShape::Spherocylinder(_) => false,
+            ConvexShape::Cylinder(shape) => {
+                let along = shape.axes()[(axis, 2)].abs();
+                !(1e-12..=1.0 - 1e-12).contains(&along)
+            }
+            ConvexShape::HalfSpace(_) => axis != 2,
+        }
+    }
+
+    /// Radius of the ball about the origin that holds it; zero of a half space, which has no size.
     pub fn reach(&self) -> f64 {
         match self {
             ConvexShape::Polyhedron(shape) => shape.reach(),
             ConvexShape::Spherocylinder(shape) => shape.half.norm() + shape.radius,
+            ConvexShape::Cylinder(shape) => shape.reach(),
+            ConvexShape::HalfSpace(_) => 0.0,
         }
     }
 
@@ -54,10 +85,12 @@ impl ConvexShape {
         match self {
             ConvexShape::Polyhedron(shape) => shape.least(),
             ConvexShape::Spherocylinder(shape) => 2.0 * shape.radius,
+            ConvexShape::Cylinder(shape) => shape.least(),
+            ConvexShape::HalfSpace(_) => f64::INFINITY,
         }
     }
 
-    /// The point that lies farthest along a unit vector.
+    /// The point that lies farthest along a unit vector; the origin of a half space, none of whose points does.
     pub fn farthest(&self, axis: &Vec3) -> Vec3 {
         match self {
             ConvexShape::Polyhedron(shape) => shape.farthest(axis),
@@ -65,10 +98,12 @@ impl ConvexShape {
                 let end = if shape.half.dot(axis) < 0.0 { -shape.half } else { shape.half };
                 end + shape.radius * axis
             }
+            ConvexShape::Cylinder(shape) => shape.farthest(axis),
+            ConvexShape::HalfSpace(_) => Vec3::zeros(),
         }
     }
 
-    /// Distance of a point from the polyhedron, negative inside, or from the segment, and its gradient.
+    /// Distance of a point from the polyhedron, cylinder or half space, negative inside, or from the segment, and its gradient.
     pub fn distance_from_core(&self, y: &Vec3) -> (f64, Vec3) {
         match self {
             ConvexShape::Polyhedron(shape) => shape.distance_and_gradient(y),
@@ -81,13 +116,15 @@ impl ConvexShape {
                 let n = if d > 0.0 { away / d } else { super::frame_along(&direction(&shape.half)).column(0).into() };
                 (d, n)
             }
+            ConvexShape::Cylinder(shape) => shape.distance_and_gradient(y),
+            ConvexShape::HalfSpace(_) => (y.z, Vec3::z()),
         }
     }
 
     /// How far beyond the core of [`ConvexShape::distance_from_core`] its surface lies.
     pub fn rounding(&self) -> f64 {
         match self {
-            ConvexShape::Polyhedron(_) => 0.0,
+            ConvexShape::Polyhedron(_) | ConvexShape::Cylinder(_) | ConvexShape::HalfSpace(_) => 0.0,
             ConvexShape::Spherocylinder(shape) => shape.radius,
         }
     }

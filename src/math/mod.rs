@@ -2,6 +2,7 @@
 
 pub mod convex;
 pub mod curved_faces;
+pub mod cylinder;
 #[cfg(feature = "portable")]
 mod elementary;
 pub mod lanes;

@@ -2,6 +2,7 @@
 
 use super::{Mat3, Vec3};
 use std::collections::BTreeSet;
+use std::f64::consts::TAU;
 
 /// Corners closer to a plane than this part of the size lie in it: decks have some digits only.
 const FLAT: f64 = 1e-6;
@@ -79,6 +80,31 @@ impl Polyhedron {
             }
         }
         Polyhedron { half: Some(half), ..Polyhedron::of_faces(corners, faces) }
+    }
+
+    /// The regular prism along the third axis with corners at a radius from it; the middle of one of its sides lies on the first.
+    pub fn prism(sides: usize, radius: f64, half: f64) -> Polyhedron {
+        let place = |k: usize, z: f64| {
+            let (sine, cosine) = (TAU * (k as f64 - 0.5) / sides as f64).sin_cos();
+            Vec3::new(radius * cosine, radius * sine, z)
+        };
+        let corners = [-half, half].into_iter().flat_map(|z| (0..sides).map(move |k| (k, z)));
+        let corners: Vec<Vec3> = corners.map(|(k, z)| place(k, z)).collect();
+        let end = |side: f64, corners: Vec<usize>| PolyhedronFace { normal: Vec3::z() * side, offset: half, corners };
+        let mut faces = vec![end(-1.0, (0..sides).rev().collect()), end(1.0, (sides..2 * sides).collect())];
+        let mut edges = Vec::new();
+        let offset = radius * (0.5 * TAU / sides as f64).cos();
+        for k in 0..sides {
+            let (next, own, before) = ((k + 1) % sides, 2 + k, 2 + (k + sides - 1) % sides);
+            let (sine, cosine) = (TAU * k as f64 / sides as f64).sin_cos();
+            let around = vec![k, next, sides + next, sides + k];
+            faces.push(PolyhedronFace { normal: Vec3::new(cosine, sine, 0.0), offset, corners: around });
+            edges.push(PolyhedronEdge { ends: [k, next], faces: [own, 0] });
+            edges.push(PolyhedronEdge { ends: [sides + k, sides + next], faces: [1, own] });
+            edges.push(PolyhedronEdge { ends: [k, sides + k], faces: [before, own] });
+        }
+        let least = 2.0 * offset.min(half);
+        Polyhedron { corners, faces, edges, half: None, reach: radius.hypot(half), least }
     }
 
     /// The convex hull of points, about its centre of volume, and that centre. `points` are at most [`MOST_POINTS`].

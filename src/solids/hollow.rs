@@ -2,6 +2,8 @@
 
 use super::kind::{Solid, SolidShape, Touching};
 use super::outline::Outline;
+use crate::math::convex::ConvexShape;
+use crate::math::cylinder::RoundCylinder;
 use crate::math::{Mat3, Vec3, frame_along};
 use crate::words::kinds::{Form, Given, Key};
 use std::f64::consts::{PI, TAU};
@@ -70,6 +72,16 @@ impl SolidShape for HollowCylinder {
             outline.disc(b);
         }
         outline
+    }
+
+    fn has_hole(&self) -> bool {
+        self.inner_radius > 0.0
+    }
+
+    /// All within the outer radius: nothing enters the hole.
+    fn as_convex(&self) -> Option<ConvexShape> {
+        let cylinder = RoundCylinder::new(self.radius, 0.5 * self.length, frame_along(&self.axis));
+        Some(ConvexShape::Cylinder(Arc::new(cylinder)))
     }
 
     /// Rims, and as many circles between them as asked for.

@@ -36,6 +36,11 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
         None
     }
 
+    /// True where it has a hole right through, which is closed to others.
+    fn has_hole(&self) -> bool {
+        false
+    }
+
     /// The convex shape that it is, in the axes of its body, where it touches others of these in full; a ball does so as a point.
     fn as_convex(&self) -> Option<ConvexShape> {
         None

@@ -5,6 +5,7 @@ mod boxes;
 mod capsules;
 mod capsules_on_lines;
 mod closing;
+mod cylinders;
 mod depth;
 mod edges;
 mod edges_of_solids;

@@ -53,26 +53,18 @@ fn body(shape: &str) -> String {
 fn surfaces_that_pass_between_points_are_said_until_there_are_enough() {
     let plate = "[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [4, 4]\n\
                  material = \"steel\"\nthickness = 0.01\n";
-    let (brick, roll) = (
-        body("kind = \"box\", size = [0.4, 0.3, 0.1]"),
-        body("kind = \"cylinder\", radius = 0.2, length = 1.0, axis = [1.0, 0.0, 0.0]"),
-    );
     let rod = "shape = \"capsule\", ends = [[0.5, -1.0, 0.2], [0.5, 2.0, 0.2]], radius = 0.02";
     let block = "shape = \"box\", center = [0.5, 0.0, 0.2], size = [0.1, 0.2, 0.15]";
-    let post = "shape = \"cylinder\", center = [0.5, 0.5, -0.4], radius = 0.05, length = 1.0, axis = [0.0, 0.0, 1.0]";
     let cases = [
-        // The diagonal of a mesh of the large face, or of an element, against the diameter.
-        (brick.clone(), "body", post, 0.5, 0.1),
+        // The diagonal of an element against the diameter.
         (plate.to_owned(), "plate", SPHERE, 0.25 * 2f64.sqrt(), 0.1),
-        // A mesh of the side of a cylinder, 16 points around.
-        (roll, "body", SPHERE, 1f64.hypot(std::f64::consts::TAU * 0.2 / 16.0), 0.1),
         // Nodes of a beam, four to an element at ±1 and ±1/√5, against the middle dimension of a box and the diameter of a capsule.
         (beam(1), "beam", block, 1.0 / 5f64.sqrt(), 0.15),
         (beam(4), "beam", rod, 0.25 / 5f64.sqrt(), 0.04),
     ];
     for (thing, with, surface, opening, width) in cases {
         // Half a thickness is the radius of a part's points.
-        let radius = if with == "body" { 0.0 } else { 0.005 };
+        let radius = 0.005;
         let enough = (opening / (width + 2.0 * radius) - 1.0 - 1e-6f64).ceil() as u64;
         let few = said(&thing, &contact(surface, with, None));
         assert!(few.iter().any(|[_, hint]| hint.contains(&format!("`points` = {enough} "))), "{enough}: {few:?}");
@@ -115,10 +107,27 @@ fn points_that_divide_nothing_are_said() {
     let [alone, beside, without] =
         [("\"log\"", Some(3)), ("[\"log\", \"plate\"]", Some(3)), ("[\"log\", \"plate\"]", None)]
             .map(|(with, points)| about(&said(&things, &on_beam(with, points))));
-    let line = "`points` does not apply to `log`, which touches here with all of the length, not with points";
+    let line = "`points` does not apply to `log`, which touches here in full, not with points";
     assert_eq!(alone, Some([line.to_owned(), "leave `points` out".to_owned()]));
     assert_eq!(beside, Some([line.to_owned(), "it divides what else is named in `with`".to_owned()]));
     assert_eq!(without, None);
+}
+
+/// Solids that see all of each other need no points, and are told so.
+#[test]
+fn points_of_solids_are_said_to_do_nothing() {
+    let post = "shape = \"cylinder\", center = [0.5, 0.5, -0.4], radius = 0.05, length = 1.0, axis = [0.0, 0.0, 1.0]";
+    let plane = "shape = \"plane\", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0]";
+    let brick = body("kind = \"box\", size = [0.4, 0.3, 0.1]");
+    let roll = body("kind = \"cylinder\", radius = 0.2, length = 1.0, axis = [1.0, 0.0, 0.0]");
+    for (thing, surface) in [(&brick, post), (&roll, post), (&roll, SPHERE), (&roll, plane)] {
+        assert_eq!(said(thing, &contact(surface, "body", None)), Vec::<[String; 2]>::new());
+        let said = said(thing, &contact(surface, "body", Some(3)));
+        let line = "`points` does not apply to `body`, which touches here in full, not with points";
+        assert_eq!(said, [[line.to_owned(), "leave `points` out".to_owned()]], "{surface}");
+    }
+    // On a plane a box is its corners, and what lies between these.
+    assert!(said(&brick, &contact(plane, "body", Some(3))).is_empty());
 }
 
 /// Edges of a mesh that is coarser than a capsule is wide may sink into its side; with as many points as the hint asks for they do not.

@@ -67,9 +67,11 @@ pub fn each_pair_touch(pairs: &ConvexPairs, now: &Configuration, act: &mut dyn F
 
 /// Least distance of convex solids from another; infinite where there are none.
 pub fn pair_gap(surface: &Surface, carrier: usize, touching: &[ConvexBody], nodes: &[Node]) -> f64 {
-    let Some(other) = CarriedConvex::of_surface(surface, carrier).filter(|_| !touching.is_empty()) else {
+    if touching.is_empty() {
         return f64::INFINITY;
-    };
+    }
+    let reach = touching.iter().map(|one| one.shape.reach()).fold(0.0, f64::max);
+    let Some(other) = CarriedConvex::of_surface(surface, carrier, reach) else { return f64::INFINITY };
     touching.iter().fold(f64::INFINITY, |least, one| least.min(distance(one, &other, least, nodes)))
 }
 

@@ -1,7 +1,7 @@
 //! A surface on the node that carries it.
 
 use super::surfaces::kind::{ClosestPoint, Touched};
-use super::surfaces::{Capsule, Sphere, SurfaceShape};
+use super::surfaces::{Capsule, Cylinder, Plane, Sphere, SurfaceShape};
 use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::math::{Mat3, Vec3, frame_along};
 
@@ -45,7 +45,7 @@ impl Surface {
         self.shape.least()
     }
 
-    /// The surface of a solid about the node that carries it, and what is no farther from it than a distance; a box becomes larger by that.
+    /// The surface of a solid about the node that carries it, and what is no farther from it than a distance; boxes and cylinders become larger by that.
     pub fn of_convex(shape: &ConvexShape, rounding: f64) -> Self {
         let (axes, shape) = match shape {
             ConvexShape::Polyhedron(shape) => (Mat3::identity(), SurfaceShape::of_polyhedron(shape.clone(), rounding)),
@@ -56,6 +56,11 @@ impl Surface {
                     None => (Mat3::identity(), SurfaceShape::Sphere(Sphere { radius })),
                 }
             }
+            ConvexShape::Cylinder(shape) => {
+                let (radius, half) = (shape.radius() + rounding, shape.half() + rounding);
+                (*shape.axes(), SurfaceShape::Cylinder(Cylinder { radius, half }))
+            }
+            ConvexShape::HalfSpace(_) => (Mat3::identity(), SurfaceShape::Plane(Plane)),
         };
         Surface { center: Vec3::zeros(), axes, shape }
     }
@@ -74,7 +79,7 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::elements::contact::surfaces::{Cuboid, Cylinder, Plane};
+    use crate::elements::contact::surfaces::Cuboid;
     use crate::math::polyhedron::Polyhedron;
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};

@@ -1,4 +1,4 @@
-//! Capsules on faces of a shell, which they meet by their two ends, and by their surface the nodes of the faces: whether an edge of the mesh
+//! Capsules and cylinders on faces of a shell, which they meet by their ends or rims, and by their surface the nodes of the faces: whether an edge of the mesh
 //! may pass between all of these.
 
 use super::points::Finder;
@@ -10,9 +10,9 @@ use crate::model::places::place::Place;
 use crate::model::report::Owner;
 use crate::names::short;
 
-/// Warns of each capsule in `with` that is narrower than its own openings and those of the mesh of `part`, whose faces are these, half as
+/// Warns of each capsule and cylinder in `with` that is narrower than its own openings and those of the mesh of `part`, whose faces are these, half as
 /// thick as given. On a flat sheet nothing passes where a contact of its free edges sees to its border.
-pub fn warn_of_capsules<'d>(
+pub fn warn_of_long_solids<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
     contact: &'d words::Contact,
@@ -40,17 +40,17 @@ pub fn warn_of_capsules<'d>(
     for body in bodies {
         let is_drawn = finder.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
         let body = &finder.scene.bodies[body];
-        let Some(ConvexShape::Spherocylinder(Spherocylinder { half: along, radius })) = body.shape.as_convex() else {
+        let given = contact.radius.as_ref().map(|at| at.value);
+        let Some((kind, length, radius)) = body.shape.as_convex().and_then(|shape| long_solid(&shape, given)) else {
             continue;
         };
-        let length = 2.0 * along.norm();
-        let width = 2.0 * (contact.radius.as_ref().map_or(radius, |at| at.value) + half);
+        let width = 2.0 * (radius + half);
         let opening = length / (between + 1) as f64;
         if !is_drawn || opening.min(longest) <= width * (1.0 + DIGITS) || width <= 0.0 {
             continue;
         }
         let message = format!(
-            "{} sees the side of capsule `{}` by nodes of `{}` that are up to {} apart: an edge between these may pass into it, {} wide with \
+            "{} sees the side of {kind} `{}` by nodes of `{}` that are up to {} apart: an edge between these may pass into it, {} wide with \
              the thickness",
             owner.what,
             body.name,
@@ -64,6 +64,18 @@ pub fn warn_of_capsules<'d>(
             "give `points` = {points} or more, or a finer mesh; the border of a flat sheet is a contact of its own, {border}"
         );
         finder.report.warn(owner.span, message, hint);
+    }
+}
+
+/// What a solid is called, its length and its radius, where it has such; a radius that the contact gives is that of the ends of a capsule, and of points of
+/// rims.
+fn long_solid(shape: &ConvexShape, given: Option<f64>) -> Option<(&'static str, f64, f64)> {
+    match shape {
+        ConvexShape::Spherocylinder(Spherocylinder { half, radius }) => {
+            Some(("capsule", 2.0 * half.norm(), given.unwrap_or(*radius)))
+        }
+        ConvexShape::Cylinder(shape) => Some(("cylinder", 2.0 * shape.half(), shape.radius() + given.unwrap_or(0.0))),
+        ConvexShape::Polyhedron(_) | ConvexShape::HalfSpace(_) => None,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape};
 use crate::math::curved_faces;
-use crate::model::contacts::coarse_faces::warn_of_capsules;
+use crate::model::contacts::coarse_faces::warn_of_long_solids;
 use crate::model::contacts::points::{Finder, SurfaceLines};
 use crate::model::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::model::places::place::Place;
@@ -98,7 +98,7 @@ fn faces<'d>(
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
     faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value), is_line);
     if !is_line {
-        warn_of_capsules(finder, owner, contact, part, (&elements, half));
+        warn_of_long_solids(finder, owner, contact, part, (&elements, half));
     }
     if !faces.solids.is_empty() {
         faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
@@ -194,7 +194,7 @@ fn lines_of_surface(
     }
 }
 
-/// The surfaces of all bodies in a list that are boxes, hulls or capsules; beside `lines` without capsules, which are lines themselves there and see the
+/// The surfaces of all bodies in a list that are boxes, hulls, cylinders or capsules; beside `lines` without capsules, which are lines themselves there and see the
 /// ends of others.
 fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64, lines: bool) -> Vec<CarriedSurface> {
     let places = names.iter().filter_map(|at| scene.names.place(&at.value));
@@ -212,7 +212,7 @@ fn own_nodes(facets: &[Facet]) -> Vec<usize> {
     nodes
 }
 
-/// The surface of a body that is drawn as a box, a hull or a capsule.
+/// The surface of a body that is drawn as a box, a hull, a cylinder or a capsule.
 fn solid_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface> {
     scene.deck.bodies.get(body)?.shape.as_ref()?;
     let body = &scene.bodies[body];
@@ -220,7 +220,7 @@ fn solid_of(scene: &Scene, body: usize, inflated: f64) -> Option<CarriedSurface>
     Some(CarriedSurface { node: body.node, surface })
 }
 
-/// Balls, boxes, hulls and capsules among themselves.
+/// Balls, boxes, hulls, cylinders and capsules among themselves.
 fn balls<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
@@ -260,7 +260,7 @@ fn balls<'d>(
 struct Members {
     /// Nodes and radii of balls.
     balls: Vec<(usize, f64)>,
-    /// Boxes, hulls and capsules.
+    /// Boxes, hulls, cylinders and capsules.
     convex: Vec<ConvexBody>,
 }
 
@@ -309,7 +309,7 @@ fn members<'d>(
     sound.then_some(members)
 }
 
-/// A body that is drawn as a box, a hull or a capsule.
+/// A body that is drawn as a box, a hull, a cylinder or a capsule.
 fn convex_of(scene: &Scene, place: Place) -> Option<ConvexBody> {
     let Place::Body(body) = place else { return None };
     scene.deck.bodies.get(body)?.shape.as_ref()?;
@@ -340,7 +340,7 @@ fn refuse_ball(report: &mut Report, at: &At<String>, leaf: Place, has_no_nodes: 
             report.error_with::<()>(
                 &at.span,
                 message,
-                "draw bodies as spheres, boxes, hulls or capsules, or give `radius`",
+                "draw bodies as spheres, boxes, hulls, cylinders or capsules, or give `radius`",
             );
         }
     }

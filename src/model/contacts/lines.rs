@@ -1,5 +1,4 @@
-//! The lines with which things touch a surface that is itself made of lines: beams and bars, free edges of shells, capsules, edges of boxes and
-//! hulls, and bodies that are made of such parts.
+//! The lines with which things touch a surface that is itself made of lines: beams and bars, free edges of shells, capsules, edges of boxes, hulls and cylinders, and bodies that are made of such parts.
 
 use super::points::{Finder, SurfaceLines, Touch, lines_of};
 use crate::deck::parts::PartIndex;
@@ -7,7 +6,8 @@ use crate::diagnostic::At;
 use crate::elements::contact::facets::free_edges;
 use crate::elements::contact::{Facet, TouchKind, Toucher};
 use crate::math::convex::{ConvexShape, Spherocylinder};
-use crate::math::{Vec3, curved_faces};
+use crate::math::polyhedron::Polyhedron;
+use crate::math::{Mat3, Vec3, curved_faces};
 use crate::model::places::place::Place;
 
 impl<'d> Finder<'_, 'd> {
@@ -45,7 +45,7 @@ impl<'d> Finder<'_, 'd> {
     }
 
     /// A body that is drawn: a capsule as all between the two ends of its line; a box or a hull by its corners, and by its edges where they
-    /// cross others. All of these are nodes that are rigidly attached to the body.
+    /// cross others; a cylinder by those of a prism within. All of these are nodes that are rigidly attached to the body.
     fn lines_of_solid(&mut self, body: usize, name: &str, at: &'d At<String>) -> Option<Vec<Touch>> {
         self.scene.deck.bodies.get(body)?.shape.as_ref()?;
         let shape = self.scene.bodies[body].shape.as_convex()?;
@@ -55,12 +55,25 @@ impl<'d> Finder<'_, 'd> {
                 let ends = self.attached(body, &[-half, half], name, at);
                 vec![Touch::line(&ends, radius)]
             }
-            ConvexShape::Polyhedron(shape) => {
-                let corners = self.attached(body, shape.corners(), name, at);
-                let edges = shape.edges().iter().map(|edge| Touch::edge(&edge.ends.map(|k| corners[k]), 0.0));
-                corners.iter().map(|&corner| Touch::node(corner, 0.0)).chain(edges).collect()
-            }
+            ConvexShape::Polyhedron(shape) => self.corners_and_edges(body, &shape, &Mat3::identity(), name, at),
+            ConvexShape::Cylinder(shape) => self.corners_and_edges(body, &shape.prism_within(), shape.axes(), name, at),
+            ConvexShape::HalfSpace(_) => return None,
         })
+    }
+
+    /// The corners of a polyhedron that is drawn in these axes of a body, and its edges where they cross others.
+    fn corners_and_edges(
+        &mut self,
+        body: usize,
+        shape: &Polyhedron,
+        axes: &Mat3,
+        name: &str,
+        at: &'d At<String>,
+    ) -> Vec<Touch> {
+        let places: Vec<Vec3> = shape.corners().iter().map(|corner| axes * corner).collect();
+        let corners = self.attached(body, &places, name, at);
+        let edges = shape.edges().iter().map(|edge| Touch::edge(&edge.ends.map(|k| corners[k]), 0.0));
+        corners.iter().map(|&corner| Touch::node(corner, 0.0)).chain(edges).collect()
     }
 
     /// Nodes that are rigidly attached to a body, at places from its centre.

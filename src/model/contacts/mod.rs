@@ -13,12 +13,15 @@ pub mod surface;
 
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution;
-use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, convex, least_gap, pair_gap};
+use crate::elements::contact::{
+    ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, convex, least_gap, pair_gap,
+};
 use crate::math::Vec3;
 use crate::model::contacts::faces::{is_of_facets, read_facets};
 use crate::model::contacts::law::LawReader;
+use crate::model::contacts::method::is_augmented;
 use crate::model::contacts::opposite::Opposite;
-use crate::model::contacts::points::Finder;
+use crate::model::contacts::points::{Finder, OnConvex};
 use crate::model::contacts::surface::read_surface;
 use crate::model::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
 use crate::model::places::nodes::Topology;
@@ -77,13 +80,15 @@ fn of_shape<'d>(
     let surface = report.require(owner, "surface", &contact.surface);
     let surface = surface.and_then(|table| read_surface(name, table, scene, topology, report));
     let carrier = surface.as_ref().map(|(node, _)| *node);
-    let on_convex = surface.as_ref().and_then(|(node, surface)| surface.as_convex().map(|_| *node));
+    let by_points = is_augmented(contact);
+    let on_convex = surface.as_ref().and_then(|(node, surface)| in_full(*node, surface, by_points));
     let mut finder = Finder { on_convex, ..Finder::new(scene, topology, report) };
     let points = finder.touching(owner, name, contact, carrier);
     let (solids, sight) = (finder.convex, finder.sight);
     let is_zone = is_zone(owner, contact, report);
     let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { return None };
-    sight.check(owner, contact.points.as_ref().map(|at| at.value), &surface, report);
+    let between = contact.points.as_ref().map(|at| at.value);
+    sight.check(owner, (between, by_points), &surface, report);
     let (mut law, mut chosen) = (None, None);
     let chooser = LawReader { scene, masses, at_nodes, gravity, topology: &*topology };
     let opposite = Opposite::Shape(node, &surface);
@@ -109,6 +114,16 @@ fn of_shape<'d>(
         size,
         chosen,
     })
+}
+
+/// Which solids touch a surface with all that they are: the node that carries it, and whether cylinders alone do. Multipliers, which
+/// are those of points, leave planes and cylinders to these.
+fn in_full(node: usize, surface: &Surface, by_points: bool) -> Option<OnConvex> {
+    let (is_plane, is_cylinder) =
+        (matches!(surface.shape, SurfaceShape::Plane(_)), matches!(surface.shape, SurfaceShape::Cylinder(_)));
+    let is_convex = is_plane || surface.as_convex().is_some();
+    let is_seen = is_convex && !(by_points && (is_plane || is_cylinder));
+    is_seen.then_some(OnConvex { carrier: node, cylinders_alone: is_plane })
 }
 
 /// A contact of faces, or of bodies among themselves.

@@ -6,6 +6,7 @@ use crate::deck::words::Names;
 use crate::diagnostic::At;
 use crate::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, TouchKind, Toucher};
 use crate::math::convex::{ConvexShape, Spherocylinder};
+use crate::math::cylinder::RoundCylinder;
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
 use crate::model::contacts::sight::{Opening, Sight};
@@ -72,6 +73,24 @@ pub enum SurfaceLines {
     FreeEdges,
 }
 
+/// A surface that convex solids touch with all that they are.
+#[derive(Debug, Clone, Copy)]
+pub struct OnConvex {
+    /// The node that carries it.
+    pub carrier: usize,
+    /// True for a plane, which boxes and hulls touch with their corners and capsules with their ends: these are all that there is.
+    pub cylinders_alone: bool,
+}
+
+/// The names of what `points` do not divide.
+#[derive(Default)]
+struct Undivided<'n> {
+    /// What touches with lines.
+    lines: Vec<&'n str>,
+    /// Bodies that touch with all of their surface.
+    solids: Vec<&'n str>,
+}
+
 /// Finds the points and the convex solids of one contact.
 pub struct Finder<'a, 'd> {
     /// The scene so far.
@@ -80,11 +99,11 @@ pub struct Finder<'a, 'd> {
     pub topology: &'a mut Topology,
     /// The report, to which errors go.
     pub report: &'a mut Report<'d>,
-    /// The node that carries the surface, where that is a convex shape that convex solids touch with all that they are.
-    pub on_convex: Option<usize>,
+    /// The surface, where that is a convex shape that convex solids touch with all that they are.
+    pub on_convex: Option<OnConvex>,
     /// The lines of which the surface is made.
     pub on_lines: SurfaceLines,
-    /// The boxes, hulls and capsules found.
+    /// The boxes, hulls, cylinders and capsules found.
     pub convex: Vec<ConvexBody>,
     /// What is seen of all that was found.
     pub sight: Sight,
@@ -122,14 +141,17 @@ impl<'a, 'd> Finder<'a, 'd> {
             return self.report.error(&names.span, "`with` is empty, so nothing touches the surface");
         }
         let (mut touches, mut seen, mut sound) = (Vec::new(), HashSet::new(), true);
-        let mut undivided = Vec::new();
+        let mut undivided = Undivided::default();
         for at in &names.values {
+            let solids = self.convex.len();
             let Some(found) = self.touches_of_name(at, name, between, carrier) else {
                 sound = false;
                 continue;
             };
             if found.iter().any(|touch| touch.extent != TouchKind::Point) {
-                undivided.push(at.value.as_str());
+                undivided.lines.push(at.value.as_str());
+            } else if self.convex.len() > solids {
+                undivided.solids.push(at.value.as_str());
             }
             for touch in found {
                 let mut key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
@@ -151,24 +173,27 @@ impl<'a, 'd> Finder<'a, 'd> {
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
     }
 
-    /// Refuses `points` that lie nowhere, and warns of what they do not divide: lines touch with all of their length.
-    fn check_points(&mut self, contact: &'d words::Contact, names: &Names, undivided: &[&str]) -> Option<()> {
+    /// Refuses `points` that lie nowhere, and warns of what they do not divide: lines and convex solids touch in full.
+    fn check_points(&mut self, contact: &'d words::Contact, names: &Names, undivided: &Undivided) -> Option<()> {
         let at = contact.points.as_ref()?;
         if !names.values.iter().any(|at| self.names_part(at)) {
             let message = "`points` lie between the nodes of parts or the corners of bodies, and none is named here";
             return self.report.error(&at.span, message);
         }
-        if undivided.is_empty() {
+        let Undivided { lines, solids } = undivided;
+        if lines.is_empty() && solids.is_empty() {
             return Some(());
         }
-        let what = undivided.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
-        let verb = if undivided.len() == 1 { "touches" } else { "touch" };
-        let message =
-            format!("`points` does not apply to {what}, which {verb} here with all of the length, not with points");
-        if !self.divides {
-            return self.report.error_with(&at.span, message, "leave `points` out");
+        let all: Vec<String> = lines.iter().chain(solids).map(|name| format!("`{name}`")).collect();
+        let (what, verb) = (all.join(", "), if all.len() == 1 { "touches" } else { "touch" });
+        let message = format!("`points` does not apply to {what}, which {verb} here in full, not with points");
+        match (self.divides, solids.is_empty()) {
+            // Nothing is lost where they divide something else, and these need none.
+            (true, _) if lines.is_empty() => {}
+            (true, _) => self.report.warn(&at.span, message, "it divides what else is named in `with`"),
+            (false, false) => self.report.warn(&at.span, message, "leave `points` out"),
+            (false, true) => return self.report.error_with(&at.span, message, "leave `points` out"),
         }
-        self.report.warn(&at.span, message, "it divides what else is named in `with`");
         Some(())
     }
 
@@ -183,9 +208,14 @@ impl<'a, 'd> Finder<'a, 'd> {
                 (ConvexShape::Spherocylinder(of), _) => {
                     ConvexShape::Spherocylinder(Spherocylinder { radius: of.radius + radius, ..*of })
                 }
+                (ConvexShape::Cylinder(of), _) => {
+                    let (larger, half) = (of.radius() + radius, of.half() + radius);
+                    ConvexShape::Cylinder(Arc::new(RoundCylinder::new(larger, half, *of.axes())))
+                }
+                (ConvexShape::HalfSpace(_), _) => continue,
                 (ConvexShape::Polyhedron(_), None) => {
                     let at = contact.radius.as_ref()?;
-                    let message = "hulls take no `radius` against boxes, hulls, capsules and spheres";
+                    let message = "hulls take no `radius` against boxes, hulls, cylinders, capsules and spheres";
                     return self.report.error_with(&at.span, message, "move their points outward");
                 }
             };
@@ -287,7 +317,9 @@ impl<'a, 'd> Finder<'a, 'd> {
                 Some(shape) if shape.half_edges().is_some() => Toucher::Box,
                 Some(ConvexShape::Polyhedron(_)) => Toucher::Hull,
                 Some(ConvexShape::Spherocylinder(_)) => Toucher::Capsule,
-                None => Toucher::Rims,
+                Some(ConvexShape::Cylinder(_)) if shape.has_hole() => Toucher::Tube,
+                Some(ConvexShape::Cylinder(_)) => Toucher::Cylinder,
+                Some(ConvexShape::HalfSpace(_)) | None => Toucher::Nodes,
             },
             Touching::Points { .. } | Touching::Ball(_) => Toucher::Ball,
         }
@@ -332,8 +364,9 @@ impl<'a, 'd> Finder<'a, 'd> {
     fn touches_of_body(&mut self, body: usize, name: &str, between: usize, at: &'d At<String>, found: &mut Vec<Touch>) {
         let (node, shape) = (self.scene.bodies[body].node, self.scene.bodies[body].shape.clone());
         let is_drawn = self.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
-        if let (Some(carrier), Some(shape), true) = (self.on_convex, shape.as_convex(), is_drawn)
-            && self.topology.root(carrier) != self.topology.root(node)
+        if let (Some(on), Some(shape), true) = (self.on_convex, shape.as_convex(), is_drawn)
+            && (shape.is_cylinder() || !on.cylinders_alone)
+            && self.topology.root(on.carrier) != self.topology.root(node)
         {
             if self.convex.iter().all(|one| one.node != node) {
                 self.convex.push(ConvexBody { node, shape });

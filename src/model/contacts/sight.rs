@@ -27,8 +27,15 @@ pub struct Sight {
 }
 
 impl Sight {
-    /// Warns of surfaces that may pass between points unseen; `points` is what the deck asks for between nodes and corners.
-    pub fn check(&self, owner: &Owner, points: Option<u64>, surface: &Surface, report: &mut Report) {
+    /// Warns of surfaces that may pass between points unseen; `points` is what the deck asks for between nodes and corners, and `by_points`
+    /// is true where nothing but points may touch.
+    pub fn check(
+        &self,
+        owner: &Owner,
+        (points, by_points): (Option<u64>, bool),
+        surface: &Surface,
+        report: &mut Report,
+    ) {
         /// Decks have some digits only.
         const DIGITS: f64 = 1e-6;
         let (width, word) = (passing_width(&surface.shape), surface.shape.word());
@@ -50,8 +57,9 @@ impl Sight {
             report.warn(owner.span, message, hint);
             return;
         }
-        for toucher in self.touchers.iter().filter(|toucher| points.is_none() && toucher.may_pass(&surface.shape)) {
-            let unseen = toucher.unseen(&surface.shape).unwrap_or_default();
+        let may_pass = |toucher: &&Toucher| points.is_none() && toucher.may_pass(&surface.shape, by_points);
+        for toucher in self.touchers.iter().filter(may_pass) {
+            let unseen = toucher.unseen(&surface.shape, by_points).unwrap_or_default();
             let message = format!("{} does not see {unseen}, so a {word} may enter there", owner.what);
             report.warn(owner.span, message, "give `points`, so many that they lie closer than the surface is wide");
         }

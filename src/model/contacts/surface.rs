@@ -72,8 +72,10 @@ fn shape_of_body<'d>(
         }
     };
     let Some(surface) = surface else {
-        let message =
-            format!("body `{}` is no box, hull, capsule or sphere whose surface others could touch", name.value);
+        let message = format!(
+            "body `{}` is no box, hull, cylinder, capsule or sphere whose surface others could touch",
+            name.value
+        );
         return report.error_with(&name.span, message, "give the surface a `shape`");
     };
     Some((body.node, surface))

@@ -78,6 +78,11 @@ impl Contact {
         matches!(self.surface, TouchedSurface::Facets(_))
     }
 
+    /// True where multipliers keep things apart.
+    pub fn has_multipliers(&self) -> bool {
+        self.law.is_some_and(|law| law.tolerance.is_some())
+    }
+
     /// A node of the surface with each node of the points, one pair after the other.
     pub fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
         let node = match &self.surface {

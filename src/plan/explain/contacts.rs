@@ -12,7 +12,7 @@ pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for contact in model.each::<Contact>() {
         text.add("contact", contact_in_words(model, contact));
         let unseen = contact.touchers.iter().filter_map(|toucher| match &contact.surface {
-            TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape),
+            TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape, contact.has_multipliers()),
             TouchedSurface::Facets(faces) if faces.facets.iter().any(Facet::is_line) => toucher.unseen_by_lines(),
             TouchedSurface::Facets(_) => toucher.unseen_by_faces(),
         });
@@ -89,8 +89,14 @@ fn solids_in_words(contact: &Contact) -> impl Iterator<Item = String> {
     let is_polyhedron = |one: &&ConvexBody| one.shape.as_polyhedron().is_some();
     let boxes = contact.convex.iter().filter(is_box).count();
     let polyhedra = contact.convex.iter().filter(is_polyhedron).count();
-    let capsules = contact.convex.len() - polyhedra;
-    let kinds = [(boxes, "box", "boxes"), (polyhedra - boxes, "hull", "hulls"), (capsules, "capsule", "capsules")];
+    let cylinders = contact.convex.iter().filter(|one| one.shape.is_cylinder()).count();
+    let capsules = contact.convex.len() - polyhedra - cylinders;
+    let kinds = [
+        (boxes, "box", "boxes"),
+        (polyhedra - boxes, "hull", "hulls"),
+        (cylinders, "cylinder", "cylinders"),
+        (capsules, "capsule", "capsules"),
+    ];
     kinds.into_iter().filter_map(|(count, one, many)| counted(count, one, many))
 }
 

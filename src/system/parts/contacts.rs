@@ -45,15 +45,19 @@ impl Assembled for Contact {
     fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
         let TouchedSurface::Shape(CarriedSurface { surface, .. }) = &self.surface else { return false };
         let center = surface.center[plane.normal].abs();
-        // Two boxes of which each is the same on both sides of the plane push each other along it.
-        if self.convex.iter().any(|one| one.shape.half_edges().is_none())
-            || matches!(surface.shape, SurfaceShape::Hull(_))
-        {
+        // Two solids of which each is the same on both sides of the plane push each other along it.
+        if self.convex.iter().any(|one| !one.shape.is_symmetric(plane.normal)) {
             return false;
         }
-        let keeps = !self.points.is_empty() || self.convex.is_empty();
-        let along = surface.axes.row(plane.normal).iter().any(|x| x.abs() > 1.0 - 1e-12);
-        center <= SMALL * plane.size && (!keeps || surface.keeps(plane.normal)) && (self.convex.is_empty() || along)
+        let has_points = !self.points.is_empty() || self.convex.is_empty();
+        let is_symmetric = match surface.shape {
+            SurfaceShape::Hull(_) => false,
+            SurfaceShape::Plane(_) => surface.keeps(plane.normal),
+            _ => surface.axes.row(plane.normal).iter().any(|x| x.abs() > 1.0 - 1e-12),
+        };
+        center <= SMALL * plane.size
+            && (!has_points || surface.keeps(plane.normal))
+            && (self.convex.is_empty() || is_symmetric)
     }
 }
 

@@ -1,8 +1,10 @@
 //! The axis that separates two convex solids, or along which they overlap least.
 
+use super::cylinder::CylinderPose;
 use super::pose::{ConvexPose, LeastAxis, PolyhedronPose};
 use super::swept::Swept;
 use crate::math::Vec3;
+use crate::math::convex::ConvexShape;
 use crate::math::polyhedron::{Polyhedron, PolyhedronEdge};
 
 /// Looks for the axis of the largest gap.
@@ -24,10 +26,14 @@ impl ConvexPose<'_> {
     /// The axis of the largest gap. Of polyhedra that is one of the normals of faces and the products of edges: two of them overlap where
     /// none of these separates them (S. Gottschalk, 1996).
     pub fn least_axis(&self) -> LeastAxis {
+        if let ConvexShape::HalfSpace(_) = self.other {
+            return LeastAxis { axis: Vec3::z(), gap: self.deepest(&Vec3::z()).z };
+        }
         let best = LeastAxis { axis: Vec3::z(), gap: f64::NEG_INFINITY };
         let mut search = AxisSearch { best, size: self.size() };
         let Some(pose) = self.as_polyhedra() else {
-            return Swept::of(self).map_or(best, |swept| swept.least_axis());
+            let of_cylinder = || CylinderPose::of(self).map(|pose| pose.least_axis());
+            return Swept::of(self).map(|swept| swept.least_axis()).or_else(of_cylinder).unwrap_or(best);
         };
         match (pose.own.half(), pose.other.half()) {
             (Some(own), Some(other)) => pose.look_along_boxes(own, other, &mut search),

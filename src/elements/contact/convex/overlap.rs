@@ -42,7 +42,7 @@ pub fn faces<const CORNERS: usize, const MOST: usize>(
 
 impl<const CORNERS: usize, const MOST: usize> Faces<CORNERS, MOST> {
     /// The faces of a polyhedron. They are made of its corners, so that neighbours share theirs to the last bit.
-    fn of(shape: &Polyhedron, center: &Vec3, axes: &Mat3) -> Option<Self> {
+    pub fn of(shape: &Polyhedron, center: &Vec3, axes: &Mat3) -> Option<Self> {
         if shape.faces().len() > MOST || shape.faces().iter().any(|face| face.corners.len() > CORNERS) {
             return None;
         }
@@ -58,7 +58,7 @@ impl<const CORNERS: usize, const MOST: usize> Faces<CORNERS, MOST> {
     }
 
     /// Keeps what lies below the plane n · x = `at`, and closes it there; `None` where there is no room for what it takes.
-    fn cut(&mut self, n: &Vec3, at: f64) -> Option<()> {
+    pub fn cut(&mut self, n: &Vec3, at: f64) -> Option<()> {
         let mut edges = [[Vec3::zeros(); 2]; MOST];
         let (mut cuts, mut kept, mut has_room) = (0, 0, true);
         for place in 0..self.count {
@@ -114,6 +114,11 @@ impl<const CORNERS: usize, const MOST: usize> Faces<CORNERS, MOST> {
 }
 
 impl<const CORNERS: usize> ClippedFace<CORNERS> {
+    /// Its corners, counter-clockwise about the normal.
+    pub fn corners(&self) -> &[Vec3] {
+        &self.corners[..self.count]
+    }
+
     /// Keeps what lies below the plane n · x = `at`; tells of each edge that the plane then needs, as it goes around there. False where
     /// there is no room for its corners.
     fn cut(&mut self, n: &Vec3, at: f64, edge: &mut dyn FnMut([Vec3; 2])) -> bool {

@@ -9,6 +9,7 @@ use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::restitution::{Loss, NormalForce, normal_force};
 use crate::elements::contact::surface::Surface;
+use crate::elements::contact::surfaces::SurfaceShape;
 use crate::math::convex::ConvexShape;
 use crate::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, stack};
 use crate::state::{Configuration, Node};
@@ -42,9 +43,10 @@ pub struct CarriedConvex {
 }
 
 impl CarriedConvex {
-    /// The convex solid that a surface is; `None` where it is none.
-    pub fn of_surface(surface: &Surface, node: usize) -> Option<Self> {
-        let shape = surface.as_convex()?;
+    /// The convex solid that a surface is to what reaches so far; `None` where it is none.
+    pub fn of_surface(surface: &Surface, node: usize, reach: f64) -> Option<Self> {
+        let half_space = || matches!(surface.shape, SurfaceShape::Plane(_)).then(|| ConvexShape::half_space(reach));
+        let shape = surface.as_convex().or_else(half_space)?;
         Some(CarriedConvex { node, center: surface.center, axes: surface.axes, shape })
     }
 

@@ -21,7 +21,8 @@ impl ConvexPairs {
     /// `None` where the surface is no convex solid of these kinds. The stiffness and damping of `law` are those of a corner.
     pub fn new(law: ContactLaw, surface: &Surface, carrier: usize, touching: Vec<ConvexBody>) -> Option<Self> {
         let nodes = touching.iter().map(|one| [one.node, carrier]).collect();
-        let other = CarriedConvex::of_surface(surface, carrier)?;
+        let reach = touching.iter().map(|one| one.shape.reach()).fold(0.0, f64::max);
+        let other = CarriedConvex::of_surface(surface, carrier, reach)?;
         Some(ConvexPairs { law: law_of_faces(law), other, touching, nodes })
     }
 

@@ -45,6 +45,14 @@ impl<'a> ConvexPose<'a> {
         self.own.reach() + self.other.reach()
     }
 
+    /// A lower bound of the distance of the two, by the balls that hold them.
+    pub fn apart(&self) -> f64 {
+        match self.other {
+            ConvexShape::HalfSpace(_) => self.y.z - self.own.reach(),
+            _ => self.y.norm() - self.size(),
+        }
+    }
+
     /// The two, where both are polyhedra.
     pub(super) fn as_polyhedra(&self) -> Option<PolyhedronPose<'a>> {
         let (own, other) = (self.own.as_polyhedron()?, self.other.as_polyhedron()?);
@@ -79,7 +87,7 @@ impl<'a> ConvexPose<'a> {
 
     /// The same; where it is beyond a limit, a lower bound that is beyond it too.
     pub fn distance_within(&self, limit: f64) -> f64 {
-        let apart = self.y.norm() - self.size();
+        let apart = self.apart();
         if apart >= limit {
             return apart;
         }

@@ -32,7 +32,7 @@ pub(super) fn is_missed(pair: &ConvexPair, old: PointHistory, start: &[Node], no
     let law = pair.law;
     let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);
     let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.reach();
-    if from.y.norm() - from.size() > length {
+    if from.apart() > length {
         return false;
     }
     let (first, last) = (from.least_axis(), to.least_axis());

@@ -11,7 +11,9 @@
 
 use super::depth::Depth;
 use super::pose::{ConvexPose, LeastAxis};
+use super::segment::{ITERATIONS, SegmentPlace, nearest_place};
 use crate::math::convex::ConvexShape;
+use crate::math::cylinder::RoundCylinder;
 use crate::math::quadrature::gauss;
 use crate::math::{Mat3, Vec3, Vec6, stack};
 
@@ -19,8 +21,6 @@ use crate::math::{Mat3, Vec3, Vec6, stack};
 const POINTS: usize = 6;
 /// Most pieces; a box has eight, and of hulls with many small faces some pieces may hold more than one nearest part.
 const PIECES: usize = 12;
-/// Iterations of the searches along the segment, which double their digits or halve the interval.
-const ITERATIONS: usize = 80;
 
 /// The segment of one solid in the axes of the other's core.
 pub(super) struct Swept<'a> {
@@ -39,23 +39,12 @@ pub(super) struct Swept<'a> {
     side: f64,
 }
 
-/// A place on the segment.
-#[derive(Clone, Copy)]
-struct Place {
-    /// −1 to 1.
-    s: f64,
-    /// Distance from the core.
-    d: f64,
-    /// Its gradient, in the axes of the core.
-    n: Vec3,
-}
-
 /// A point of the rule: its weight, where it is on the strip, and what is there.
 #[derive(Clone, Copy)]
 struct Sample {
     weight: f64,
     p: f64,
-    place: Place,
+    place: SegmentPlace,
 }
 
 impl<'a> Swept<'a> {
@@ -72,7 +61,10 @@ impl<'a> Swept<'a> {
                 Some(Swept { core, middle: y, half: Q * own.half, radius, axes, origin, y, side: 1.0 })
             }
             (core, ConvexShape::Spherocylinder(other)) => Some(Swept::of_other(y, Q, other.half, other.radius, core)),
-            (ConvexShape::Polyhedron(_), ConvexShape::Polyhedron(_)) => None,
+            (
+                ConvexShape::Polyhedron(_) | ConvexShape::Cylinder(_) | ConvexShape::HalfSpace(_),
+                ConvexShape::Polyhedron(_) | ConvexShape::Cylinder(_) | ConvexShape::HalfSpace(_),
+            ) => None,
         }
     }
 
@@ -81,41 +73,14 @@ impl<'a> Swept<'a> {
         Swept { core, middle, half, radius: radius + core.rounding(), axes: Q, origin: y, y, side: -1.0 }
     }
 
-    fn at(&self, s: f64) -> Place {
+    fn at(&self, s: f64) -> SegmentPlace {
         let (d, n) = self.core.distance_from_core(&(self.middle + s * self.half));
-        Place { s, d, n }
+        SegmentPlace { s, d, n }
     }
 
-    /// The growth of the distance along the segment.
-    fn slope(&self, place: &Place) -> f64 {
-        place.n.dot(&self.half)
-    }
-
-    /// The place that is nearest to the core, or lies deepest in it: the slope of a convex function grows, and is zero there.
-    fn nearest(&self) -> Place {
-        let (mut low, mut high) = (self.at(-1.0), self.at(1.0));
-        if self.slope(&low) >= 0.0 {
-            return low;
-        }
-        if self.slope(&high) <= 0.0 {
-            return high;
-        }
-        let size = self.half.norm();
-        for k in 0..ITERATIONS {
-            let (a, b) = (self.slope(&low), self.slope(&high));
-            // By turns the chord, which is exact where the slope grows evenly, and the middle.
-            let s = match k % 2 {
-                0 => low.s - a * (high.s - low.s) / (b - a),
-                _ => 0.5 * (low.s + high.s),
-            };
-            let between = self.at(s);
-            match self.slope(&between) {
-                slope if slope.abs() <= 1e-13 * size => return between,
-                slope if slope < 0.0 => low = between,
-                _ => high = between,
-            }
-        }
-        if low.d < high.d { low } else { high }
+    /// The place that is nearest to the core, or lies deepest in it.
+    fn nearest(&self) -> SegmentPlace {
+        nearest_place(&self.half, |s| self.at(s))
     }
 
     /// The axis through the nearest place.
@@ -126,10 +91,10 @@ impl<'a> Swept<'a> {
 
     /// Where the segment comes within the radius of the core, from one of its ends toward the nearest place. Newton's method comes from
     /// outside and stays there, since the distance is convex.
-    fn entry(&self, end: f64, nearest: &Place) -> f64 {
+    fn entry(&self, end: f64, nearest: &SegmentPlace) -> f64 {
         let mut place = self.at(end);
         for _ in 0..ITERATIONS {
-            let (over, slope) = (place.d - self.radius, self.slope(&place));
+            let (over, slope) = (place.d - self.radius, place.slope(&self.half));
             if over <= 0.0 || slope * end <= 0.0 {
                 break;
             }
@@ -174,10 +139,25 @@ impl<'a> Swept<'a> {
                 cut((-end - along) / rate);
                 cut((end - along) / rate);
             }
+            ConvexShape::Cylinder(shape) => self.cut_by_cylinder(shape, &mut cut),
+            ConvexShape::HalfSpace(_) => {}
         }
         cuts[..count].sort_unstable_by(f64::total_cmp);
         cuts[count] = to;
         (cuts, count)
+    }
+
+    /// Where the segment crosses the planes of the ends of a cylinder, and its side.
+    fn cut_by_cylinder(&self, shape: &RoundCylinder, cut: &mut impl FnMut(f64)) {
+        let (middle, half) = (shape.axes().tr_mul(&self.middle), shape.axes().tr_mul(&self.half));
+        cut((-shape.half() - middle.z) / half.z);
+        cut((shape.half() - middle.z) / half.z);
+        let squared = half.x * half.x + half.y * half.y;
+        let along = -(middle.x * half.x + middle.y * half.y) / squared;
+        let over = (middle.x * half.y - middle.y * half.x).powi(2) / squared;
+        let chord = ((shape.radius() * shape.radius() - over) / squared).sqrt();
+        cut(along - chord);
+        cut(along + chord);
     }
 
     /// The depth; `None` where the two do not overlap.
@@ -232,23 +212,23 @@ impl<'a> Swept<'a> {
         Some(Depth { D, g, c, lever })
     }
 
-    fn depth_of_sphere(&self, at: &Place) -> Depth {
+    fn depth_of_sphere(&self, at: &SegmentPlace) -> Depth {
         Depth { D: 0.5 * (self.radius - at.d), g: 0.5 * self.way(at), c: self.middle_of_overlap(at), lever: 0.0 }
     }
 
     /// The growth of p at a place by a displacement of the one and a rotation about its centre.
-    fn way(&self, at: &Place) -> Vec6 {
+    fn way(&self, at: &SegmentPlace) -> Vec6 {
         let n = -self.side * (self.axes * at.n);
         stack(&n, &(self.x(at) - self.y).cross(&n))
     }
 
     /// The place in the axes of the pose.
-    fn x(&self, at: &Place) -> Vec3 {
+    fn x(&self, at: &SegmentPlace) -> Vec3 {
         self.origin + self.axes * (self.middle + at.s * self.half)
     }
 
     /// The middle between the surfaces of the two.
-    fn middle_of_overlap(&self, at: &Place) -> Vec3 {
+    fn middle_of_overlap(&self, at: &SegmentPlace) -> Vec3 {
         let rounding = self.core.rounding();
         let away = 0.5 * (at.d - rounding + self.radius - rounding);
         self.x(at) - self.axes * at.n * away

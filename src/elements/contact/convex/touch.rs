@@ -1,5 +1,6 @@
 //! The depth of two convex solids wherever they are: apart, as they begin to touch, and in each other.
 
+use super::cylinder::CylinderPose;
 use super::depth::Depth;
 use super::pose::{ConvexPose, LeastAxis};
 use super::swept::Swept;
@@ -44,7 +45,10 @@ fn first_touch(pose: &ConvexPose, least: &LeastAxis) -> Depth {
 fn within(pose: &ConvexPose, axis: &Vec3) -> Option<Depth> {
     match pose.as_polyhedra() {
         Some(polyhedra) => depth_by_volume(&polyhedra, axis, &pose.deepest(axis)),
-        None => Swept::of(pose)?.depth(),
+        None => match CylinderPose::of(pose) {
+            Some(of_cylinder) => of_cylinder.depth(axis),
+            None => Swept::of(pose)?.depth(),
+        },
     }
 }
 

@@ -22,7 +22,7 @@ pub(super) fn update_pair(
     let at = pair.kinematics(now.nodes);
     let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.reach();
     let mut new = PointHistoryMut::new(numbers);
-    if let Some(spent) = pass_over(law, (at.pose.y.norm() - at.pose.size(), speed), now, old, &mut new) {
+    if let Some(spent) = pass_over(law, (at.pose.apart(), speed), now, old, &mut new) {
         return spent;
     }
     let acting = pair.force(&at, old);

@@ -13,6 +13,7 @@
 use super::depth::Depth;
 use super::overlap::{Faces, faces};
 use super::pose::PolyhedronPose;
+use crate::math::polyhedron::SolidMoments;
 use crate::math::{Mat3, Vec3, frame_along, stack};
 
 /// Corners of the faces of what two boxes have in common, and of most hulls.
@@ -47,24 +48,51 @@ fn of_faces<const CORNERS: usize, const FACES: usize>(
     faces: &Faces<CORNERS, FACES>,
 ) -> Option<Depth> {
     let moments = faces.moments()?;
-    let S = moments.variance;
-    let inverse = S.try_inverse()?;
-    let trace = inverse.trace();
-    if trace.is_nan() || trace <= 0.0 || S.trace() <= 0.0 {
-        return None;
-    }
-    let D = (12.0 / trace).sqrt();
-    let scale = 6.0 / (D * moments.volume * trace * trace);
-    let q = |x: &Vec3| scale * ((inverse * (x - moments.mean)).norm_squared() - trace);
+    let measure = Measure::of(&moments)?;
     let center = T.tr_mul(&(pose.y - origin));
     let (mut by_x, mut by_turn) = (Vec3::zeros(), Vec3::zeros());
     for face in faces.iter().filter(|face| face.moves) {
-        let (sum, first) = face.integral(&q);
+        let (sum, first) = face.integral(&|x| measure.growth(x));
         by_x += sum * face.normal;
         by_turn += (first - sum * center).cross(&face.normal);
     }
     let g = stack(&(T * by_x), &(T * by_turn));
-    // The mean radius of a disc is 2 R/3, and its variance R²/2.
-    let lever = (8.0 / 9.0 * S.trace()).sqrt();
-    D.is_finite().then(|| Depth { D, g, c: origin + T * moments.mean, lever })
+    let D = measure.D;
+    D.is_finite().then(|| Depth { D, g, c: origin + T * measure.mean, lever: measure.lever })
+}
+
+/// The depth of two by the moments of what they have in common.
+pub(super) struct Measure {
+    /// The depth.
+    pub D: f64,
+    /// The centre of what they have in common.
+    pub mean: Vec3,
+    /// The radius at which friction about the normal acts.
+    pub lever: f64,
+    /// The inverse of the variance, and its trace.
+    inverse: Mat3,
+    trace: f64,
+    scale: f64,
+}
+
+impl Measure {
+    /// `None` where rounding leaves nothing of that.
+    pub fn of(moments: &SolidMoments) -> Option<Self> {
+        let S = moments.variance;
+        let inverse = S.try_inverse()?;
+        let trace = inverse.trace();
+        if trace.is_nan() || trace <= 0.0 || S.trace() <= 0.0 {
+            return None;
+        }
+        let D = (12.0 / trace).sqrt();
+        let scale = 6.0 / (D * moments.volume * trace * trace);
+        // The mean radius of a disc is 2 R/3, and its variance R²/2.
+        let lever = (8.0 / 9.0 * S.trace()).sqrt();
+        Some(Measure { D, mean: moments.mean, lever, inverse, trace, scale })
+    }
+
+    /// q(x): the growth of the depth by that of the solid at x, per volume.
+    pub fn growth(&self, x: &Vec3) -> f64 {
+        self.scale * ((self.inverse * (x - self.mean)).norm_squared() - self.trace)
+    }
 }

@@ -10,9 +10,10 @@ pub mod plane;
 pub mod sight;
 pub mod sphere;
 
-use crate::math::Vec3;
 use crate::math::convex::{ConvexShape, Spherocylinder};
+use crate::math::cylinder::RoundCylinder;
 use crate::math::polyhedron::Polyhedron;
+use crate::math::{Mat3, Vec3};
 use kind::{ClosestPoint, Placed, SurfaceKind, Touched};
 use std::sync::Arc;
 
@@ -49,7 +50,12 @@ macro_rules! surfaces {
                     SurfaceShape::Hull(hull) => Some(ConvexShape::Polyhedron(hull.polyhedron.clone())),
                     SurfaceShape::Sphere(sphere) => Some(about(0.0, sphere.radius)),
                     SurfaceShape::Capsule(capsule) => Some(about(capsule.half, capsule.radius)),
-                    SurfaceShape::Plane(_) | SurfaceShape::Cylinder(_) => None,
+                    SurfaceShape::Cylinder(of) => Some(ConvexShape::Cylinder(Arc::new(RoundCylinder::new(
+                        of.radius,
+                        of.half,
+                        Mat3::identity(),
+                    )))),
+                    SurfaceShape::Plane(_) => None,
                 }
             }
 

@@ -3,6 +3,9 @@
 use super::SurfaceShape;
 use super::kind::Touched;
 
+/// What is not seen of a tube where all else is.
+const HOLE: &str = "the hole of the tube, into which nothing goes";
+
 /// The shape of what touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Toucher {
@@ -14,42 +17,65 @@ pub enum Toucher {
     Hull,
     /// A body that is a capsule.
     Capsule,
-    /// A body that is a cylinder or a tube: points of its rims.
-    Rims,
+    /// A body that is a solid cylinder.
+    Cylinder,
+    /// A body that is a cylinder with a hole.
+    Tube,
     /// Nodes of a part or of a body of rigid parts, and places between them that are asked for.
     Nodes,
 }
 
 impl Toucher {
     /// All of them.
-    pub const ALL: [Toucher; 6] =
-        [Toucher::Ball, Toucher::Box, Toucher::Hull, Toucher::Capsule, Toucher::Rims, Toucher::Nodes];
+    pub const ALL: [Toucher; 7] = [
+        Toucher::Ball,
+        Toucher::Box,
+        Toucher::Hull,
+        Toucher::Capsule,
+        Toucher::Cylinder,
+        Toucher::Tube,
+        Toucher::Nodes,
+    ];
 
-    /// What of the one and of the surface is not seen; `None` where they see each other in full.
-    pub fn unseen(self, surface: &SurfaceShape) -> Option<&'static str> {
+    /// What of the one and of the surface is not seen; `None` where they see each other in full. `by_points`: multipliers keep them apart,
+    /// at points alone on planes and cylinders.
+    pub fn unseen(self, surface: &SurfaceShape, by_points: bool) -> Option<&'static str> {
         match (self, surface) {
             (Toucher::Ball, _) => None,
-            // They touch a plane with their corners or ends, whatever else lies on it, and the others with all of both.
+            (Toucher::Cylinder | Toucher::Tube, SurfaceShape::Plane(_)) if by_points => {
+                Some("the rim between its points")
+            }
+            (Toucher::Box, SurfaceShape::Cylinder(_)) if by_points => {
+                Some("edges and faces of the box between its points")
+            }
+            (Toucher::Hull, SurfaceShape::Cylinder(_)) if by_points => {
+                Some("edges and faces of the hull between its points")
+            }
+            (Toucher::Capsule, SurfaceShape::Cylinder(_)) if by_points => {
+                Some("the side of the capsule between its points")
+            }
+            (Toucher::Cylinder | Toucher::Tube, SurfaceShape::Cylinder(_)) if by_points => {
+                Some("ends and side of the cylinder between its points")
+            }
+            // Boxes, hulls and capsules touch a plane with their corners or ends, whatever else lies on it, and the others with all of both.
             (
-                Toucher::Box | Toucher::Hull | Toucher::Capsule,
+                Toucher::Box | Toucher::Hull | Toucher::Capsule | Toucher::Cylinder,
                 SurfaceShape::Plane(_)
                 | SurfaceShape::Cuboid(_)
                 | SurfaceShape::Hull(_)
                 | SurfaceShape::Sphere(_)
+                | SurfaceShape::Cylinder(_)
                 | SurfaceShape::Capsule(_),
             ) => None,
-            (Toucher::Box, SurfaceShape::Cylinder(_)) => Some("edges and faces of the box between its points"),
-            (Toucher::Hull, SurfaceShape::Cylinder(_)) => Some("edges and faces of the hull between its points"),
-            (Toucher::Capsule, SurfaceShape::Cylinder(_)) => Some("the side of the capsule between its points"),
-            (Toucher::Rims, SurfaceShape::Plane(_)) => Some("the rim between its points"),
             (
-                Toucher::Rims,
-                SurfaceShape::Cuboid(_)
+                Toucher::Tube,
+                SurfaceShape::Plane(_)
+                | SurfaceShape::Cuboid(_)
                 | SurfaceShape::Hull(_)
                 | SurfaceShape::Sphere(_)
                 | SurfaceShape::Cylinder(_)
                 | SurfaceShape::Capsule(_),
-            ) => Some("ends and side of the cylinder between its points"),
+            ) => Some(HOLE),
             (Toucher::Nodes, SurfaceShape::Plane(_)) => Some("what bends between nodes"),
             (
                 Toucher::Nodes,
@@ -70,7 +96,9 @@ impl Toucher {
             Toucher::Box => Some("edges of the box that cross edges of the faces"),
             Toucher::Hull => Some("edges of the hull that cross edges of the faces"),
             Toucher::Capsule => Some("the side of the capsule that crosses edges of the faces"),
-            Toucher::Rims => Some("ends and side of the cylinder between its points"),
+            Toucher::Cylinder | Toucher::Tube => {
+                Some("edges of the faces that cross ends and side of the cylinder between its points")
+            }
             Toucher::Nodes => Some("edges that cross edges, which are a contact of their own with `edges = true`"),
         }
     }
@@ -80,15 +108,15 @@ impl Toucher {
         match self {
             // The nodes of the lines see the faces of boxes and hulls.
             Toucher::Ball | Toucher::Box | Toucher::Hull | Toucher::Capsule => None,
-            Toucher::Rims => Some("ends and side of the cylinder between its points"),
+            Toucher::Cylinder | Toucher::Tube => Some("what is round of the cylinder between 16 lines along it"),
             Toucher::Nodes => Some("what lies between nodes"),
         }
     }
 
     /// True where a body as a whole may pass the surface unseen, and not only sink in a little further than it should.
-    pub fn may_pass(self, surface: &SurfaceShape) -> bool {
-        matches!(self, Toucher::Box | Toucher::Hull | Toucher::Capsule | Toucher::Rims)
-            && self.unseen(surface).is_some()
+    pub fn may_pass(self, surface: &SurfaceShape, by_points: bool) -> bool {
+        matches!(self, Toucher::Box | Toucher::Hull | Toucher::Capsule | Toucher::Cylinder | Toucher::Tube)
+            && self.unseen(surface, by_points).is_some_and(|unseen| unseen != HOLE)
             && !matches!(surface, SurfaceShape::Plane(_))
     }
 }
