@@ -116,7 +116,8 @@ impl Facet {
     /// The places of its corners relative to a point that lies at `x` from the node `origin`.
     #[inline]
     pub(super) fn seen_from(&self, x: &Vec3, origin: &Node, nodes: &[Node]) -> [Vec3; MOST_CORNERS] {
-        self.nodes.map(|node| nodes[node].relative_position(origin) - x)
+        let seen = |node: usize| nodes[node].relative_position(origin) - x;
+        if self.is_ball() { [seen(self.nodes[0]); MOST_CORNERS] } else { self.nodes.map(seen) }
     }
 
     /// Number of its triangles.
@@ -171,6 +172,9 @@ impl Facet {
     /// The share of each node in a point of the facet.
     #[inline]
     pub(super) fn weights(&self, at: &FacetPoint) -> [f64; MOST_CORNERS] {
+        if self.is_ball() {
+            return [1.0, 0.0, 0.0, 0.0];
+        }
         let C = self.corner_weights(at.triangle);
         std::array::from_fn(|j| (0..3).map(|i| at.N[i] * C[i][j]).sum())
     }
@@ -255,6 +259,9 @@ impl Facet {
     /// The components of a vector in those base vectors.
     pub(super) fn components(&self, v: &Vec3, nodes: &[Node]) -> Vec3 {
         let base = self.base(nodes);
+        if !self.has_sides() {
+            return base.tr_mul(v);
+        }
         base.try_inverse().map_or(*v, |inverse| inverse * v)
     }
 
@@ -270,6 +277,23 @@ impl Facet {
         let n = across.try_normalize(0.0).unwrap_or_else(Vec3::z);
         let e = (along - n.dot(&along) * n).try_normalize(0.0).unwrap_or_else(Vec3::x);
         Mat3::from_columns(&[e, n.cross(&e), n])
+    }
+}
+
+/// A ball that is touched.
+#[derive(Clone, Copy)]
+pub(super) struct Ball {
+    /// Its node.
+    pub node: usize,
+    /// Its radius.
+    pub radius: f64,
+}
+
+impl Ball {
+    /// Those that facets are; `None` where one is no ball.
+    pub fn all(facets: &[Facet]) -> Option<Vec<Ball>> {
+        let ball = |facet: &Facet| facet.is_ball().then_some(Ball { node: facet.nodes[0], radius: facet.half });
+        facets.iter().map(ball).collect()
     }
 }
 

@@ -9,15 +9,17 @@
 //! Lines that touch lines do so where they are nearest to each other, wherever that is on both; edges of solids do where they cross, for their
 //! corners are points.
 //!
-//! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `crossing` edges whose ends touch for themselves, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count,
+//! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `crossing` edges whose ends touch for themselves, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count, `found` is such a one, `balls` what is simpler of balls,
 //! `facing` what tells on which side a point is, `pair` two of them, `force` what acts between them, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
 //! see, `steps` bounds the steps, `resultant` sums what is shown.
 
+mod balls;
 mod block;
 mod crossing;
 mod facet;
 mod facing;
 mod force;
+mod found;
 mod line_friction;
 mod lines;
 mod memory;

@@ -2,9 +2,10 @@
 //! they leave out is farther than anything that is asked for, so results do not depend on when they were made.
 
 use super::facet::Facet;
+use super::found::{FacetTouch, TouchQuery};
 use super::scene::FacetScene;
 use super::span::FacetSpan;
-use super::touch::{self, FacetTouch, TouchQuery};
+use super::touch;
 use crate::elements::contact::grid::{BoxGrid, GridBox};
 use crate::math::Vec3;
 use crate::state::Node;

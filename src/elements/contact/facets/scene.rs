@@ -1,6 +1,6 @@
 //! Points and facets that may touch, without what changes.
 
-use super::facet::Facet;
+use super::facet::{Ball, Facet};
 use super::lines;
 use super::memory::{self, PairMemory};
 use super::mesh;
@@ -33,6 +33,8 @@ pub struct FacetScene {
     near_along: Vec<Vec<u32>>,
     /// True where the facets are balls, and each pair of them counts once.
     pub(super) is_of_balls: bool,
+    /// These balls.
+    pub(super) balls: Vec<Ball>,
     /// True where the points are the balls themselves, in the same order.
     is_among: bool,
     /// True where the points are lines between their two nodes, and the facets lines too.
@@ -102,7 +104,8 @@ impl FacetScene {
         // Middles have names beyond those of nodes.
         let pieces = facets.iter().enumerate().flat_map(|(k, facet)| facet.pieces(x.len() + k));
         let facets: Vec<Facet> = pieces.collect();
-        let is_of_balls = facets.iter().all(Facet::is_ball);
+        let balls = Ball::all(&facets);
+        let (is_of_balls, balls) = (balls.is_some(), balls.unwrap_or_default());
         let sizes: Vec<f64> = facets.iter().map(|facet| size(facet, x)).collect();
         let mean = sizes.iter().sum::<f64>() / sizes.len().max(1) as f64;
         let mut involved: Vec<usize> = points.iter().flat_map(ContactPoint::nodes).copied().collect();
@@ -139,6 +142,7 @@ impl FacetScene {
             facets,
             near_along,
             is_of_balls,
+            balls,
             involved,
             turned,
             rolls,
@@ -220,20 +224,37 @@ impl FacetScene {
         self.near_along.get(e).is_some_and(|near| near.binary_search(&facet).is_ok())
     }
 
-    /// The history of a point, of that of the block.
+    /// The history of a point, of that of the block, from its first slot on.
     pub(super) fn of_point<'a>(&self, e: usize, history: &'a [f64]) -> &'a [f64] {
-        let width = self.slots * self.width;
-        &history[e * width..(e + 1) * width]
+        &history[e * self.to_next_point()..]
     }
 
     /// The memory in a slot of a point's history.
     pub(super) fn memory<'a>(&self, history: &'a [f64], slot: usize) -> PairMemory<'a> {
-        PairMemory(&history[slot * self.width..(slot + 1) * self.width])
+        let from = slot * self.to_next_slot();
+        PairMemory(&history[from..from + self.width])
     }
 
-    /// The memories of all pairs in the history of the block.
-    pub(super) fn memories<'a>(&self, history: &'a [f64]) -> impl Iterator<Item = PairMemory<'a>> {
-        history.chunks_exact(self.width).map(PairMemory)
+    /// From the slot of one point to the same slot of the next. Of balls the first slots of all come first, then the second ones: most of
+    /// a heap fills few, which then lie side by side.
+    pub(super) fn to_next_point(&self) -> usize {
+        if self.is_of_balls { self.width } else { self.slots * self.width }
+    }
+
+    /// From one slot of a point to its next.
+    pub(super) fn to_next_slot(&self) -> usize {
+        if self.is_of_balls { self.points.len() * self.width } else { self.width }
+    }
+
+    /// The memories of all pairs in the history of the block that are known.
+    pub(super) fn known_memories<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = PairMemory<'a>> {
+        let of_point = move |e: usize| {
+            let own = self.of_point(e, history);
+            let all = (0..self.slots).map(move |slot| self.memory(own, slot));
+            // Balls fill their slots from the first on.
+            all.take_while(|memory| !self.is_of_balls || memory.motion().is_known())
+        };
+        (0..self.points.len()).flat_map(of_point).filter(|memory| memory.motion().is_known())
     }
 }
 

@@ -1,6 +1,8 @@
 //! Limits on the step length: nothing passes through the middle of a surface of facets unseen, and impacts are resolved.
 
+use super::balls;
 use super::facet::{Facet, Region};
+use super::found::{FacetTouch, TouchQuery};
 use super::nearby::farthest;
 use super::surface::FacetContacts;
 use super::touch;
@@ -29,16 +31,9 @@ fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration)
             return false;
         }
         if !near.is_empty() {
-            touch::find(
-                of,
-                near,
-                touch::TouchQuery { e, limit: of.law.touching, stays: true },
-                now.nodes,
-                old,
-                &mut found,
-            );
+            touch::find(of, near, TouchQuery { e, limit: of.law.touching, stays: true }, now.nodes, old, &mut found);
             touch::take_over(of, e, now.nodes, now.history, &mut found);
-            let too_far = |touch: &touch::FacetTouch| {
+            let too_far = |touch: &FacetTouch| {
                 let pair = of.pair(e, touch, now.history);
                 let place = pair.place(now.nodes);
                 let is_through = place.d < -THROUGH * place.reach;
@@ -57,11 +52,14 @@ fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration)
             };
             (0..of.slots).any(is_same)
         };
-        if (0..of.slots).any(|slot| has_come_through(of, e, slot, now)) {
+        if !of.is_of_balls && (0..of.slots).any(|slot| has_come_through(of, e, slot, now)) {
             return true;
         }
         let ahead = nearby.on_the_way(of, e, way);
         ahead.iter().any(|&number| {
+            if of.is_of_balls && !balls::may_have_passed(of, e, number, way, now.nodes) {
+                return false;
+            }
             let facet = &of.facets[number as usize];
             let Some(beyond) = passes(of, e, facet, [start, now.nodes]) else { return false };
             let stays = || {
@@ -140,15 +138,15 @@ fn is_unresolved(
 pub fn longest_facet_step(of: &FacetContacts, history: &[f64]) -> f64 {
     let law = &of.law;
     let mut in_impact = of
-        .memories(history)
+        .known_memories(history)
         .map(|memory| memory.motion())
-        .filter(|old| old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration);
+        .filter(|old| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration);
     if law.resolution < f64::INFINITY && in_impact.next().is_some() { law.resolution } else { f64::INFINITY }
 }
 
 /// Least gap of all pairs at the end of the last step, by the history of the block; infinite where none is near.
 pub fn last_facet_gap(of: &FacetContacts, history: &[f64]) -> f64 {
-    let known = of.memories(history).map(|memory| memory.motion()).filter(|old| old.is_known());
+    let known = of.known_memories(history).map(|memory| memory.motion());
     known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
 }
 

@@ -2,11 +2,12 @@
 
 use super::facet::Facet;
 use super::facing::Facing;
+use super::found::{FacetTouch, TouchQuery};
 use super::memory::PairMemory;
 use super::nearby::NearbyFacets;
 use super::pair::FacetPair;
 use super::scene::{FacetScene, FacetTouchers};
-use super::touch::{self, FacetTouch, TouchQuery};
+use super::touch;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::ContactPoint;
 use crate::math::Vec3;

@@ -4,8 +4,10 @@
 //! facets that lie in nearly one direction the nearest counts, so that a surface made of many pushes as one; those across a sharp fold,
 //! and layers on either side, count for themselves.
 
+use super::balls;
 use super::facet::Facet;
 use super::facing::Facing;
+use super::found::{FacetTouch, TouchQuery};
 use super::scene::{FacetScene, end_at};
 use crate::math::Vec3;
 use crate::state::Node;
@@ -14,57 +16,6 @@ use crate::state::Node;
 const ONE_DIRECTION: f64 = 0.7;
 /// Normals whose cosine is larger than this may be those of neighbours on which a point goes on.
 const NEIGHBOURS: f64 = 0.5;
-
-/// A facet that a point touches, or is near to.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct FacetTouch {
-    /// The number of the facet.
-    pub facet: usize,
-    /// The gap on whichever side the point is.
-    pub gap: f64,
-    /// The unit vector from the facet to the point.
-    pub toward: Vec3,
-    /// The nodes of the rim between which the nearest point lies.
-    pub rim: [Option<usize>; 2],
-    /// The normal of the facet.
-    pub normal: Vec3,
-    /// What tells on which side of the facet the point is.
-    pub facing: Facing,
-    /// False for facets that only tell that others are not the nearest.
-    pub counts: bool,
-    /// The depth that does not push, where the point lies in the facet already as it comes there along the surface, from facets that it cannot
-    /// touch.
-    pub inset: f64,
-    /// The place where what is remembered of it stands.
-    pub slot: Option<usize>,
-    /// Of a line that touches, the share of its second end in its nearest point.
-    pub share: Option<f64>,
-    /// The neighbour of a line, and its place, from which what is remembered comes where the place of the touch has just gone on.
-    pub from: Option<(usize, usize)>,
-}
-
-impl FacetTouch {
-    /// Positive where the point is on the side of the normal, negative on the other, zero where there are none.
-    fn height(&self) -> f64 {
-        match self.facing {
-            Facing::Normal => self.toward.dot(&self.normal),
-            Facing::Rim(facing) => self.toward.dot(&facing),
-            Facing::Nothing => 0.0,
-        }
-    }
-}
-
-/// What is to be found.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct TouchQuery {
-    /// The point.
-    pub e: usize,
-    /// The largest gap.
-    pub limit: f64,
-    /// True where a point stays with the facet that it remembers, as long as the nearest point of that is a minimum and about as deep:
-    /// within a step the force then has no kink where two facets of a hollow are equally near, and an iteration comes to an end.
-    pub stays: bool,
-}
 
 /// Finds what lies near a point, the nearest first. `history` is that of the point.
 pub(super) fn find(
@@ -134,11 +85,15 @@ fn seen<'a>(of: &FacetScene, e: usize, nodes: &'a [Node]) -> (Vec3, &'a Node) {
 pub(super) fn find_within(
     of: &FacetScene,
     near: &[u32],
-    TouchQuery { e, limit, .. }: TouchQuery,
+    query: TouchQuery,
     nodes: &[Node],
     found: &mut Vec<FacetTouch>,
 ) {
     found.clear();
+    if of.is_of_balls {
+        return balls::find_within(of, near, query, nodes, found);
+    }
+    let TouchQuery { e, limit, .. } = query;
     let (x, origin) = seen(of, e, nodes);
     let radius = of.points[e].radius;
     for &number in near {
@@ -264,8 +219,10 @@ fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
 fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
     for slot in 0..of.slots {
         let memory = of.memory(history, slot);
-        if !memory.motion().is_known() {
-            continue;
+        match memory.motion().is_known() {
+            false if of.is_of_balls => break,
+            false => continue,
+            true => {}
         }
         if let Some(touch) = found.iter_mut().find(|touch| touch.facet == memory.facet()) {
             touch.slot = Some(slot);

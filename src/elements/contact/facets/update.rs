@@ -1,10 +1,12 @@
 //! What pairs remember at the end of a step, and what was dissipated on the way.
 
+use super::balls;
+use super::found::{FacetTouch, TouchQuery};
 use super::line_friction;
 use super::memory::{self, LineMemoryMut, PairMemory, PairMemoryMut};
 use super::pair::{FacetPair, PairForceOnPoint, PairPlace, rotation_of};
 use super::surface::FacetContacts;
-use super::touch::{self, FacetTouch, TouchQuery};
+use super::touch;
 use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::normal_motion::{NormalMotion, damping_power, slip_limit, update_normal, way};
 use crate::materials::Dissipation;
@@ -19,7 +21,7 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
     let mut nearby = of.nearby(now.nodes);
     let mut found = std::mem::take(&mut nearby.touches);
     let width = of.slots * of.width;
-    for (e, new) in new.chunks_exact_mut(width).enumerate() {
+    for e in 0..of.points.len() {
         let old = of.of_point(e, now.history);
         let near = nearby.of(e);
         found.clear();
@@ -27,6 +29,11 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
             touch::find(of, near, TouchQuery { e, limit: of.margin, stays: false }, now.nodes, old, &mut found);
             touch::take_over(of, e, now.nodes, now.history, &mut found);
         }
+        if of.is_of_balls {
+            spent += update_balls(of, e, now, part, &mut found, new);
+            continue;
+        }
+        let new = &mut new[e * width..(e + 1) * width];
         spent += let_go(of, now, part, &found, old);
         new.fill(0.0);
         let is_taken = |slot: usize| of.memory(old, slot).motion().is_known();
@@ -50,13 +57,36 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
     spent
 }
 
+/// The same of a ball among balls.
+fn update_balls(
+    of: &FacetContacts,
+    e: usize,
+    now: &Configuration,
+    part: f64,
+    found: &mut Vec<FacetTouch>,
+    new: &mut [f64],
+) -> Dissipation {
+    let old = of.of_point(e, now.history);
+    let motion = |touch: &FacetTouch| touch.slot.map(|slot| of.memory(old, slot).motion());
+    found.retain(|touch| balls::is_memorable(of, e, touch, now, motion(touch)));
+    let mut spent = let_go(of, now, part, found, old);
+    balls::clear(of, e, new);
+    for (slot, touch) in found.iter().enumerate() {
+        let (pair, place) = (of.pair(e, touch, now.history), balls::place(of, e, slot));
+        spent += update_pair(of, &pair, touch, now, part, &mut PairMemoryMut(&mut new[place]));
+    }
+    spent
+}
+
 /// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
 fn let_go(of: &FacetContacts, now: &Configuration, part: f64, found: &[FacetTouch], old: &[f64]) -> Dissipation {
     let mut spent = Dissipation::default();
-    for slot in (0..of.slots).filter(|&slot| found.iter().all(|touch| touch.slot != Some(slot))) {
+    for slot in 0..of.slots {
         let motion = of.memory(old, slot).motion();
-        if motion.is_known() {
-            spent += lost(of, now, part, motion);
+        match motion.is_known() {
+            true if found.iter().all(|touch| touch.slot != Some(slot)) => spent += lost(of, now, part, motion),
+            false if of.is_of_balls => break,
+            _ => {}
         }
     }
     spent

@@ -1,0 +1,93 @@
+//! Balls among themselves, of which a heap has many: their search is short, and what a ball remembers stands in its first slots without
+//! gaps, so that the others are neither read nor written.
+
+use super::facing::Facing;
+use super::found::{FacetTouch, TouchQuery};
+use super::scene::FacetScene;
+use crate::elements::contact::history::PointHistory;
+use crate::state::{Configuration, Node};
+use std::ops::Range;
+
+/// A gap, as a part of the radius of the smaller ball, at which a pair is remembered whatever it does.
+const NEAR: f64 = 0.1;
+/// Steps before a landing from which on a pair is remembered.
+const AHEAD: f64 = 8.0;
+
+/// All balls within the gap asked for.
+pub(super) fn find_within(
+    of: &FacetScene,
+    near: &[u32],
+    TouchQuery { e, limit, .. }: TouchQuery,
+    nodes: &[Node],
+    found: &mut Vec<FacetTouch>,
+) {
+    let point = &of.points[e];
+    let origin = &nodes[point.nodes[0]];
+    let x = point.relative_position(origin, nodes);
+    for &number in near {
+        let ball = &of.balls[number as usize];
+        let g = x - nodes[ball.node].relative_position(origin);
+        let reach = ball.radius + point.radius;
+        let square = g.norm_squared();
+        // Most are too far.
+        if square > (reach + limit).powi(2) {
+            continue;
+        }
+        let distance = square.sqrt();
+        let normal = g.try_normalize(0.0).unwrap_or_default();
+        found.push(FacetTouch {
+            facet: number as usize,
+            gap: distance - reach,
+            toward: normal,
+            rim: [None; 2],
+            normal,
+            facing: Facing::Normal,
+            counts: true,
+            inset: 0.0,
+            slot: None,
+            share: None,
+            from: None,
+        });
+    }
+}
+
+/// True where two balls may have gone through each other's middle in a step in which nothing moves farther than `way` against the mean.
+pub(super) fn may_have_passed(of: &FacetScene, e: usize, number: u32, way: f64, nodes: &[Node]) -> bool {
+    let ball = &of.balls[number as usize];
+    let apart = nodes[of.points[e].nodes[0]].relative_position(&nodes[ball.node]).norm();
+    apart <= 0.5 * (ball.radius + of.points[e].radius) + 2.0 * way
+}
+
+/// True for a pair that is to be remembered: it is near, will land soon, or has an impact behind it that is not over.
+pub(super) fn is_memorable(
+    of: &FacetScene,
+    e: usize,
+    touch: &FacetTouch,
+    now: &Configuration,
+    old: Option<PointHistory>,
+) -> bool {
+    let is_after_impact = || old.is_some_and(|old| old.impact_speed() > 0.0);
+    // Load steps have no rates to tell what will land.
+    if !of.law.dynamic || touch.gap <= NEAR * of.points[e].radius || is_after_impact() {
+        return true;
+    }
+    let [own, other] = [of.points[e].nodes[0], of.balls[touch.facet].node].map(|node| now.nodes[node].v);
+    touch.gap <= AHEAD * now.dt * (other - own).dot(&touch.toward)
+}
+
+/// Empties the slots of a ball, which are filled without gaps.
+pub(super) fn clear(of: &FacetScene, e: usize, history: &mut [f64]) {
+    for slot in 0..of.slots {
+        let numbers = &mut history[place(of, e, slot)];
+        if !PointHistory::new(numbers).is_known() {
+            break;
+        }
+        numbers.fill(0.0);
+    }
+}
+
+/// Where a slot of a ball stands in the history of the block.
+pub(super) fn place(of: &FacetScene, e: usize, slot: usize) -> Range<usize> {
+    let from = e * of.to_next_point() + slot * of.to_next_slot();
+    from..from + of.width
+}
