@@ -2,34 +2,22 @@
 
 use super::polyhedron::Polyhedron;
 use super::{Mat3, Vec3};
-use std::f64::consts::PI;
-use std::sync::OnceLock;
 
 /// Sides of the prism that stands for a cylinder where others touch it with edges alone.
-const COARSE: usize = 16;
-/// Sides of the prism that stands for a cylinder against another one.
-const FINE: usize = 32;
+const SIDES: usize = 16;
 
 /// A circular cylinder with flat ends about the origin.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RoundCylinder {
     radius: f64,
     half: f64,
     axes: Mat3,
-    /// Made when it is asked for.
-    prism: OnceLock<Polyhedron>,
-}
-
-impl PartialEq for RoundCylinder {
-    fn eq(&self, other: &Self) -> bool {
-        self.radius == other.radius && self.half == other.half && self.axes == other.axes
-    }
 }
 
 impl RoundCylinder {
     /// Of a radius and half a length, along the third of `axes`, which are its columns.
     pub fn new(radius: f64, half: f64, axes: Mat3) -> Self {
-        RoundCylinder { radius, half, axes, prism: OnceLock::new() }
+        RoundCylinder { radius, half, axes }
     }
 
     /// The radius.
@@ -47,21 +35,19 @@ impl RoundCylinder {
         &self.axes
     }
 
-    /// A regular prism around it, in its own axes; the middle of a side lies on the first.
-    pub fn prism(&self) -> &Polyhedron {
-        // Its sides touch the round one along the middle of each.
-        let around = self.radius / (PI / FINE as f64).cos();
-        self.prism.get_or_init(|| Polyhedron::prism(FINE, around, self.half))
-    }
-
-    /// A regular prism within it, in its own axes, of fewer sides.
+    /// A regular prism within it, in its own axes; the middle of a side lies on the first.
     pub fn prism_within(&self) -> Polyhedron {
-        Polyhedron::prism(COARSE, self.radius, self.half)
+        Polyhedron::prism(SIDES, self.radius, self.half)
     }
 
     /// Radius of the ball about the origin that holds it.
     pub fn reach(&self) -> f64 {
         self.radius.hypot(self.half)
+    }
+
+    /// How far it reaches along a direction, in its own axes, times the length of that.
+    pub fn reach_along(&self, along: &Vec3) -> f64 {
+        self.radius * along.x.hypot(along.y) + self.half * along.z.abs()
     }
 
     /// Its least width.

@@ -171,7 +171,7 @@ fn it_swings_on_its_springs() {
 #[test]
 fn impacts_keep_energy_and_momentum() {
     let mut rng = StdRng::seed_from_u64(9);
-    for k in 0..15 {
+    for k in 0..45 {
         let other = match k % 3 {
             0 => "kind = \"box\", size = [0.5, 0.6, 0.3]",
             1 => "kind = \"cylinder\", radius = 0.3, length = 0.4, axis = [0.2, 0.1, 1.0]",
@@ -217,7 +217,9 @@ fn impacts_keep_energy_and_momentum() {
         let most = done.rows.iter().map(|row| row[3]).fold(0.0, f64::max);
         assert!(most > 0.1, "{k}: they missed each other");
         // The scheme's own error falls with h² as the impacts of edges are resolved: up to 1e-3 at 1e-4, 4e-5 here, 1e-5 at half of it.
-        assert!((last[1] - first[1]).abs() < 1e-4 * most, "{k}: {} of {most}", last[1] - first[1]);
+        // Of two cylinders one is a prism of fine sides, whose bulges leave some of it.
+        let left = if k % 3 == 1 { 2e-3 } else { 1e-4 };
+        assert!((last[1] - first[1]).abs() < left * most, "{k}: {} of {most}", last[1] - first[1]);
         for k in 5..8 {
             assert!((last[k] - first[k]).abs() < 1e-12, "momentum");
         }
@@ -279,4 +281,81 @@ fn three_logs_rest_on_each_other() {
     assert!((floor.abs() / (3.0 * m * g) - 1.0).abs() < 1e-4, "{floor}");
     // The lower two just touch; what all of them give, some 1e-5 of the radius, turns the force by as much.
     assert!((post.abs() / (0.5 * m * g * (1.0f64 / 3.0).sqrt()) - 1.0).abs() < 1e-2, "{post}: {last:?}");
+}
+
+/// A drum on the end of another, as large, smaller or larger, in either role: the pair tilts as a plate does, by D² = δ² + 3 θ² I/A with I/A = R²/4 of the
+/// smaller, so that a small tilt about the middle has the stiffness 3 k R².
+#[test]
+fn drums_that_stand_on_each_other_tilt_as_plates_do() {
+    for (own, other) in [(0.15, 0.15), (0.15, 0.3), (0.3, 0.15), (0.15, 0.150001)] {
+        for off in [0.0, 1e-4] {
+            let (one, below) = (cylinder(own, 0.2), cylinder(other, 0.1));
+            let deep = 1e-4;
+            let at = |tilt: f64| {
+                let Q = matrix(&exp(&Vec3::new(tilt, 0.0, 0.0)));
+                // About the middle of the end that stands.
+                let y = Vec3::new(off, 0.0, 0.1 - deep) + Q * Vec3::new(0.0, 0.0, 0.2);
+                depth(&ConvexPose { y, Q, own: &one, other: &below }, 0.0).expect("they overlap").D
+            };
+            let tilt = 1e-4;
+            let stiffness = (at(tilt).powi(2) + at(-tilt).powi(2) - 2.0 * at(0.0).powi(2)) / (2.0 * tilt * tilt);
+            let R = f64::min(own, other);
+            // Of 32 sides, which lie as far out as the arcs on average, I/A is that of the round to 1e-3; the plate is bounded by two rims, `off` apart.
+            assert!((stiffness / (0.75 * R * R) - 1.0).abs() < 5e-3, "{own} on {other}, {off}: {stiffness}");
+        }
+    }
+}
+
+/// Two logs that cross touch in a place, not along a line: a turn of the upper one about the axis of the lower moves it on, and the push goes along
+/// the normal of the round there.
+#[test]
+fn logs_that_cross_push_along_their_normal() {
+    let across = matrix(&exp(&Vec3::new(0.0, std::f64::consts::FRAC_PI_2, 0.0)));
+    for (own, other) in [(0.05, 0.5), (0.5, 0.05), (0.1, 0.1)] {
+        let (one, below) = (cylinder(own, 1.0), cylinder(other, 1.0));
+        // The lower one lies along its third axis, turned to lie along the second of the scene by the pose.
+        for angle in [0.0, 0.2, 0.5] {
+            for along in [0.0, 0.4] {
+                let n = Vec3::new(f64::sin(angle), f64::cos(angle), 0.0);
+                let Q = matrix(&exp(&Vec3::new(0.0, 0.0, -angle))) * across;
+                let axis = Q * Vec3::z();
+                let deep = 1e-4;
+                let y = (own + other - deep) * n + along * axis;
+                let found = depth(&ConvexPose { y, Q, own: &one, other: &below }, 0.0).expect("they overlap");
+                let push = -Vec3::new(found.g[0], found.g[1], found.g[2]);
+                // The bulges of the prism, an hundredth of the depth over sides as wide as what they have in common.
+                assert!(push.cross(&n).norm() < 1e-3 * push.norm(), "{own} on {other}, {angle}, {along}: {push}");
+                assert!((found.c - (other - 0.5 * deep) * n).norm() < 1e-3 * own, "{}", found.c);
+                // No force acts about the axis of the lower one, nor about that of the upper.
+                let (f, m) = (push, -Vec3::new(found.g[3], found.g[4], found.g[5]));
+                assert!((m + y.cross(&f)).z.abs() < 1e-12, "{}", (m + y.cross(&f)).z);
+                assert!(m.dot(&axis).abs() < 1e-12, "{}", m.dot(&axis));
+            }
+        }
+    }
+}
+
+/// What just touches has a gap of zero, wherever two logs cross, lie beside each other or stand.
+#[test]
+fn the_gap_of_cylinders_is_exact() {
+    let (one, other) = (cylinder(0.1, 1.2), cylinder(0.2, 3.0));
+    let gap = |y: Vec3, turn: Vec3| {
+        let pose = ConvexPose { y, Q: matrix(&exp(&turn)), own: &one, other: &other };
+        (pose.distance(), pose.least_axis().gap)
+    };
+    let right = std::f64::consts::FRAC_PI_2;
+    for apart in [1e-2, 1e-5, -1e-5, -1e-3] {
+        for along in [0.0, 0.7, 2.0] {
+            // Across, at any place along both; beside; on the end; and with the end of the one at the side of the other, off its middle.
+            for (y, turn) in [
+                (Vec3::new(0.3 + apart, 0.5, along), Vec3::new(right, 0.0, 0.0)),
+                (Vec3::new(0.3 + apart, 0.0, along), Vec3::zeros()),
+                (Vec3::new(0.05, 0.0, 4.2 + apart), Vec3::zeros()),
+                (Vec3::new(1.4 + apart, 0.06, along), Vec3::new(0.0, right, 0.0)),
+            ] {
+                let (distance, least) = gap(y, turn);
+                assert!((distance - apart).abs() < 1e-12 && (least - apart).abs() < 1e-12, "{y}: {distance} {least}");
+            }
+        }
+    }
 }

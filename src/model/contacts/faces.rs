@@ -4,7 +4,7 @@ use crate::deck::contacts as words;
 use crate::deck::parts::PartIndex;
 use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape};
+use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, Toucher};
 use crate::math::curved_faces;
 use crate::model::contacts::coarse_faces::warn_of_long_solids;
 use crate::model::contacts::points::{Finder, SurfaceLines};
@@ -231,7 +231,8 @@ fn balls<'d>(
     let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
     finder.report.reject_unused(what, &keys);
     let given = contact.radius.as_ref().map(|_| finder.report.not_negative("radius", &contact.radius, 0.0));
-    let Members { mut balls, mut convex } = members(finder, among, given)?;
+    let Members { mut balls, mut convex, has_tubes } = members(finder, among, given)?;
+    finder.sight.touchers.extend(has_tubes.then_some(Toucher::Tube));
     balls.sort_unstable_by_key(|(node, _)| *node);
     balls.dedup_by_key(|(node, _)| *node);
     convex.sort_unstable_by_key(|one| one.node);
@@ -262,6 +263,8 @@ struct Members {
     balls: Vec<(usize, f64)>,
     /// Boxes, hulls, cylinders and capsules.
     convex: Vec<ConvexBody>,
+    /// True where some of these cylinders have a hole.
+    has_tubes: bool,
 }
 
 /// True for a body of the deck whose shape could not be read, which has been said.
@@ -284,6 +287,7 @@ fn members<'d>(
         for leaf in scene.names.leaves(place) {
             if let Some(one) = convex_of(scene, leaf) {
                 members.convex.push(one);
+                members.has_tubes |= has_hole(scene, leaf);
                 continue;
             }
             let radius = given.or_else(|| radius_of(scene, leaf)).filter(|radius| *radius > 0.0);
@@ -315,6 +319,11 @@ fn convex_of(scene: &Scene, place: Place) -> Option<ConvexBody> {
     scene.deck.bodies.get(body)?.shape.as_ref()?;
     let body = &scene.bodies[body];
     Some(ConvexBody { node: body.node, shape: body.shape.as_convex()? })
+}
+
+/// True for a body with a hole right through.
+fn has_hole(scene: &Scene, place: Place) -> bool {
+    matches!(place, Place::Body(body) if scene.bodies.get(body).is_some_and(|body| body.shape.has_hole()))
 }
 
 /// The radius of a body that is drawn as a sphere.

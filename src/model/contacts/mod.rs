@@ -14,7 +14,7 @@ pub mod surface;
 use crate::deck::contacts as words;
 use crate::elements::contact::restitution;
 use crate::elements::contact::{
-    ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, convex, least_gap, pair_gap,
+    ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, Toucher, convex, least_gap, pair_gap,
 };
 use crate::math::Vec3;
 use crate::model::contacts::faces::{is_of_facets, read_facets};
@@ -84,7 +84,12 @@ fn of_shape<'d>(
     let on_convex = surface.as_ref().and_then(|(node, surface)| in_full(*node, surface, by_points));
     let mut finder = Finder { on_convex, ..Finder::new(scene, topology, report) };
     let points = finder.touching(owner, name, contact, carrier);
-    let (solids, sight) = (finder.convex, finder.sight);
+    let (solids, mut sight) = (finder.convex, finder.sight);
+    let is_carried_by_tube = |node: usize| scene.bodies.iter().any(|body| body.node == node && body.shape.has_hole());
+    let is_tube = |(node, surface): &(usize, Surface)| {
+        matches!(surface.shape, SurfaceShape::Cylinder(_)) && is_carried_by_tube(*node)
+    };
+    sight.touchers.extend(surface.as_ref().is_some_and(is_tube).then_some(Toucher::Tube));
     let is_zone = is_zone(owner, contact, report);
     let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { return None };
     let between = contact.points.as_ref().map(|at| at.value);

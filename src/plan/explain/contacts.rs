@@ -13,6 +13,7 @@ pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
         text.add("contact", contact_in_words(model, contact));
         let unseen = contact.touchers.iter().filter_map(|toucher| match &contact.surface {
             TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape, contact.has_multipliers()),
+            TouchedSurface::Facets(faces) if faces.touchers == FacetTouchers::Among => toucher.unseen_among(),
             TouchedSurface::Facets(faces) if faces.facets.iter().any(Facet::is_line) => toucher.unseen_by_lines(),
             TouchedSurface::Facets(_) => toucher.unseen_by_faces(),
         });

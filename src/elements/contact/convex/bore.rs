@@ -57,6 +57,20 @@ impl Bore {
         (from < to).then_some([from, to])
     }
 
+    /// Calls with points about what of a face lies inside: where its boundary begins to be of another kind, and the centre of a whole ellipse.
+    pub fn each_corner<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3)) {
+        let (corners, mut is_cut) = (face.corners(), false);
+        for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+            if let Some(span) = self.span(from, to) {
+                is_cut = true;
+                span.into_iter().for_each(|s| act(from + s * (to - from)));
+            }
+        }
+        if !is_cut && let Some(center) = self.center_of_whole(corners, &face.normal) {
+            act(center);
+        }
+    }
+
     /// Calls with the points of the rule, and the area that each stands for, of what of a face lies inside.
     pub fn each_point<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3, f64)) {
         let (corners, normal) = (face.corners(), face.normal);
@@ -85,15 +99,18 @@ impl Bore {
         }
     }
 
-    /// The whole of the ellipse, where it lies in the face.
-    fn whole(&self, corners: &[Vec3], normal: &Vec3, act: &mut impl FnMut(Vec3, f64)) {
-        let Some(corner) = corners.first().filter(|_| normal.z.abs() > STRAIGHT) else { return };
+    /// The centre of the ellipse, where all of that lies in the face, which no edge then cuts.
+    fn center_of_whole(&self, corners: &[Vec3], normal: &Vec3) -> Option<Vec3> {
+        let corner = corners.first().filter(|_| normal.z.abs() > STRAIGHT)?;
         let mut center = Vec3::new(-self.origin.x, -self.origin.y, corner.z);
         center.z += normal.dot(&(corner - center)) / normal.z;
         let is_within = |(a, b): (&Vec3, &Vec3)| (b - a).cross(&(center - a)).dot(normal) >= 0.0;
-        if !corners.iter().zip(corners.iter().cycle().skip(1)).all(is_within) {
-            return;
-        }
+        corners.iter().zip(corners.iter().cycle().skip(1)).all(is_within).then_some(center)
+    }
+
+    /// The whole of the ellipse.
+    fn whole(&self, corners: &[Vec3], normal: &Vec3, act: &mut impl FnMut(Vec3, f64)) {
+        let Some(center) = self.center_of_whole(corners, normal) else { return };
         let mut start = center + Vec3::new(self.radius, 0.0, 0.0);
         start.z -= normal.x / normal.z * self.radius;
         self.turn(&Cone { apex: center, normal: *normal }, &start, 0.0, TAU.copysign(normal.z), act);

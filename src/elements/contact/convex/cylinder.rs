@@ -1,61 +1,51 @@
-//! A cylinder against a polyhedron, and against what stands for one: a half space, or the prism around another cylinder.
+//! A cylinder against a polyhedron, and against what stands for one: a half space, or a prism where another cylinder is.
 //!
 //! The depth is that of two polyhedra ([`super::volume`]), of what the two have in common, which plane faces and the round side bound. By
 //! Gauss' theorem for vectors along the axis, to which the round side adds nothing, its moments are sums over the plane faces alone; and
-//! so is ∂D, by a motion of the polyhedron.
-//!
-//! The prism around another cylinder turns about that one's axis so that the middle of a side faces the first one's centre. So neither resists a
-//! spin of the other about its own axis; what turning the prism changes belongs to ∂D.
+//! so is ∂D, by a motion of the polyhedron. The prism of another cylinder ([`super::two_cylinders`]) goes along with the contact, and nothing
+//! acts about its axis.
 
 use super::bore::Bore;
 use super::depth::Depth;
-use super::overlap::{ClippedFace, Faces};
+use super::overlap::Faces;
 use super::pose::{ConvexPose, LeastAxis};
+use super::rim::out_of_rim;
 use super::segment::{SegmentPlace, nearest_place};
+use super::two_cylinders::TwoCylinders;
 use super::volume::Measure;
 use crate::math::convex::ConvexShape;
 use crate::math::cylinder::RoundCylinder;
 use crate::math::polyhedron::{Polyhedron, SolidMoments};
-use crate::math::{Mat3, Vec3, stack};
+use crate::math::{Mat3, Vec3, angular, linear, stack};
 
-/// Corners of faces, and faces, of what a cylinder has in common with a box, and with most hulls.
-const FEW: (usize, usize) = (12, 16);
+/// Corners of faces, and faces, of what a cylinder has in common with a box, with most hulls, or with the side of another cylinder.
+const FEW: (usize, usize) = (20, 24);
 /// The same of others.
 const MANY: (usize, usize) = (40, 128);
-/// Points of the rule over all faces.
-const POINTS: usize = 640;
-/// Beside the axis of a cylinder, nearer than this part of its radius, what faces its prism turns it by less than it goes about.
-const CORE: f64 = 0.05;
 
-/// A cylinder and a polyhedron, in the axes of the cylinder.
+/// A cylinder and something else, in the axes of the cylinder.
 pub(super) struct CylinderPose<'a> {
     cylinder: &'a RoundCylinder,
-    polyhedron: &'a Polyhedron,
-    /// Centre of the polyhedron.
+    against: Against<'a>,
+    /// Centre of that.
     y: Vec3,
-    /// Columns: axes of the polyhedron.
+    /// Columns: axes of that; of a cylinder, which lies along the third.
     Q: Mat3,
     /// Columns: the axes of the cylinder in those of the pose.
     axes: Mat3,
     /// The centre of the cylinder there.
     center: Vec3,
-    /// The centre of the polyhedron there.
+    /// The centre of the other there.
     origin: Vec3,
     /// True where the one is the cylinder.
     is_own: bool,
-    /// The other, where that is a cylinder too.
-    facing: Option<&'a RoundCylinder>,
 }
 
-/// A point of the rule on a face.
+/// What a cylinder touches.
 #[derive(Clone, Copy)]
-struct Sample {
-    x: Vec3,
-    area: f64,
-    /// The normal of the face along the axis.
-    along: f64,
-    /// The number of the face.
-    face: usize,
+enum Against<'a> {
+    Polyhedron(&'a Polyhedron),
+    Cylinder(&'a RoundCylinder),
 }
 
 impl<'a> CylinderPose<'a> {
@@ -64,46 +54,55 @@ impl<'a> CylinderPose<'a> {
         let zero = Vec3::zeros();
         match (pose.own, pose.other) {
             (ConvexShape::Cylinder(own), ConvexShape::Polyhedron(other)) => {
-                Some(Self::of_own(pose, own, (other, zero, Mat3::identity())))
+                Some(Self::of_own(pose, own, (Against::Polyhedron(other), zero, Mat3::identity())))
             }
             (ConvexShape::Cylinder(own), ConvexShape::HalfSpace(cube)) => {
                 let depth = cube.half().map_or(0.0, |half| half.z);
                 let below = Vec3::new(pose.y.x, pose.y.y, -depth);
-                Some(Self::of_own(pose, own, (cube, below, Mat3::identity())))
+                Some(Self::of_own(pose, own, (Against::Polyhedron(cube), below, Mat3::identity())))
             }
             (ConvexShape::Cylinder(own), ConvexShape::Cylinder(other)) => {
-                let across = other.axes().tr_mul(&pose.y);
-                let (sine, cosine) = across.y.atan2(across.x).sin_cos();
-                let turn = Mat3::new(cosine, -sine, 0.0, sine, cosine, 0.0, 0.0, 0.0, 1.0);
-                let facing = Some(&**other);
-                let of_prism = Self::of_own(pose, own, (other.prism(), zero, other.axes() * turn));
-                Some(CylinderPose { facing, ..of_prism })
+                Some(Self::of_own(pose, own, (Against::Cylinder(other), zero, *other.axes())))
             }
             (ConvexShape::Polyhedron(own), ConvexShape::Cylinder(other)) => {
                 let axes = *other.axes();
                 let (y, Q) = (axes.tr_mul(&pose.y), axes.tr_mul(&pose.Q));
-                let (center, origin, is_own, facing) = (zero, pose.y, false, None);
-                Some(CylinderPose { cylinder: other, polyhedron: own, y, Q, axes, center, origin, is_own, facing })
+                let (against, center, origin) = (Against::Polyhedron(own), zero, pose.y);
+                Some(CylinderPose { cylinder: other, against, y, Q, axes, center, origin, is_own: false })
             }
             _ => None,
         }
     }
 
-    /// The one, a cylinder, against a polyhedron with its centre and axes.
+    /// The one, a cylinder, against something with its centre and axes.
     fn of_own(
-        pose: &ConvexPose,
+        pose: &ConvexPose<'a>,
         cylinder: &'a RoundCylinder,
-        (polyhedron, origin, of_polyhedron): (&'a Polyhedron, Vec3, Mat3),
+        (against, origin, of_other): (Against<'a>, Vec3, Mat3),
     ) -> Self {
         let axes = pose.Q * cylinder.axes();
-        let (y, Q) = (axes.tr_mul(&(origin - pose.y)), axes.tr_mul(&of_polyhedron));
-        CylinderPose { cylinder, polyhedron, y, Q, axes, center: pose.y, origin, is_own: true, facing: None }
+        let (y, Q) = (axes.tr_mul(&(origin - pose.y)), axes.tr_mul(&of_other));
+        CylinderPose { cylinder, against, y, Q, axes, center: pose.y, origin, is_own: true }
     }
 
-    /// The axis of the largest gap. Of a cylinder and a polyhedron that is normal to a face of the latter or to an end of the cylinder, or
-    /// leads from the cylinder to the nearest point of an edge.
+    /// The axis of the largest gap.
     pub fn least_axis(&self) -> LeastAxis {
-        let size = self.cylinder.reach() + self.polyhedron.reach();
+        let least = match self.against {
+            Against::Polyhedron(polyhedron) => self.least_axis_of(polyhedron),
+            Against::Cylinder(other) => self.two(other).least_axis(),
+        };
+        let axis = self.axes * least.axis;
+        LeastAxis { axis: if self.is_own { axis } else { -axis }, gap: least.gap }
+    }
+
+    fn two(&self, other: &'a RoundCylinder) -> TwoCylinders<'a> {
+        TwoCylinders { one: self.cylinder, other, y: self.y, Q: self.Q }
+    }
+
+    /// Of a polyhedron: an axis normal to a face of that or to an end of the cylinder, or from the cylinder to the nearest point of an edge. In
+    /// the axes of the cylinder, and toward it.
+    fn least_axis_of(&self, polyhedron: &Polyhedron) -> LeastAxis {
+        let size = self.cylinder.reach() + polyhedron.reach();
         let mut best = LeastAxis { axis: Vec3::z(), gap: f64::NEG_INFINITY };
         let mut look = |axis: Vec3, gap: f64| {
             // Rounding does not choose between axes that are as good.
@@ -111,19 +110,19 @@ impl<'a> CylinderPose<'a> {
                 best = LeastAxis { axis, gap };
             }
         };
-        let reach = |axis: &Vec3| self.cylinder.radius() * axis.x.hypot(axis.y) + self.cylinder.half() * axis.z.abs();
-        for face in self.polyhedron.faces() {
+        for face in polyhedron.faces() {
             let axis = self.Q * face.normal;
-            look(axis, -reach(&axis) - axis.dot(&self.y) - face.offset);
+            look(axis, -self.cylinder.reach_along(&axis) - axis.dot(&self.y) - face.offset);
         }
-        let gap =
-            |axis: &Vec3| -reach(axis) - axis.dot(&(self.y + self.Q * self.polyhedron.farthest(&self.Q.tr_mul(axis))));
+        let gap = |axis: &Vec3| {
+            -self.cylinder.reach_along(axis) - axis.dot(&(self.y + self.Q * polyhedron.farthest(&self.Q.tr_mul(axis))))
+        };
         for axis in [Vec3::z(), -Vec3::z()] {
             look(axis, gap(&axis));
         }
         let mut least = f64::INFINITY;
-        for edge in self.polyhedron.edges() {
-            let [a, b] = edge.ends.map(|k| self.y + self.Q * self.polyhedron.corners()[k]);
+        for edge in polyhedron.edges() {
+            let [a, b] = edge.ends.map(|k| self.y + self.Q * polyhedron.corners()[k]);
             let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
             let at = |s: f64| {
                 let (d, n) = self.cylinder.distance_in_axes(&(middle + s * half));
@@ -136,38 +135,13 @@ impl<'a> CylinderPose<'a> {
             least = least.min(nearest.d);
             let axis = -nearest.n;
             look(axis, gap(&axis));
-            if let Some(out) = self.out_of_rim(&(middle + nearest.s * half), &half).filter(|_| nearest.d < 0.0) {
+            if let Some(out) =
+                out_of_rim(self.cylinder, &(middle + nearest.s * half), &half).filter(|_| nearest.d < 0.0)
+            {
                 look(-out, gap(&-out));
             }
         }
-        let axis = self.axes * best.axis;
-        LeastAxis { axis: if self.is_own { axis } else { -axis }, gap: best.gap }
-    }
-
-    /// The direction across an edge that goes `along` through a point within the cylinder, and across its rim, in which the way out is least; `None` where
-    /// the edge leaves by the side or by an end.
-    fn out_of_rim(&self, x: &Vec3, along: &Vec3) -> Option<Vec3> {
-        let e = along.normalize();
-        let out = Vec3::new(x.x, x.y, 0.0).try_normalize(0.0)?;
-        let end = Vec3::z() * 1f64.copysign(x.z);
-        let (rise, away) = (end.dot(&e), out.dot(&e));
-        if rise * away >= 0.0 {
-            return None;
-        }
-        let mut n = ((rise * out - away * end) * rise.signum()).normalize();
-        // Newton's method for the largest n · x less how far the cylinder reaches along n.
-        for _ in 0..4 {
-            let turned = e.cross(&n);
-            let over = x - self.cylinder.farthest_in_axes(&n);
-            let around = Vec3::new(-n.y, n.x, 0.0).dot(&turned);
-            let bend = -over.dot(&n) - self.cylinder.radius() * around * around / n.x.hypot(n.y).powi(3);
-            if bend.is_nan() || bend >= 0.0 {
-                break;
-            }
-            let (sine, cosine) = (-over.dot(&turned) / bend).sin_cos();
-            n = cosine * n + sine * turned;
-        }
-        Some(n)
+        best
     }
 
     /// The depth of two that overlap along an axis toward the one; `None` where rounding leaves nothing of what they have in common.
@@ -181,73 +155,90 @@ impl<'a> CylinderPose<'a> {
     /// The same in coordinates about an origin, with room for so many faces; `None` where that is too little.
     fn by_moments<const CORNERS: usize, const FACES: usize>(&self, origin: &Vec3) -> Option<Option<Depth>> {
         let half = self.cylinder.half();
-        let mut faces = Faces::<CORNERS, FACES>::of(self.polyhedron, &(self.y - origin), &self.Q)?;
+        let (y, Q) = (self.y - origin, &self.Q);
+        let (mut faces, goes_along) = match self.against {
+            Against::Polyhedron(polyhedron) => (Faces::<CORNERS, FACES>::of(polyhedron, &y, Q)?, false),
+            Against::Cylinder(other) => {
+                let outline = self.two(other).outline();
+                (Faces::of_prism(&outline, other.half(), &y, Q)?, !outline.is_fixed)
+            }
+        };
         faces.cut(&Vec3::z(), half - origin.z)?;
         faces.cut(&-Vec3::z(), half + origin.z)?;
-        let bore = Bore::new(self.cylinder.radius(), origin);
-        let nothing = Sample { x: Vec3::zeros(), area: 0.0, along: 0.0, face: 0 };
-        let (mut samples, mut count) = ([nothing; POINTS], 0);
-        for (number, face) in faces.iter().enumerate() {
-            bore.each_point(face, |x, area| {
-                if let Some(sample) = samples.get_mut(count) {
-                    *sample = Sample { x, area, along: face.normal.z, face: number };
-                }
-                count += 1;
-            });
+        let mut found = self.of_faces(&faces, origin);
+        if let Some(depth) = found.as_mut().filter(|_| goes_along) {
+            // Nothing turns the other about its axis.
+            let axis = self.axes * Q.column(2);
+            let about = axis.dot(&(angular(&depth.g) + self.center.cross(&linear(&depth.g))));
+            depth.g -= stack(&Vec3::zeros(), &(about * axis));
         }
-        let samples = samples.get(..count)?;
-        let normals = |sample: &Sample| -> Option<&ClippedFace<CORNERS>> {
-            faces.iter().nth(sample.face).filter(|face| face.moves)
-        };
-        Some(self.of_samples(samples, origin, |sample| normals(sample).map(|face| face.normal)))
+        Some(found)
     }
 
-    /// The depth by the points of all faces; `moving` tells the normal of those of the polyhedron.
-    fn of_samples(&self, samples: &[Sample], origin: &Vec3, moving: impl Fn(&Sample) -> Option<Vec3>) -> Option<Depth> {
-        let measure = Measure::of(&moments(samples)?)?;
-        // Force and moment about the centre of the cylinder, in its axes, for a motion of the polyhedron.
+    /// The depth by the faces of what is common but for the round side of the cylinder.
+    fn of_faces<const CORNERS: usize, const FACES: usize>(
+        &self,
+        faces: &Faces<CORNERS, FACES>,
+        origin: &Vec3,
+    ) -> Option<Depth> {
+        let bore = Bore::new(self.cylinder.radius(), origin);
+        let (mut middle, mut count) = (Vec3::zeros(), 0.0);
+        faces.iter().for_each(|face| {
+            bore.each_corner(face, |x| (middle, count) = (middle + x, count + 1.0));
+        });
+        let mut sums = MomentSums::about(middle / f64::max(count, 1.0));
+        faces.iter().for_each(|face| bore.each_point(face, |x, area| sums.add(&x, area * face.normal.z)));
+        let measure = Measure::of(&sums.moments()?)?;
+        // Force and moment about the centre of the cylinder, in its axes, for a motion of the other.
         let (mut force, mut moment) = (Vec3::zeros(), Vec3::zeros());
-        for sample in samples {
-            let Some(normal) = moving(sample) else { continue };
-            let share = sample.area * measure.growth(&sample.x) * normal;
-            force += share;
-            moment += (sample.x + origin).cross(&share);
+        for face in faces.iter().filter(|face| face.moves) {
+            bore.each_point(face, |x, area| {
+                let share = area * measure.growth(&x) * face.normal;
+                force += share;
+                moment += (x + origin).cross(&share);
+            });
         }
         let (force, moment) = (self.axes * force, self.axes * moment);
-        let mut g = match self.is_own {
+        let g = match self.is_own {
             true => -stack(&force, &moment),
             false => stack(&force, &(moment + (self.center - self.origin).cross(&force))),
         };
-        if let Some(facing) = self.facing {
-            let axis = facing.axes().column(2).into_owned();
-            let away = self.center - axis.dot(&self.center) * axis;
-            // By a turn of the prism alone: as by the opposite one of all else.
-            let by_turn = -axis.dot(&(-moment - self.center.cross(&force)));
-            let core = CORE * facing.radius();
-            let by_y = by_turn / away.norm_squared().max(core * core) * axis.cross(&away);
-            g += stack(&by_y, &Vec3::zeros());
-        }
-        let c = self.center + self.axes * (origin + measure.mean);
-        let D = measure.D;
+        let (c, D) = (self.center + self.axes * (origin + measure.mean), measure.D);
         D.is_finite().then_some(Depth { D, g, c, lever: measure.lever })
     }
 }
 
-/// Volume, centre and variance of the solid whose plane faces have these points; `None` where there is no volume.
-fn moments(samples: &[Sample]) -> Option<SolidMoments> {
-    let middle = samples.iter().map(|sample| sample.x).sum::<Vec3>() / samples.len().max(1) as f64;
-    let (mut volume, mut first, mut second) = (0.0, Vec3::zeros(), Mat3::zeros());
-    for Sample { x, area, along, .. } in samples {
-        let x = x - middle;
-        // ∫ f dV is the sum of ∫f dz n_z dA.
-        let part = area * along * x.z;
-        volume += part;
-        first += part * Vec3::new(x.x, x.y, 0.5 * x.z);
+/// Sums over the points of plane faces that give the moments of the solid between them.
+struct MomentSums {
+    middle: Vec3,
+    volume: f64,
+    first: Vec3,
+    second: Mat3,
+}
+
+impl MomentSums {
+    /// About a point near what they are of.
+    fn about(middle: Vec3) -> Self {
+        MomentSums { middle, volume: 0.0, first: Vec3::zeros(), second: Mat3::zeros() }
+    }
+
+    /// Adds a point that stands for an area across the axis, which is below zero where the face looks down: ∫ f dV is the sum of ∫ f dz over
+    /// these.
+    fn add(&mut self, x: &Vec3, area: f64) {
+        let x = x - self.middle;
+        let part = area * x.z;
+        self.volume += part;
+        self.first += part * Vec3::new(x.x, x.y, 0.5 * x.z);
         let (xz, yz) = (0.5 * x.x * x.z, 0.5 * x.y * x.z);
         let zz = x.z * x.z / 3.0;
-        second += part * Mat3::new(x.x * x.x, x.x * x.y, xz, x.x * x.y, x.y * x.y, yz, xz, yz, zz);
+        self.second += part * Mat3::new(x.x * x.x, x.x * x.y, xz, x.x * x.y, x.y * x.y, yz, xz, yz, zz);
     }
-    let mean = first / volume;
-    let variance = second / volume - mean * mean.transpose();
-    (volume > 0.0).then_some(SolidMoments { volume, mean: middle + mean, variance })
+
+    /// Volume, centre and variance; `None` where there is no volume.
+    fn moments(&self) -> Option<SolidMoments> {
+        let volume = self.volume;
+        let mean = self.first / volume;
+        let variance = self.second / volume - mean * mean.transpose();
+        (volume > 0.0).then_some(SolidMoments { volume, mean: self.middle + mean, variance })
+    }
 }

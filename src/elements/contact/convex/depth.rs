@@ -11,6 +11,6 @@ pub struct Depth {
     pub g: Vec6,
     /// Centre of what they have in common.
     pub c: Vec3,
-    /// The radius at which friction about the normal acts: that of a disc of the same moment under an even pressure.
+    /// The radius at which friction about the normal acts: the mean distance from the centre under an even pressure.
     pub lever: f64,
 }

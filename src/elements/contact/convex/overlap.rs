@@ -4,6 +4,7 @@
 //! corners to the last bit, so that the solid stays closed whatever rounding makes of faces that lie in one plane.
 
 use super::pose::PolyhedronPose;
+use super::two_cylinders::PrismOutline;
 use crate::math::polyhedron::{Polyhedron, SolidMoments};
 use crate::math::{Mat3, Vec3};
 
@@ -53,6 +54,29 @@ impl<const CORNERS: usize, const MOST: usize> Faces<CORNERS, MOST> {
                 *corner = center + axes * shape.corners()[k];
             }
             (face.count, face.normal, face.moves) = (from.corners.len(), axes * from.normal, true);
+        }
+        Some(faces)
+    }
+
+    /// The faces of a prism along the third of its `axes`, by its outline.
+    pub fn of_prism(outline: &PrismOutline, half: f64, center: &Vec3, axes: &Mat3) -> Option<Self> {
+        let count = outline.count;
+        if count + 2 > MOST || count > CORNERS {
+            return None;
+        }
+        let empty = ClippedFace { corners: [Vec3::zeros(); CORNERS], count: 0, normal: Vec3::zeros(), moves: true };
+        let mut faces = Faces { list: [empty; MOST], count: count + 2 };
+        let (up, place) = (axes.column(2).into_owned(), |k: usize| center + axes * outline.corners[k]);
+        for k in 0..count {
+            let [a, b] = [k, (k + 1) % count].map(place);
+            let face = &mut faces.list[k];
+            face.corners[..4].copy_from_slice(&[a - half * up, b - half * up, b + half * up, a + half * up]);
+            (face.count, face.normal) = (4, axes * outline.normals[k]);
+            faces.list[count].corners[k] = a + half * up;
+            faces.list[count + 1].corners[count - 1 - k] = a - half * up;
+        }
+        for (end, normal) in [(count, up), (count + 1, -up)] {
+            (faces.list[end].count, faces.list[end].normal) = (count, normal);
         }
         Some(faces)
     }

@@ -194,6 +194,12 @@ impl<'a> ConvexPair<'a> {
             let (Some(ahead), Some(behind)) = (moved(step), moved(-step)) else { return [stiffness(), by_rates] };
             by_motion.set_column(k, &((ahead - behind) / (2.0 * step)));
         }
+        if let (ConvexShape::Cylinder(shape), None) = (&self.one.shape, &acting.rubbing) {
+            // Spinning about its own axis changes nothing, where differences leave rounding.
+            let axis = at.pose.Q * shape.axes().column(2);
+            let spin = stack(&Vec3::zeros(), &axis);
+            by_motion -= by_motion * spin * spin.transpose();
+        }
         [by_motion, by_rates]
     }
 

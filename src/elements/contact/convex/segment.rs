@@ -26,6 +26,11 @@ impl SegmentPlace {
 /// The place of a segment, of which `half` is one half, that is nearest to the core or lies deepest in it; `at` tells of each. The slope of
 /// a convex function grows, and is zero there.
 pub(super) fn nearest_place(half: &Vec3, at: impl Fn(f64) -> SegmentPlace) -> SegmentPlace {
+    nearest_place_within(ITERATIONS, half, at)
+}
+
+/// The same after so many iterations, of which two halve the interval at least.
+pub(super) fn nearest_place_within(iterations: usize, half: &Vec3, at: impl Fn(f64) -> SegmentPlace) -> SegmentPlace {
     let (mut low, mut high) = (at(-1.0), at(1.0));
     if low.slope(half) >= 0.0 {
         return low;
@@ -34,7 +39,7 @@ pub(super) fn nearest_place(half: &Vec3, at: impl Fn(f64) -> SegmentPlace) -> Se
         return high;
     }
     let size = half.norm();
-    for k in 0..ITERATIONS {
+    for k in 0..iterations {
         let (a, b) = (low.slope(half), high.slope(half));
         // By turns the chord, which is exact where the slope grows evenly, and the middle.
         let s = match k % 2 {

@@ -86,8 +86,10 @@ impl Measure {
         }
         let D = (12.0 / trace).sqrt();
         let scale = 6.0 / (D * moments.volume * trace * trace);
-        // The mean radius of a disc is 2 R/3, and its variance R²/2.
-        let lever = (8.0 / 9.0 * S.trace()).sqrt();
+        // The mean distance from the middle: of a line L/4, with the variance L²/12, of a disc 2 R/3, with R²/4 twice, and of rectangles within a
+        // per cent. The second invariant is the product of the two large variances.
+        let minors = S.m11 * S.m22 - S.m12 * S.m21 + S.m22 * S.m33 - S.m23 * S.m32 + S.m33 * S.m11 - S.m31 * S.m13;
+        let lever = (0.75 * S.trace() + 5.0 / 18.0 * minors.max(0.0).sqrt()).sqrt();
         Some(Measure { D, mean: moments.mean, lever, inverse, trace, scale })
     }
 

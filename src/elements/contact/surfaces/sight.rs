@@ -103,6 +103,11 @@ impl Toucher {
         }
     }
 
+    /// What of the one is not seen by bodies among which it is.
+    pub fn unseen_among(self) -> Option<&'static str> {
+        (self == Toucher::Tube).then_some(HOLE)
+    }
+
     /// What of the one and of beams by their radius is not seen; `None` where they see each other in full.
     pub fn unseen_by_lines(self) -> Option<&'static str> {
         match self {
