@@ -209,3 +209,42 @@ fn rigid_beams_take_loads_per_length() {
         assert!((fy + 90.0).abs() < 1e-9 && (fz - 300.0).abs() < 1e-9, "{at}: {fy} {fz}");
     }
 }
+
+/// A set is what it holds: edges that another patch shares, an edge beside a beam, two edges one element apart.
+#[test]
+fn a_set_of_edges_is_each_of_them() {
+    let deck = |at: &str| {
+        format!(
+            r#"
+            analysis = {{ kind = "static", end_time = 1.0, time_step = 1.0 }}
+            output = {{ reactions = true }}
+            materials.steel = {{ model = "elastic", youngs_modulus = 2e11, poisson_ratio = 0.3, density = 7850.0 }}
+            sections.rod = {{ shape = "tube", radius = 0.02, thickness = 0.02 }}
+            points = {{ a = [0.0, 0.0, 0.0], b = [1.0, 0.0, 0.0], c = [1.0, 0.5, 0.0], d = [0.0, 0.5, 0.0], e = [2.0, 0.0, 0.0], f = [2.0, 0.5, 0.0], g = [3.0, 0.0, 0.0] }}
+            sets.some = [{at}]
+            shells = [
+                {{ name = "S", corners = ["a", "b", "c", "d"], elements = [4, 1], material = "steel", thickness = 0.01 }},
+                {{ name = "T", corners = ["b", "e", "f", "c"], elements = [4, 1], material = "steel", thickness = 0.01 }},
+            ]
+            beams = [{{ name = "B", path = ["e", "g"], elements = 4, material = "steel", section = "rod", orientation = [0.0, 0.0, 1.0] }}]
+            supports = [{{ at = "S.edge4", fix = "all" }}]
+            loads = [{{ at = WHAT, force_per_length = [0.0, 0.0, 1.0] }}]
+            "#
+        )
+    };
+    // Edges 1 and 3 run along x, 4 and 2 across.
+    for (at, length) in [
+        ("\"T.edge4\", \"T.edge1\"", 1.5),
+        ("\"S.edge2\", \"B\"", 1.5),
+        ("\"S.edge1\", \"S.edge3\"", 2.0),
+        ("\"B\", \"B\"", 1.0),
+    ] {
+        for what in ["\"some\"".to_owned(), format!("[{at}]"), format!("[\"some\", {at}]")] {
+            let rows = tables_of(&read_deck(&deck(at).replace("WHAT", &what))).rows("reactions.csv");
+            let at_end = rows.iter().filter(|row| row.number("time") == 1.0 && row.text("direction") == "uz");
+            let fz: f64 = at_end.map(|row| row.number("value")).sum();
+            // A force of one newton per metre, to the rounding of an equilibrium.
+            assert!((fz + length).abs() < 1e-6, "{what}, {at}: {fz} for {length}");
+        }
+    }
+}

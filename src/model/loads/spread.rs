@@ -52,12 +52,11 @@ pub fn spread_load<'d>(
         forces: BTreeMap::new(),
         faces: Vec::new(),
         shares: Vec::new(),
+        seen: HashSet::new(),
     };
-    // A part named twice is loaded once, like nodes.
-    let mut seen = HashSet::new();
     for name in &names.values {
         let Some(place) = scene.names.find(name, report) else { continue };
-        if seen.insert(scene.names.surface_of(place).map_or(place, Place::Part)) {
+        if spread.seen.insert(scene.names.surface_of(place).map_or(place, Place::Part)) {
             spread.over(place, name, report);
         }
     }
@@ -158,6 +157,8 @@ struct Spread<'a, 'd> {
     faces: Vec<Face>,
     /// Shares on the nodes of beams and bars.
     shares: Vec<Load>,
+    /// What has been loaded: a part named twice is so once, like nodes.
+    seen: HashSet<Place>,
 }
 
 impl<'d> Spread<'_, 'd> {
@@ -173,10 +174,12 @@ impl<'d> Spread<'_, 'd> {
             (Place::Part(_) | Place::Body(_), Some(_)) if self.line_of(place).is_some() => {
                 self.line_of(place).into_iter().for_each(|part| self.along_part(part, name, report));
             }
-            (Place::Set(_), Some(_)) if self.is_of_lines(place) => {
-                let leaves = self.scene.names.leaves(place);
-                let parts: Vec<PartIndex> = leaves.into_iter().filter_map(|leaf| self.line_of(leaf)).collect();
-                parts.into_iter().for_each(|part| self.along_part(part, name, report));
+            (Place::Set(_), Some(_)) if self.is_of_members(place) => {
+                for leaf in self.scene.names.leaves(place) {
+                    if self.seen.insert(leaf) {
+                        self.over(leaf, name, report);
+                    }
+                }
             }
             (Place::Group(_) | Place::Set(_), Some(_)) => {
                 let pairs = line_of(self.scene, place, name, self.topology, report);
@@ -205,10 +208,12 @@ impl<'d> Spread<'_, 'd> {
         }
     }
 
-    /// True where a set is one of beams and bars alone.
-    fn is_of_lines(&self, set: Place) -> bool {
+    /// True where a set is one of beams, bars, shells and edges of these alone, each of which is loaded, or refused, by itself; what holds
+    /// nodes is the line between them.
+    fn is_of_members(&self, set: Place) -> bool {
         let leaves = self.scene.names.leaves(set);
-        !leaves.is_empty() && leaves.into_iter().all(|leaf| self.line_of(leaf).is_some())
+        let is_member = |leaf: &Place| matches!(leaf, Place::Part(_) | Place::Body(_) | Place::Edge(..));
+        !leaves.is_empty() && leaves.iter().all(is_member)
     }
 
     /// The beam or bar that a place is, a rigid one too.
