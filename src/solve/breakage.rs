@@ -54,7 +54,7 @@ impl Breakage {
                 *failed = true;
                 let part = group.part_of(e, cx.model);
                 let what = match group.kind.is_deformable() {
-                    true => format!("element {} of `{}`", group.first + e + 1, part.name()),
+                    true => format!("element {} of `{}`", group.first + e, part.name()),
                     false => format!("link `{}`", part.name()),
                 };
                 let nodes = group.block.nodes(e);
