@@ -19,6 +19,7 @@ mod lines_alone;
 mod multipliers;
 mod pairs;
 mod polyhedra;
+mod rigid_parts;
 mod rubbing;
 mod sheet_edges;
 mod sight;

@@ -10,13 +10,14 @@ use crate::math::cylinder::RoundCylinder;
 use crate::math::polyhedron::Polyhedron;
 use crate::math::{Vec3, curved_faces};
 use crate::model::contacts::sight::{Opening, Sight};
-use crate::model::data::NodeWeights;
+use crate::model::data::{NodeWeights, lattice};
 use crate::model::places::nodes::{Nodes, Topology};
 use crate::model::places::place::Place;
 use crate::model::report::{Owner, Report};
 use crate::model::scene::Scene;
 use crate::solids::Touching;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::sync::Arc;
 
 /// Largest number of points between two nodes; more are taken for a typing error.
@@ -140,7 +141,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         if names.values.is_empty() {
             return self.report.error(&names.span, "`with` is empty, so nothing touches the surface");
         }
-        let (mut touches, mut seen, mut sound) = (Vec::new(), HashSet::new(), true);
+        let (mut touches, mut seen, mut sound): (Vec<Touch>, _, _) = (Vec::new(), HashMap::new(), true);
         let mut undivided = Undivided::default();
         for at in &names.values {
             let solids = self.convex.len();
@@ -157,8 +158,16 @@ impl<'a, 'd> Finder<'a, 'd> {
                 let mut key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
                 // A line may be named from either end.
                 key.sort_unstable();
-                if seen.insert(key) {
-                    touches.push(touch);
+                // What two parts share is as thick as the thicker of them.
+                match seen.entry(key) {
+                    Entry::Vacant(place) => {
+                        place.insert(touches.len());
+                        touches.push(touch);
+                    }
+                    Entry::Occupied(place) => {
+                        let known = &mut touches[*place.get()];
+                        known.radius = known.radius.max(touch.radius);
+                    }
                 }
             }
         }
@@ -376,17 +385,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         let width = shape.opening(between).filter(|_| is_drawn);
         let (points, radius) = match shape.touching(between) {
             Touching::Nodes => {
-                let scene = self.scene;
-                for (part, _) in scene.parts.entries().filter(|(_, entry)| entry.rigid_elements.is_some()) {
-                    let mut elements = scene.parts.elements(part);
-                    elements.retain(|nodes| nodes.iter().all(|&of| self.topology.root(of) == node));
-                    self.open(&elements, part.kind.is_surface(), 0.0, None);
-                }
-                let dependents: HashMap<usize, usize> =
-                    self.topology.dependents.iter().map(|r| (r.node, r.master)).collect();
-                let mut nodes: Vec<usize> = dependents.iter().filter(|(_, m)| **m == node).map(|(n, _)| *n).collect();
-                nodes.sort_unstable();
-                return found.extend(nodes.into_iter().map(|node| Touch::node(node, 0.0)));
+                return self.touches_of_parts(node, between, found);
             }
             Touching::Ball(radius) if is_drawn => return found.push(Touch::node(node, radius)),
             Touching::Points { points, radius } if is_drawn => (points, radius),
@@ -399,6 +398,39 @@ impl<'a, 'd> Finder<'a, 'd> {
             let dependent = self.topology.add_dependent(format!("{name}.{label}[{k}]"), center + point, node, &at.span);
             found.push(Touch::node(dependent, radius));
         }
+    }
+}
+
+impl Finder<'_, '_> {
+    /// The nodes that go with a body, of its parts with the contact radius of these, and what lies `between` them.
+    fn touches_of_parts(&mut self, body: usize, between: usize, found: &mut Vec<Touch>) {
+        let scene = self.scene;
+        let mut radii: HashMap<usize, f64> = HashMap::new();
+        for (part, _) in scene.parts.entries().filter(|(_, entry)| entry.rigid_elements.is_some()) {
+            let mut elements = scene.parts.elements(part);
+            elements.retain(|nodes| nodes.iter().all(|&of| self.topology.root(of) == body));
+            if elements.is_empty() {
+                continue;
+            }
+            let radius = self.contact_radius(part);
+            self.divides = true;
+            self.open(&elements, part.kind.is_surface(), radius, Some(between));
+            for &node in elements.iter().flatten() {
+                let at = radii.entry(node).or_insert(radius);
+                *at = at.max(radius);
+            }
+            let nodes = elements.iter().map(Vec::as_slice);
+            let places = match part.kind.is_surface() {
+                true => lattice::over_faces(nodes, between),
+                false => lattice::along_lines(nodes, between),
+            };
+            found.extend(places.into_iter().map(|nodes| Touch { nodes, radius, extent: TouchKind::Point }));
+        }
+        let mut nodes: Vec<usize> =
+            self.topology.dependents.iter().filter(|of| of.master == body).map(|of| of.node).collect();
+        nodes.sort_unstable();
+        nodes.dedup();
+        found.extend(nodes.into_iter().map(|node| Touch::node(node, radii.get(&node).copied().unwrap_or(0.0))));
     }
 }
 

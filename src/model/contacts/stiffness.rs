@@ -92,12 +92,17 @@ impl Meets<'_, '_> {
         if let Opposite::Facets(_) = self.opposite {
             touching.extend(self.opposite.nodes());
         }
-        let parts = self.scene.parts.list.iter().filter(|part| {
-            (0..part.elements()).flat_map(|element| part.nodes(element)).any(|node| touching.contains(node))
-        });
         let stiffness =
             |part: &crate::model::data::Part| part.stretching(&self.topology.list, &self.scene.parts.stiffnesses);
-        parts.filter_map(|part| Some((stiffness(part)?, part.name()))).min_by(|a, b| a.0.total_cmp(&b.0))
+        let softest = |touches: &dyn Fn(&[usize]) -> bool| {
+            let parts = self.scene.parts.list.iter();
+            let touching = parts.filter(|part| (0..part.elements()).any(|element| touches(part.nodes(element))));
+            let all = touching.filter_map(|part| Some((stiffness(part)?, part.name())));
+            all.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        // What hangs on a node of what touches does not touch; where nothing touches with a whole element, what has the nodes does.
+        let whole = softest(&|nodes| nodes.iter().all(|node| touching.contains(node)));
+        whole.or_else(|| softest(&|nodes| nodes.iter().any(|node| touching.contains(node))))
     }
 
     /// The smallest dimension of bodies that touch and of what is touched; that of the scene where neither has one. Parts count for

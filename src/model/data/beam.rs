@@ -1,11 +1,12 @@
 //! Beams: lines of elements that stretch, shear, bend and twist.
 
 use super::integrals::{MassIntegrals, along};
+use super::lattice;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::elements::beam::FibreModel;
-use crate::math::{Mat3, Vec3, quadrature};
+use crate::math::{Mat3, Vec3};
 use crate::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES};
 use crate::sections::Stiffness;
 
@@ -102,21 +103,7 @@ impl PartAnswers for Beam {
     }
 
     fn places_between(&self, count: usize) -> Vec<NodeWeights> {
-        let (at_nodes, _) = quadrature::lobatto(self.order + 1);
-        let between: Vec<f64> = at_nodes
-            .windows(2)
-            .flat_map(|pair| (1..=count).map(move |k| pair[0] + (pair[1] - pair[0]) * k as f64 / (count + 1) as f64))
-            .collect();
-        let mut places = Vec::new();
-        for element in &self.elements {
-            let nodes = &element.nodes[..=self.order];
-            places.extend(
-                between
-                    .iter()
-                    .map(|&xi| nodes.iter().copied().zip(quadrature::lagrange(at_nodes, xi)).collect::<NodeWeights>()),
-            );
-        }
-        places
+        lattice::along_lines(self.elements.iter().map(|element| &element.nodes[..=self.order]), count)
     }
 
     /// The mass lies on the axis, with the rotary inertia of the section.

@@ -9,6 +9,7 @@ mod displacement_target;
 mod expect;
 mod initial_motion;
 mod integrals;
+pub mod lattice;
 mod link;
 mod loading;
 mod model;

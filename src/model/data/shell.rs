@@ -1,15 +1,14 @@
 //! Shells: surfaces of triangles or of quadrilaterals.
 
 use super::integrals::MassIntegrals;
+use super::lattice;
 use super::node::Node;
 use super::part_answers::{Drawing, NodeWeights, PartAnswers};
 use crate::deck::part_table::MassKind;
 use crate::elements::shell::{self, LayerModel, MOST_NODES, Plate};
-use crate::math::curved_faces::{self, CurvedFace, NineNodes, SixNodes, facets};
 use crate::math::{Mat3, Vec3};
 use crate::quantities::{Column, PLASTIC_STRAIN, VON_MISES};
 use crate::sections::Stiffness;
-use std::collections::HashSet;
 
 /// A surface of elements of one shape. A part of the deck that has several is as many shells of the same name, one after the other.
 #[derive(Debug, Clone)]
@@ -139,14 +138,7 @@ impl PartAnswers for Shell {
     }
 
     fn places_between(&self, count: usize) -> Vec<NodeWeights> {
-        let (mut edges, mut places) = (HashSet::new(), Vec::new());
-        let of = (0..self.elements.len()).map(|element| self.nodes(element));
-        match self.size() {
-            6 => of.for_each(|nodes| curved_lattice::<SixNodes, 6>(nodes, count, &mut edges, &mut places)),
-            9 => of.for_each(|nodes| curved_lattice::<NineNodes, 9>(nodes, count, &mut edges, &mut places)),
-            _ => of.for_each(|nodes| lattice(nodes, count, &mut edges, &mut places)),
-        }
-        places
+        lattice::over_faces((0..self.elements.len()).map(|element| self.nodes(element)), count)
     }
 
     /// The mass lies on the surface with ρh³/12 per area about every axis, as its nodes have it while it deforms.
@@ -164,65 +156,5 @@ impl PartAnswers for Shell {
             taken.push(nodes);
         }
         taken
-    }
-}
-
-/// A lattice within an element and on those of its edges that are not in `edges` yet.
-fn lattice(nodes: &[usize], between: usize, edges: &mut HashSet<[usize; 2]>, places: &mut Vec<NodeWeights>) {
-    let (count, parts) = (nodes.len(), between + 1);
-    let at = |k: usize| k as f64 / parts as f64;
-    for i in 0..count {
-        let pair = [nodes[i], nodes[(i + 1) % count]];
-        if edges.insert([pair[0].min(pair[1]), pair[0].max(pair[1])]) {
-            places.extend((1..parts).map(|k| vec![(pair[0], 1.0 - at(k)), (pair[1], at(k))]));
-        }
-    }
-    for i in 1..parts {
-        for j in 1..parts {
-            let (s, t) = (at(i), at(j));
-            let weights = match count {
-                3 if i + j < parts => vec![1.0 - s - t, s, t],
-                3 => continue,
-                _ => vec![(1.0 - s) * (1.0 - t), s * (1.0 - t), s * t, (1.0 - s) * t],
-            };
-            places.push(nodes.iter().copied().zip(weights).collect());
-        }
-    }
-}
-
-/// The same of a curved element: on its sides between neighbouring nodes, and within the faces between its nodes.
-fn curved_lattice<F: CurvedFace<N>, const N: usize>(
-    nodes: &[usize],
-    between: usize,
-    edges: &mut HashSet<[usize; 2]>,
-    places: &mut Vec<NodeWeights>,
-) {
-    let mut own = Vec::new();
-    // Of the lines between its nodes, those inside belong to the element alone.
-    let mut inside = HashSet::new();
-    let round: Vec<usize> = curved_faces::ring(N).collect();
-    let pair = |a: usize, b: usize| [a.min(b), a.max(b)];
-    let rim: HashSet<[usize; 2]> = (0..round.len()).map(|k| pair(round[k], round[(k + 1) % round.len()])).collect();
-    for facet in facets(N) {
-        let mut known = HashSet::new();
-        for (k, &a) in facet.iter().enumerate() {
-            let b = facet[(k + 1) % facet.len()];
-            let seen = if rim.contains(&pair(a, b)) {
-                !edges.insert(pair(nodes[a], nodes[b]))
-            } else {
-                !inside.insert(pair(a, b))
-            };
-            if seen {
-                known.insert(pair(a, b));
-            }
-        }
-        lattice(facet, between, &mut known, &mut own);
-    }
-    for weights in own {
-        // The same place in coordinates of the element.
-        let at = |i: usize| weights.iter().map(|&(k, w): &(usize, f64)| w * F::NODES[k][i]).sum();
-        let values = F::values([at(0), at(1)]);
-        let of = nodes.iter().copied().zip(values).filter(|(_, w)| w.abs() > 1e-14);
-        places.push(of.collect());
     }
 }
