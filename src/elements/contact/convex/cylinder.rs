@@ -146,20 +146,24 @@ impl<'a> CylinderPose<'a> {
 
     /// The depth of two that overlap along an axis toward the one; `None` where rounding leaves nothing of what they have in common.
     pub fn depth(&self, axis: &Vec3) -> Option<Depth> {
-        let out = self.axes.tr_mul(axis);
-        let origin = self.cylinder.farthest_in_axes(&if self.is_own { -out } else { out });
-        let few = self.by_moments::<{ FEW.0 }, { FEW.1 }>(&origin);
-        few.or_else(|| self.by_moments::<{ MANY.0 }, { MANY.1 }>(&origin)).flatten()
+        // Toward the cylinder, which is the one of two cylinders.
+        let toward = self.axes.tr_mul(axis) * if self.is_own { 1.0 } else { -1.0 };
+        let origin = self.cylinder.farthest_in_axes(&-toward);
+        let few = self.by_moments::<{ FEW.0 }, { FEW.1 }>((&origin, &toward));
+        few.or_else(|| self.by_moments::<{ MANY.0 }, { MANY.1 }>((&origin, &toward))).flatten()
     }
 
-    /// The same in coordinates about an origin, with room for so many faces; `None` where that is too little.
-    fn by_moments<const CORNERS: usize, const FACES: usize>(&self, origin: &Vec3) -> Option<Option<Depth>> {
+    /// The same along this axis, in coordinates about an origin, with room for so many faces; `None` where that is too little.
+    fn by_moments<const CORNERS: usize, const FACES: usize>(
+        &self,
+        (origin, along): (&Vec3, &Vec3),
+    ) -> Option<Option<Depth>> {
         let half = self.cylinder.half();
         let (y, Q) = (self.y - origin, &self.Q);
         let (mut faces, goes_along) = match self.against {
             Against::Polyhedron(polyhedron) => (Faces::<CORNERS, FACES>::of(polyhedron, &y, Q)?, false),
             Against::Cylinder(other) => {
-                let outline = self.two(other).outline();
+                let outline = self.two(other).outline(along);
                 (Faces::of_prism(&outline, other.half(), &y, Q)?, !outline.is_fixed)
             }
         };

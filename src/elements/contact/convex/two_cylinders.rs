@@ -197,6 +197,13 @@ impl TwoCylinders<'_> {
         ends.into_iter().chain(sides).chain(line.map(|line| -line.place.n)).chain(rims)
     }
 
+    /// True for an axis across the other.
+    fn is_across(&self, axis: &Vec3) -> bool {
+        /// Cosines below this are rounding.
+        const LEVEL: f64 = 1e-12;
+        self.Q.column(2).dot(axis).abs() < LEVEL
+    }
+
     /// True where an axis across the side of the other leads to a place within the length of that.
     fn meets_within(&self, axis: &Vec3) -> bool {
         let place = self.one.farthest_in_axes(axis) + self.y;
@@ -217,11 +224,11 @@ impl TwoCylinders<'_> {
         best
     }
 
-    /// The prism, in the axes of the other, where the two overlap.
-    pub fn outline(&self) -> PrismOutline {
+    /// The prism, in the axes of the other, where the two overlap along an axis.
+    pub fn outline(&self, along: &Vec3) -> PrismOutline {
         let radius = self.other.radius();
         let (mut least, mut angle) = (f64::INFINITY, 0.0);
-        for axis in self.axes() {
+        let mut look = |axis: Vec3| {
             // Beyond the plane normal to the axis at which the one begins there is nothing of it; the round side is on this side of
             // that plane but for so much about the angle of the axis, where its deepest place is.
             let out = self.Q.tr_mul(&axis);
@@ -229,6 +236,11 @@ impl TwoCylinders<'_> {
             if part < least {
                 (least, angle) = (part, out.y.atan2(out.x));
             }
+        };
+        // Of sides that meet within their lengths no other axis tells more.
+        match self.is_across(along) && self.meets_within(along) {
+            true => look(*along),
+            false => self.axes().for_each(look),
         }
         let half = 2.0 * least.clamp(0.0, 1.0).sqrt().asin();
         // Over much of the round that does no more than bound what they have in common.
