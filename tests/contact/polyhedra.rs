@@ -254,11 +254,20 @@ fn each(mut check: impl FnMut(&mut StdRng, Touch<ConvexPairs>, &str)) {
     }
 }
 
+/// True for the states of `each` with two cylinders, which come last of the kinds.
+fn is_of_two(number: usize) -> bool {
+    number % (13 * KINDS.len()) % KINDS.len() == KINDS.len() - 1
+}
+
 #[test]
 fn the_tangent_is_the_derivative() {
-    let mut checked = 0;
-    // Rounding of forces of size 10 over 1e-7, and of the depth, 1e-12 of it: 1e-5 of the largest.
-    each(|_, touch, what| checked += usize::from(touch.check_tangent(1e-5, what)));
+    let (mut checked, mut number) = (0, 0);
+    // Rounding of forces of size 10 over 1e-7, and of the depth, 1e-12 of it: 1e-5 of the largest; where a search tells where the prism of one of two
+    // cylinders stands, 1e-4.
+    each(|_, touch, what| {
+        checked += usize::from(touch.check_tangent(if is_of_two(number) { 1e-4 } else { 1e-5 }, what));
+        number += 1;
+    });
     assert!(checked > 500, "only {checked} of 663 states were in touch and smooth");
 }
 
@@ -282,7 +291,7 @@ fn forces_and_moments_balance_and_turn_with_the_scene() {
     let mut number = 0;
     each(|rng, touch, what| {
         // Of two cylinders the prism of the one stands where a search ends, to some 1e-12, of which their curvature makes more.
-        let left = if number % (13 * KINDS.len()) % KINDS.len() == KINDS.len() - 1 { 1e-7 } else { 1e-9 };
+        let left = if is_of_two(number) { 1e-7 } else { 1e-9 };
         number += 1;
         let F = touch.force(&touch.nodes);
         let (mut f, mut m, mut size) = (Vec3::zeros(), Vec3::zeros(), 1.0f64);

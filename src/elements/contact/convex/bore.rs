@@ -73,7 +73,17 @@ impl Bore {
 
     /// Calls with the points of the rule, and the area that each stands for, of what of a face lies inside.
     pub fn each_point<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3, f64)) {
-        let (corners, normal) = (face.corners(), face.normal);
+        let (mut turned, normal) = ([Vec3::zeros(); CORNERS], face.normal);
+        let corners = &mut turned[..face.corners().len()];
+        corners.copy_from_slice(face.corners());
+        let area = twice_area(corners, &normal);
+        // What closes a torn face may go round the other way, and counts against the rest.
+        if area < 0.0 {
+            corners.reverse();
+        }
+        let sign = if area < 0.0 { -1.0 } else { 1.0 };
+        let mut act = |x: Vec3, area: f64| act(x, sign * area);
+        let corners = &*corners;
         let mut pieces = [[Vec3::zeros(); 2]; CORNERS];
         let mut count = 0;
         for (k, from) in corners.iter().enumerate() {
@@ -104,6 +114,11 @@ impl Bore {
         let corner = corners.first().filter(|_| normal.z.abs() > STRAIGHT)?;
         let mut center = Vec3::new(-self.origin.x, -self.origin.y, corner.z);
         center.z += normal.dot(&(corner - center)) / normal.z;
+        // What rounding has left of a face, a line or a point, has no inside.
+        let doubled = twice_area(corners, normal).abs();
+        if doubled * normal.z.abs() < TAU * self.radius * self.radius {
+            return None;
+        }
         let is_within = |(a, b): (&Vec3, &Vec3)| (b - a).cross(&(center - a)).dot(normal) >= 0.0;
         corners.iter().zip(corners.iter().cycle().skip(1)).all(is_within).then_some(center)
     }
@@ -152,6 +167,12 @@ impl Bore {
             }
         }
     }
+}
+
+/// Twice the area of a polygon, below zero where it goes clockwise about the normal.
+fn twice_area(corners: &[Vec3], normal: &Vec3) -> f64 {
+    let from_first = |k: usize| corners[k] - corners[0];
+    (2..corners.len()).map(|k| from_first(k - 1).cross(&from_first(k)).dot(normal)).sum()
 }
 
 /// The cones of a face.

@@ -61,6 +61,13 @@ impl<'a> CylinderPose<'a> {
                 let below = Vec3::new(pose.y.x, pose.y.y, -depth);
                 Some(Self::of_own(pose, own, (Against::Polyhedron(cube), below, Mat3::identity())))
             }
+            // The prism stands for the thinner one, whose round side is as curved as what the two have in common is narrow.
+            (ConvexShape::Cylinder(own), ConvexShape::Cylinder(other)) if own.radius() < other.radius() => {
+                let axes = *other.axes();
+                let (y, Q) = (axes.tr_mul(&pose.y), axes.tr_mul(&(pose.Q * own.axes())));
+                let (against, center, origin) = (Against::Cylinder(own), zero, pose.y);
+                Some(CylinderPose { cylinder: other, against, y, Q, axes, center, origin, is_own: false })
+            }
             (ConvexShape::Cylinder(own), ConvexShape::Cylinder(other)) => {
                 Some(Self::of_own(pose, own, (Against::Cylinder(other), zero, *other.axes())))
             }
@@ -171,9 +178,10 @@ impl<'a> CylinderPose<'a> {
         faces.cut(&-Vec3::z(), half + origin.z)?;
         let mut found = self.of_faces(&faces, origin);
         if let Some(depth) = found.as_mut().filter(|_| goes_along) {
-            // Nothing turns the other about its axis.
+            // Nothing turns that of the prism about its axis.
             let axis = self.axes * Q.column(2);
-            let about = axis.dot(&(angular(&depth.g) + self.center.cross(&linear(&depth.g))));
+            let of_other = if self.is_own { self.center.cross(&linear(&depth.g)) } else { Vec3::zeros() };
+            let about = axis.dot(&(angular(&depth.g) + of_other));
             depth.g -= stack(&Vec3::zeros(), &(about * axis));
         }
         Some(found)

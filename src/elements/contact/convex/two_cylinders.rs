@@ -133,7 +133,7 @@ impl TwoCylinders<'_> {
         }
         let (mut low, mut high) = (best.1 - step, best.1 + step);
         let (mut rise, mut fall) = (slope(low), slope(high));
-        for k in 0..60 {
+        for k in 0..120 {
             if rise <= 0.0 || fall >= 0.0 || high - low <= 1e-15 {
                 break;
             }
