@@ -135,7 +135,9 @@ fn a_drum_rolls_without_a_bump() {
             let way = g * sine / 3.0 * row[0] * row[0];
             // The spring of friction gives by 6.5 N/4e6 N/m and swings; the depth is that of a segment of a circle, δ/R of itself.
             assert!((row[1] - way).abs() < 2e-5 * (1.0 + way), "{on}: {} for {way} at {}", row[1], row[0]);
-            assert!((row[2] - z).abs() < 1e-8, "{on}: {} for {z} at {}", row[2], row[0]);
+            // On the end of another cylinder it is a prism, which is softer by 0.4 % of the 3 µm that it lies deep.
+            let left = if on == ON_DRUM { 2e-8 } else { 1e-8 };
+            assert!((row[2] - z).abs() < left, "{on}: {} for {z} at {}", row[2], row[0]);
             assert!(row[3].abs() < 1e-9, "{on}: {} to the side at {}", row[3], row[0]);
         }
         let last = done.rows.last().expect("rows");
@@ -218,7 +220,7 @@ fn impacts_keep_energy_and_momentum() {
         assert!(most > 0.1, "{k}: they missed each other");
         // The scheme's own error falls with h² as the impacts of edges are resolved: up to 1e-3 at 1e-4, 4e-5 here, 1e-5 at half of it.
         // Of two cylinders one is a prism of fine sides, whose bulges leave some of it.
-        let left = if k % 3 == 1 { 2e-3 } else { 1e-4 };
+        let left = if k % 3 == 1 { 1e-3 } else { 1e-4 };
         assert!((last[1] - first[1]).abs() < left * most, "{k}: {} of {most}", last[1] - first[1]);
         for k in 5..8 {
             assert!((last[k] - first[k]).abs() < 1e-12, "momentum");

@@ -19,7 +19,7 @@ use crate::math::polyhedron::{Polyhedron, SolidMoments};
 use crate::math::{Mat3, Vec3, angular, linear, stack};
 
 /// Corners of faces, and faces, of what a cylinder has in common with a box, with most hulls, or with the side of another cylinder.
-const FEW: (usize, usize) = (20, 24);
+const FEW: (usize, usize) = (24, 28);
 /// The same of others.
 const MANY: (usize, usize) = (40, 128);
 

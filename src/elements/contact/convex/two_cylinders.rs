@@ -1,7 +1,7 @@
 //! Two cylinders: the axis that separates them, and the prism that stands for the one of them where the other touches it.
 //!
-//! Fifteen sides of the prism lie where the other one comes, as wide together as it can reach, so that each bulges by less than a hundredth of the
-//! depth; behind them the prism is a box. Where the two meet over more than a part of the round, as end on end, it has 32 sides. All sides
+//! Nineteen sides of the prism lie where the other one comes, as wide together as it can reach and narrow in the middle, where it always is, so that
+//! they bulge by a hundredth of the depth and less; behind them the prism is a box. Where the two meet over more than a part of the round, as end on end, it has 32 sides. All sides
 //! lie as far out as the arcs do on average.
 
 use super::pose::LeastAxis;
@@ -11,7 +11,7 @@ use crate::math::{Mat3, Vec3, frame_along};
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 /// Sides where the other cylinder comes.
-const SIDES: usize = 15;
+const SIDES: usize = 19;
 /// Sides all around.
 const AROUND: usize = 32;
 /// Half the angle that the other one reaches over, beyond which there are sides all around.
@@ -271,22 +271,37 @@ impl PrismOutline {
         outline
     }
 
-    /// One with sides about an angle, over so much on either side of it, and a box behind them.
+    /// One with sides about an angle, over so much on either side of it, and a box behind them. They are narrow in the middle, where the
+    /// contact always is, and wider outward by a ratio.
     fn of_zone(radius: f64, angle: f64, half: f64) -> PrismOutline {
-        let width = 2.0 * BEYOND * half.max(1e-6) / SIDES as f64;
-        let away = radius * (1.0 - width * width / 24.0);
-        let middle = |k: usize| angle + width * (k as f64 - 0.5 * (SIDES - 1) as f64);
+        const RATIO: f64 = 1.25;
+        const OUTER: usize = SIDES / 2;
+        let wider = |k: usize| RATIO.powi(k.abs_diff(OUTER) as i32);
+        let all: f64 = (0..SIDES).map(wider).sum();
+        let scale = 2.0 * BEYOND * half.max(1e-6) / all;
+        let width = |k: usize| scale * wider(k);
+        let away = |k: usize| radius * (1.0 - width(k) * width(k) / 24.0);
+        // From the middle outward, so that both halves are alike to rounding.
+        let middle = |k: usize| {
+            let steps: f64 = (1..=k.abs_diff(OUTER)).map(|j| 0.5 * (width(OUTER + j - 1) + width(OUTER + j))).sum();
+            if k < OUTER { angle - steps } else { angle + steps }
+        };
+        let along = |angle: f64| Vec3::new(-angle.sin(), angle.cos(), 0.0);
         let mut outline = PrismOutline::EMPTY;
         let (first, last) = (middle(0), middle(SIDES - 1));
-        let along = |angle: f64| Vec3::new(-angle.sin(), angle.cos(), 0.0);
         // The outer sides go on until they are beyond all that is round.
-        let begin = away * TwoCylinders::out(first) - 3.0 * radius * along(first);
+        let begin = away(0) * TwoCylinders::out(first) - 3.0 * radius * along(first);
         outline.push(begin, TwoCylinders::out(first));
         for k in 1..SIDES {
-            let corner = away / (0.5 * width).cos();
-            outline.push(corner * TwoCylinders::out(middle(k) - 0.5 * width), TwoCylinders::out(middle(k)));
+            let (from, to) = (middle(k - 1), middle(k));
+            let turn = 0.25 * (width(k - 1) + width(k));
+            let between = 0.5 * (from + to);
+            let farther = radius * (width(k - 1) * width(k - 1) - width(k) * width(k)) / 24.0;
+            let corner = 0.5 * (away(k - 1) + away(k)) / turn.cos() * TwoCylinders::out(between)
+                + 0.5 * farther / turn.sin() * along(between);
+            outline.push(corner, TwoCylinders::out(to));
         }
-        let end = away * TwoCylinders::out(last) + 3.0 * radius * along(last);
+        let end = away(SIDES - 1) * TwoCylinders::out(last) + 3.0 * radius * along(last);
         let (out, across) = (TwoCylinders::out(angle), along(angle));
         outline.push(end, across);
         outline.push(end - (end.dot(&out) + 4.0 * radius) * out, -out);
