@@ -14,8 +14,8 @@ pub enum ConvexShape {
     Spherocylinder(Spherocylinder),
     /// A cylinder with flat ends.
     Cylinder(Arc<RoundCylinder>),
-    /// All below the plane through the origin that is normal to the third axis. What reaches no farther than a quarter of the cube that it holds meets of it no
-    /// more than that cube, moved along under it.
+    /// All below the plane through the origin that is normal to the third axis; with a cube that is moved along under what touches it, of which the
+    /// half edge is four times the reach of that.
     HalfSpace(Arc<Polyhedron>),
 }
 

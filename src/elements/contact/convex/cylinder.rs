@@ -49,7 +49,7 @@ enum Against<'a> {
 }
 
 impl<'a> CylinderPose<'a> {
-    /// `None` where neither is a cylinder, or one of the two round about a segment.
+    /// `None` where neither is a cylinder, or where one of the two is round about a segment.
     pub fn of(pose: &ConvexPose<'a>) -> Option<Self> {
         let zero = Vec3::zeros();
         match (pose.own, pose.other) {

@@ -159,7 +159,7 @@ impl TwoCylinders<'_> {
         if self.gap(&-axis).0 > self.gap(&axis).0 {
             axis = -axis;
         }
-        // Newton's method on the sphere. The gap is as long as the axis is, which bends it there by itself.
+        // Newton's method on the sphere. The gap grows in proportion to the length of the axis, so that on the sphere it is bent by itself besides.
         for _ in 0..6 {
             let (gap, gradient) = self.gap(&axis);
             let T = frame_along(&axis);
