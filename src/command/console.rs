@@ -1,7 +1,7 @@
 //! What is printed: results for a script on standard output, diagnostics on standard error.
 
 use super::exit::Exit;
-use crate::diagnostic::{Diagnostic, Severity, Source, plain};
+use crate::diagnostic::{Diagnostic, Source, plain};
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -25,9 +25,9 @@ const SHOWN: usize = 50;
 /// Draws diagnostics on standard error. Where there are very many, it draws the first of each severity and says how many more
 /// there are.
 pub fn show(problems: &[Diagnostic], source: &Source) {
-    let mut counts = [0_usize; 2];
+    let mut counts = [0_usize; 3];
     for problem in problems {
-        let count = &mut counts[usize::from(problem.severity == Severity::Warning)];
+        let count = &mut counts[problem.severity as usize];
         *count += 1;
         if *count <= SHOWN {
             match shows_json() {
@@ -36,7 +36,7 @@ pub fn show(problems: &[Diagnostic], source: &Source) {
             }
         }
     }
-    for (count, thing) in counts.into_iter().zip(["error", "warning"]) {
+    for (count, thing) in counts.into_iter().zip(["error", "warning", "note"]) {
         if count > SHOWN {
             say(&format!("… and {}\n", counted(count - SHOWN, &format!("more {thing}"))));
         }

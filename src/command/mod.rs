@@ -97,7 +97,7 @@ enum Command {
 /// [`Exit::Usage`] where the first word is no command, nor a deck, or a level of instructions cannot be had; it has been said.
 pub fn parse() -> Result<Cli, Exit> {
     instructions::settle()?;
-    let word = std::env::args().nth(1).unwrap_or_default();
+    let word = std::env::args_os().nth(1).unwrap_or_default().to_string_lossy().into_owned();
     let parsed = Cli::try_parse();
     // Clap takes a word that is no command for a deck, and calls what follows it one argument too many.
     let may_be_misspelt = match &parsed {

@@ -7,6 +7,7 @@ use super::load::Loaded;
 use super::version::{VERSION, instructions};
 use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
 use crate::output::{holds_run, log, result_json};
+use crate::text_file::read_text;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
@@ -106,7 +107,7 @@ pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Be
     if let Some(ended) = ended(folder, (hash, origin)) {
         return Err(ended);
     }
-    let log = std::fs::read_to_string(folder.join(log::NAME)).unwrap_or_default();
+    let log = read_text(folder.join(log::NAME)).unwrap_or_default();
     if !log.is_empty() && !log.lines().any(|line| line.strip_prefix("deck hash ") == Some(hash)) {
         complain(&format!("the results in `{place}` are those of another deck, or of other --set"));
         say("  help: --overwrite in place of --resume replaces them; -o DIR writes elsewhere");
@@ -121,7 +122,7 @@ pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Be
 
 /// Says of a run that has come to its end what it has said then; `None` where there is no result.
 fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exit> {
-    let (place, text) = (folder.display(), std::fs::read_to_string(folder.join(result_json::NAME)).ok()?);
+    let (place, text) = (folder.display(), read_text(folder.join(result_json::NAME)).ok()?);
     let result: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
     let said = |key: &str| result[key].as_str().unwrap_or_default().to_owned();
     if said("deck_hash") != hash || said("version") != origin.version {

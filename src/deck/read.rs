@@ -21,7 +21,7 @@ const LIMIT: usize = 200;
 /// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported; if that is too
 /// much, there is no deck.
 pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
-    let arguments: Vec<String> = source.sets.iter().map(|(offset, text)| set::padded(*offset, text)).collect();
+    let arguments: Vec<String> = source.sets.iter().map(|(_, text)| set::toml(text)).collect();
     let (root, syntax) = DeTable::parse_recoverable(&source.text);
     let mut root = root.into_inner();
     let mut reader = Reader::default();
@@ -125,7 +125,9 @@ impl Reader {
                 self.problems.push(problem.at(&span));
             }
             if self.problems.len() >= LIMIT {
-                self.problems.push(Diagnostic::error("there may be more errors; correct these first"));
+                let message =
+                    format!("rdsolve stopped reading after {LIMIT} errors; correct these first, there may be more");
+                self.problems.push(Diagnostic::note(message));
                 return None;
             }
         }

@@ -1,7 +1,7 @@
 //! `--set KEY=VALUE`: one entry of the deck, overridden before it is read.
 //!
-//! An argument is itself a line of TOML. It is parsed behind as many blanks as its offset in the [`Source`], so that its
-//! spans are already those of the source. Two freedoms are added. For the sake of shells, which eat quotes, a value that
+//! An argument is itself a line of TOML. Its spans are then moved by its offset in the [`Source`], so that they are those of the
+//! source. Two freedoms are added. For the sake of shells, which eat quotes, a value that
 //! is a bare word or the name of a file, and neither a number nor `true` or `false`, is text
 //! (`--set integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`). And `loads[0].force` is `loads.0.force`.
 //!
@@ -19,14 +19,32 @@ const SINGLE: [&str; 8] = ["mesh", "analysis", "integrator", "iteration", "envir
 /// Tables whose entries are named by the user.
 const NAMED: [&str; 5] = ["materials", "sections", "points", "sets", "amplitudes"];
 
-/// The argument behind `offset` blanks, a bare word in quotes, an index in brackets behind a dot; no byte changes its place.
-pub fn padded(offset: usize, argument: &str) -> String {
-    let blank = " ".repeat(offset);
+/// The argument as TOML: a bare word in quotes, an index in brackets behind a dot; no byte before the value changes its place.
+pub fn toml(argument: &str) -> String {
     let Some((key, value)) = equals(argument).map(|at| argument.split_at(at + 1)) else {
-        return format!("{blank}{argument}");
+        return argument.to_owned();
     };
     let key = dotted(key);
-    if is_bare_word(value) { format!("{blank}{key}\"{value}\"") } else { format!("{blank}{key}{value}") }
+    if is_bare_word(value) { format!("{key}\"{value}\"") } else { format!("{key}{value}") }
+}
+
+/// A table whose places, and those of all that is in it, are moved by `offset`.
+pub fn moved<'i>(table: DeTable<'i>, offset: usize) -> DeTable<'i> {
+    let place = |span: Span| span.start + offset..span.end + offset;
+    let entry = |(key, value): (Spanned<DeString<'i>>, Spanned<DeValue<'i>>)| {
+        (Spanned::new(place(key.span()), key.into_inner()), moved_value(value, offset))
+    };
+    table.into_iter().map(entry).collect()
+}
+
+fn moved_value(value: Spanned<DeValue>, offset: usize) -> Spanned<DeValue> {
+    let span = value.span();
+    let inner = match value.into_inner() {
+        DeValue::Table(table) => DeValue::Table(moved(table, offset)),
+        DeValue::Array(list) => DeValue::Array(list.into_iter().map(|item| moved_value(item, offset)).collect()),
+        other => other,
+    };
+    Spanned::new(span.start + offset..span.end + offset, inner)
 }
 
 /// `a[0].b` as `a.0 .b`, brackets in quotes as they are.
@@ -66,17 +84,21 @@ fn equals(argument: &str) -> Option<usize> {
     None
 }
 
-/// Puts the value of `padded` in its place in the deck.
-pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argument: &str) -> Result<(), Diagnostic> {
+/// Puts the value of an argument, written as [`toml`] has it, in its place in the deck.
+///
+/// # Errors
+/// It is not KEY=VALUE, or the deck has no such entry; places are those of the source, where the argument begins at `offset`.
+pub fn merge<'i>(root: &mut DeTable<'i>, toml: &'i str, offset: usize, argument: &str) -> Result<(), Diagnostic> {
     let all = offset..offset + argument.len();
     let example = "such as beams.portal.elements=24";
     let equals = equals(argument)
         .ok_or_else(|| Diagnostic::error("`--set` takes KEY=VALUE").at(&all).hint(example))
         .map(|at| offset + at)?;
-    let mut table = DeTable::parse(padded)
+    let table = DeTable::parse(toml)
         .map_err(|error| {
-            let place = error.span().unwrap_or(all.clone());
-            let slip = number_slips::explain(padded, place.start);
+            let inside = error.span().unwrap_or(0..argument.len());
+            let slip = number_slips::explain(toml, inside.start);
+            let place = inside.start + offset..inside.end + offset;
             let hint = match (argument[equals + 1 - offset..].trim_start(), &slip) {
                 _ if place.start < equals => "the key is a dotted path, such as beams.portal.elements or loads.0.force",
                 (_, Some((_, hint))) => hint,
@@ -88,6 +110,7 @@ pub fn merge<'i>(root: &mut DeTable<'i>, padded: &'i str, offset: usize, argumen
                 .hint(hint)
         })?
         .into_inner();
+    let mut table = moved(table, offset);
     if let Some(problem) = super::aliases::unify(&mut table).pop() {
         return Err(problem);
     }
@@ -213,8 +236,8 @@ mod tests {
 
     #[test]
     fn an_index_may_stand_in_brackets() {
-        assert_eq!(padded(2, "loads[0].force[2]=1.0"), "  loads.0 .force.2 =1.0");
-        assert_eq!(padded(0, "sets.\"a[0]\"=b"), "sets.\"a[0]\"=\"b\"");
-        assert_eq!(padded(0, "bodies.b.velocity=[1.0]"), "bodies.b.velocity=[1.0]");
+        assert_eq!(toml("loads[0].force[2]=1.0"), "loads.0 .force.2 =1.0");
+        assert_eq!(toml("sets.\"a[0]\"=b"), "sets.\"a[0]\"=\"b\"");
+        assert_eq!(toml("bodies.b.velocity=[1.0]"), "bodies.b.velocity=[1.0]");
     }
 }

@@ -75,8 +75,8 @@ pub struct Word {
     item: usize,
     span: Span,
     scheme: String,
-    /// `key=value`, as [`set::padded`] makes them: their spans are those of the deck.
-    parameters: Vec<String>,
+    /// `key=value`, as [`set::toml`] makes them, each with its place in the deck.
+    parameters: Vec<(usize, String)>,
 }
 
 /// Schemes that are written as words.
@@ -92,9 +92,9 @@ pub fn words(root: &DeTable) -> Vec<Word> {
         let mut at = span.start + 1 + scheme.len();
         let parameters = pieces.map(|piece| {
             at += 1;
-            let padded = set::padded(at, piece);
+            let begin = at;
             at += piece.len();
-            padded
+            (begin, set::toml(piece))
         });
         let parameters = parameters.collect();
         Some(Word { item, span, scheme: scheme.to_owned(), parameters })
@@ -112,9 +112,9 @@ pub fn expand<'i>(root: &mut DeTable<'i>, words: &'i [Word]) -> Vec<Diagnostic> 
         let mut table = DeTable::new();
         let scheme = DeValue::String(Cow::Borrowed(word.scheme.as_str()));
         table.insert(Spanned::new(span.clone(), Cow::Borrowed("scheme")), Spanned::new(span.clone(), scheme));
-        for parameter in &word.parameters {
+        for (begin, parameter) in &word.parameters {
             match DeTable::parse(parameter) {
-                Ok(entries) => table.extend(entries.into_inner()),
+                Ok(entries) => table.extend(set::moved(entries.into_inner(), *begin)),
                 Err(_) => {
                     let message = format!("`{}` is not key=value", parameter.trim());
                     let hint = "a scheme with parameters is written \"newmark:gamma=0.6:beta=0.31\"";

@@ -3,9 +3,10 @@
 
 use super::disk::{UNFINISHED, at, create};
 use crate::snapshot::{Keep, Snapshot, keep};
+use crate::text_file::open_regular;
 use sha2::{Digest, Sha256};
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// The name of the checkpoint in the output folder.
@@ -124,8 +125,9 @@ impl Checkpoint {
     /// It cannot be read, or is not whole.
     pub fn read(dir: &Path) -> io::Result<Option<Checkpoint>> {
         let path = Checkpoint::path(dir);
-        let mut bytes = match fs::read(&path) {
-            Ok(bytes) => bytes,
+        let mut bytes = Vec::new();
+        match open_regular(&path).and_then(|mut file| file.read_to_end(&mut bytes)) {
+            Ok(_) => {}
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(at(&path, error)),
         };

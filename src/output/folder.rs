@@ -6,6 +6,7 @@ use super::lock;
 use super::run_list::{self, RunList, foreign};
 use super::{checkpoint, fields, log, result_json, tables};
 use crate::model::Model;
+use crate::text_file::read_text;
 use std::collections::HashSet;
 use std::fs;
 use std::io;
@@ -73,7 +74,7 @@ fn ours(dir: &Path, files: &[String]) -> io::Result<HashSet<String>> {
 
 /// Whether the log or the result in a folder is that of a run.
 fn is_of_earlier_version(dir: &Path) -> bool {
-    let text = |name: &str| fs::read_to_string(dir.join(name)).unwrap_or_default();
+    let text = |name: &str| read_text(dir.join(name)).unwrap_or_default();
     let has_log =
         text(log::NAME).lines().next().is_some_and(|line| line.starts_with("rdsolve ") && line.contains(", deck "));
     let result: serde_json::Value = serde_json::from_str(&text(result_json::NAME)).unwrap_or_default();

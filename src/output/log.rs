@@ -6,6 +6,7 @@ use crate::diagnostic::plain;
 use crate::names::{instant, short};
 use crate::snapshot::keep;
 use crate::solve::{Broken, Frame, Observer};
+use crate::text_file::open_regular;
 use std::fs::{File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -60,7 +61,14 @@ impl Log {
     /// The file cannot be opened; the error names it.
     pub fn open(dir: &Path, resume: bool) -> io::Result<Log> {
         let path = dir.join(NAME);
-        let open = |()| if resume { OpenOptions::new().create(true).append(true).open(&path) } else { create(&path) };
+        let go_on = || {
+            // A pipe of this name would wait for a reader for ever.
+            if path.exists() {
+                open_regular(&path).map(drop)?
+            }
+            OpenOptions::new().create(true).append(true).open(&path)
+        };
+        let open = |()| if resume { go_on() } else { create(&path) };
         let file = std::fs::create_dir_all(dir).and_then(open).map_err(|e| at(&path, e))?;
         let [cut, passed, broken] = [(); 3].map(|()| Events::default());
         Ok(Log { path, file, path_before: None, cut, passed, broken })

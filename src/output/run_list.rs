@@ -1,6 +1,7 @@
 //! run.list: the names of the files that a run has written into its folder. `--overwrite` takes these away and nothing else.
 
 use super::disk::at;
+use crate::text_file::read_text;
 use std::collections::HashSet;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
@@ -63,7 +64,7 @@ pub fn read(dir: &Path) -> io::Result<Option<Vec<String>>> {
         Ok(found) if !found.is_file() => return Err(foreign(&path)),
         Ok(_) => {}
     }
-    let text = fs::read_to_string(&path).map_err(|error| at(&path, error))?;
+    let text = read_text(&path).map_err(|error| at(&path, error))?;
     if text.is_empty() {
         return Ok(None); // a run killed before its first line
     }

@@ -5,9 +5,9 @@ use super::result_json;
 use super::table_reader::{TableReader, fields, number, text};
 use super::tables::TABLES;
 use crate::names::to_digits;
+use crate::text_file::read_regular;
 use serde::Serialize;
 use serde_json::Value;
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -61,7 +61,7 @@ impl ResultSummary {
     /// There are no results, or a file cannot be read; the error names it.
     pub fn of(folder: &Path) -> io::Result<ResultSummary> {
         let path = folder.join(result_json::NAME);
-        let result: Value = match fs::read(&path) {
+        let result: Value = match read_regular(&path) {
             Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| at(&path, error.into()))?,
             Err(error) if error.kind() == io::ErrorKind::NotFound => Value::Null,
             Err(error) => return Err(at(&path, error)),

@@ -4,6 +4,7 @@
 use super::disk::at;
 use super::table::STAGE;
 use super::tables;
+use crate::text_file::open_regular;
 use std::borrow::Cow;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader};
@@ -34,10 +35,7 @@ impl TableReader {
     /// # Errors
     /// The file cannot be read, is not a regular file, or has no whole header; the error names it.
     pub fn open(path: &Path) -> io::Result<TableReader> {
-        if !std::fs::metadata(path).map_err(|e| at(path, e))?.is_file() {
-            return Err(at(path, io::Error::new(io::ErrorKind::InvalidData, "not a regular file, so no table")));
-        }
-        let file = File::open(path).map_err(|e| at(path, e))?;
+        let file = open_regular(path).map_err(|e| at(path, e))?;
         let reader = BufReader::with_capacity(CHUNK, file);
         let (path, line) = (path.to_owned(), Vec::new());
         let (header, keys) = (Vec::new(), Vec::new());

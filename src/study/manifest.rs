@@ -2,6 +2,7 @@
 
 use super::options::RUNS;
 use crate::output::{at, holds_run, remove, remove_empty, remove_run, replace};
+use crate::text_file::read_text;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -25,7 +26,7 @@ impl Manifest {
     pub fn begin(folder: &Path, files: &[&str], runs: &[String]) -> io::Result<Manifest> {
         fs::create_dir_all(folder).map_err(|error| at(folder, error))?;
         let list = folder.join(NAME);
-        let older: Vec<String> = match fs::read_to_string(&list) {
+        let older: Vec<String> = match read_text(&list) {
             Ok(text) if text.lines().next() == Some(HEAD) => text.lines().skip(1).map(str::to_owned).collect(),
             Ok(_) => return Err(foreign(&list)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),

@@ -4,8 +4,8 @@ use super::history;
 use super::process::{Ended, first_error};
 use crate::model::study::Quantity;
 use crate::output;
+use crate::text_file::read_regular;
 use serde_json::Value;
-use std::fs;
 use std::io;
 use std::path::Path;
 
@@ -213,7 +213,7 @@ pub fn spread(runs: &[StudyRun]) -> Option<f64> {
 
 fn result(place: &Path) -> io::Result<Value> {
     let path = place.join("result.json");
-    let bytes = fs::read(&path).map_err(|error| output::at(&path, error))?;
+    let bytes = read_regular(&path).map_err(|error| output::at(&path, error))?;
     serde_json::from_slice(&bytes).map_err(|error| output::at(&path, error.into()))
 }
 

@@ -2,6 +2,7 @@
 
 use super::file::{MOST_CASES, SampleKind, SampleOfCases, SweepFile, VariedKey, VariedValues};
 use super::sampling::{MOST_DIMENSIONS, latin_hypercube, sobol};
+use crate::text_file::read_regular;
 use std::path::Path;
 
 /// The cases of a sweep in their order, counted from 1 where they are named.
@@ -106,9 +107,10 @@ fn number(value: f64) -> String {
 }
 
 fn of_table(path: &Path) -> Result<Cases, String> {
-    let fault = |error: csv::Error| format!("cannot read the table of cases `{}`: {error}", path.display());
-    let mut reader =
-        csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_path(path).map_err(fault)?;
+    let shown = path.display();
+    let bytes = read_regular(path).map_err(|error| format!("cannot read the table of cases `{shown}`: {error}"))?;
+    let fault = |error: csv::Error| format!("cannot read the table of cases `{shown}`: {error}");
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(bytes.as_slice());
     let keys: Vec<String> = reader.headers().map_err(fault)?.iter().map(str::to_owned).collect();
     if let Some(empty) = keys.iter().position(String::is_empty) {
         return Err(format!("column {} of the table of cases `{}` has no key", empty + 1, path.display()));

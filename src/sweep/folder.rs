@@ -10,6 +10,7 @@ use super::page::page;
 use crate::deck::Deck;
 use crate::diagnostic::Source;
 use crate::output::{at, result_json};
+use crate::text_file::{read_regular, read_text};
 use rayon::prelude::*;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
@@ -81,10 +82,10 @@ impl SweepFolder {
     pub fn state(&self, case: usize) -> CaseState {
         let folder = self.case(case);
         // A power cut may leave an empty one.
-        if let Some(reason) = fs::read_to_string(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
+        if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
             return CaseState::Failed(one_line(&reason));
         }
-        let Ok(bytes) = fs::read(folder.join(result_json::NAME)) else { return CaseState::Pending };
+        let Ok(bytes) = read_regular(folder.join(result_json::NAME)) else { return CaseState::Pending };
         let Ok(result) = serde_json::from_slice::<Value>(&bytes) else { return CaseState::Pending };
         let reason = one_line(result["reason"].as_str().unwrap_or_default());
         match result["status"].as_str() {
@@ -213,7 +214,7 @@ impl<'d> CaseNames<'d> {
         let folder = Path::new(self.deck.0).parent().unwrap_or(Path::new(""));
         for file in self.files.clone().or_else(own).unwrap_or_default() {
             let digest = self.digests.entry(folder.join(file)).or_insert_with_key(|path| {
-                fs::read(path).map(|bytes| Sha256::digest(&bytes).to_vec()).unwrap_or_default()
+                read_regular(path).map(|bytes| Sha256::digest(&bytes).to_vec()).unwrap_or_default()
             });
             hasher.update(digest);
         }

@@ -1,5 +1,5 @@
-//! Files that a deck names, judged before they are read: a device without end or a pipe that nobody fills would hold the program
-//! for good.
+//! Files that a deck names or a run has written, judged before rdsolve reads them: a device without end or a pipe that nobody
+//! fills would hold the program for ever.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -8,28 +8,42 @@ use std::path::Path;
 /// Bytes of a file at most: a mesh of some ten million nodes.
 pub const LARGEST: u64 = 4 << 30;
 
+/// Opens a regular file for reading.
+///
+/// # Errors
+/// The file is of another kind or cannot be opened.
+pub fn open_regular(path: impl AsRef<Path>) -> io::Result<File> {
+    let path = path.as_ref();
+    let found = std::fs::metadata(path)?;
+    let wrong = |text: &str| Err(io::Error::new(io::ErrorKind::InvalidInput, text));
+    match () {
+        () if found.is_dir() => wrong("it is a folder"),
+        () if !found.is_file() => wrong("it is a device or a pipe, not a regular file"),
+        () => File::open(path),
+    }
+}
+
 /// The bytes of a regular file.
 ///
 /// # Errors
 /// The file is of another kind, larger than [`LARGEST`], or cannot be read.
-pub fn read_regular(path: &Path) -> io::Result<Vec<u8>> {
-    let wrong = |text: String| Err(io::Error::new(io::ErrorKind::InvalidInput, text));
-    let found = std::fs::metadata(path)?;
-    if found.is_dir() {
-        return wrong("it is a folder".into());
+pub fn read_regular(path: impl AsRef<Path>) -> io::Result<Vec<u8>> {
+    let file = open_regular(path)?;
+    let length = file.metadata()?.len();
+    if length > LARGEST {
+        let message = format!("it has {:.1} GB, rdsolve reads {} GB at most", length as f64 / 1e9, LARGEST >> 30);
+        return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
     }
-    if !found.is_file() {
-        return wrong("it is a device or a pipe, not a regular file".into());
-    }
-    if found.len() > LARGEST {
-        return wrong(format!(
-            "it has {:.1} GB, more than {} GB are not read",
-            found.len() as f64 / 1e9,
-            LARGEST >> 30
-        ));
-    }
-    let mut bytes = Vec::with_capacity(found.len() as usize);
+    let mut bytes = Vec::with_capacity(length as usize);
     // The file may grow while it is read.
-    File::open(path)?.take(LARGEST).read_to_end(&mut bytes)?;
+    file.take(LARGEST).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// The text of a regular file.
+///
+/// # Errors
+/// The file is of another kind, larger than [`LARGEST`], not UTF-8, or cannot be read.
+pub fn read_text(path: impl AsRef<Path>) -> io::Result<String> {
+    String::from_utf8(read_regular(path)?).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
 }

@@ -3,5 +3,5 @@
 mod file;
 mod text;
 
-pub use file::read_regular;
+pub use file::{open_regular, read_regular, read_text};
 pub use text::{Fault, Text, TextLine, Word, Words};

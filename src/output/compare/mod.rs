@@ -14,6 +14,7 @@ pub use select::{ColumnTolerance, Selector, size};
 
 use super::disk::at;
 use super::table_reader::{TableReader, fields, number};
+use crate::text_file::read_regular;
 use prefetch::{Pick, read};
 use std::collections::BTreeSet;
 use std::fs;
@@ -325,7 +326,7 @@ fn tables(folder: &Path) -> io::Result<BTreeSet<String>> {
 /// The status of a run; `None` where it never came to write one.
 fn status(folder: &Path) -> io::Result<Option<String>> {
     let path = folder.join("result.json");
-    let text = match fs::read(&path) {
+    let text = match read_regular(&path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(None),
         read => read.map_err(|e| at(&path, e))?,
     };

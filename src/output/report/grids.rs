@@ -6,10 +6,10 @@ use crate::math::curved_faces::{facets, ring};
 use crate::output::at;
 use crate::output::table_reader::{TableReader, fields, text};
 use crate::output::vtu::APPENDED;
+use crate::text_file::{read_regular, read_text};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::bufread::ZlibDecoder;
 use std::collections::HashSet;
-use std::fs;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -126,7 +126,7 @@ pub fn modes(folder: &Path) -> io::Result<Option<(PageScene, usize)>> {
 
 /// The times and names of the grids; empty where there is no list.
 fn listed(path: &Path) -> io::Result<Vec<(f64, String)>> {
-    let list = match fs::read_to_string(path) {
+    let list = match read_text(path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
         read => read.map_err(|e| at(path, e))?,
     };
@@ -169,7 +169,7 @@ struct Grid {
 
 impl Grid {
     fn read(path: PathBuf) -> io::Result<Grid> {
-        let mut bytes = fs::read(&path).map_err(|e| at(&path, e))?;
+        let mut bytes = read_regular(&path).map_err(|e| at(&path, e))?;
         let found = bytes.windows(APPENDED.len()).position(|window| window == APPENDED.as_bytes());
         let data = bytes.split_off(found.map_or(bytes.len(), |at| at + APPENDED.len()));
         Ok(Grid { path, text: String::from_utf8_lossy(&bytes).into_owned(), data })

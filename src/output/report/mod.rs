@@ -13,6 +13,7 @@ mod result;
 use super::disk::at;
 use super::tables::TABLES;
 use crate::quantities::{ENERGY, Unit};
+use crate::text_file::read_regular;
 use data::PageScene;
 use histories::History;
 use html::escaped;
@@ -161,7 +162,7 @@ fn table_files(folder: &Path) -> io::Result<Vec<String>> {
 
 /// The object in result.json; null where there is no such file.
 fn result_json(path: &Path) -> io::Result<Value> {
-    match fs::read(path) {
+    match read_regular(path) {
         Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(Value::Null),
         read => serde_json::from_slice(&read.map_err(|e| at(path, e))?).map_err(|e| at(path, e.into())),
     }

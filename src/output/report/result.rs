@@ -3,9 +3,9 @@
 use super::html::{escaped, table};
 use crate::names::short;
 use crate::output::log;
+use crate::text_file::read_text;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The outcome of a run as result.json has it, or as far as the log tells of a run that is not finished.
@@ -27,7 +27,7 @@ impl Result {
         let hash = json["deck_hash"].as_str().unwrap_or_default();
         let beside = folder.parent().map(Path::to_path_buf).unwrap_or_default();
         let found = deck.iter().flat_map(|deck| [PathBuf::from(deck), beside.join(deck)]);
-        let text = found.filter_map(|path| fs::read_to_string(path).ok()).find(|text| digest(text, &sets) == hash);
+        let text = found.filter_map(|path| read_text(path).ok()).find(|text| digest(text, &sets) == hash);
         Result { json, deck, text }
     }
 
@@ -162,6 +162,6 @@ fn digest(text: &str, sets: &[&str]) -> String {
 
 /// The deck that a run has named in the first line of its log.
 fn deck_of_log(path: &Path) -> Option<String> {
-    let log = fs::read_to_string(path).ok()?;
+    let log = read_text(path).ok()?;
     Some(log.lines().next()?.split_once(", deck ")?.1.to_owned())
 }
