@@ -8,6 +8,7 @@ use std::fmt;
 use std::marker::PhantomData;
 use std::ops::{Deref, Range};
 
+use crate::names::composed;
 use annotate_snippets::renderer::Renderer;
 use annotate_snippets::{AnnotationKind, Group, Level, Snippet};
 use serde::de::{Error, SeqAccess, Visitor};
@@ -298,12 +299,13 @@ const GAP: usize = 4;
 impl Source {
     /// The texts of a run: the path and the text of a deck, and its `--set` arguments.
     pub fn new(path: impl Into<String>, text: impl Into<String>, sets: &[String]) -> Self {
-        let text = text.into();
+        // All names of a deck and of its overrides are compared in one form.
+        let text = composed(&text.into()).into_owned();
         let mut offset = text.len() + GAP;
         let place = |argument: &String| {
-            let begin = offset;
+            let (begin, argument) = (offset, composed(argument).into_owned());
             offset += argument.len() + GAP;
-            (begin, argument.clone())
+            (begin, argument)
         };
         Source { path: path.into(), sets: sets.iter().map(place).collect(), text, options: Vec::new() }
     }

@@ -1,7 +1,9 @@
 use std::process::ExitCode;
 
-use rdsolve::command::{execute, parse};
+use rdsolve::command::{Exit, execute, parse};
 
 fn main() -> ExitCode {
-    parse().map_or_else(|exit| exit, execute).into()
+    // The panic itself has been shown.
+    let done = std::panic::catch_unwind(|| parse().map_or_else(|exit| exit, execute));
+    done.unwrap_or(Exit::Internal).into()
 }

@@ -1,5 +1,8 @@
 //! What the user may have meant.
 
+use std::borrow::Cow;
+use unicode_normalization::{IsNormalized, UnicodeNormalization, is_nfc_quick};
+
 /// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters, or in two
 /// if there are no more.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -33,6 +36,25 @@ pub fn joined(words: &[&str]) -> String {
         Some((last, [])) => (*last).to_owned(),
         Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
         None => String::new(),
+    }
+}
+
+/// A text with every accent in the same letter as its character, Unicode's form NFC: `é` may be one character or two, and looks the same.
+pub fn composed(text: &str) -> Cow<'_, str> {
+    match is_nfc_quick(text.chars()) {
+        IsNormalized::Yes => Cow::Borrowed(text),
+        _ => Cow::Owned(text.nfc().collect()),
+    }
+}
+
+/// A number of bytes with its unit, to two or three digits.
+pub fn amount(bytes: f64) -> String {
+    match bytes {
+        1e9.. => format!("{:.1} GB", bytes / 1e9),
+        9.95e6.. => format!("{:.0} MB", bytes / 1e6),
+        0.95e6.. => format!("{:.1} MB", bytes / 1e6),
+        0.95e4.. => format!("{:.0} kB", bytes / 1e3),
+        _ => format!("{:.1} kB", bytes / 1e3),
     }
 }
 

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 pub enum Exit {
     /// What the command line asks for has been done.
     Done = 0,
-    /// The program itself has a fault, or lacks the memory for the solver.
+    /// The program itself has a fault.
     Internal = 1,
     /// The command line makes no sense, or a folder with files in it may not be overwritten.
     Usage = 2,
@@ -19,6 +19,8 @@ pub enum Exit {
     CheckFailed = 5,
     /// A file could not be read or written.
     InputOutput = 6,
+    /// The memory of the machine, or the limit of this process, does not hold the scene.
+    TooLittleMemory = 7,
     /// A signal has stopped the run, whose files are whole up to then (`EX_TEMPFAIL` of sysexits.h).
     Stopped = 75,
 }

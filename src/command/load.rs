@@ -224,7 +224,7 @@ fn plan_warnings(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic>
 /// Says that there is no memory for the matrix of the solver.
 pub fn too_large(error: TooLarge) -> Exit {
     complain(&error.to_string());
-    Exit::Internal
+    Exit::TooLittleMemory
 }
 
 /// SHA-256 of all that the model is read from, in hexadecimal digits.

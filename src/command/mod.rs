@@ -50,7 +50,7 @@ use hint::command_hint;
 #[command(after_help = "`rdsolve deck.toml` is short for `rdsolve run deck.toml`.
 
 Exit codes: 0 done, 1 internal error, 2 usage, 3 deck invalid, 4 did not converge, 5 an expected value was missed or folders
-differ, 6 input/output, 75 stopped by a signal: --resume goes on.")]
+differ, 6 input/output, 7 too little memory, 75 stopped by a signal: --resume goes on.")]
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
@@ -122,6 +122,7 @@ pub fn execute(cli: Cli) -> Exit {
         return Exit::Internal;
     }
     signals::survive_file_limits();
+    signals::name_want_of_memory();
     // The level of instructions is settled before anything is parsed; clap only tells words that are none.
     let Cli { instructions: _, .. } = cli;
     if cli.json {

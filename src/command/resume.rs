@@ -134,6 +134,7 @@ fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exi
         "done" => Exit::Done,
         "not-converged" => Exit::NotConverged,
         "expectation-missed" => Exit::CheckFailed,
+        "too-little-memory" => Exit::TooLittleMemory,
         // A run that is stopped before its first step is done leaves no checkpoint.
         "stopped" if result["counts"]["steps"] == 0 => return None,
         _ => {

@@ -449,7 +449,7 @@ impl Job<'_> {
             Status::NotConverged => Exit::NotConverged,
             Status::ExpectationMissed => Exit::CheckFailed,
             Status::Stopped => Exit::Stopped,
-            Status::Failed => Exit::Internal,
+            Status::TooLittleMemory => Exit::TooLittleMemory,
         };
         complain(&end.sentence());
         if exit == Exit::Stopped {

@@ -4,7 +4,7 @@ use super::console::complain;
 use super::exit::Exit;
 use std::io::{self, Read};
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Lets interrupt, termination and the loss of the terminal raise a flag: the run then ends after the step in hand, with whole
 /// files.
@@ -75,6 +75,24 @@ pub fn survive_file_limits() {
     {
         // A signal that is caught does nothing more; where it cannot be caught, it ends the process as before.
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
+    }
+}
+
+/// Gives want of memory an exit code of its own. Where an allocation fails, the standard library says so and aborts; a panic, which may
+/// abort as well, is a fault of the program and keeps its signal.
+pub fn name_want_of_memory() {
+    #[cfg(unix)]
+    {
+        let is_memory = Arc::new(AtomicBool::new(true));
+        let code = i32::from(Exit::TooLittleMemory as u8);
+        let flag = Arc::clone(&is_memory);
+        if signal_hook::flag::register_conditional_shutdown(signal_hook::consts::SIGABRT, code, flag).is_ok() {
+            let shown = std::panic::take_hook();
+            std::panic::set_hook(Box::new(move |panic| {
+                is_memory.store(false, Ordering::Relaxed);
+                shown(panic);
+            }));
+        }
     }
 }
 

@@ -37,7 +37,8 @@ pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) ->
     let (status, reason, valid_until) = match outcome {
         Outcome::Io(error) => return Err(error),
         Outcome::Failed { time, failure } => {
-            (Status::NotConverged, format!("at t = {}: {failure}", instant(time)), Some(time))
+            let status = if failure.is_of_memory() { Status::TooLittleMemory } else { Status::NotConverged };
+            (status, format!("at t = {}: {failure}", instant(time)), Some(time))
         }
         Outcome::Stopped { time } => {
             (Status::Stopped, format!("stopped by a signal at t = {}", instant(time)), Some(time))

@@ -36,6 +36,7 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     }
     let words = study::words(&root);
     reader.problems.extend(study::expand(&mut root, &words));
+    reader.texts(&mut root);
     reader.numbers(&mut root);
     reader.lengths(&mut root);
     let deck = reader.tables(root);
@@ -93,6 +94,17 @@ impl Reader {
                 continue;
             }
             self.problems.push(Diagnostic::error(format!("{key} must be a finite number")).at(&span));
+        }
+    }
+
+    /// Takes out all texts that hold characters for the control of a terminal.
+    fn texts(&mut self, root: &mut DeTable) {
+        let mut wrong = Vec::new();
+        with_control(root, &mut wrong);
+        for span in wrong {
+            self.strike(root, &span);
+            let problem = Diagnostic::error("this text holds a control character");
+            self.problems.push(problem.at(&span).hint("names and titles are of letters, digits, signs and spaces"));
         }
     }
 
@@ -252,6 +264,26 @@ fn holds(value: &Spanned<DeValue>, span: &Span) -> bool {
     let items = value.get_ref().as_array();
     let within = value.span().start <= span.start && span.end <= value.span().end;
     within || items.is_some_and(|items| items.iter().any(|item| item.span() == *span))
+}
+
+/// Keys and texts with characters that control a terminal, which tables and messages would pass on to it.
+fn with_control(root: &DeTable, wrong: &mut Vec<Span>) {
+    let controls = |text: &str| text.contains(|c: char| c.is_control() && !"\n\r\t".contains(c));
+    for (key, value) in root {
+        if controls(key.get_ref()) {
+            wrong.push(key.span());
+        }
+        with_control_below(value, &controls, wrong);
+    }
+}
+
+fn with_control_below(value: &Spanned<DeValue>, controls: &dyn Fn(&str) -> bool, wrong: &mut Vec<Span>) {
+    match value.get_ref() {
+        DeValue::String(text) if controls(text) => wrong.push(value.span()),
+        DeValue::Array(list) => list.iter().for_each(|item| with_control_below(item, controls, wrong)),
+        DeValue::Table(table) => with_control(table, wrong),
+        _ => {}
+    }
 }
 
 fn not_finite(value: &Spanned<DeValue>, wrong: &mut Vec<Span>) {

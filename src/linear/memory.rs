@@ -1,6 +1,7 @@
 //! Checks that the memory holds a factor before it is taken: a system that promises more memory than it has ends the
 //! programs that come to use it, without a message.
 
+use crate::names::amount;
 use crate::snapshot::{keep, keep_either};
 use std::fmt;
 
@@ -35,10 +36,10 @@ keep_either!(NoScratch { 0 => Full, 1 => InMemory, 2 => NotWritable });
 
 impl fmt::Display for TooLarge {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let (unknowns, needed) = (self.unknowns, self.needed / 1e9);
+        let (unknowns, needed) = (self.unknowns, amount(self.needed));
         write!(
             f,
-            "the matrix of {unknowns} unknowns needs at least {needed:.1} GB when factorised: more memory than there is"
+            "the matrix of {unknowns} unknowns needs at least {needed} when factorised: more memory than there is"
         )?;
         if let Some(reason) = self.scratch {
             let folder = std::env::temp_dir();

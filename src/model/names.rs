@@ -85,6 +85,11 @@ impl<'d> Names<'d> {
         } else {
             self.places.insert(&name.value, (place, &name.span));
         }
+        if name.starts_with(['=', '+', '-', '@']) {
+            let message =
+                format!("spreadsheets take the name `{}` for a formula when they open a table of results", name.value);
+            report.warn(&name.span, message, "let the name begin with a letter or a digit");
+        }
     }
 
     /// Declares groups of the mesh, whose names must be different from all others but the parts made of them.

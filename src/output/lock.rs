@@ -214,7 +214,9 @@ pub(super) fn is_given_up(holder: &Holder, this: &Holder, file: &File, dir: &Pat
     });
     let _ = fs::remove_file(&probe);
     let renewed = file.metadata().and_then(|found| found.modified());
-    matches!((now, renewed), (Ok(now), Ok(renewed)) if now.duration_since(renewed).is_ok_and(|since| since > GIVEN_UP))
+    // A date far in the future is no sign of life either: the clock of the file system gives none such.
+    let apart = |now: SystemTime, renewed| now.duration_since(renewed).unwrap_or_else(|ahead| ahead.duration());
+    matches!((now, renewed), (Ok(now), Ok(renewed)) if apart(now, renewed) > GIVEN_UP)
 }
 
 impl Drop for FolderLock {
@@ -307,6 +309,10 @@ mod tests {
             let error = FolderLock::take(dir.path()).unwrap_err().to_string();
             assert!(error.contains("on elsewhere") && error.contains("300 s after its last sign of life"), "{error}");
         }
+        // A date in the future, as a wrong clock has left it, is taken over as well.
+        OpenOptions::new().write(true).open(&path).unwrap().set_modified(SystemTime::now() + 2 * GIVEN_UP).unwrap();
+        drop(FolderLock::take(dir.path()).unwrap());
+        fs::write(&path, Holder { host: "elsewhere".into(), ..Holder::this() }.text()).unwrap();
         age(&path, GIVEN_UP + RENEWED);
         let lock = FolderLock::take(dir.path()).unwrap();
         assert!(fs::read_to_string(&path).unwrap().contains(&format!("process {}\n", std::process::id())));

@@ -23,8 +23,8 @@ pub enum Status {
     ExpectationMissed,
     /// A signal has stopped the run after a whole step.
     Stopped,
-    /// The program itself has a fault.
-    Failed,
+    /// The memory does not hold what the run asks for.
+    TooLittleMemory,
 }
 
 impl Status {
@@ -32,9 +32,9 @@ impl Status {
     pub fn exit_code(self) -> u8 {
         match self {
             Status::Done => 0,
-            Status::Failed => 1,
             Status::NotConverged => 4,
             Status::ExpectationMissed => 5,
+            Status::TooLittleMemory => 7,
             Status::Stopped => 75,
         }
     }

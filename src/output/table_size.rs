@@ -5,6 +5,7 @@ use super::fields;
 use super::table::TableKind;
 use super::tables::TABLES;
 use crate::model::{Cadence, Model, Part, StepLength};
+use crate::names::amount;
 use crate::plan::Plan;
 
 /// The number of bytes of a number with its comma: most have sixteen or seventeen digits.
@@ -84,17 +85,6 @@ pub fn size_in_words(model: &Model, plan: &Plan) -> String {
         words += &format!(" ({})", large.join(", "));
     }
     words
-}
-
-/// A number of bytes with its unit, to two or three digits.
-fn amount(bytes: f64) -> String {
-    match bytes {
-        1e9.. => format!("{:.1} GB", bytes / 1e9),
-        9.95e6.. => format!("{:.0} MB", bytes / 1e6),
-        0.95e6.. => format!("{:.1} MB", bytes / 1e6),
-        0.95e4.. => format!("{:.0} kB", bytes / 1e3),
-        _ => format!("{:.1} kB", bytes / 1e3),
-    }
 }
 
 /// The number of times of a cadence; `None` where the deck does not tell.

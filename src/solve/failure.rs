@@ -329,6 +329,11 @@ impl Failure {
         matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. })
     }
 
+    /// True where the memory does not hold what was asked for.
+    pub fn is_of_memory(&self) -> bool {
+        matches!(self, Failure::Modes(ModesFault::TooLarge(_)))
+    }
+
     /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
     fn message(&self) -> String {
         match self {

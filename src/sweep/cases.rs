@@ -69,7 +69,7 @@ fn values(values: &VariedValues) -> Vec<String> {
         &VariedValues::Range { from, to, steps } => {
             let last = steps.unwrap_or(0).saturating_sub(1).max(1) as f64;
             // Both ends are met to the last bit.
-            let at = |k: usize| if k as f64 == last { to } else { from + (to - from) * (k as f64 / last) };
+            let at = |k: usize| if k as f64 == last { to } else { between(from, to, k as f64 / last) };
             (0..steps.unwrap_or(0)).map(|k| number(at(k))).collect()
         }
     }
@@ -93,12 +93,18 @@ fn of_sample(
             VariedValues::List(list) => list.iter().take(1).cycle().take(cases).cloned().collect(),
             &VariedValues::Range { from, to, .. } => {
                 let units: Vec<f64> = dimensions.next().map(coordinates).unwrap_or_default();
-                units.into_iter().map(|unit| number(from + (to - from) * unit)).collect()
+                units.into_iter().map(|unit| number(between(from, to, unit))).collect()
             }
         }
     };
     let columns: Vec<Vec<String>> = axes.iter().map(&mut column).collect();
     Ok((0..cases).map(|case| columns.iter().map(|column| column[case].clone()).collect()).collect())
+}
+
+/// The number at a share of the way from one end to the other; their difference may be beyond the range of numbers.
+fn between(from: f64, to: f64, share: f64) -> f64 {
+    let distance = to - from;
+    if distance.is_finite() { from + distance * share } else { from * (1.0 - share) + to * share }
 }
 
 /// A number as TOML reads it back.
@@ -154,6 +160,8 @@ mod tests {
         assert_eq!(cases.sets(5), ["a=\"x\"", "b[0]=6.0"]);
         let one = values(&VariedValues::Range { from: 0.1, to: 0.7, steps: Some(1) });
         assert_eq!(one, ["0.1"]);
+        let wide = values(&VariedValues::Range { from: -1e308, to: 1e308, steps: Some(5) });
+        assert_eq!(wide, ["-1e308", "-5e307", "0.0", "5e307", "1e308"]);
         let many = values(&VariedValues::Range { from: 0.1, to: 0.7, steps: Some(4) });
         assert_eq!(many[3], "0.7");
     }

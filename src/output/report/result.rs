@@ -1,7 +1,7 @@
 //! The outcome of the run as tables that need no script: status, plan, counts, expectations, the deck.
 
 use super::html::{escaped, table};
-use crate::names::short;
+use crate::names::{composed, short};
 use crate::output::log;
 use crate::text_file::read_text;
 use serde_json::Value;
@@ -27,7 +27,7 @@ impl Result {
         let hash = json["deck_hash"].as_str().unwrap_or_default();
         let beside = folder.parent().map(Path::to_path_buf).unwrap_or_default();
         let found = deck.iter().flat_map(|deck| [PathBuf::from(deck), beside.join(deck)]);
-        let text = found.filter_map(|path| read_text(path).ok()).find(|text| digest(text, &sets) == hash);
+        let text = found.filter_map(|path| read_text(path).ok()).find(|text| digest(&composed(text), &sets) == hash);
         Result { json, deck, text }
     }
 
