@@ -65,5 +65,6 @@ mod table_sizes;
 mod turning;
 
 mod scene;
+mod strange_input;
 mod structures;
 mod support;

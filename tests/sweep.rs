@@ -526,3 +526,52 @@ fn bad_files_are_errors_with_their_places() {
     assert_eq!(rdsolve(folder, &["sweep", "s.toml"]).status.code(), Some(6));
     assert_eq!(rdsolve(folder, &["sweep", "none.toml"]).status.code(), Some(6));
 }
+
+/// The summary is the same whatever is kept, whoever runs the cases and however often; folders that are not kept leave one file a process.
+#[test]
+fn cases_that_are_not_kept_stand_in_the_summary() {
+    let varied = SWEEP.replace("[1.0, 2.0, 4.0]", "[1.0, -1.0]");
+    let folder = files(&varied);
+    let at = folder.path();
+    let keeping = |word: &str| varied.replacen("[vary]", &format!("keep = \"{word}\"\n[vary]"), 1);
+    for word in ["failed", "summary"] {
+        fs::write(at.join(format!("{word}.toml")), keeping(word)).unwrap();
+    }
+    assert_eq!(rdsolve(at, &["sweep", "s.toml", "--quiet"]).status.code(), Some(4));
+    let summary = |name: &str| fs::read_to_string(at.join(format!("{name}.out/summary.csv"))).unwrap();
+    let folders = |name: &str| {
+        let entries = fs::read_dir(at.join(format!("{name}.out"))).unwrap().map(|entry| entry.unwrap());
+        entries.filter(|entry| entry.file_type().unwrap().is_dir() && entry.file_name() != "records").count()
+    };
+    let lines = |name: &str| {
+        let entries = fs::read_dir(at.join(format!("{name}.out/records"))).unwrap();
+        entries.map(|entry| fs::read_to_string(entry.unwrap().path()).unwrap().lines().count()).sum::<usize>()
+    };
+    // Three processes at once, then once more: nothing is left to run but what failed.
+    for (word, kept, recorded) in [("failed", 5, 5), ("summary", 0, 10)] {
+        let command = || {
+            let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
+            command.current_dir(at).args(["sweep", &format!("{word}.toml"), "--quiet", "--jobs", "1"]);
+            command.stderr(Stdio::null()).spawn().unwrap()
+        };
+        let codes: Vec<_> = [(); 3].map(|()| command()).into_iter().map(|mut run| run.wait().unwrap().code()).collect();
+        assert_eq!(codes, [Some(4); 3]);
+        assert_eq!(rdsolve(at, &["sweep", &format!("{word}.toml"), "--quiet"]).status.code(), Some(4));
+        assert_eq!(summary(word), summary("s"), "{word}");
+        assert_eq!((folders(word), lines(word)), (kept, recorded), "{word}");
+    }
+    // Failures are run again when they are asked for, and another list of numbers has all cases run again.
+    rdsolve(at, &["sweep", "summary.toml", "--case", "failed", "--quiet"]);
+    assert_eq!((summary("summary"), lines("summary")), (summary("s"), 15));
+    fs::write(at.join("summary.toml"), keeping("summary").replace("half =", "middle =")).unwrap();
+    rdsolve(at, &["sweep", "summary.toml", "--quiet"]);
+    assert_eq!((summary("summary"), lines("summary")), (summary("s").replace("half", "middle"), 25));
+}
+
+#[test]
+fn a_table_of_cases_is_a_regular_file() {
+    let folder = files("deck = \"deck.toml\"\n[vary]\ntable = \"/dev/zero\"\n");
+    let refused = rdsolve(folder.path(), &["sweep", "s.toml"]);
+    assert_eq!(refused.status.code(), Some(3));
+    assert!(text(&refused.stderr).contains("a device or a pipe"), "{}", text(&refused.stderr));
+}

@@ -97,7 +97,7 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
         Exit::DeckInvalid
     })?;
     let path = args.output.clone().unwrap_or_else(|| named_after(&args.sweep, "out"));
-    let folder = SweepFolder::new(path, (&deck.display().to_string(), &deck_text), &cases, VERSION);
+    let folder = SweepFolder::new(path, (&deck.display().to_string(), &deck_text), &cases, VERSION, &file);
     let chosen = chosen(args.case, &folder)?;
     if args.list {
         return list(&folder, &cases, &chosen);
@@ -115,7 +115,7 @@ pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     if !args.collect {
         sweep.run(&chosen, args.case == Some(Choice::Failed), jobs)?;
     }
-    let states = folder.write_summary(&cases, &file.collect).map_err(|error| cannot_write(&folder.path, &error))?;
+    let states = folder.write_summary(&cases).map_err(|error| cannot_write(&folder.path, &error))?;
     sweep.conclude(&chosen, &states)
 }
 
@@ -229,7 +229,7 @@ impl Sweep<'_> {
                 scope.spawn(move || note(work(&done)));
             }
             drop(done);
-            note(mark_all(&self.folder.path, &computed));
+            note(mark_all(self.folder, &computed));
         });
         bar.finish_and_clear();
         fault.into_inner().ok().flatten().map_or(Ok(()), |error| Err(failed(error)))
@@ -238,12 +238,20 @@ impl Sweep<'_> {
     /// Runs one case, unless another process does or has done it. Its own errors are noted in its folder.
     fn run_one(&self, case: usize, pool: &Pool) -> io::Result<Option<Computed>> {
         let (folder, sets) = (self.folder.case(case), self.cases.sets(case));
+        if !(pool.is_open)(case) {
+            return Ok(None);
+        }
         fs::create_dir_all(&folder)?;
         let lock = match pool.locks.take(&folder) {
             Err(error) if error.kind() == io::ErrorKind::ResourceBusy => return Ok(None),
+            // Another process has done the case, and its folder is gone.
+            Err(error) if error.kind() == io::ErrorKind::NotFound && !(pool.is_open)(case) => return Ok(None),
             taken => taken?,
         };
         if !(pool.is_open)(case) {
+            drop(lock);
+            // What this process has made to look is empty.
+            let _ = fs::remove_dir(&folder);
             return Ok(None);
         }
         let failure = folder.join(FAILURE);
@@ -263,7 +271,10 @@ impl Sweep<'_> {
             Ok(Err(CaseFault::Deck(text))) => text,
             Err(_) => "the program itself has a fault: the run of this case has panicked".to_owned(),
         };
-        replace(&failure, why.as_bytes()).map(|()| None)
+        replace(&failure, why.as_bytes())?;
+        self.folder.let_go(vec![folder])?;
+        drop(lock);
+        Ok(None)
     }
 
     fn bar(&self, count: usize) -> ProgressBar {

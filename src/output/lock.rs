@@ -143,6 +143,11 @@ impl fmt::Display for Holder {
     }
 }
 
+/// The name of this host.
+pub fn host() -> String {
+    Holder::this().host
+}
+
 impl FolderLock {
     /// Takes the lock of a folder, which is made where there is none.
     ///

@@ -32,7 +32,7 @@ pub(crate) use disk::{at, make_safe, replace};
 pub use files::{Files, FilesMark, listed, wanted};
 pub use folder::claim;
 pub(crate) use folder::{holds_run, remove, remove_empty, remove_run};
-pub use lock::FolderLock;
+pub use lock::{FolderLock, host};
 pub use shared_lock::SharedLock;
 pub use table_size::{expected_sizes, settle_cadence};
 pub use tables::TABLES;

@@ -1,6 +1,6 @@
 //! result.json: the outcome of a run in one object that a script can read.
 
-use super::disk::{UNFINISHED, at, create, replace};
+use super::disk::{at, create, replace};
 use super::error_bars::ErrorBar;
 use super::expect::Verdict;
 use crate::system::{MassScaling, ScaledPart};
@@ -10,6 +10,9 @@ use std::path::{Path, PathBuf};
 
 /// The name of the file in the output folder.
 pub const NAME: &str = "result.json";
+
+/// The name of a result that is not marked yet.
+pub const UNMARKED: &str = "result.json.tmp";
 
 /// The kind of end that a run came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -290,7 +293,7 @@ impl RunResult {
 
 /// The path of a result that is not marked yet.
 fn unmarked(dir: &Path) -> PathBuf {
-    dir.join(format!("{NAME}{UNFINISHED}"))
+    dir.join(UNMARKED)
 }
 
 /// Marks a run as one that has come to its end: gives its result the name by which it is known.

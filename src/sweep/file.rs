@@ -1,5 +1,6 @@
 //! The file of a sweep: the deck, what varies in it, and what is collected.
 
+use super::folder::CaseState;
 use crate::deck::number_slips;
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::{nearest, quoted};
@@ -20,6 +21,34 @@ pub struct SweepFile {
     pub sample: Option<SampleOfCases>,
     /// The numbers that are read from each result.
     pub collect: Vec<Collected>,
+    /// The cases whose folders are kept.
+    pub keep: Keep,
+}
+
+/// The cases whose folders are kept.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Keep {
+    /// All.
+    #[default]
+    All,
+    /// Those that failed or missed what they expect.
+    Failed,
+    /// None: the summary alone is left.
+    Summary,
+}
+
+impl Keep {
+    /// All of them with the words of the file.
+    const WORDS: [(&str, Keep); 3] = [("all", Keep::All), ("failed", Keep::Failed), ("summary", Keep::Summary)];
+
+    /// Whether the folder of a case in this state stays.
+    pub fn keeps(self, state: &CaseState) -> bool {
+        match self {
+            Keep::All => true,
+            Keep::Failed => *state != CaseState::Done,
+            Keep::Summary => *state == CaseState::Pending,
+        }
+    }
 }
 
 /// An entry of the deck that varies.
@@ -103,7 +132,7 @@ pub enum CollectedWhen {
 pub const SCHEMA: &str = include_str!("schema.json");
 
 /// The keys of the file, of a range, of a sample and of a number that is collected.
-const KEYS: [&str; 3] = ["deck", "vary", "collect"];
+const KEYS: [&str; 4] = ["deck", "vary", "collect", "keep"];
 /// The keys of `[vary]` that are no entries of the deck.
 const OF_VARY: [&str; 2] = ["table", "sample"];
 const RANGE: [&str; 3] = ["from", "to", "steps"];
@@ -167,6 +196,10 @@ impl Reader<'_> {
             match (key, value.get_ref()) {
                 ("deck", DeValue::String(path)) => file.deck = path.to_string(),
                 ("deck", _) => self.error(&value.span(), "`deck` must be the path of a deck, in quotes"),
+                ("keep", DeValue::String(word)) if Keep::WORDS.iter().any(|(name, _)| name == word) => {
+                    file.keep = Keep::WORDS.iter().find(|(name, _)| name == word).map_or(Keep::All, |(_, keep)| *keep);
+                }
+                ("keep", _) => self.error(&value.span(), "`keep` can be \"all\", \"failed\" or \"summary\""),
                 ("vary", DeValue::Table(table)) => self.vary(table, &value.span(), &mut file),
                 ("collect", DeValue::Table(table)) => {
                     file.collect = table.iter().filter_map(|(key, value)| self.collected(key, value)).collect();
@@ -375,6 +408,11 @@ mod tests {
             };
             assert_eq!((read(&of("")), read(&of(", time = 'end'"))), (0, 1), "{peak}");
         }
+        let words = schema["properties"]["keep"]["enum"].as_array().unwrap();
+        assert_eq!(
+            words.iter().map(|word| word.as_str().unwrap()).collect::<Vec<_>>(),
+            Keep::WORDS.map(|(word, _)| word)
+        );
         let least = of("Range")["properties"]["steps"]["maximum"].as_u64();
         assert_eq!(least, Some(MOST_CASES as u64));
         assert_eq!(schema["properties"]["collect"]["propertyNames"]["not"]["enum"][1], "status");

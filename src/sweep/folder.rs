@@ -5,8 +5,9 @@
 
 use super::cases::Cases;
 use super::collect::collect;
-use super::file::Collected;
+use super::file::{Collected, Keep, SweepFile};
 use super::page::page;
+use super::records::{Records, remove_folder};
 use crate::deck::Deck;
 use crate::diagnostic::Source;
 use crate::output::{at, result_json};
@@ -63,14 +64,22 @@ pub struct SweepFolder {
     pub names: Vec<String>,
     /// The digests of the files that decks name, by which the folders are named.
     pub files: HashMap<PathBuf, Vec<u8>>,
+    /// The cases whose folders are kept.
+    pub keep: Keep,
+    /// The numbers that are read from each result.
+    pub collect: Vec<Collected>,
+    /// What is known of the others.
+    records: Records,
 }
 
 impl SweepFolder {
     /// Finds the names of all cases: hashes of the version, the deck, the overrides and the files that the deck names.
-    pub fn new(path: PathBuf, deck: (&str, &str), cases: &Cases, version: &str) -> SweepFolder {
+    pub fn new(path: PathBuf, deck: (&str, &str), cases: &Cases, version: &str, file: &SweepFile) -> SweepFolder {
         let mut names = CaseNames::new(deck, &cases.keys, version);
         let all = (0..cases.values.len()).map(|case| names.of(&cases.sets(case))).collect();
-        SweepFolder { path, names: all, files: names.digests }
+        let (keep, collect) = (file.keep, file.collect.clone());
+        let records = Records::new(&path, &collect);
+        SweepFolder { path, names: all, files: names.digests, keep, collect, records }
     }
 
     /// The folder of a case, counted from 0.
@@ -80,21 +89,36 @@ impl SweepFolder {
 
     /// What has become of a case.
     pub fn state(&self, case: usize) -> CaseState {
-        let folder = self.case(case);
-        // A power cut may leave an empty one.
-        if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
-            return CaseState::Failed(one_line(&reason));
+        match self.records.find(&self.names[case]) {
+            Some(record) => record.state(),
+            None => found(&self.case(case), result_json::NAME),
         }
-        let Ok(bytes) = read_regular(folder.join(result_json::NAME)) else { return CaseState::Pending };
-        let Ok(result) = serde_json::from_slice::<Value>(&bytes) else { return CaseState::Pending };
-        let reason = one_line(result["reason"].as_str().unwrap_or_default());
-        match result["status"].as_str() {
-            Some("done") => CaseState::Done,
-            Some("expectation-missed") => CaseState::Missed(reason),
-            // A case that a signal has stopped is run again.
-            Some("stopped") | None => CaseState::Pending,
-            Some(_) => CaseState::Failed(reason),
+    }
+
+    /// Lets the folders of those among these cases go that are not kept, once their records are safe on the disk; those that stay are
+    /// returned. Each has its result, which need not be marked.
+    ///
+    /// # Errors
+    /// A table cannot be read, a record cannot be written, or a folder cannot be removed; the error names it.
+    pub fn let_go(&self, cases: Vec<PathBuf>) -> io::Result<Vec<PathBuf>> {
+        if self.keep == Keep::All {
+            return Ok(cases);
         }
+        let with_state = cases.into_iter().map(|case| {
+            let state = found(&case, result_json::UNMARKED);
+            (case, state)
+        });
+        let (stay, go): (Vec<_>, Vec<_>) = with_state.partition(|(_, state)| self.keep.keeps(state));
+        let mut records = Vec::new();
+        for (case, state) in &go {
+            let name = case.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            records.push((name, state, numbers(case, state, &self.collect)?));
+        }
+        if !records.is_empty() {
+            self.records.add(&records)?;
+        }
+        go.iter().try_for_each(|(case, _)| remove_folder(case))?;
+        Ok(stay.into_iter().map(|(case, _)| case).collect())
     }
 
     /// Writes `cases.csv`: the folder and the values of each case.
@@ -114,9 +138,9 @@ impl SweepFolder {
     ///
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
-    pub fn write_summary(&self, cases: &Cases, wanted: &[Collected]) -> io::Result<Vec<CaseState>> {
+    pub fn write_summary(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
         loop {
-            let states = self.write_what_stands(cases, wanted)?;
+            let states = self.write_what_stands(cases)?;
             let was_pending = |&case: &usize| states[case] == CaseState::Pending;
             if !(0..states.len()).filter(was_pending).any(|case| self.state(case) != CaseState::Pending) {
                 return Ok(states);
@@ -125,7 +149,8 @@ impl SweepFolder {
     }
 
     /// Writes the summary of the cases that stand now.
-    fn write_what_stands(&self, cases: &Cases, wanted: &[Collected]) -> io::Result<Vec<CaseState>> {
+    fn write_what_stands(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
+        let wanted = &self.collect;
         let header: Vec<String> = ["case".to_owned()]
             .into_iter()
             .chain(cases.keys.iter().cloned())
@@ -134,17 +159,25 @@ impl SweepFolder {
             .chain(["reason".to_owned()])
             .collect();
         let row = |(case, values): (usize, &Vec<String>)| {
-            let state = self.state(case);
-            let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
-            let numbers = if stands { collect(&self.case(case), wanted)? } else { vec![None; wanted.len()] };
+            let (state, numbers) = match self.records.find(&self.names[case]) {
+                Some(record) => (record.state(), record.numbers),
+                None => {
+                    let state = self.state(case);
+                    let numbers = numbers(&self.case(case), &state, wanted)?;
+                    (state, numbers)
+                }
+            };
             let mut row = [vec![(case + 1).to_string()], values.clone(), vec![state.word().to_owned()]].concat();
-            row.extend(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))));
+            row.extend(numbers);
             row.push(state.reason().to_owned());
             Ok((row, state))
         };
         let all = cases.values.par_iter().enumerate().map(row).collect::<io::Result<Vec<_>>>()?;
         let (rows, states): (Vec<Vec<String>>, Vec<CaseState>) = all.into_iter().unzip();
-        let page = page(&header, &rows, &self.names, [cases.keys.len(), wanted.len()]);
+        let has_folder = |name: &&String| self.keep == Keep::All || self.path.join(name).exists();
+        let folders: Vec<&str> =
+            self.names.iter().map(|name| Some(name).filter(has_folder).map_or("", String::as_str)).collect();
+        let page = page(&header, &rows, &folders, [cases.keys.len(), wanted.len()]);
         self.move_in("summary.html", page.as_bytes())?;
         self.write("summary.csv", header, rows.into_iter())?;
         Ok(states)
@@ -175,8 +208,33 @@ impl SweepFolder {
     }
 }
 
+/// What has become of a case, by its folder and the name of its result.
+fn found(folder: &Path, result: &str) -> CaseState {
+    // A power cut may leave an empty one.
+    if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
+        return CaseState::Failed(one_line(&reason));
+    }
+    let Ok(bytes) = read_regular(folder.join(result)) else { return CaseState::Pending };
+    let Ok(result) = serde_json::from_slice::<Value>(&bytes) else { return CaseState::Pending };
+    let reason = one_line(result["reason"].as_str().unwrap_or_default());
+    match result["status"].as_str() {
+        Some("done") => CaseState::Done,
+        Some("expectation-missed") => CaseState::Missed(reason),
+        // A case that a signal has stopped is run again.
+        Some("stopped") | None => CaseState::Pending,
+        Some(_) => CaseState::Failed(reason),
+    }
+}
+
+/// The numbers of a case as the summary has them: empty where its tables have none, or where it does not stand.
+fn numbers(folder: &Path, state: &CaseState, wanted: &[Collected]) -> io::Result<Vec<String>> {
+    let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
+    let numbers = if stands { collect(folder, wanted)? } else { vec![None; wanted.len()] };
+    Ok(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect())
+}
+
 /// The first lines of a reason as one.
-fn one_line(text: &str) -> String {
+pub(super) fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

@@ -1,10 +1,11 @@
 //! The marks of cases that have come to their ends: a case is marked once all of its files are safe on the disk, so that a power cut leaves
 //! none that seems to stand and does not. Cases that end while others are being made safe are made safe together.
 
+use super::folder::SweepFolder;
 use crate::output::checkpoint::Checkpoint;
 use crate::output::{FolderLock, make_safe, result_json};
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
 use std::time::{Duration, Instant};
 
@@ -26,7 +27,7 @@ pub struct Computed {
 ///
 /// # Errors
 /// The disk does not take what was written; cases that are not marked are run again.
-pub fn mark_all(within: &Path, computed: &Receiver<Computed>) -> io::Result<()> {
+pub fn mark_all(within: &SweepFolder, computed: &Receiver<Computed>) -> io::Result<()> {
     let mut next = Instant::now();
     while let Ok(first) = computed.recv() {
         let mut cases = vec![first];
@@ -34,9 +35,13 @@ pub fn mark_all(within: &Path, computed: &Receiver<Computed>) -> io::Result<()> 
             cases.push(case);
         }
         next = Instant::now() + APART;
-        let folders: Vec<PathBuf> = cases.iter().map(|case| case.folder.clone()).collect();
-        make_safe(within, &folders)?;
+        // A case that a signal has stopped is pending, and stays.
+        let folders = within.let_go(cases.iter().map(|case| case.folder.clone()).collect())?;
+        make_safe(&within.path, &folders)?;
         for Computed { folder, lock, is_stopped } in cases {
+            if !folders.contains(&folder) {
+                continue;
+            }
             result_json::mark(&folder)?;
             if !is_stopped {
                 Checkpoint::remove(&folder)?;
@@ -50,12 +55,16 @@ pub fn mark_all(within: &Path, computed: &Receiver<Computed>) -> io::Result<()> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sweep::cases::Cases;
+    use crate::sweep::file::SweepFile;
     use std::fs;
     use std::sync::mpsc::channel;
 
     #[test]
     fn cases_are_marked_and_let_go() {
         let root = tempfile::tempdir().unwrap();
+        let none = Cases { keys: Vec::new(), values: Vec::new() };
+        let within = SweepFolder::new(root.path().to_owned(), ("", ""), &none, "", &SweepFile::default());
         let (done, computed) = channel();
         let folders = ["ended", "stopped"].map(|name| root.path().join(name));
         for (folder, is_stopped) in folders.iter().zip([false, true]) {
@@ -66,7 +75,7 @@ mod tests {
         }
         assert!(folders.iter().all(|folder| !folder.join("result.json").exists()));
         drop(done);
-        mark_all(root.path(), &computed).unwrap();
+        mark_all(&within, &computed).unwrap();
         for (folder, keeps) in folders.iter().zip([false, true]) {
             assert!(folder.join("result.json").exists() && FolderLock::take(folder).is_ok());
             assert_eq!(Checkpoint::path(folder).exists(), keeps);

@@ -2,7 +2,7 @@
 //!
 //! [`file`] is the text that asks for it, [`cases`] the variants that follow, [`sampling`] the points of a sample, [`collect`] the numbers
 //! that are read from the results of each, [`folder`] where all that stands, and a
-//! page of it, [`marks`] what says that a case does.
+//! page of it, [`marks`] what says that a case does, [`records`] what is kept of cases whose folders are not.
 
 pub mod cases;
 pub mod collect;
@@ -10,4 +10,5 @@ pub mod file;
 pub mod folder;
 pub mod marks;
 mod page;
+pub mod records;
 pub mod sampling;

@@ -81,7 +81,7 @@ function table() {
   const body = make("tbody");
   for (const k of order) {
     const row = make("tr");
-    rows[k].forEach((text, place) => row.append(make("td", {}, place ? text : make("a", { href: folders[k] + "/", textContent: text }))));
+    rows[k].forEach((text, place) => row.append(make("td", {}, place || !folders[k] ? text : make("a", { href: folders[k] + "/", textContent: text }))));
     body.append(row);
   }
   byId("cases").replaceChildren(make("thead", {}, head), body);

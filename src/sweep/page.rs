@@ -7,7 +7,7 @@ use serde_json::json;
 const SCRIPT: &str = include_str!("page.js");
 
 /// The page of a summary: the header and the rows of summary.csv, the folders of the cases, and how many columns vary and are collected.
-pub fn page(header: &[String], rows: &[Vec<String>], folders: &[String], [varied, collected]: [usize; 2]) -> String {
+pub fn page(header: &[String], rows: &[Vec<String>], folders: &[&str], [varied, collected]: [usize; 2]) -> String {
     // The columns are: case, what varies, status, what is collected, reason.
     let all = json!({
         "columns": header,
@@ -25,7 +25,7 @@ pub fn page(header: &[String], rows: &[Vec<String>], folders: &[String], [varied
          <link rel=\"icon\" href=\"data:,\">\n<style>\n{STYLE}\n#scatter {{ width: 100%; height: 24rem; }}\n</style>\n</head>\n<body>\n\
          <h1>{title}</h1>\n<section id=\"plot\"><h2>One number over another</h2>\n<div id=\"controls\" class=\"controls\"></div>\n\
          <canvas id=\"scatter\"></canvas></section>\n\
-         <section><h2>Cases</h2>\n<p class=\"note\">A click on a head sorts; numbers of cases lead to their folders.</p>\n\
+         <section><h2>Cases</h2>\n<p class=\"note\">A click on a head sorts; numbers of cases lead to their folders, where these are kept.</p>\n\
          <table id=\"cases\"></table></section>\n{}<script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         data("data", &all)
     )
@@ -39,7 +39,7 @@ mod tests {
     fn the_page_asks_for_nothing_from_elsewhere() {
         let row = vec!["1".to_owned(), "</script>".to_owned(), "done".to_owned(), "2.0".to_owned(), String::new()];
         let header = ["case", "a.b", "status", "peak", "reason"].map(str::to_owned);
-        let page = page(&header, &[row], &["00ff".to_owned()], [1, 1]);
+        let page = page(&header, &[row], &["00ff"], [1, 1]);
         for word in ["http:", "https:", "src=", "@import", "url(", "fetch("] {
             assert!(!page.contains(word), "{word}");
         }
