@@ -153,8 +153,9 @@ impl<'a> Run<'a> {
     pub(super) fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
         let ws = &mut self.workspace;
         (ws.factorizations, ws.solves) = (0, 0);
+        ws.begin_run(&self.context);
         if let Some(controller) = self.controller.by_tolerance() {
-            controller.follow(tolerance, longest);
+            controller.follow(&self.context, tolerance, longest);
         }
     }
 

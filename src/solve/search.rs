@@ -242,8 +242,6 @@ impl Run<'_> {
         error.before = (error.tolerance, error.longest);
         (error.tolerance, error.longest) = (tolerance, longest);
         self.recorder = Recorder::new(model, self.wanted);
-        let ws = &mut self.workspace;
-        (ws.warnings, ws.rotation_drift, ws.joint_violation) = (Warnings::default(), 0.0, 0.0);
         self.follow(tolerance, longest);
         observer.restart(model)
     }

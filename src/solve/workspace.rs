@@ -4,7 +4,7 @@ use super::context::{self, Context};
 use super::linear_system::LinearSystem;
 use super::load_steps::LoadSteps;
 use super::warning::{Remark, Warnings};
-use crate::linear::TooLarge;
+use crate::linear::{Solver, TooLarge};
 use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Increment, Node};
 use crate::system::{Forces, Loading, Prescribed, TurningStart};
@@ -89,10 +89,7 @@ impl Workspace {
     pub fn new(cx: &Context) -> Result<Workspace, TooLarge> {
         let n = cx.model.nodes.len();
         let (solver, assembly) = cx.plan.build(cx.system)?;
-        let mut warnings = Warnings::default();
-        if solver.stats().in_file {
-            warnings.remark(Remark::FactorInFile(solver.scratch()));
-        }
+        let warnings = warnings_of(&solver);
         Ok(Workspace {
             trial: context::at_rest(cx.model),
             increments: vec![Increment::ZERO; n],
@@ -112,4 +109,30 @@ impl Workspace {
             warnings,
         })
     }
+
+    /// Forgets everything about earlier runs of the same scene. The matrix keeps its memory, for each run forms it before the first use; the
+    /// caller counts the factorizations and solves.
+    pub fn begin_run(&mut self, cx: &Context) {
+        let Workspace { trial, increments, turning, history, forces, r, loads, prescribed, reach, load_steps, .. } =
+            self;
+        trial.clone_from(&context::at_rest(cx.model));
+        increments.fill(Increment::ZERO);
+        turning.clear();
+        history.fill(0.0);
+        *forces = Forces::new(cx.system, trial.len()).on_threads(cx.plan.threads);
+        r.fill(0.0);
+        (*loads, *prescribed) = (AtTimes::default(), AtTimes::default());
+        (*reach, *load_steps) = (cx.length, LoadSteps::default());
+        (self.rotation_drift, self.joint_violation) = (0.0, 0.0);
+        self.warnings = warnings_of(&self.matrix.solver);
+    }
+}
+
+/// The remarks that a run begins with.
+fn warnings_of(solver: &Solver) -> Warnings {
+    let mut warnings = Warnings::default();
+    if solver.stats().in_file {
+        warnings.remark(Remark::FactorInFile(solver.scratch()));
+    }
+    warnings
 }

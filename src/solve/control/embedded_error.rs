@@ -89,7 +89,7 @@ impl EmbeddedErrorController {
 }
 
 impl FollowTolerance for EmbeddedErrorController {
-    fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
+    fn follow(&mut self, _: &Context, tolerance: f64, longest: Option<f64>) {
         // A trial has a longer first step too, or what that decides would be the same in both runs.
         let longer = (tolerance / self.asked).powf(1.0 / self.stepper.error_order()).clamp(1.0, 2.0);
         (self.tolerance, self.next) = (tolerance, self.first * longer);

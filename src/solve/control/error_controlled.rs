@@ -266,8 +266,9 @@ fn filter(cx: &Context, ws: &mut Workspace, state: &State, matrix: &mut Iteratio
 
 impl FollowTolerance for ErrorController<'_> {
     /// The motion of earlier runs stays known: errors at the start are small against it, whatever they are against the motion so far.
-    fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
+    fn follow(&mut self, cx: &Context, tolerance: f64, longest: Option<f64>) {
         self.tolerance = tolerance;
+        self.stepper.begin_run(cx);
         self.stepper.solver.newton.ending.follow(tolerance);
         // A trial has a longer first step too, or what that decides would be the same in both runs.
         self.length = self.first * (tolerance / self.asked).powf(1.0 / f64::from(self.order)).clamp(1.0, 2.0);

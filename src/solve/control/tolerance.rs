@@ -6,8 +6,8 @@ use crate::state::State;
 /// A controller that can run again with another tolerance.
 pub trait FollowTolerance {
     /// Prepares for a run with this tolerance of the error of its steps, none of which is longer than `longest`; `None`: as long as the
-    /// controller allows.
-    fn follow(&mut self, tolerance: f64, longest: Option<f64>);
+    /// controller allows. It forgets what the iteration has learnt in earlier runs.
+    fn follow(&mut self, cx: &Context, tolerance: f64, longest: Option<f64>);
 }
 
 /// True where something failed in a step from a state to the next, and the step is too long for the time of that: it may err by the

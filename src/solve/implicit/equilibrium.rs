@@ -52,6 +52,11 @@ impl EquilibriumSolver {
         })
     }
 
+    /// Forgets what earlier runs of the same scene have taught the iteration.
+    pub fn begin_run(&mut self, cx: &Context) {
+        (self.newton, self.massless, self.grows) = (Newton::new(cx), MasslessNodes::new(cx), true);
+    }
+
     /// Takes `state` from its time to the time `to` in one stage. On failure `state` is untouched.
     ///
     /// # Errors

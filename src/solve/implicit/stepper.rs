@@ -82,6 +82,11 @@ impl<'a> Implicit<'a> {
         }
     }
 
+    /// Forgets earlier runs of the same scene.
+    pub fn begin_run(&mut self, cx: &Context) {
+        self.solver.begin_run(cx);
+    }
+
     /// Prepares for a run from this state, or for going on from it after a jump of the loads.
     pub fn restart(&mut self, state: &State) {
         self.solver.newton.discard_matrix();
