@@ -8,19 +8,20 @@ use super::start::update_rates_of_dependent_nodes;
 use super::workspace::Workspace;
 use crate::elements::Moduli;
 use crate::integrators::Stepping;
-use crate::math::{Vec6, angular, linear, stack};
+use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::model::StepLength;
-use crate::state::{Configuration, State};
+use crate::state::{Configuration, Node, State};
 use crate::system::TangentWeights;
 
 /// Motions by such an acceleration in a step, as parts of the model's length and in radians, that rotations of slender parts may have
 /// without stretching what they should only bend.
 const LARGE: f64 = 1e-3;
-/// Part of an acceleration by which that of an implicit step differs where the step does not resolve it.
+/// Part of an acceleration by which that of an implicit step differs where the step does not resolve it, and that before a jump where it jumps.
 const UNRESOLVED: f64 = 0.5;
 
-/// Replaces the accelerations that no step resolves, for implicit steps of given length.
-pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State) {
+/// Replaces the accelerations that no step resolves, for implicit steps of given length. `before` holds the nodes before a jump, of which
+/// those go on as they were whose accelerations do not jump; `None`: all begin.
+pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State, before: Option<&[Node]>) {
     let explicit = matches!(cx.model.solution.scheme.stepping(), Stepping::Verlet | Stepping::RungeKutta(_));
     let StepLength::Fixed { step: dt } = cx.model.analysis.step_length else { return };
     let leaps = |of: &Vec6| {
@@ -28,7 +29,14 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State) {
         [moved > LARGE, turned > LARGE]
     };
     let accelerations = |state: &State, node: usize| stack(&state.nodes[node].a, &state.nodes[node].alpha);
-    let any = |&node: &usize| leaps(&accelerations(state, node)) != [false; 2];
+    let jumps = |now: &Vec3, before: Option<&Vec3>| before.is_none_or(|before| differs(now, before));
+    let leaps = |state: &State, node: usize| {
+        let (now, before) = (accelerations(state, node), before.map(|nodes| &nodes[node]));
+        let [moves, turns] = leaps(&now);
+        let moves = moves && jumps(&linear(&now), before.map(|node| &node.a));
+        [moves, turns && jumps(&angular(&now), before.map(|node| &node.alpha))]
+    };
+    let any = |&node: &usize| leaps(state, node) != [false; 2];
     // Without dampers nothing ends so soon but vibrations, with which schemes deal as they are known to.
     let damped = cx.is_dynamic() && !cx.plan.linear && cx.system.is_damped();
     if explicit || !damped || !cx.independent_nodes.iter().any(any) {
@@ -40,13 +48,13 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State) {
     for &node in &cx.independent_nodes {
         let (own, rows) = (accelerations(state, node), cx.plan.dofs.of(node));
         let seen = Vec6::from_fn(|dof, _| rows.get(dof).map_or(own[dof], |row| factor * ws.r[row]));
-        let [moves, turns] = leaps(&own);
+        let [moves, turns] = leaps(state, node);
         let node = &mut state.nodes[node];
         let (a, alpha) = (linear(&seen), angular(&seen));
-        if moves && (a - node.a).norm() > UNRESOLVED * node.a.norm() {
+        if moves && differs(&node.a, &a) {
             node.a = a;
         }
-        if turns && (alpha - node.alpha).norm() > UNRESOLVED * node.alpha.norm() {
+        if turns && differs(&node.alpha, &alpha) {
             node.alpha = alpha;
         }
     }
@@ -55,6 +63,11 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State) {
         *acceleration = stack(&node.a, &node.alpha);
     }
     ws.trial.clone_from(&state.nodes);
+}
+
+/// True where an acceleration differs from another by a large part.
+fn differs(acceleration: &Vec3, other: &Vec3) -> bool {
+    (other - acceleration).norm() > UNRESOLVED * acceleration.norm()
 }
 
 /// Solves the matrix of a step for the forces without those of inertia; returns the factor that makes accelerations of the solution in

@@ -10,7 +10,7 @@ use super::sample::{Sample, Samples};
 use super::stop_watch::StopWatch;
 use super::workspace::Workspace;
 use crate::snapshot::{Keep, Snapshot, keep};
-use crate::state::State;
+use crate::state::{Node, State};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A run under way: what it reads, what it writes, its state, and its observer.
@@ -31,6 +31,8 @@ pub struct March<'r, 'a> {
     pub stop_watch: Option<&'r mut StopWatch>,
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
+    /// The nodes at the end of the stage before; `None` at t = 0.
+    pub begins_from: Option<&'r [Node]>,
     /// Where between its events the run is.
     pub place: RunPosition,
     /// True where it does not begin, but goes on from a checkpoint.
@@ -90,8 +92,7 @@ impl March<'_, '_> {
 
     /// Keeps what comes behind the search and the recorder, or takes it back.
     pub fn keep_rest(&mut self, controller: &mut dyn Keep, snapshot: &mut Snapshot) {
-        let March { ws, state, observer, samples, stop_watch, place, cx, recorder: _, stop: _, resumes: _, search: _ } =
-            self;
+        let March { ws, state, observer, samples, stop_watch, place, cx, .. } = self;
         place.keep(snapshot);
         samples.keep(snapshot);
         stop_watch.iter_mut().for_each(|watch| watch.keep(snapshot));

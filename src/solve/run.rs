@@ -120,8 +120,21 @@ impl<'a> Run<'a> {
         let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_trial);
         let (place, resumes) = (RunPosition::default(), checkpoint.is_some());
         let state_at = &mut state;
-        let mut march =
-            March { cx, ws, state: state_at, recorder, observer, samples, stop_watch, stop, place, resumes, search };
+        let begins_from = handover.as_ref().map(|handover| &handover.state.nodes[..]);
+        let mut march = March {
+            cx,
+            ws,
+            state: state_at,
+            recorder,
+            observer,
+            samples,
+            stop_watch,
+            stop,
+            begins_from,
+            place,
+            resumes,
+            search,
+        };
         if let Some(mut snapshot) = checkpoint {
             march.keep_rest(controller, &mut snapshot);
             if !snapshot.is_used_up() {

@@ -33,8 +33,10 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
         state.algorithmic_accelerations = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
     }
     if let Some(before) = &handover.out_of_balance {
+        let (nodes, algorithmic) = (state.nodes.clone(), state.algorithmic_accelerations.clone());
         jump_velocities(cx, ws, &mut state)?;
         jump_from(cx, ws, &mut state, before, Side::After)?;
+        go_on_algorithmic(&mut state, (&nodes, &algorithmic));
     } else if cx.model.analysis.goes_on() {
         kick(cx, ws, &mut state)?;
     } else {
@@ -51,7 +53,6 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
     update_rates_of_dependent_nodes(cx, ws, &mut state.nodes);
     take_up_history(cx, ws, handover, state);
     contacts::warn_of_closed(cx, ws, state, &handover.fresh);
-    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
     if cx.is_dynamic() {
         let massless = factor_mass(cx, ws, &state.configuration())?;
         let impulse = impulse(cx, ws, state, (&before, &massless));
@@ -64,23 +65,28 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
             if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
                 ws.warnings.add(Warning::InitialVelocities { change });
             }
-            ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-            cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         }
+        // Impulses and projections leave other forces, without those of velocities.
+        balance_forces(cx, ws, state);
         subtract(&mut ws.forces.on_nodes, &handover.left_by_scheme);
         let algorithmic = state.algorithmic_accelerations.clone();
         add_accelerations(cx, ws, state, &massless);
         if !handover.left_by_scheme.is_empty() {
             go_on_algorithmic(state, (&before, &algorithmic));
         }
-        ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-        cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
     }
+    balance_forces(cx, ws, state);
     for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
         *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
     }
     Ok(())
+}
+
+/// Writes the residual forces of a state with its own multipliers and velocities.
+fn balance_forces(cx: &Context, ws: &mut Workspace, state: &State) {
+    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
+    cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
 }
 
 /// Takes forces from those on the nodes; nothing where there are none.

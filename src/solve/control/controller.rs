@@ -118,7 +118,7 @@ fn through_intervals(
         controller.restart(march.cx, march.ws, march.state);
         march.notify_start()?;
         if !march.cx.model.analysis.goes_on() {
-            initial_transient::pass_over(march.cx, march.ws, march.state);
+            initial_transient::pass_over(march.cx, march.ws, march.state, march.begins_from);
         }
         if let Some(watch) = march.stop_watch.as_deref_mut() {
             watch.begin(march.cx, march.ws, march.state);
@@ -128,9 +128,10 @@ fn through_intervals(
     for interval in &rest[march.place.interval.min(rest.len())..] {
         controller.cover(march, interval)?;
         if interval.jump && march.cx.is_dynamic() {
+            let before = march.state.nodes.clone();
             jumps::jump(march.cx, march.ws, march.state).map_err(|failure| march.failed(failure))?;
             controller.restart(march.cx, march.ws, march.state);
-            initial_transient::pass_over(march.cx, march.ws, march.state);
+            initial_transient::pass_over(march.cx, march.ws, march.state, Some(&before));
         }
         march.place =
             RunPosition { begin: march.place.begin, interval: march.place.interval + 1, ..RunPosition::default() };
