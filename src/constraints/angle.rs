@@ -14,6 +14,8 @@ pub struct Angle {
     pub p: Vec3,
     /// Unit vector across both, so that p, s and the axis make a right-handed frame.
     pub s: Vec3,
+    /// The unit vector of the second node whose turning is the angle: p, unless the angle counts from a later place of both nodes.
+    pub turned: Vec3,
 }
 
 /// The terms x and y that the angle is formed from, and its derivatives by them.
@@ -29,11 +31,17 @@ struct Terms {
 impl Angle {
     /// The angle about the first of three axes.
     pub fn about_first(axes: &Mat3) -> Angle {
-        Angle { p: axes.column(1).into_owned(), s: axes.column(2).into_owned() }
+        let p = axes.column(1).into_owned();
+        Angle { p, s: axes.column(2).into_owned(), turned: p }
+    }
+
+    /// The same angle counted from where both nodes are now; the axis is that of the first node.
+    pub fn from_here(&self, a: &Node, b: &Node) -> Angle {
+        Angle { turned: b.R().tr_mul(&(a.R() * self.p)), ..*self }
     }
 
     fn terms(&self, a: &Node, b: &Node) -> Terms {
-        let (R, u) = (a.R(), b.R() * self.p);
+        let (R, u) = (a.R(), b.R() * self.turned);
         let (p, s) = (R * self.p, R * self.s);
         let (x, y) = (p.dot(&u), s.dot(&u));
         let square = x * x + y * y;
@@ -42,7 +50,7 @@ impl Angle {
 
     /// The angle of the second node from the first, from −π to π, with its first two derivatives in time.
     pub fn value(&self, a: &Node, b: &Node) -> [f64; 3] {
-        let [u, du, ddu] = body_vector(b, &self.p);
+        let [u, du, ddu] = body_vector(b, &self.turned);
         let term = |fixed: &Vec3| {
             let [p, dp, ddp] = body_vector(a, fixed);
             [p.dot(&u), dp.dot(&u) + p.dot(&du), ddp.dot(&u) + 2.0 * dp.dot(&du) + p.dot(&ddu)]
@@ -63,7 +71,7 @@ impl Angle {
     /// Adds the second derivative times `lambda`, in the blocks of [`super::joint::ConstraintEquation::stiffness`].
     pub fn stiffness(&self, a: &Node, b: &Node, lambda: f64, add: &mut impl FnMut(usize, usize, Mat3)) {
         let Terms { x, y, turns: [tx, ty], first } = self.terms(a, b);
-        let (R, u) = (a.R(), skew(&(b.R() * self.p)));
+        let (R, u) = (a.R(), skew(&(b.R() * self.turned)));
         let (mut own, mut other) = (Mat3::zeros(), Mat3::zeros());
         for (fixed, derivative) in [self.p, self.s].iter().zip(first) {
             let p = skew(&(R * fixed)) * (lambda * derivative);

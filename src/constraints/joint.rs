@@ -143,7 +143,7 @@ impl ConstraintEquation {
     pub fn axis(&self, a: &Node, b: &Node) -> Option<Vec3> {
         match self {
             ConstraintEquation::BodyAxis { e, .. } => Some(b.R() * e),
-            ConstraintEquation::Angle(Angle { p, s }) => Some(a.R() * p.cross(s)),
+            ConstraintEquation::Angle(Angle { p, s, .. }) => Some(a.R() * p.cross(s)),
             _ => None,
         }
     }
@@ -197,6 +197,14 @@ impl ConstraintEquation {
             }
             // A drive is never held where it is: it goes on.
             ConstraintEquation::Angle(_) => *self,
+        }
+    }
+
+    /// The same equation as that of a coordinate which is zero where the nodes are now.
+    pub fn counted_from_here(&self, [a, b]: [&Node; 2]) -> ConstraintEquation {
+        match self {
+            ConstraintEquation::Angle(angle) => ConstraintEquation::Angle(angle.from_here(a, b)),
+            _ => self.held_here([a, b], false, false),
         }
     }
 
@@ -317,7 +325,7 @@ impl ConstraintEquation {
             ConstraintEquation::Perpendicular { p, s } if along(p) || along(s) => Some(false),
             ConstraintEquation::Perpendicular { p, s } => (across(p) && across(s)).then_some(true),
             ConstraintEquation::Distance { .. } => across(d).then_some(true),
-            ConstraintEquation::Angle(Angle { p, s }) => (across(p) && across(s)).then_some(true),
+            ConstraintEquation::Angle(Angle { p, s, .. }) => (across(p) && across(s)).then_some(true),
             // Its moment is about the axis along which its force acts.
             ConstraintEquation::Screw { .. } => None,
         }

@@ -12,7 +12,7 @@ use crate::constraints::joint::ConstraintEquation;
 use crate::constraints::rigid_link::RigidLink;
 use crate::elements::Force;
 use crate::math::{Vec3, Vec6};
-use crate::model::{AnalysisKind, Joint, Load, Model};
+use crate::model::{AnalysisKind, Joint, Link, LinkKind, Load, Model};
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
 use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
@@ -298,6 +298,30 @@ fn rejoin(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) -> 
         let held: Vec<ConstraintEquation> = joint.of_deck.iter().map(hold).collect();
         changed |= held != joint.equations;
         joint.equations = held;
+    }
+    changed | recount(from, before, nodes, model)
+}
+
+/// Lets coordinates go on from what they counted, and those of new joints count from here; true where any differs from that of the deck.
+fn recount(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) -> bool {
+    let mut springs = Vec::new();
+    let mut changed = false;
+    for (joint, known) in model.constraints.joints.iter_mut().zip(&from.joints) {
+        let Some(coordinate) = &mut joint.coordinate else { continue };
+        let known = known.and_then(|known| before.constraints.joints[known].coordinate.as_ref());
+        let lock = match known {
+            Some(known) => known.lock,
+            None => coordinate.lock.counted_from_here(joint.ends.map(|end| &nodes[end])),
+        };
+        changed |= lock != coordinate.lock;
+        coordinate.lock = lock;
+        springs.extend(coordinate.spring.map(|spring| (spring, lock)));
+    }
+    let mut links: Vec<&mut Link> = model.each_mut::<Link>().collect();
+    for (spring, counted) in springs {
+        if let LinkKind::Joint { lock, .. } = &mut links[spring].kind {
+            *lock = counted;
+        }
     }
     changed
 }

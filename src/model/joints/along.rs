@@ -20,6 +20,7 @@ use crate::model::scene::Scene;
 use crate::model::values::{flag, span};
 use crate::names::short;
 use crate::words::kinds::{OneOf, Values};
+use std::collections::HashSet;
 
 /// What `[[joints]]` make.
 #[derive(Default)]
@@ -110,12 +111,12 @@ impl<'d> Along<'_, 'd> {
         is_later(self.scene, self.joint)
     }
 
-    /// Reports keys about the coordinate of a joint that is not there from t = 0 on.
+    /// Reports keys of a joint that is not there from t = 0 on where they need a coordinate which the deck draws.
     fn reject_if_later(&mut self) {
         if !self.is_later() {
             return;
         }
-        for (key, place) in keys(self.joint) {
+        for (key, place) in keys(self.joint).into_iter().filter(|(key, _)| !NEEDS_NO_ORIGIN.contains(key)) {
             let Some(place) = place else { continue };
             let message = format!("`{key}` needs a joint that is there from t = 0 on, without a break");
             let hint = "leave out `stages`: a drive whose amplitude is zero holds the joint until it begins";
@@ -421,7 +422,7 @@ impl ActsAlong<'_> {
         mut self,
         placed: &PlacedJoint,
         joint: &mut Joint,
-        (nodes, links): (&mut Nodes, &mut ModelLinks),
+        (scene, nodes, links): (&Scene, &mut Nodes, &mut ModelLinks),
         efforts: &mut Vec<Load>,
     ) {
         let [from, to] = placed.ends;
@@ -431,7 +432,7 @@ impl ActsAlong<'_> {
         if let Some(friction) = &mut self.law.friction {
             friction.stick = self.stick.unwrap_or_else(|| match self.coordinate {
                 Coordinate::Angle => 1e-4,
-                Coordinate::Distance => 1e-5 * size(nodes),
+                Coordinate::Distance => 1e-5 * size(scene, nodes, &joint.name),
             });
         }
         let drive = self.motion.map(|motion| {
@@ -470,12 +471,26 @@ pub fn is_later(scene: &Scene, joint: &words::Joint) -> bool {
     scene.stage.is_some_and(|stage| !stage.is_carried(&joint.stages))
 }
 
-/// The size of the scene, or 1 for a single point.
-pub fn size(nodes: &Nodes) -> f64 {
+/// The size of the scene as a joint chooses by it, or 1 for a single point. The ends of other joints and of links that come or go between
+/// stages do not count: the choice is the same in all stages.
+pub fn size(scene: &Scene, nodes: &Nodes, joint: &str) -> f64 {
+    let deck = scene.deck;
+    let tables = deck.links.iter().map(|link| (&link.name, &link.stages));
+    let tables = tables.chain(deck.joints.iter().map(|joint| (&joint.name, &joint.stages)));
+    let passing = tables.filter(|(_, stages)| stages.is_some()).filter_map(|(name, _)| Some(name.as_ref()?.as_str()));
+    let passing: HashSet<&str> = passing.filter(|name| *name != joint).collect();
+    let stays = |node: &&Node| {
+        let of = [".from", ".to"].into_iter().find_map(|end| node.label.strip_suffix(end));
+        of.is_none_or(|of| !passing.contains(of))
+    };
     let first = nodes.list.first().map_or(Vec3::zeros(), |node| node.x);
-    let size = nodes.list.iter().map(|node: &Node| (node.x - first).norm()).fold(0.0, f64::max);
+    let size = nodes.list.iter().filter(stays).map(|node| (node.x - first).norm()).fold(0.0, f64::max);
     if size > 0.0 { size } else { 1.0 }
 }
+
+/// The keys that act alike wherever the coordinate is zero.
+const NEEDS_NO_ORIGIN: [&str; 7] =
+    ["coordinate", "damping", "friction", "radius", "friction_moment", "friction_force", "stick"];
 
 /// The keys about the coordinate, with the places where they stand.
 fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 19] {

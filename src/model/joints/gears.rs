@@ -28,7 +28,7 @@ pub fn connect<'d>(
         if first == *index {
             continue;
         }
-        let drive = drive_of(&mut joints[first], nodes);
+        let drive = drive_of(scene, &mut joints[first], nodes);
         if let Some(drive) = drive {
             joints[*index].lead(JointDrive { ratio: ratio * drive.ratio, ..drive });
         }
@@ -75,12 +75,12 @@ fn first(towards: &[Option<(usize, f64)>], index: usize) -> Option<(usize, f64)>
 
 /// What the coordinate of a joint without a gear follows; where it is not driven, a number that is made for it: its coordinate, as a length
 /// of the size of the scene, so that efforts along it compare with forces.
-fn drive_of(joint: &mut Joint, nodes: &mut Nodes) -> Option<JointDrive> {
+fn drive_of(scene: &Scene, joint: &mut Joint, nodes: &mut Nodes) -> Option<JointDrive> {
     let coordinate = joint.coordinate.as_ref()?;
     if let Some(drive) = coordinate.drive {
         return Some(drive);
     }
-    let ratio = if coordinate.lock.is_rotational() { 1.0 / size(nodes) } else { 1.0 };
+    let ratio = if coordinate.lock.is_rotational() { 1.0 / size(scene, nodes, &joint.name) } else { 1.0 };
     let node = nodes.add_number(format!("{}.gear", joint.name), joint.ends[0]);
     let drive = JointDrive { node, ratio, is_free: true };
     joint.lead(drive);

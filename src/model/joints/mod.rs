@@ -55,7 +55,7 @@ pub fn joints<'d>(
         let mut made = Joint::new(name, ends, equations, false);
         if let Some(mut acts) = acts.flatten() {
             gears.extend(acts.gear.take().map(|gear| (joints.list.len(), gear)));
-            acts.set_up(&placed, &mut made, (nodes, links), &mut joints.efforts);
+            acts.set_up(&placed, &mut made, (scene, nodes, links), &mut joints.efforts);
         }
         joints.list.push(made);
     }
