@@ -103,16 +103,6 @@ impl March<'_, '_> {
         observer.keep_seen(snapshot);
     }
 
-    /// Takes account of an accepted step; true where it has come to the value at which the stage stops.
-    pub fn passes_stop(&mut self) -> bool {
-        let Some(watch) = self.stop_watch.as_deref_mut() else { return false };
-        let stops = watch.passed(self.cx, self.state).is_some();
-        if stops {
-            watch.accept(self.cx, self.state, true);
-        }
-        stops
-    }
-
     /// True where something has failed since this was asked last, with what it had stored.
     pub fn has_released(&mut self) -> bool {
         let eroded = self.state.work.material.eroded;

@@ -1,5 +1,6 @@
 //! Adaptive steps, by error or stability: the loop that all such controllers share.
 
+use super::end_at_stop::end_at_stop;
 use super::intervals::{CoverInterval, Interval};
 use crate::snapshot::Keep;
 use crate::solve::context::Context;
@@ -86,18 +87,26 @@ impl<C: StepController> CoverInterval for C {
             if let Some(watch) = march.stop_watch.as_deref_mut() {
                 watch.note(march.ws, march.state);
             }
-            let mut taken = self.step(march.cx, march.ws, march.state, target, length);
-            if let Ok(Some(_)) = &taken
-                && let Err(failure) = show_inside(self, march, dt)?
+            let taken = self.step(march.cx, march.ws, march.state, target, length);
+            let mut taken = taken.map(|report| {
+                let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {
+                    self.take_back(state);
+                    let taken = self.step(cx, ws, state, time, length);
+                    taken.and_then(|report| report.ok_or(Failure::ErrorTooLarge { dt }))
+                };
+                report.map(|report| end_at_stop(march, (target - dt, target), report, again))
+            });
+            if let Ok(Some((_, stop))) = &taken
+                && let Err(failure) = show_inside(self, march, stop.unwrap_or(dt))?
             {
                 self.take_back(march.state);
                 taken = Err(failure);
             }
             match taken {
-                Ok(Some(report)) => {
+                Ok(Some((report, stop))) => {
                     let at_end = march.state.time >= interval.to;
                     let (due, compared) = (at_end && interval.due, at_end && interval.compared);
-                    let stops = march.passes_stop();
+                    let (stops, dt) = (stop.is_some(), stop.unwrap_or(dt));
                     let (due, compared) = (due || stops, compared || stops);
                     let last = stops || at_end && march.is_end(interval.to);
                     let cuts = std::mem::take(&mut march.place.cuts);

@@ -1,5 +1,6 @@
 //! Steps of given length: each is cut into substeps where it fails, and these grow again.
 
+use super::end_at_stop::end_at_stop;
 use super::intervals::{CoverInterval, Interval};
 use crate::model::AnalysisKind;
 use crate::snapshot::keep;
@@ -85,7 +86,13 @@ impl<'a> FixedController<'a> {
             }
             match self.stepper.step(march.cx, march.ws, march.state, target) {
                 Ok(report) => {
-                    if let Some((report, dt)) = self.end_at_stop(march, (target - dt, target), report) {
+                    let stepper = &mut self.stepper;
+                    let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {
+                        stepper.forget_iterates();
+                        stepper.step(cx, ws, state, time)
+                    };
+                    let (report, stop) = end_at_stop(march, (target - dt, target), report, again);
+                    if let Some(dt) = stop {
                         let end = AcceptedStep { due: true, last: true, ..self.step.accepted(&report, dt) };
                         return march.notify(&end).and(Err(Outcome::Done));
                     }
@@ -111,52 +118,6 @@ impl<'a> FixedController<'a> {
             false => SubdividedSteps::default(),
         };
         Ok(())
-    }
-
-    /// Takes a step that passes the value at which the stage stops once more, to where it comes to it. Returns its report and its length; `None`
-    /// where the stage goes on.
-    fn end_at_stop(
-        &mut self,
-        march: &mut March,
-        (from, to): (f64, f64),
-        report: StepReport,
-    ) -> Option<(StepReport, f64)> {
-        /// Steps that are tried at most: by then the interval is at rounding.
-        const TRIED: usize = 60;
-        let March { cx, ws, state, stop_watch, .. } = march;
-        let watch = stop_watch.as_deref_mut()?;
-        let mut last = (report, watch.passed(cx, state)?);
-        // A step has been found: a signal waits until it is shown.
-        ws.matrix.loses_nothing = false;
-        // The Illinois form of the regula falsi.
-        let (mut low, mut high) = ((from, watch.left_before(cx)), (to, last.1));
-        for _ in 0..TRIED {
-            let time = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
-            if watch.is_met(last.1) || !(time > low.0 && time < high.0) {
-                break;
-            }
-            watch.go_back(ws, state);
-            self.stepper.forget_iterates();
-            match self.stepper.step(cx, ws, state, time) {
-                Ok(report) => last = (report, watch.left(cx, state)),
-                // Then it ends a little beyond.
-                Err(_) => {
-                    if let Ok(report) = self.stepper.step(cx, ws, state, high.0) {
-                        last = (report, high.1);
-                    }
-                    break;
-                }
-            }
-            if last.1 > 0.0 {
-                low = (time, last.1);
-                high.1 *= 0.5;
-            } else {
-                high = (time, last.1);
-                low.1 *= 0.5;
-            }
-        }
-        watch.accept(cx, state, true);
-        Some((last.0, state.time - from))
     }
 
     /// # Errors

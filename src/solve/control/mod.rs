@@ -4,6 +4,7 @@ mod adaptive;
 mod arc_length;
 mod controller;
 mod embedded_error;
+mod end_at_stop;
 mod error_controlled;
 mod error_measure;
 mod fixed;

@@ -1,0 +1,61 @@
+//! The last step of a stage that a value stops: it ends where it comes to the value.
+
+use crate::solve::context::Context;
+use crate::solve::failure::Failure;
+use crate::solve::march::March;
+use crate::solve::report::StepReport;
+use crate::solve::workspace::Workspace;
+use crate::state::State;
+
+/// Takes a step from a state to a time.
+pub type TakeStep<'s> = dyn FnMut(&Context, &mut Workspace, &mut State, f64) -> Result<StepReport, Failure> + 's;
+
+/// Takes account of the step between two times that has been taken. One that passes the value at which the stage stops is taken once more, to
+/// where it comes to the value. Returns the report of the step, and its length where it is the last.
+pub fn end_at_stop(
+    march: &mut March,
+    (from, to): (f64, f64),
+    report: StepReport,
+    step: &mut TakeStep,
+) -> (StepReport, Option<f64>) {
+    /// Steps that are tried at most: by then the interval is at rounding.
+    const TRIED: usize = 60;
+    let March { cx, ws, state, stop_watch, .. } = march;
+    let Some((watch, left)) = stop_watch.as_deref_mut().and_then(|watch| {
+        let left = watch.passed(cx, state)?;
+        Some((watch, left))
+    }) else {
+        return (report, None);
+    };
+    let mut last = (report, left);
+    // A step has been found: a signal waits until it is shown.
+    ws.matrix.loses_nothing = false;
+    // The Illinois form of the regula falsi.
+    let (mut low, mut high) = ((from, watch.left_before(cx)), (to, last.1));
+    for _ in 0..TRIED {
+        let time = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
+        if watch.is_met(last.1) || !(time > low.0 && time < high.0) {
+            break;
+        }
+        watch.go_back(ws, state);
+        match step(cx, ws, state, time) {
+            Ok(report) => last = (report, watch.left(cx, state)),
+            // Then it ends a little beyond.
+            Err(_) => {
+                if let Ok(report) = step(cx, ws, state, high.0) {
+                    last = (report, high.1);
+                }
+                break;
+            }
+        }
+        if last.1 > 0.0 {
+            low = (time, last.1);
+            high.1 *= 0.5;
+        } else {
+            high = (time, last.1);
+            low.1 *= 0.5;
+        }
+    }
+    watch.accept(cx, state, true);
+    (last.0, Some(state.time - from))
+}
