@@ -18,27 +18,36 @@ pub struct End {
     pub reason: String,
     /// The time up to which results are valid, where the run did not come to its end.
     pub valid_until: Option<f64>,
+    /// True where that lies before the time at which it ended.
+    pub is_valid_before: bool,
 }
 
 impl End {
     /// The reason and what it means for the results.
     pub fn sentence(&self) -> String {
         let valid = match self.valid_until {
-            Some(_) if self.reason.contains('\n') => "\n  results are valid up to this time",
-            Some(_) => "; results are valid up to this time",
-            None => "",
+            Some(_) if self.reason.contains('\n') => "\n  results are valid up to ",
+            Some(_) => "; results are valid up to ",
+            None => return self.reason.clone(),
         };
-        format!("{}{valid}", self.reason)
+        let until = match self.valid_until.filter(|_| self.is_valid_before) {
+            Some(time) => format!("t = {}", instant(time)),
+            None => "this time".to_owned(),
+        };
+        format!("{}{valid}{until}", self.reason)
     }
 }
 
 /// Judges the end of a run, which may be `short` of where a path was to stop. An error is one of input/output.
 pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) -> io::Result<End> {
+    let mut is_valid_before = false;
     let (status, reason, valid_until) = match outcome {
         Outcome::Io(error) => return Err(error),
         Outcome::Failed { time, failure } => {
             let status = if failure.is_of_memory() { Status::TooLittleMemory } else { Status::NotConverged };
-            (status, format!("at t = {}: {failure}", instant(time)), Some(time))
+            let valid_until = failure.valid_until().unwrap_or(time);
+            is_valid_before = valid_until < time;
+            (status, format!("at t = {}: {failure}", instant(time)), Some(valid_until))
         }
         Outcome::Stopped { time } => {
             (Status::Stopped, format!("stopped by a signal at t = {}", instant(time)), Some(time))
@@ -52,7 +61,7 @@ pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) ->
         },
     };
     let reasons: Vec<String> = [Some(reason), short].into_iter().flatten().filter(|text| !text.is_empty()).collect();
-    Ok(End { status, reason: reasons.join("; "), valid_until })
+    Ok(End { status, reason: reasons.join("; "), valid_until, is_valid_before })
 }
 
 /// Says of a path that it ended before its `stop`; `None` for any other end.

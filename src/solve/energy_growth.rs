@@ -18,11 +18,18 @@ pub struct EnergyGrowth {
     pub balance: Balance,
     /// True where energy had grown at the last check.
     growing: bool,
+    /// Time of the last check at which the balance was kept.
+    kept_until: f64,
 }
 
-keep!(EnergyGrowth { balance, growing });
+keep!(EnergyGrowth { balance, growing, kept_until });
 
 impl EnergyGrowth {
+    /// Begins with a balance at a time.
+    pub fn begin(&mut self, balance: Balance, time: f64) {
+        (self.balance, self.kept_until) = (balance, time);
+    }
+
     /// Updates the balance; `energy` is that of the state where it is known. Central differences have failed where they
     /// have generated more energy than was available; where hardly any is available yet, only by far more. The verdict
     /// must not depend on output times: work is taken account of in every step, and energies are summed where links may
@@ -36,6 +43,8 @@ impl EnergyGrowth {
         last: bool,
     ) -> Option<Failure> {
         const FAR: f64 = 100.0;
+        /// Part of the available energy that steps may have generated where results are still sound.
+        const SOUND: f64 = 0.02;
         self.balance.update_work(state.work.external);
         if model.analysis.kind != AnalysisKind::Dynamic {
             if last {
@@ -48,13 +57,16 @@ impl EnergyGrowth {
                 .then(|| Energy::of(system, state, initial, plan.threads))
         };
         self.balance.update(&energy.or_else(letting_go)?);
-        let Balance { generated, available, plastic, .. } = self.balance;
+        let Balance { generated, available, plastic, rounding, .. } = self.balance;
+        if generated <= SOUND * available.max(rounding) {
+            self.kept_until = state.time;
+        }
         // Energy that plastic flow has dissipated in excess does not move anything.
         let most = if last && generated > plastic { available } else { FAR * available };
         // A load that begins at rest moves nodes before it has done work: true growth is there in the next step too.
         let grows = checks_energy_growth(model) && available > 0.0 && generated > most;
         let went_on = std::mem::replace(&mut self.growing, grows) || last;
-        (grows && went_on).then(|| Failure::EnergyGrowth { ratio: generated / available })
+        (grows && went_on).then(|| Failure::EnergyGrowth { ratio: generated / available, kept_until: self.kept_until })
     }
 }
 

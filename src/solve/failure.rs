@@ -116,6 +116,8 @@ pub enum Failure {
     EnergyGrowth {
         /// The energy generated, as a multiple of the available energy.
         ratio: f64,
+        /// The last time at which the balance of energy was found to be kept.
+        kept_until: f64,
     },
     /// A step of an explicit scheme rotates something too far.
     RotationTooLarge {
@@ -181,7 +183,7 @@ keep_either!(Failure {
     9 => BushingTurnedOver { name },
     10 => BushingTurnsTooFar { name, dt },
     11 => Unstable { dt, longest, automatic },
-    12 => EnergyGrowth { ratio },
+    12 => EnergyGrowth { ratio, kept_until },
     13 => RotationTooLarge { dt },
     14 => LoadStepTurns { label, angle },
     15 => TurnedOver { name },
@@ -334,6 +336,14 @@ impl Failure {
         matches!(self, Failure::Modes(ModesFault::TooLarge(_)))
     }
 
+    /// The time up to which results are valid, where that is not the time of the failure.
+    pub fn valid_until(&self) -> Option<f64> {
+        match self {
+            Failure::EnergyGrowth { kept_until, .. } => Some(*kept_until),
+            _ => None,
+        }
+    }
+
     /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
     fn message(&self) -> String {
         match self {
@@ -453,7 +463,7 @@ impl Failure {
                      {longest:.3e} ({help}, or an implicit scheme)"
                 )
             }
-            Failure::EnergyGrowth { ratio } => format!(
+            Failure::EnergyGrowth { ratio, .. } => format!(
                 "energy growth: central differences have made {ratio:.1e} times the energy that there was; their steps are too \
                  long for this motion (a shorter `time_step`, or an implicit scheme)"
             ),

@@ -135,9 +135,11 @@ impl Recorder {
         let sum = |initial: Option<f64>| Energy::of(cx.system, state, initial, cx.plan.threads);
         let mut energy = sums.then(|| sum(None));
         self.initial_energy = energy.map(|energy| energy.mechanical);
+        self.growth.begin(Balance::default(), state.time);
         if let Some(Handover { counts, missed, .. }) = handover {
             (self.counts, self.before) = (*counts, *counts);
-            self.growth.balance = Balance::after(*missed + state.work.verlet_energy_offset, state.work.external);
+            let balance = Balance::after(*missed + state.work.verlet_energy_offset, state.work.external);
+            self.growth.begin(balance, state.time);
             if sums {
                 self.initial_energy = Some(missed - sum(Some(0.0)).numerical);
                 energy = Some(sum(self.initial_energy));
