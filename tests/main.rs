@@ -53,6 +53,7 @@ mod resume;
 mod rounding;
 mod safety_cab;
 mod schemes;
+mod shear_rigid;
 mod shells;
 mod small_motions;
 mod stability;

@@ -40,6 +40,9 @@ pub struct Beam {
     pub rigid: Maybe<bool>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
+    /// The beam deforms in shear; false: its shear stiffness is 10,000 times that of the section, as beams of Euler and Bernoulli have it. Not
+    /// with explicit schemes, whose steps that would shorten. Default: true.
+    pub shear: Maybe<bool>,
     /// Integration rule along an element, for beams whose material yields. Default: "gauss".
     pub integration: Maybe<IntegrationRule>,
     /// Integration points of an element, `order` to 5, for beams whose material yields. Default: `order`.

@@ -18,8 +18,8 @@ const MOST_FIBRES: usize = 10_000;
 pub(super) struct Sections<'a, 'd> {
     table: &'d Named<OneOf<words::Section>>,
     materials: &'a Materials<'d>,
-    /// Section, material and whether it needs a mass → index in `stiffnesses`, none where there are errors.
-    known: HashMap<(usize, Option<usize>, bool), Option<usize>>,
+    /// Section, material, whether it needs a mass and whether it deforms in shear → index in `stiffnesses`, none where there are errors.
+    known: HashMap<(usize, Option<usize>, [bool; 2]), Option<usize>>,
     /// Section stiffnesses that beams have asked for.
     pub stiffnesses: Vec<Stiffness>,
 }
@@ -48,12 +48,12 @@ impl<'a, 'd> Sections<'a, 'd> {
         }
     }
 
-    /// Index of the stiffness of a beam that names a section and a material.
+    /// Index of the stiffness of a beam that names a section and a material; `shear` is true where it deforms in shear.
     pub fn beam_section(
         &mut self,
         owner: &Owner<'d>,
         [section, made_of]: [&'d Maybe<String>; 2],
-        mass: MassKind,
+        (mass, shear): (MassKind, bool),
         report: &mut Report<'d>,
     ) -> Option<usize> {
         let material = match made_of {
@@ -82,13 +82,13 @@ impl<'a, 'd> Sections<'a, 'd> {
             }
         };
         let needs_mass = self.materials.needs_mass(mass);
-        let key = (section_index, material_index, needs_mass);
+        let key = (section_index, material_index, [needs_mass, shear]);
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
         let stiffness = stiffness(&name.value, section, numbers, needs_mass, report);
         let index = stiffness.map(|stiffness| {
-            self.stiffnesses.push(stiffness);
+            self.stiffnesses.push(if shear { stiffness } else { stiffness.without_shear() });
             self.stiffnesses.len() - 1
         });
         self.known.insert(key, index);

@@ -64,7 +64,8 @@ fn read_beam<'d>(
         cx.report.error::<()>(&at.span, "`order` can be 1, 2, 3 or 4");
     }
     let mass = chosen(&beam.mass);
-    let section = cx.sections.beam_section(owner, [&beam.section, &beam.material], mass, cx.report);
+    let shear = flag(&beam.shear, true);
+    let section = cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report);
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
     let orientation = cx.report.require(owner, "orientation", &beam.orientation);
     let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
@@ -280,7 +281,13 @@ fn yielding<'d>(
         }
         rule => chosen(rule),
     };
-    let shear = beam.shear_yields.as_ref().is_none_or(|yields| yields.value);
+    let deforms = flag(&beam.shear, true);
+    if let Some(yields) = beam.shear_yields.as_ref().filter(|yields| yields.value && !deforms) {
+        let message =
+            "`shear_yields = true` contradicts `shear = false`: what does not deform in shear does not yield in it";
+        return cx.report.error_with(&yields.span, message, "leave one of the two out");
+    }
+    let shear = deforms && flag(&beam.shear_yields, true);
     // A wrong section has been reported.
     let fibres = if section { cx.sections.fibres(beam.section.as_ref()?, cx.report)? } else { return None };
     Some(Some(FibreModel { law, fibres, shear, rule, points }))

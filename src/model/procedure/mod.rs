@@ -218,6 +218,10 @@ pub fn check_explicit(deck: &Deck, kind: AnalysisKind, scheme: &dyn Scheme, part
         let hint = "mass = \"lumped\" needs no matrix at all";
         report.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
     }
+    for shear in deck.beams.iter().filter_map(|beam| beam.shear.as_ref()).filter(|shear| !shear.value) {
+        let hint = "leave it out with explicit schemes: slender beams deform little in shear";
+        report.warn(&shear.span, "`shear = false` makes the critical time step up to 100 times shorter", hint);
+    }
     let tolerance = deck.analysis.as_ref().and_then(|analysis| analysis.error_tolerance.as_ref());
     if let (Stepping::Verlet, Some(tolerance)) = (scheme.stepping(), tolerance) {
         let message = format!("`error_tolerance` does not apply to the scheme \"{}\"", scheme.word());
