@@ -423,3 +423,174 @@ fn steps_that_ringing_makes_hard_are_told() {
     let damped = said("{scheme=\"generalized-alpha\",spectral_radius=0.8}");
     assert!(!damped.contains("damps nothing"), "{damped}");
 }
+
+/// The warnings about units and angles of a deck that is read only.
+fn slips(deck: &str) -> Vec<String> {
+    let (model, said) = model::read(&Source::new("deck.toml", deck, &[]));
+    assert!(model.is_some(), "{said:?}\n{deck}");
+    said.into_iter().map(|said| format!("{}: {:?}", said.message, said.hints)).collect()
+}
+
+/// A beam of this material in a deck with or without a label and gravity.
+fn of_material(units: &str, gravity: f64, material: &str) -> String {
+    let units = if units.is_empty() { String::new() } else { format!("units = \"{units}\"\n") };
+    let gravity =
+        if gravity == 0.0 { String::new() } else { format!("[environment]\ngravity = [0.0, 0.0, -{gravity:?}]\n") };
+    let analysis = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 0.1\n";
+    let rest = one_beam();
+    format!("{units}{analysis}{gravity}[materials.m]\n{material}\n{rest}")
+}
+
+fn one_beam() -> String {
+    "[sections.s]\nshape = \"rectangle\"\nwidth = 0.05\nheight = 0.05\n[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n\
+     [[beams]]\nname = \"bar\"\npath = [\"a\", \"b\"]\nelements = 2\nmaterial = \"m\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n\
+     [[supports]]\nat = \"a\"\nfix = \"all\"\n"
+        .to_owned()
+}
+
+fn material(modulus: &str, ratio: f64, density: &str, more: &str) -> String {
+    let density = if density.is_empty() { String::new() } else { format!("density = {density}\n") };
+    let model = if more.is_empty() { "elastic" } else { "elastic-plastic" };
+    format!("model = \"{model}\"\nyoungs_modulus = {modulus}\npoisson_ratio = {ratio:?}\n{density}{more}\n")
+}
+
+/// Slips of a unit that a number alone does not show: moduli in MPa, GPa, psi or ksi, densities in g/cm³ or t/m³, yield stresses in MPa.
+#[test]
+fn slips_of_units_are_said() {
+    let cases = [
+        // Label, gravity, modulus, density, more, what is said of it.
+        ("SI", 0.0, "210e3", "7850.0", "", "210000 Pa with 7850 kg/m³"),
+        ("SI", 0.0, "210e3", "", "", "softer than rubber"),
+        ("SI", 0.0, "30e6", "7850.0", "", "do not go together"),
+        ("SI", 0.0, "210e9", "7.85", "", "do not go together"),
+        ("SI", 0.0, "70e9", "2.7", "", "do not go together"),
+        ("SI", 0.0, "210.0", "7850.0", "", "`youngs_modulus` is not plausible"),
+        ("mm-t-s", 0.0, "210.0", "7.85e-9", "", "do not go together"),
+        ("mm-t-s", 0.0, "210e9", "7.85e-9", "", "`youngs_modulus` is not plausible"),
+        ("mm-t-s", 0.0, "210e3", "7850.0", "", "`density` is not plausible"),
+        ("mm-t-s", 0.0, "210e3", "7.85e-6", "", "`density` is not plausible"),
+        ("mm-t-s", 9.81, "210e3", "7.85e-9", "", "`gravity` is not plausible"),
+        ("mm-kg-ms", 0.0, "210e3", "7.85e-6", "", "`youngs_modulus` is not plausible"),
+        ("", 9.81, "210e3", "7850.0", "", "do not go together with the gravity"),
+        ("", 9.81, "210e9", "7.85", "", "do not go together with the gravity"),
+        ("", 9810.0, "210e3", "7850.0", "", "do not go together with the gravity"),
+        ("", 9.81, "210e3", "7.85e-9", "", "do not go together with the gravity"),
+        ("SI", 9.81, "210e9", "7850.0", "yield_stress = 235.0", "yields at a strain of 1.119e-9"),
+        ("", 0.0, "210e9", "", "yield_stress = 235.0", "is it 2.35e8?"),
+        ("", 0.0, "210e9", "", "hardening = [[0.0, 235.0], [0.1, 300.0]]", "yields at a strain of"),
+        ("", 0.0, "210e3", "", "yield_stress = 235e6", "it may be 2.1e11"),
+        ("", 0.0, "29e6", "", "yield_stress = 36.0", "is it 36000?"),
+        ("", 0.0, "210e9", "", "yield_stress = 235e6\nhardening_modulus = 1500.0", "which has no effect"),
+    ];
+    for (units, gravity, modulus, density, more, said) in cases {
+        let found = slips(&of_material(units, gravity, &material(modulus, 0.3, density, more)));
+        assert!(
+            found.iter().any(|found| found.contains(said)),
+            "{units} {gravity} {modulus} {density} {more}: {found:?}"
+        );
+    }
+}
+
+/// Materials from foam to diamond in every label are not spoken of, nor are academic numbers without one.
+#[test]
+fn materials_in_their_units_are_not_said() {
+    // Modulus in Pa, Poisson's ratio, density in kg/m³, yield stress in Pa or 0.
+    let materials = [
+        (210e9, 0.3, 7850.0, 235e6),
+        (210e9, 0.3, 7850.0, 1800e6),
+        (70e9, 0.33, 2700.0, 15e6),
+        (16e9, 0.44, 11340.0, 5e6),
+        (1050e9, 0.2, 3520.0, 0.0),
+        (400e9, 0.28, 19300.0, 0.0),
+        (30e9, 0.2, 2400.0, 30e6),
+        (11e9, 0.4, 450.0, 0.0),
+        (0.9e9, 0.42, 950.0, 20e6),
+        (2e6, 0.49, 1100.0, 0.0),
+        (1.2e5, 0.1, 40.0, 0.0),
+        (2e5, 0.48, 1000.0, 0.0),
+        (140e9, 0.3, 1600.0, 0.0),
+        (50e6, 0.3, 1900.0, 0.0),
+    ];
+    for (units, [length, mass, time]) in [
+        ("SI", [1.0, 1.0, 1.0]),
+        ("mm-t-s", [1e-3, 1e3, 1.0]),
+        ("mm-kg-s", [1e-3, 1.0, 1.0]),
+        ("mm-kg-ms", [1e-3, 1.0, 1e-3]),
+        ("", [1e-3, 1e3, 1.0]),
+    ] {
+        let pressure: f64 = mass / (length * time * time);
+        for (modulus, ratio, density, stress) in materials {
+            let more = if stress > 0.0 { format!("yield_stress = {:e}", stress / pressure) } else { String::new() };
+            let density = format!("{:e}", density * length.powi(3) / mass);
+            let material = material(&format!("{:e}", modulus / pressure), ratio, &density, &more);
+            let found = slips(&of_material(units, 9.81 * time * time / length, &material));
+            assert_eq!(found, Vec::<String>::new(), "{units} {material}");
+        }
+    }
+    for (modulus, density, more) in [
+        ("1.0", "1.0", ""),
+        ("1e4", "2.5e-4", "yield_stress = 6.0"),
+        ("210e9", "7850.0", "yield_stress = 1e20"),
+        ("2e15", "7850.0", "yield_stress = 250e6"),
+    ] {
+        let found = slips(&of_material("", 0.0, &material(modulus, 0.0, density, more)));
+        assert_eq!(found, Vec::<String>::new(), "{modulus}");
+    }
+}
+
+/// Angles of 90 radians, limits of ±30 and phases of 180 are degrees; turns of a winch and limits in radians are not.
+#[test]
+fn degrees_are_said() {
+    let hinge = |more: &str| {
+        format!(
+            "[analysis]\nkind = \"dynamic\"\nend_time = 0.1\ntime_step = 0.01\n[integrator]\nscheme = \"newmark\"\n\
+             [[bodies]]\nname = \"arm\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+             [[joints]]\nname = \"hinge\"\nkind = \"revolute\"\naxis = [0.0, 0.0, 1.0]\nfrom = {{ ground = [0.0, 0.0, 0.0] }}\n\
+             to = {{ body = \"arm\" }}\n{more}\n"
+        )
+    };
+    let ramp = "[amplitudes.a]\nkind = \"ramp\"\nend = 0.1\n";
+    let turned = |position: f64, points: &str| {
+        hinge(&format!(
+            "motion = {{ position = {position:?}, amplitude = \"a\" }}\n[amplitudes.a]\nkind = \"table\"\npoints = {points}"
+        ))
+    };
+    let sine = |phase: f64| {
+        hinge(&format!(
+            "effort = {{ value = 1.0, amplitude = \"a\" }}\n[amplitudes.a]\nkind = \"sine\"\nfrequency = 1.0\nphase = {phase:?}"
+        ))
+    };
+    let support = |scale: f64| {
+        format!(
+            "{}[points]\np = [1.0, 0.0, 0.0]\n[[masses]]\nat = \"p\"\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n[[supports]]\nat = \"p\"\n\
+             fix = [\"ux\", \"uy\", \"uz\", \"rx\", \"ry\"]\nmotion = {{ rz = {{ amplitude = \"a\", scale = {scale:?} }} }}\n{ramp}",
+            hinge("")
+        )
+    };
+    for (deck, said) in [
+        (hinge("limits = [-30.0, 30.0]\nlimit_stiffness = 1e3"), "30 radians, 4.8 turns"),
+        (hinge("limits = [-10.0, 0.0]\nlimit_stiffness = 1e3"), "-10 radians"),
+        (hinge("stiffness = 1.0\nrest = 45.0"), "45 radians"),
+        (hinge(&format!("motion = {{ position = 90.0, amplitude = \"a\" }}\n{ramp}")), "90 degrees are 1.571 radians"),
+        (turned(1.0, "[[0.0, 0.0], [0.1, 180.0]]"), "180 degrees"),
+        (support(-45.0), "-45 degrees"),
+        (sine(90.0), "`phase_degrees`"),
+    ] {
+        let found = slips(&deck);
+        assert!(found.iter().any(|found| found.contains(said)), "{said}: {found:?}\n{deck}");
+    }
+    for deck in [
+        hinge("limits = [-0.5, 0.5]\nlimit_stiffness = 1e3"),
+        hinge("limits = [-31.4, 31.4]\nlimit_stiffness = 1e3"),
+        hinge("stiffness = 1.0\nrest = 1.5"),
+        hinge(&format!("motion = {{ position = 62.83, amplitude = \"a\" }}\n{ramp}")),
+        hinge(&format!("motion = {{ position = 1.0, amplitude = \"a\" }}\n{ramp}")),
+        hinge("motion = { velocity = 90.0 }"),
+        hinge("limits = [-30.0, 30.0]\nlimit_stiffness = 1e3").replace("revolute", "prismatic"),
+        support(0.5),
+        sine(1.57),
+    ] {
+        let found = slips(&deck);
+        assert!(found.iter().all(|found| !found.contains("degrees")), "{found:?}\n{deck}");
+    }
+}

@@ -15,6 +15,7 @@ use super::data::{
     Rigid, Solution, StepLength,
 };
 use super::doubts::amplitude_ends::check_amplitude_ends;
+use super::doubts::angles::check_angles;
 use super::doubts::node_places::place_nodes;
 use super::doubts::proportions::check_proportions;
 use super::doubts::slivers::check_slivers;
@@ -357,9 +358,8 @@ fn check(
     if kind == AnalysisKind::Dynamic {
         check_mass_scaling(deck, &scene.analysis, &**scheme, &parts.list, report);
     }
-    if let Some(units) = &deck.units {
-        check_units(deck, units.value, report);
-    }
+    check_units(deck, report);
+    check_angles(deck, report);
     mesh
 }
 

@@ -1,6 +1,7 @@
 //! What is odd about a deck that is otherwise sound: nothing in it, things nothing uses, what has no effect.
 
 pub mod amplitude_ends;
+pub mod angles;
 pub mod coincidence;
 pub mod long_chains;
 pub mod node_places;

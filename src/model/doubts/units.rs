@@ -1,7 +1,9 @@
-//! Numbers of the wrong units: those that no material and no planet has.
+//! Numbers of the wrong units: those that no material and no planet has, alone or together.
 
 use crate::deck::Deck;
+use crate::deck::materials::Material;
 use crate::deck::output::Units;
+use crate::deck::words::kinds::OneOf;
 use crate::diagnostic::At;
 use crate::model::report::Report;
 use crate::model::values::vec3;
@@ -13,6 +15,37 @@ const MODULUS: [f64; 2] = [1e5, 1.3e12];
 const DENSITY: [f64; 2] = [1.0, 2.3e4];
 /// Gravity from the Moon to Jupiter, in m/s².
 const GRAVITY: [f64; 2] = [1.6, 26.0];
+/// √(E/ρ) of gel, in m/s. There is no upper bound: a density next to nothing is meant, mostly.
+const SPEED_OF_SOUND: f64 = 10.0;
+/// Common materials: Young's modulus in Pa, density in kg/m³, both from and to.
+const COMMON: [(&str, [f64; 2], [f64; 2]); 8] = [
+    ("steel", [185e9, 215e9], [7700.0, 8100.0]),
+    ("cast iron", [90e9, 180e9], [6900.0, 7400.0]),
+    ("aluminium", [65e9, 75e9], [2600.0, 2850.0]),
+    ("titanium", [100e9, 120e9], [4400.0, 4600.0]),
+    ("copper or brass", [95e9, 135e9], [8300.0, 9000.0]),
+    ("concrete", [20e9, 45e9], [2200.0, 2600.0]),
+    ("carbon fibre", [60e9, 200e9], [1500.0, 1650.0]),
+    ("wood", [8e9, 16e9], [350.0, 800.0]),
+];
+/// Solids denser than this, in kg/m³, are metals, stone and glass, ...
+const DENSE: f64 = 2600.0;
+/// ... and none of those is softer, in Pa: lead has 16e9.
+const STIFF: f64 = 4e9;
+/// Solids softer than this, in Pa, are foams and gels, ...
+const SOFT: f64 = 4.5e5;
+/// ... which hardly change their volume, or are light.
+const INCOMPRESSIBLE: f64 = 0.45;
+/// Strains at which materials yield: lead at 3e-4, steel at 1e-3, springs at 1e-2, rubber at 1. A smaller one makes a solid rigid before it flows.
+const YIELD_STRAIN: [f64; 2] = [1e-5, 0.5];
+/// Young's moduli of what yields so, in Pa, ...
+const METAL: [f64; 2] = [1e9, 1.3e12];
+/// ... and the units in which they are written, in Pa: Pa, MPa, GPa, psi and ksi.
+const PRESSURES: [f64; 5] = [1.0, 1e6, 1e9, 6894.76, 6.89476e6];
+/// A yield stress that is larger by this says that nothing yields.
+const NEVER: f64 = 1e5;
+/// A hardening modulus below this part of Young's modulus has no effect.
+const NO_HARDENING: f64 = 2e-8;
 
 impl Units {
     /// The deck's word for it.
@@ -27,7 +60,7 @@ impl Units {
     }
 
     /// Its length, mass and time in metres, kilograms and seconds.
-    fn scales(self) -> [f64; 3] {
+    pub fn scales(self) -> [f64; 3] {
         match self {
             Units::Si | Units::MKgS => [1.0, 1.0, 1.0],
             Units::MmTS => [1e-3, 1e3, 1.0],
@@ -37,18 +70,32 @@ impl Units {
     }
 }
 
-/// Warns of numbers that are implausible in the units that the deck names.
-pub fn check_units(deck: &Deck, units: Units, report: &mut Report) {
-    let [length, mass, time] = units.scales();
-    let pressure = mass / (length * time * time);
-    for (_, material) in &deck.materials.0 {
-        plausible(units, "youngs_modulus", material.youngs_modulus.as_ref(), pressure, MODULUS, "Pa", report);
-        plausible(units, "density", material.density.as_ref(), mass / length.powi(3), DENSITY, "kg/m³", report);
-    }
+/// Warns of numbers that are implausible in the units that the deck names, and of those that do not go together in any.
+pub fn check_units(deck: &Deck, report: &mut Report) {
     let gravity = deck.environment.as_ref().and_then(|environment| environment.gravity.as_ref());
-    let gravity = gravity.map(|g| At { value: vec3(g).norm(), span: g.span.clone() });
-    let gravity = gravity.filter(|g| g.value > 0.0);
-    plausible(units, "gravity", gravity.as_ref(), length / (time * time), GRAVITY, "m/s²", report);
+    let gravity = gravity.map(|g| At { value: vec3(g).norm(), span: g.span.clone() }).filter(|g| g.value > 0.0);
+    let units = deck.units.as_ref().map(|units| units.value);
+    if let Some(units) = units {
+        let [length, _, time] = units.scales();
+        plausible(units, "gravity", gravity.as_ref(), length / (time * time), GRAVITY, "m/s²", report);
+    }
+    for (name, material) in &deck.materials.0 {
+        let mark = report.mark();
+        if let Some(units) = units {
+            let [length, mass, time] = units.scales();
+            let pressure = mass / (length * time * time);
+            plausible(units, "youngs_modulus", material.youngs_modulus.as_ref(), pressure, MODULUS, "Pa", report);
+            plausible(units, "density", material.density.as_ref(), mass / length.powi(3), DENSITY, "kg/m³", report);
+            if report.is_clean_since(mark) {
+                check_stiffness(&name.value, material, units, report);
+            }
+        } else if let Some(earth) = gravity.as_ref().and_then(|gravity| earth(gravity.value)) {
+            check_beside_gravity(&name.value, material, earth, report);
+        }
+        if report.is_clean_since(mark) {
+            check_yield(&name.value, material, report);
+        }
+    }
 }
 
 fn plausible(
@@ -65,5 +112,127 @@ fn plausible(
     if value > 0.0 && !(low..=high).contains(&value) {
         let message = format!("`{key}` is not plausible in the units {}", units.label());
         report.warn(&at.span, message, format!("that is {} {si}", short(value)));
+    }
+}
+
+/// Warns of a modulus that does not go with the density in the units of the deck, or of a solid softer than rubber.
+fn check_stiffness(name: &str, material: &Material, units: Units, report: &mut Report) {
+    let [length, mass, time] = units.scales();
+    let (pressure, per_volume) = (mass / (length * time * time), mass / length.powi(3));
+    let Some(modulus) = &material.youngs_modulus else { return };
+    let stiffness = modulus.value * pressure;
+    let Some(density) = material.density.as_ref().filter(|density| density.value > 0.0) else {
+        let is_gel = material.poisson_ratio.as_ref().is_some_and(|ratio| ratio.value >= INCOMPRESSIBLE);
+        if stiffness > 0.0 && stiffness < SOFT && !is_gel {
+            let message = format!(
+                "material `{name}` is softer than rubber: in {} its modulus is {} Pa",
+                units.label(),
+                short(stiffness)
+            );
+            report.warn(&modulus.span, message, format!("steel has {} there", short(2.1e11 / pressure)));
+        }
+        return;
+    };
+    let dense = density.value * per_volume;
+    let is_soft = dense > DENSE && stiffness < STIFF || (stiffness / dense).sqrt() < SPEED_OF_SOUND;
+    let as_water = common(stiffness, 1e3 * dense);
+    if stiffness > 0.0 && (is_soft || as_water.is_some()) {
+        let message = format!(
+            "modulus and density of material `{name}` do not go together in the units {}: {} Pa with {} kg/m³",
+            units.label(),
+            short(stiffness),
+            short(dense)
+        );
+        let hint =
+            format!("steel has {} and a density of {} there", short(2.1e11 / pressure), short(7850.0 / per_volume));
+        report.warn(&modulus.span, message, hint);
+    }
+}
+
+/// The common material of this modulus, in Pa, and density, in kg/m³.
+fn common(modulus: f64, density: f64) -> Option<&'static str> {
+    let is = |[low, high]: [f64; 2], value: f64| (low..=high).contains(&value);
+    COMMON.iter().find(|(_, e, rho)| is(*e, modulus) && is(*rho, density)).map(|(name, ..)| *name)
+}
+
+/// The unit of acceleration of a deck whose gravity is that of the Earth, as length and time in m and s; `None` for another gravity.
+fn earth(gravity: f64) -> Option<[f64; 2]> {
+    // Metres, millimetres, centimetres, inches and feet with seconds, and millimetres with milliseconds.
+    let units = [[1.0, 1.0], [1e-3, 1.0], [0.01, 1.0], [0.0254, 1.0], [0.3048, 1.0], [1e-3, 1e-3]];
+    units.into_iter().find(|[length, time]| (9.78..=9.84).contains(&(gravity * length / (time * time))))
+}
+
+/// Without a label the gravity tells lengths and times: a common material in other units, or a speed of sound that no solid has, is a slip.
+fn check_beside_gravity(name: &str, material: &Material, [length, time]: [f64; 2], report: &mut Report) {
+    let (Some(modulus), Some(density)) = (&material.youngs_modulus, &material.density) else { return };
+    let labels = [Units::Si, Units::MmTS, Units::MmKgS, Units::MmKgMs];
+    let acceleration = |[length, time]: [f64; 2]| length / (time * time);
+    let found = labels.iter().filter_map(|label| {
+        let [own_length, mass, own_time] = label.scales();
+        let pressure = mass / (own_length * own_time * own_time);
+        let is = common(modulus.value * pressure, density.value * mass / own_length.powi(3))?;
+        Some((is, label.label(), acceleration([own_length, own_time]) == acceleration([length, time])))
+    });
+    let found: Vec<(&str, &str, bool)> = found.collect();
+    if found.iter().any(|(.., same)| *same) {
+        return;
+    }
+    let message = format!("modulus and density of material `{name}` do not go together with the gravity");
+    if let Some((is, label, _)) = found.first() {
+        let hint = format!("they are those of {is} in the units {label}, where gravity has another value");
+        report.warn(&modulus.span, message, hint);
+        return;
+    }
+    let speed = (modulus.value / density.value).sqrt() * length / time;
+    let in_water = length == 1.0 && common(modulus.value, 1e3 * density.value).is_some();
+    if speed > 0.0 && (speed < SPEED_OF_SOUND || in_water) {
+        let hint = format!("sound would travel at {} m/s: solids have 50 to 20000 m/s, steel 5200", short(speed));
+        report.warn(&modulus.span, message, hint);
+    }
+}
+
+/// Warns of a yield stress or hardening that does not go with Young's modulus in any unit.
+fn check_yield(name: &str, material: &OneOf<Material>, report: &mut Report) {
+    let Some(modulus) = material.youngs_modulus.as_ref().filter(|modulus| modulus.value > 0.0) else { return };
+    let (key, stress) = match (material.values.numbers("yield_stress"), material.values.numbers("hardening")) {
+        (&[stress], _) => ("yield_stress", stress),
+        (_, &[_, stress, ..]) => ("hardening", stress),
+        _ => return,
+    };
+    let ratio = stress / modulus.value;
+    let place = |key: &str| material.values.place(key).unwrap_or(&modulus.span);
+    if let Some(factor) = slip(stress, modulus.value).filter(|_| ratio > 0.0 && ratio < YIELD_STRAIN[0]) {
+        let message = format!("material `{name}` yields at a strain of {}: metals do at 1e-4 to 1e-2", short(ratio));
+        let hint = format!("`{key}` and `youngs_modulus` are in one unit: is it {}?", short(stress * factor));
+        report.warn(place(key), message, hint);
+    } else if ratio > YIELD_STRAIN[1] && ratio < NEVER {
+        let message = format!("the yield stress of material `{name}` is {} times its Young's modulus", short(ratio));
+        report.warn(&modulus.span, message, softer(stress, modulus));
+    }
+    let hardening = material.values.numbers("hardening_modulus");
+    if let (&[hardening], Some(place)) = (hardening, material.values.place("hardening_modulus"))
+        && hardening > 0.0
+        && hardening < NO_HARDENING * modulus.value
+    {
+        let part = short(hardening / modulus.value);
+        let message =
+            format!("the hardening of material `{name}` is {part} of its Young's modulus, which has no effect");
+        let hint = format!("give both in the same unit, such as {}, or leave it out", short(1e6 * hardening));
+        report.warn(place, message, hint);
+    }
+}
+
+/// The factor of units that makes a yield stress plausible beside the modulus of a metal.
+fn slip(stress: f64, modulus: f64) -> Option<f64> {
+    let is_metal = |pressure: &f64| (METAL[0]..=METAL[1]).contains(&(modulus * pressure));
+    let plausible = |factor: &f64| (1e-4..=2e-2).contains(&(stress * factor / modulus));
+    PRESSURES.iter().any(is_metal).then(|| [1e6, 1e3, 1e9].into_iter().find(plausible)).flatten()
+}
+
+fn softer(stress: f64, modulus: &At<f64>) -> String {
+    let plausible = |factor: &f64| (1e-4..=2e-2).contains(&(stress / (factor * modulus.value)));
+    match [1e6, 1e3, 1e9].into_iter().find(plausible) {
+        Some(factor) => format!("in the unit of the yield stress it may be {}", short(factor * modulus.value)),
+        None => "give both in the same unit".to_owned(),
     }
 }
