@@ -211,13 +211,14 @@ fn a_record_of_a_data_base_is_read_as_it_is() {
     assert_eq!(found, (0, String::new()));
     let bodies = |out: &str| fs::read(folder.join(out).join("bodies.csv")).unwrap();
     assert!(bodies("columns") == bodies("at2"));
-    // What has no meaning with such a file, what is missing, and where the file is wrong.
+    // What does not go with the header, what is missing, and where the file is wrong.
     for (keys, spoil, said) in [
-        ("time_step = 0.005", "", &["`time_step` does not apply to an .AT2 file", "deck.toml:"][..]),
-        ("columns = 1", "", &["`columns` does not apply to an .AT2 file"]),
+        ("time_step = 0.01", "", &["`time_step` is 0.01, and the header says 0.005", "RSN6_180.AT2:4"][..]),
+        ("columns = [1, 2]", "", &["the time falls", "RSN6_180.AT2:"]),
         ("", "NPTS=    402", &["there are 401 values, and NPTS = 402 says more", "RSN6_180.AT2:85"]),
         ("", "NPTS=    400", &["there are more values than NPTS = 400", "RSN6_180.AT2:85:3"]),
         ("", "NPTS=   none", &["NPTS is the number of values, 2 or more, not `NONE`", "RSN6_180.AT2:4"]),
+        ("", "COUNT=    401", &["no line says `NPTS= .., DT= ..`", "`rows = true` and `time_step`"]),
     ] {
         let text = if spoil.is_empty() { at2.clone() } else { at2.replace("NPTS=    401", spoil) };
         fs::write(folder.join("RSN6_180.AT2"), text).unwrap();
@@ -225,9 +226,109 @@ fn a_record_of_a_data_base_is_read_as_it_is() {
         assert_eq!(code, 3, "{keys}{spoil}: {found}");
         said.iter().for_each(|said| assert!(found.contains(said), "{keys}{spoil}: {found}"));
     }
-    fs::write(folder.join("RSN6_180.AT2"), at2).unwrap();
-    let (code, found) = run(folder, &deck("file = \"RSN6_180.AT2\"").replace("scale = 9.81", ""), "", "out");
-    assert!(code == 0 && found.contains("is in g, and nothing says how much that is"), "{found}");
+    // The same values by the other name, by another dress of the header, and without it.
+    let filtered = at2.replace("UNITS OF G", "UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz");
+    for (file, text, keys) in [
+        ("RSN6_180.AT2", filtered.clone(), ""),
+        ("quake.txt", filtered, ""),
+        ("quake.txt", rows.clone(), "rows = true\ntime_step = 0.005"),
+        ("RSN6_180.AT2", rows, "rows = true\ntime_step = 0.005"),
+        ("quake.csv", values.chunks(7).map(|row| row.join(",") + ",\n").collect(), "rows = true\ntime_step = 0.005"),
+        ("quake.txt", at2.replace("NPTS=    401, DT=   .0050 SEC", "DT= 5.0D-3 SEC, NPTS= 401"), "time_step = 0.005"),
+    ] {
+        fs::write(folder.join(file), text).unwrap();
+        let found = run(folder, &deck(&format!("file = \"{file}\"\n{keys}")), "", "at2");
+        assert_eq!(found, (0, String::new()), "{file} {keys}");
+        assert!(bodies("columns") == bodies("at2"), "{file} {keys}");
+    }
+}
+
+/// The remedies that a file row by row is told of both work, and a column that is part of a sequence is asked about.
+#[test]
+fn several_values_a_line_are_rows_or_columns() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let deck = |keys: &str| {
+        let amplitude = "[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"zero\"\n";
+        format!("{OSCILLATOR}{SHAKEN}{amplitude}{keys}\n")
+    };
+    let values: Vec<String> = (0..=400).map(|k| format!("{:.6}", pulse(k))).collect();
+    let rows: String = values.chunks(5).map(|row| row.join(" ") + "\n").collect();
+    for keys in ["time_step = 0.005", ""] {
+        let (code, found) = run(folder, &deck(keys), &rows, "out");
+        assert!(code == 3 && found.contains("a line has 5 values: `columns` says"), "{found}");
+        assert!(found.contains("`rows = true`") && found.contains("record.csv:1"), "{found}");
+    }
+    let (code, found) = run(folder, &deck("rows = true\ntime_step = 0.005"), &rows, "out");
+    assert_eq!((code, found.as_str()), (0, ""));
+    let (code, found) = run(folder, &deck("columns = 1\ntime_step = 0.005"), &rows, "out");
+    assert!(code == 0 && found.contains("look like one sequence") && found.contains("`rows = true`"), "{found}");
+    let meant = run(folder, &deck("columns = 1\nrows = false\ntime_step = 0.005"), &rows, "out");
+    assert_eq!(meant, (0, String::new()));
+    for (keys, said) in [
+        ("rows = true", "the file does not say how far apart its values are"),
+        ("rows = true\ncolumns = 1\ntime_step = 0.005", "`columns` does not apply to a file that is read row by row"),
+        ("rows = true\ntime_step = -1.0", "`time_step` must be above 0"),
+    ] {
+        let (code, found) = run(folder, &deck(keys), &rows, "out");
+        assert!(code == 3 && found.contains(said), "{keys}: {found}");
+    }
+}
+
+/// A record whose header names a unit is not converted: where nothing else does, or where the factor is that of another unit, it is said.
+#[test]
+fn units_of_records_are_compared_with_the_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let record = |kind: &str, unit: &str| {
+        let values: String = (0..=400).map(|k| format!("{:.6}\n", pulse(k))).collect();
+        format!("A\nB\n{kind} TIME SERIES IN UNITS OF {unit}\nNPTS= 401, DT= .005 SEC\n{values}")
+    };
+    let g = record("ACCELERATION", "G");
+    let velocity = record("VELOCITY", "CM/S");
+    let displacement = record("DISPLACEMENT", "CM");
+    let moved = |history: &str| {
+        format!(
+            "[points]\np = [5.0, 0.0, 0.0]\n[[masses]]\nat = \"p\"\nmass = 1.0\n[[supports]]\nat = \"p\"\nfix = [\"uy\", \"uz\"]\n\
+             motion = {{ ux = {{ amplitude = \"quake\"{history} }} }}\n"
+        )
+    };
+    let (si, mm) = ("units = \"SI\"\n", "units = \"mm-t-s\"\n");
+    let cases: [(&str, &str, &str, &str, Option<&str>); 17] = [
+        ("", SHAKEN, "", &g, Some("is in G, and nothing says how much that is")),
+        ("", SHAKEN, "scale = 1.0", &g, None),
+        (si, SHAKEN, "", &g, Some("`scale = 9.807`")),
+        (si, SHAKEN, "scale = 9.81", &g, None),
+        (si, SHAKEN, "scale = 30.0", &g, None),
+        (si, SHAKEN, "scale = 9810.0", &g, Some("the scale is 9810")),
+        (mm, SHAKEN, "scale = 9.81", &g, Some("`scale = 9807`")),
+        (mm, SHAKEN, "scale = 9810.0", &g, None),
+        (si, SHAKEN, "", &record("ACCELERATION", "cm/sec**2"), Some("`scale = 0.01`")),
+        (si, SHAKEN, "scale = 9.81", &record("ACCELERATION", "GAL"), Some("the scale is 9.81")),
+        (
+            si,
+            SHAKEN,
+            "scale = 0.01",
+            &displacement,
+            Some("has displacements in CM, and the ground takes it for accelerations"),
+        ),
+        (si, &moved(""), "scale = 9.81", &g, Some("`history = \"acceleration\"`")),
+        (si, &moved(", history = \"acceleration\""), "", &g, Some("no `scale` converts it")),
+        (si, &moved(", history = \"velocity\", scale = 0.01"), "", &velocity, None),
+        (si, &moved(", history = \"velocity\""), "", &velocity, Some("is in CM/S")),
+        (si, &moved(", history = \"acceleration\", scale = 0.01"), "", &velocity, Some("`history = \"velocity\"`")),
+        ("", SHAKEN, "", &record("ACCELERATION", "COUNTS"), Some("is in COUNTS, and nothing says")),
+    ];
+    for (label, used, keys, record, said) in cases {
+        let amplitude =
+            format!("[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"zero\"\n{keys}\n");
+        let (code, found) = run(folder, &format!("{label}{OSCILLATOR}{used}{amplitude}"), record, "out");
+        assert_eq!(code, 0, "{found}");
+        match said {
+            Some(said) => assert!(found.contains(said), "{label}{keys}{used}: {found}"),
+            None => assert!(!found.contains("record.csv"), "{label}{keys}{used}: {found}"),
+        }
+    }
 }
 
 /// The hash of a run is that of its records too: other numbers, another hash.

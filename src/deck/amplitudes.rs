@@ -16,12 +16,16 @@ pub struct Amplitude {
     /// [[time, value], ...], two or more, times increasing; straight lines between them, the first and last value held
     /// before and after unless `before` and `after` say otherwise. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
-    /// A file with the points instead, in columns between commas, semicolons or blanks; the path is relative to the deck. A name that ends
-    /// with .AT2 is that of a record of the PEER data bases: accelerations in g, with their number and time step in the fourth line. (table)
+    /// A file with the points instead; the path is relative to the deck. Headers of PEER (.AT2, .VT2, .DT2), ESM, K-NET and CSMIP (volume 2) are
+    /// recognized: the values then follow one another along the lines, at the time step of the header and in its unit. Other files have columns
+    /// between commas, semicolons or blanks, or `rows`. (table)
     pub file: Maybe<String>,
     /// The columns of time and value in the file, by name or by number from 1; with `time_step` that of the value alone. Default: the only
     /// ones. (table)
     pub columns: Maybe<OneOrMany<ColumnName>>,
+    /// True for a file whose values follow one another along the lines, as many a line as there are; needs `time_step` where no header says
+    /// it. Default: true with a header of a data base, else false. (table)
+    pub rows: Maybe<bool>,
     /// The time between two values of a file without times, above 0; the first is at 0. (table)
     pub time_step: Maybe<f64>,
     /// Factor on the values, such as 9.81 for a record in g. Default: 1. (table)

@@ -130,10 +130,10 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
         Some("orientation"),
     ),
     (
-        &["file", "csv", "path", "record"],
+        &["csv", "path", "record", "file_name", "filename", "filePath"],
         "angular_frequency",
-        "no file is read: paste the record as `points` = [[time, value], ...]",
-        Some("points"),
+        "a record in a file is `file` = \"record.csv\" here",
+        Some("file"),
     ),
     (
         &["times", "time", "t", "values", "data", "y"],

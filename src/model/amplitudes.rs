@@ -1,5 +1,6 @@
 //! `[amplitudes.x]`: functions of time.
 
+use super::doubts::record_units::check_record_units;
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
@@ -8,8 +9,7 @@ use crate::amplitude::{self, Amplitude};
 use crate::deck::Deck;
 use crate::deck::amplitudes as words;
 use crate::deck::words::{Maybe, Table};
-use crate::diagnostic::At;
-use crate::record::is_at2;
+use crate::diagnostic::{At, Span};
 
 /// Reads `[amplitudes]`, with the records that have been read for them. Each gives one, also those with errors, since others refer to them
 /// by their index.
@@ -29,6 +29,7 @@ pub(super) fn amplitudes<'d>(
         }
     });
     let read: Vec<Amplitude> = read.collect();
+    check_record_units(deck, records, report);
     // Those of loads without one come behind them.
     read.into_iter().chain(stage.iter().flat_map(CurrentStage::own_amplitudes)).collect()
 }
@@ -42,10 +43,7 @@ fn read_amplitude<'d>(
     let a = amplitude;
     let owner = Owner::new(format!("amplitude `{name}`"), &a.span);
     let kind = report.require(&owner, "kind", &a.kind)?.value;
-    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
-    let others =
-        [("before", span(&a.before)), ("after", span(&a.after)), ("scale", span(&a.scale)), ("shift", span(&a.shift))];
-    let points = [&[("points", span(&a.points)), ("file", span(&a.file))], &of_file[..], &others].concat();
+    let points = keys_of_tables(a);
     let waves = [("frequency", span(&a.frequency)), ("angular_frequency", span(&a.angular_frequency))];
     let phase = [("phase", span(&a.phase)), ("phase_degrees", span(&a.phase_degrees))];
     let window = [("start", span(&a.start)), ("end", span(&a.end))];
@@ -92,6 +90,21 @@ fn read_amplitude<'d>(
     }
 }
 
+/// The keys of tables, and where they are written.
+fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 9] {
+    [
+        ("points", span(&a.points)),
+        ("file", span(&a.file)),
+        ("columns", span(&a.columns)),
+        ("time_step", span(&a.time_step)),
+        ("rows", span(&a.rows)),
+        ("before", span(&a.before)),
+        ("after", span(&a.after)),
+        ("scale", span(&a.scale)),
+        ("shift", span(&a.shift)),
+    ]
+}
+
 /// The phase in radians.
 fn phase<'d>(owner: &Owner<'d>, a: &'d words::Amplitude, report: &mut Report<'d>) -> f64 {
     match (&a.phase, &a.phase_degrees) {
@@ -112,12 +125,9 @@ fn of_points_or_file<'d>(
     record: Option<&Record>,
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
-    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step))];
-    if let Some(file) = &a.file {
+    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step)), ("rows", span(&a.rows))];
+    if a.file.is_some() {
         report.reject_unused("a table from a file", &[("points", span(&a.points))]);
-        if is_at2(&file.value) {
-            report.reject_unused("an .AT2 file, which says itself how far apart its values are", &of_file);
-        }
         return table(a, record?.points.clone(), report);
     }
     report.reject_unused("a table without a file", &of_file);
@@ -146,9 +156,10 @@ fn table<'d>(
         let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
         pair[1][0] > pair[0][0] && !slope.is_finite()
     };
+    let beyond = "values or slopes of this table lie beyond the range of numbers, about 1e308";
+    let place = a.scale.as_ref().map_or(&a.span, |scale| &scale.span);
     if points.iter().flatten().any(|number| !number.is_finite()) || points.windows(2).any(is_steep) {
-        let place = a.scale.as_ref().map_or(&a.span, |scale| &scale.span);
-        return report.error(place, "values or slopes of this table lie beyond the range of numbers, about 1e308");
+        return report.error(place, beyond);
     }
     Some(Amplitude::Table(amplitude::StraightLines::new(points)))
 }

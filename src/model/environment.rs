@@ -10,7 +10,6 @@ use super::values::vec3_or_zero;
 use crate::amplitude::Amplitude;
 use crate::deck::Deck;
 use crate::math::Vec3;
-use crate::record::is_at2;
 
 /// What acts on all masses: gravity with the index of its amplitude, and the accelerations of the ground.
 #[derive(Default)]
@@ -44,13 +43,6 @@ pub(super) fn environment<'d>(
         let amplitude = report.require(&owner, "amplitude", &base.amplitude);
         let amplitude = amplitude.and_then(|name| report.find("amplitude", &deck.amplitudes, name));
         let scale = base.scale.as_ref().map_or(1.0, |scale| scale.value);
-        if let (Some((_, words)), None) = (amplitude, &base.scale)
-            && words.scale.is_none()
-            && let Some(file) = words.file.as_ref().filter(|file| is_at2(&file.value))
-        {
-            let message = format!("the record `{}` is in g, and nothing says how much that is", file.value);
-            report.warn(&base.span, message, "`scale = 9.81` in metres and seconds, or `scale = 1.0`");
-        }
         if let (Some(direction), Some((amplitude, _))) = (direction, amplitude) {
             accelerations.push(BaseAcceleration { direction: direction * scale, amplitude });
         }

@@ -5,7 +5,8 @@ use crate::deck::Deck;
 use crate::deck::amplitudes::Amplitude;
 use crate::deck::words::ColumnName;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::record::{self, RecordColumn, RecordSelection};
+use crate::names::short;
+use crate::record::{self, RecordColumn, RecordSelection, RecordUnit, TimeSeries};
 use crate::text_file::read_regular;
 use sha2::{Digest, Sha256};
 use std::path::Path;
@@ -17,6 +18,8 @@ pub struct Record {
     pub path: String,
     /// The points (time, value) as the file has them.
     pub points: Vec<[f64; 2]>,
+    /// The unit of the values, where the file names it.
+    pub unit: Option<RecordUnit>,
     /// SHA-256 of the file.
     pub digest: [u8; 32],
 }
@@ -32,40 +35,70 @@ impl Record {
 /// is to say about the files.
 pub fn load_records(deck: &Deck, folder: &Path) -> (Vec<Option<Record>>, Vec<Diagnostic>) {
     let mut problems = Vec::new();
-    let all = deck
-        .amplitudes
-        .0
-        .iter()
-        .map(|(_, amplitude)| load(amplitude, folder).map_err(|found| problems.extend(found)).ok().flatten());
+    let all = deck.amplitudes.0.iter().map(|(_, amplitude)| match load(amplitude, folder) {
+        Ok(Some((record, doubts))) => {
+            problems.extend(doubts);
+            Some(record)
+        }
+        Ok(None) => None,
+        Err(found) => {
+            problems.extend(found);
+            None
+        }
+    });
     let records = all.collect();
     (records, problems)
 }
 
-fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<Record>, Vec<Diagnostic>> {
+fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<(Record, Vec<Diagnostic>)>, Vec<Diagnostic>> {
     let Some(file) = &amplitude.file else { return Ok(None) };
     let time_step = amplitude.time_step.as_ref();
     if let Some(step) = time_step.filter(|step| step.value <= 0.0) {
         return Err(vec![Diagnostic::error("`time_step` must be above 0").at(&step.span)]);
+    }
+    let rows = amplitude.rows.as_ref().map(|rows| rows.value);
+    if let Some(columns) = amplitude.columns.as_ref().filter(|_| rows == Some(true)) {
+        let message = "`columns` does not apply to a file that is read row by row";
+        return Err(vec![Diagnostic::error(message).at(&columns.span)]);
     }
     let path = folder.join(&file.value).display().to_string();
     let bytes = read_regular(Path::new(&path)).map_err(|error| {
         let message = format!("cannot read the record `{path}`: {error}");
         vec![Diagnostic::error(message).at(&file.span).hint("the path is relative to the deck's folder")]
     })?;
-    if record::is_at2(&path) {
-        let points = record::read_at2(&path, &bytes).map_err(|found| at_file(found, &file.span))?;
-        return Ok(Some(Record { path, points, digest: Sha256::digest(&bytes).into() }));
-    }
     let column = |name: &ColumnName| match name {
         ColumnName::Name(name) => RecordColumn::Name(name.clone()),
         ColumnName::Number(number) => RecordColumn::Number(*number),
     };
     let columns = amplitude.columns.iter().flat_map(|columns| &columns.values).map(|at| column(&at.value)).collect();
-    let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value) };
-    match record::read(&path, &bytes, &selection) {
-        Ok(points) => Ok(Some(Record { path, points, digest: Sha256::digest(&bytes).into() })),
-        Err(found) => Err(at_file(found, &file.span)),
+    let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value), rows };
+    let series = record::read(&path, &bytes, &selection).map_err(|found| at_file(found, &file.span))?;
+    let doubts = doubts(amplitude, &file.value, &series);
+    let record = Record { path, points: series.points, unit: series.unit, digest: Sha256::digest(&bytes).into() };
+    Ok(Some((record, doubts)))
+}
+
+/// Tells of an offset that was subtracted, and of a column that may be part of a sequence.
+fn doubts(amplitude: &Amplitude, file: &str, series: &TimeSeries) -> Vec<Diagnostic> {
+    let place = amplitude.columns.as_ref().map(|columns| &columns.span);
+    let place = place.or(amplitude.file.as_ref().map(|file| &file.span));
+    let mut doubts = Vec::new();
+    if let Some((offset, unit)) = series.offset.zip(series.unit.as_ref()) {
+        let message = format!(
+            "the mean of the record `{file}`, {} {}, is subtracted: its instrument has an offset",
+            short(offset),
+            unit.name
+        );
+        doubts.push(Diagnostic::note(message));
     }
+    if let Some(count) = series.sequence {
+        let message = format!(
+            "`columns` takes one of the {count} values of each line of `{file}`, and the values along its lines look like one sequence"
+        );
+        let hint = "`rows = true` reads them one after the other; `rows = false` says that columns are meant";
+        doubts.push(Diagnostic::warning(message).hint(hint));
+    }
+    doubts.into_iter().map(|doubt| place.iter().fold(doubt, |doubt, place| doubt.at(place))).collect()
 }
 
 /// Errors of a file, with the place of its name in the deck.

@@ -1,15 +1,21 @@
-//! Records: a quantity over time in columns of a text file, as instruments and data bases give them.
+//! Records: a quantity over time in a text file, as instruments and data bases give them.
 //!
-//! Columns stand between semicolons, commas, tabs or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are
-//! comments; one line of names may come before the numbers.
+//! Values follow one another along the lines, as the header of a data base or the deck says, or stand in columns between semicolons, commas, tabs
+//! or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are comments; one line of names may come before
+//! the columns.
 
-mod at2;
+mod header;
+mod number;
+mod rows;
+mod unit;
 
-pub use at2::{is_at2, read_at2};
+use rows::MOST_FAULTS;
+pub use unit::{MotionQuantity, RecordUnit};
 
 use crate::diagnostic::Diagnostic;
 use crate::names::{nearest, quoted};
 use crate::text_file::{Fault, Text, TextLine, Word};
+use std::path::Path;
 
 /// A column of a record.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,26 +31,113 @@ pub enum RecordColumn {
 pub struct RecordSelection {
     /// The column of the time and that of the value, or that of the value alone; none where the file has no others.
     pub columns: Vec<RecordColumn>,
-    /// The time between two values, the first at 0; `None` where the file has the times.
+    /// The time between two values, the first at 0; `None` where the file has the times or says their distance.
     pub time_step: Option<f64>,
+    /// Whether values follow one another along the lines; `None` where the header of the file says it.
+    pub rows: Option<bool>,
 }
 
-/// The largest number of errors of one file that are said.
-const MOST_FAULTS: usize = 10;
+/// A record as its file has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeSeries {
+    /// The points (time, value).
+    pub points: Vec<[f64; 2]>,
+    /// The unit of the values, where the header names one.
+    pub unit: Option<RecordUnit>,
+    /// The offset of the instrument that was subtracted from all values, in their unit.
+    pub offset: Option<f64>,
+    /// The number of values of a line, where they look like a sequence of which the column takes a part.
+    pub sequence: Option<usize>,
+}
 
-/// Reads the points (time, value) of a record from the bytes of a file whose path, for messages, is `path`.
+/// Reads a record from the bytes of a file whose path, for messages, is `path`.
 ///
 /// # Errors
 /// All errors found in the file, at least one and at most some.
-pub fn read(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<Vec<[f64; 2]>, Vec<Diagnostic>> {
+pub fn read(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<TimeSeries, Vec<Diagnostic>> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let mut reader =
-        Reader { text: Text::new(path, bytes), separator: None, faults: Vec::new(), columns: 0, last: 0, blank: 0 };
+    read_text(path, bytes, selection).map_err(|faults| faults.into_iter().map(|fault| *fault).collect())
+}
+
+fn read_text(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<TimeSeries, Vec<Fault>> {
+    let text = Text::new(path, bytes);
+    let header = header::find(path, bytes).map_err(|fault| vec![fault])?;
+    let is_in_rows = selection.rows.unwrap_or(header.is_some() && selection.columns.is_empty());
+    let is_bare = selection.columns.is_empty() && selection.time_step.is_none();
+    if is_bare && header.is_none() && is_of_peer(path) {
+        let fault = text.fault("no line says `NPTS= .., DT= ..`, as headers of the PEER data bases do", 1);
+        return Err(vec![Box::new(fault.hint("`rows = true` and `time_step` read values without such a header"))]);
+    }
+    if !is_in_rows {
+        let last = header.as_ref().map_or(0, |header| header.last_line);
+        return read_columns(text, last, selection, header.and_then(|header| header.unit));
+    }
+    let Some(step) = header.as_ref().map(|header| header.step).or(selection.time_step) else {
+        let message = "the file does not say how far apart its values are: `rows = true` needs `time_step` beside it";
+        return Err(vec![text.fault(message, 1)]);
+    };
+    if let (Some(given), Some(header)) = (selection.time_step, &header)
+        && (given - step).abs() > 1e-6 * step
+    {
+        let message = format!("`time_step` is {given}, and the header says {step}: leave `time_step` out");
+        return Err(vec![text.fault(message, header.last_line)]);
+    }
+    let points = rows::read_rows(text, header.as_ref(), step)?;
+    let mut series = with_unit(points, header);
+    if series.unit.is_none() && has_extension(path, "at2") {
+        series.unit = Some(RecordUnit::new("g"));
+    }
+    Ok(series)
+}
+
+/// The points in the unit of the header, without the offset of the instrument.
+fn with_unit(mut points: Vec<[f64; 2]>, header: Option<header::Header>) -> TimeSeries {
+    let Some(header) = header else { return TimeSeries { points, unit: None, offset: None, sequence: None } };
+    points.iter_mut().for_each(|[_, value]| *value *= header.factor);
+    let offset = header.has_offset.then(|| points.iter().map(|[_, value]| value).sum::<f64>() / points.len() as f64);
+    points.iter_mut().for_each(|[_, value]| *value -= offset.unwrap_or(0.0));
+    TimeSeries { points, unit: header.unit, offset, sequence: None }
+}
+
+/// True for the names of files from the PEER data bases.
+fn is_of_peer(path: &str) -> bool {
+    ["at2", "vt2", "dt2"].iter().any(|extension| has_extension(path, extension))
+}
+
+fn has_extension(path: &str, wanted: &str) -> bool {
+    Path::new(path).extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}
+
+/// Reads a record in columns behind the line of this number.
+fn read_columns(
+    mut text: Text,
+    last: usize,
+    selection: &RecordSelection,
+    unit: Option<RecordUnit>,
+) -> Result<TimeSeries, Vec<Fault>> {
+    text.skip_to(last);
+    let mut reader = Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None };
     let points = reader.points(selection);
     if reader.faults.is_empty() {
-        return Ok(points);
+        let sequence = reader.jumps.filter(Jumps::is_sequence).map(|_| reader.columns);
+        return Ok(TimeSeries { points, unit, offset: None, sequence });
     }
-    Err(reader.faults.into_iter().map(|fault| *fault).collect())
+    Err(reader.faults)
+}
+
+/// Differences of the first lines of a column: along lines, and from line to line.
+#[derive(Default)]
+struct Jumps {
+    lines: usize,
+    along: f64,
+    across: f64,
+}
+
+impl Jumps {
+    /// True where values along the lines follow one another twice as closely as those of the column do.
+    fn is_sequence(&self) -> bool {
+        self.lines > 2 && 2.0 * self.along < self.across
+    }
 }
 
 struct Reader<'t> {
@@ -57,6 +150,8 @@ struct Reader<'t> {
     /// The number of the last line that was read, comments included, and of empty ones before it.
     last: usize,
     blank: usize,
+    /// Where a file without names has a column that may be part of a sequence.
+    jumps: Option<Jumps>,
 }
 
 /// The places of the wanted columns in a line, from 0.
@@ -82,6 +177,8 @@ impl<'t> Reader<'t> {
                 return Vec::new();
             }
         };
+        let may_be_sequence = selection.rows.is_none() && names.is_empty() && count > 2 && places.time.is_none();
+        self.jumps = may_be_sequence.then(Jumps::default);
         let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.text.bytes.len() / (line.bytes.len() + 1) + 1);
         loop {
             self.point(line, &places, selection.time_step, &mut points);
@@ -170,6 +267,7 @@ impl<'t> Reader<'t> {
             return;
         }
         let Some(value) = self.number(line, places.value) else { return };
+        self.compare_along(line, value, points.last());
         let Some(place) = places.time else {
             // Without times an empty line would make all later values early.
             if self.blank > 0 && !points.is_empty() {
@@ -194,6 +292,17 @@ impl<'t> Reader<'t> {
             return;
         }
         points.push([time, value]);
+    }
+
+    /// Adds the differences along a line and to the line before, among the first lines.
+    fn compare_along(&mut self, line: TextLine<'t>, value: f64, before: Option<&[f64; 2]>) {
+        const LINES: usize = 2000;
+        let Some(jumps) = self.jumps.as_ref().filter(|jumps| jumps.lines < LINES) else { return };
+        let values: Vec<f64> = self.split(line).iter().filter_map(Word::number).collect();
+        let along =
+            values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum::<f64>() / (values.len().max(2) - 1) as f64;
+        let across = before.map_or(0.0, |before| (value - before[1]).abs());
+        self.jumps = Some(Jumps { lines: jumps.lines + 1, along: jumps.along + along, across: jumps.across + across });
     }
 
     /// A number of a line; what is wrong is noted.
@@ -235,11 +344,20 @@ fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result
         names => format!("the file has {}", quoted(names.iter().map(String::as_str))),
     };
     if selection.columns.is_empty() {
-        let which = if wanted == 1 { "that of the value" } else { "that of the time and that of the value" };
+        let which = match wanted {
+            1 => "which of them is the value",
+            _ => "which are the time and the value",
+        };
         return match count == wanted {
             true => Ok(Places { time: (wanted == 2).then_some(0), value: wanted - 1 }),
             false if count == 1 => Err("the file has one column: `time_step` says how far apart its values are".into()),
-            false => Err(format!("`columns` must say which is {which}: {of_file}")),
+            false if names.is_empty() => {
+                let step = if wanted == 1 { "" } else { " with `time_step`" };
+                Err(format!(
+                    "a line has {count} values: `columns` says {which}, or `rows = true`{step} reads all of them one after the other along the lines"
+                ))
+            }
+            false => Err(format!("`columns` must say {which}: {of_file}")),
         };
     }
     let found = selection.columns.iter().map(|column| match column {
@@ -270,7 +388,11 @@ mod tests {
     use super::*;
 
     fn select(columns: &[RecordColumn], time_step: Option<f64>) -> RecordSelection {
-        RecordSelection { columns: columns.to_vec(), time_step }
+        RecordSelection { columns: columns.to_vec(), time_step, rows: None }
+    }
+
+    fn points(text: &str, selection: &RecordSelection) -> Vec<[f64; 2]> {
+        read("r", text.as_bytes(), selection).unwrap().points
     }
 
     fn name(name: &str) -> RecordColumn {
@@ -290,15 +412,15 @@ mod tests {
             "\u{feff}time; acceleration\n0;1\n0.5;-2\n0.5;3",
             "t,a\n0.0,1,\n0.5,-2d0,\n0.5,3,",
         ] {
-            assert_eq!(read("r", text.as_bytes(), &select(&[], None)).unwrap(), wanted, "{text:?}");
+            assert_eq!(points(text, &select(&[], None)), wanted, "{text:?}");
         }
         let text = "time,\"x\",y\n0,7,1\n1,8,2\n";
         for columns in [[name("time"), name("y")], [RecordColumn::Number(1), RecordColumn::Number(3)]] {
-            assert_eq!(read("r", text.as_bytes(), &select(&columns, None)).unwrap(), [[0.0, 1.0], [1.0, 2.0]]);
+            assert_eq!(points(text, &select(&columns, None)), [[0.0, 1.0], [1.0, 2.0]]);
         }
         let every = select(&[name("x")], Some(0.25));
-        assert_eq!(read("r", text.as_bytes(), &every).unwrap(), [[0.0, 7.0], [0.25, 8.0]]);
-        assert_eq!(read("r", b"3\n4\n5\n", &select(&[], Some(2.0))).unwrap(), [[0.0, 3.0], [2.0, 4.0], [4.0, 5.0]]);
+        assert_eq!(points(text, &every), [[0.0, 7.0], [0.25, 8.0]]);
+        assert_eq!(points("3\n4\n5\n", &select(&[], Some(2.0))), [[0.0, 3.0], [2.0, 4.0], [4.0, 5.0]]);
     }
 
     #[test]
@@ -326,10 +448,19 @@ mod tests {
             ("1\n\n2\n", &select(&[], Some(1.0)), "there is a gap: the line is empty"),
             ("t,x,x\n0,1,2\n1,2,3\n", &select(&[name("t"), name("x")], None), "more than one column is named `x`"),
             ("0\n1\n", &plain, "`time_step` says"),
-            ("0,1,2\n1,2,3\n", &plain, "`columns` must say"),
+            (
+                "0,1,2\n1,2,3\n",
+                &plain,
+                "`columns` says which are the time and the value, or `rows = true` with `time_step`",
+            ),
+            ("t,a,b\n1,2,3\n1,2,3\n", &plain, "`columns` must say which are the time and the value: the file has `t`"),
             ("t,acc\n0,1\n1,2\n", &select(&[name("t"), name("ac")], None), "did you mean `acc`?"),
             ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(3)], None), "there is no column 3"),
-            ("0,1\n1,2\n", &select(&[], Some(0.1)), "`columns` must say"),
+            (
+                "0,1\n1,2\n",
+                &select(&[], Some(0.1)),
+                "a line has 2 values: `columns` says which of them is the value, or `rows = true`",
+            ),
             ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], Some(0.1)), "names one column"),
             ("0,1\n1,2\n", &select(&[RecordColumn::Number(1)], None), "names two columns"),
         ] {
@@ -342,12 +473,160 @@ mod tests {
         assert_eq!(faults(&many, &plain).len(), MOST_FAULTS);
     }
 
+    /// Every dress of the header in which files of the data bases are found, with the same values behind it.
+    #[test]
+    fn headers_are_recognized_by_what_they_say() {
+        let values = "  .1E-01 -.2000000E-01\r\n 3.0D-2\n\n 0.04 0\n";
+        let wanted = vec![[0.0, 0.01], [0.02, -0.02], [0.04, 0.03], [0.06, 0.04], [0.08, 0.0]];
+        let peer = |unit: &str, sizes: &str| {
+            format!("DATA BASE\nSomewhere, 1/1/1940, 180\nACCELERATION {unit}\n{sizes}\n{values}")
+        };
+        let unit = "TIME SERIES IN UNITS OF G";
+        for sizes in [
+            "NPTS=   5, DT=   .0200 SEC,",
+            "5    0.0200    NPTS, DT",
+            "0.0200  5   DT, NPTS",
+            "npts = 5  dt= 2e-2 sec",
+            "NPTS=5,DT=0.02SEC",
+            "DT= .02 SEC, NPTS= 5",
+            "NPTS= 5.0, DT= 2.0D-2 SECONDS",
+            "NPTS: 5 DT: .02 SEC, SCALED DATA, SCALE FACTOR= 2.0",
+        ] {
+            let text = peer(unit, sizes);
+            for path in ["r.AT2", "r.txt"] {
+                let read = read(path, text.as_bytes(), &select(&[], None)).unwrap();
+                assert_eq!(read.points, wanted, "{sizes}");
+                assert_eq!(read.unit, Some(RecordUnit::new("G")), "{sizes}");
+            }
+        }
+        let sizes = "NPTS= 5, DT= .02 SEC";
+        for (unit, name, known) in [
+            ("TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz", "G", Some(9.80665)),
+            ("TIME HISTORY IN UNITS OF G.", "G", Some(9.80665)),
+            ("TIME SERIES IN UNITS OF G (FILTERED)", "G", Some(9.80665)),
+            ("IN UNITS OF CM/SEC**2", "CM/SEC**2", Some(0.01)),
+            ("IN UNITS OF cm/s/s", "cm/s/s", Some(0.01)),
+            ("IN UNITS OF FURLONGS", "FURLONGS", None),
+        ] {
+            let read = read("r.AT2", peer(unit, sizes).as_bytes(), &select(&[], None)).unwrap();
+            assert_eq!(read.points, wanted, "{unit}");
+            let found = read.unit.unwrap();
+            assert_eq!((found.name.as_str(), found.known.map(|(_, si)| si)), (name, known), "{unit}");
+        }
+        // Headers whose lines are empty, fewer or more.
+        for text in [
+            format!("\n\n\nNPTS= 5, DT= .02\n{values}"),
+            format!("NPTS= 5, DT= .02\n{values}"),
+            format!("a\nb\nc\nd\ne NPTS\nNPTS= 5, DT= .02\nUNITS: m/s^2\nmore of it\n{values}"),
+            format!(
+                "Orig = a.acc, Scale factor = 2.4 \n  H1: IMPERIAL VALLEY 10/15/79\n azimuth =   233.0\n  Acceleration in g\n5 0.02 NPTS, DT \n{values}"
+            ),
+            format!("EVENT_NAME: none\nSAMPLING_INTERVAL_S: 0.020000\nNDATA: 5\nUNITS: cm/s^2\nUSER1: \n{values}"),
+        ] {
+            assert_eq!(points(&text, &select(&[], None)), wanted, "{text}");
+        }
+    }
+
+    /// K-NET counts become gal without their offset; CSMIP blocks end at their number of values.
+    #[test]
+    fn instruments_write_counts_and_blocks() {
+        let knet = "Origin Time       2011/03/11 14:46:00\nMag.              9.0\nSampling Freq(Hz) 100Hz\nDir.              N-S\n\
+                    Scale Factor      3920(gal)/6182761\nMax. Acc. (gal)   1.0\nMemo.\n 100 200 300\n 400\n";
+        let read = super::read("r.NS", knet.as_bytes(), &select(&[], None)).unwrap();
+        let gal = 3920.0 / 6182761.0;
+        for (point, (time, count)) in
+            read.points.iter().zip([(0.0, -150.0), (0.01, -50.0), (0.02, 50.0), (0.03, 150.0)])
+        {
+            assert!((point[0] - time).abs() < 1e-15 && (point[1] - count * gal).abs() < 1e-12, "{:?}", read.points);
+        }
+        assert!((read.offset.unwrap() - 250.0 * gal).abs() < 1e-12);
+        let csmip = "CORRECTED ACCELEROGRAM\n 1 2 3\n   5 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)\n\
+                     -1.000000 -2.000000-13.000000\n  4.0 5.0\n   5 points of veloc data equally spaced at .005 sec\n 9 9 9 9 9\n";
+        let read = super::read("r.V2", csmip.as_bytes(), &select(&[], None)).unwrap();
+        assert_eq!(read.points.iter().map(|point| point[1]).collect::<Vec<_>>(), [-1.0, -2.0, -13.0, 4.0, 5.0]);
+        assert_eq!(read.unit.unwrap().known, Some((MotionQuantity::Acceleration, 0.01)));
+        let twice = format!("{csmip}{csmip}");
+        assert!(faults(&twice, &select(&[], None))[0].contains("a second channel"));
+    }
+
+    /// Row by row without a header, whatever separates the values.
+    #[test]
+    fn rows_without_a_header() {
+        let rows = RecordSelection { rows: Some(true), ..select(&[], Some(0.5)) };
+        let wanted = [[0.0, 1.0], [0.5, -2.5], [1.0, 3e-5], [1.5, 4.0]];
+        for text in [
+            "1 -2.5 3e-5\n4\n",
+            "some text\nand more, 5 a line\n1.0,-2.5\n3.0D-5, 4\n",
+            "# 1 2 3\n1;-2.5;3e-5;4;",
+            "1.0-2.5 3.0-05\n\n4.0",
+            "1\n-2.5\n3e-5\n4\n",
+        ] {
+            assert_eq!(points(text, &rows), wanted, "{text:?}");
+        }
+        for (text, said) in [
+            ("1 2 x\n", "`x` is not a finite number"),
+            ("0,1 0,2\n", "`0,1` is not a finite number"),
+            ("text alone\n", "two values or more"),
+            ("1 ****** 2\n", "`******` is not"),
+        ] {
+            assert!(faults(text, &rows)[0].contains(said), "{text:?}");
+        }
+        let no_step = RecordSelection { rows: Some(true), ..select(&[], None) };
+        assert!(faults("1 2 3\n4 5\n", &no_step)[0].contains("needs `time_step`"));
+    }
+
+    /// A column out of a sequence jumps by five steps where the lines go by one; channels beside each other do not look like that.
+    #[test]
+    fn a_column_out_of_a_sequence_is_noticed() {
+        let lines = |value: &dyn Fn(usize, usize) -> f64| -> String {
+            (0..100).map(|line| (0..5).map(|k| format!("{} ", value(line, k))).collect::<String>() + "\n").collect()
+        };
+        let first = select(&[RecordColumn::Number(1)], Some(0.01));
+        let sequence = |text: &str| read("r", text.as_bytes(), &first).unwrap().sequence;
+        assert_eq!(sequence(&lines(&|line, k| (0.05 * (5 * line + k) as f64).sin())), Some(5));
+        assert_eq!(sequence(&lines(&|line, k| (0.05 * line as f64 + k as f64).sin())), None);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_header_is_said() {
+        let file = |sizes: &str, values: &str| {
+            format!("DATA BASE\nSomewhere\nACCELERATION IN UNITS OF G\n{sizes}\n{values}\n")
+        };
+        let sizes = "NPTS= 3, DT= .01 SEC";
+        for (text, said, line) in [
+            (String::new(), "no line says `NPTS", 1),
+            ("a\nb\nc\n".into(), "no line says `NPTS", 1),
+            (file("3 values", "1 2 3"), "no line says `NPTS", 1),
+            (file("NPTS= 3.5, DT= .01", "1 2 3"), "not `3.5`", 4),
+            (file("NPTS= none, DT= .01", "1 2 3"), "not `NONE`", 4),
+            (file("NPTS= 1, DT= .01", "1"), "2 or more", 4),
+            (file("NPTS= 3, DT= 0", "1 2 3"), "above 0, not `0`", 4),
+            (file("NPTS= 3, DT=", "1 2 3"), "no line says `NPTS", 1),
+            (file(sizes, "1 2"), "there are 2 values, and NPTS = 3 says more", 5),
+            (file(sizes, "1 2\n3 4"), "more values than NPTS = 3", 6),
+            (file(sizes, "1 2\nx"), "`x` is not a finite number", 6),
+            (file(sizes, "1 nan 3"), "`nan` is not a finite number", 5),
+        ] {
+            let found = read("r.AT2", text.as_bytes(), &select(&[], None)).unwrap_err();
+            assert!(found[0].message.contains(said), "{text:?}: {:?}", found[0].message);
+            let place = found[0].excerpt.as_ref().map(|excerpt| excerpt.line);
+            assert_eq!(place, Some(line), "{text:?}");
+        }
+        let other = select(&[], Some(0.02));
+        assert!(faults(&file(sizes, "1 2 3"), &other)[0].contains("`time_step` is 0.02, and the header says 0.01"));
+        // A last row that is filled with zeros.
+        assert_eq!(points(&file(sizes, "1 2\n3 0"), &select(&[], None)).len(), 3);
+        // All that is wrong is said at once, up to a limit.
+        let many = file("NPTS= 100, DT= 1", &"x\n".repeat(100));
+        assert_eq!(read("r.AT2", many.as_bytes(), &select(&[], None)).unwrap_err().len(), MOST_FAULTS);
+    }
+
     #[test]
     fn a_million_points_take_less_than_a_second() {
         let text: String =
             (0..1_000_000).map(|k| format!("{:.4},{:.6}\n", k as f64 * 0.005, (k as f64).sin())).collect();
         let began = std::time::Instant::now();
-        let points = read("r", text.as_bytes(), &select(&[], None)).unwrap();
+        let points = points(&text, &select(&[], None));
         assert_eq!((points.len(), points[999_999][0]), (1_000_000, 4999.995));
         // Half a second would be 0.5 µs a point, three times what it takes; the machine may be busy.
         assert!(began.elapsed().as_secs_f64() < 3.0);

@@ -45,6 +45,16 @@ impl<'t> Text<'t> {
         Text { path, bytes, next: 0, line: 0 }
     }
 
+    /// Goes on behind the line of this number; the start of the text is before the line 1.
+    pub fn skip_to(&mut self, line: usize) {
+        while self.line < line
+            && let Some(length) = self.bytes[self.next.min(self.bytes.len())..].iter().position(|&byte| byte == b'\n')
+        {
+            self.next += length + 1;
+            self.line += 1;
+        }
+    }
+
     /// The next line that is not blank.
     pub fn line(&mut self) -> Option<TextLine<'t>> {
         while self.next < self.bytes.len() {

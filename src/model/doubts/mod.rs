@@ -7,6 +7,7 @@ pub mod long_chains;
 pub mod node_places;
 pub mod overlaps;
 pub mod proportions;
+pub mod record_units;
 pub mod slivers;
 pub mod ties;
 pub mod units;

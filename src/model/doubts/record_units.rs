@@ -1,0 +1,126 @@
+//! Records whose unit is not that of the deck: the headers of data bases name it, and values are not converted.
+
+use crate::deck::Deck;
+use crate::deck::supports::{History, Motion};
+use crate::deck::words::Maybe;
+use crate::diagnostic::Span;
+use crate::model::records::Record;
+use crate::model::report::Report;
+use crate::names::short;
+use crate::record::{MotionQuantity, RecordUnit};
+
+/// Records are scaled up and down for analyses of one strength after the other, seldom by more than this.
+const SCALING: f64 = 50.0;
+
+/// A place of the deck that takes a record as a motion.
+struct Use<'d> {
+    amplitude: &'d Maybe<String>,
+    quantity: MotionQuantity,
+    scale: Option<f64>,
+    what: &'static str,
+    place: &'d Span,
+}
+
+/// Warns of records that are taken as another quantity than theirs, and of those in another unit than the deck's that nothing converts.
+pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut Report) {
+    for used in uses(deck) {
+        let Some(name) = used.amplitude else { continue };
+        let Some(index) = deck.amplitudes.position(name) else { continue };
+        let words = &deck.amplitudes.0[index].1;
+        let Some(unit) = records.get(index).and_then(Option::as_ref).and_then(|record| record.unit.as_ref()) else {
+            continue;
+        };
+        let file = words.file.as_ref().map_or("", |file| file.value.as_str());
+        if let Some((quantity, _)) = unit.known.filter(|(quantity, _)| *quantity != used.quantity) {
+            let message = format!(
+                "the record `{file}` has {} in {}, and {} takes it for {}",
+                quantity.word(),
+                unit.name,
+                used.what,
+                used.quantity.word()
+            );
+            report.warn(used.place, message, remedy(quantity));
+            continue;
+        }
+        let given = [words.scale.as_ref().map(|scale| scale.value), used.scale];
+        let factor = given.iter().flatten().product::<f64>().abs();
+        check_factor(deck, &used, (file, unit), given.iter().any(Option::is_some).then_some(factor), report);
+    }
+}
+
+/// Where a record of this quantity belongs.
+fn remedy(quantity: MotionQuantity) -> &'static str {
+    match quantity {
+        MotionQuantity::Acceleration => "`history = \"acceleration\"` of a support, or `base_acceleration`",
+        MotionQuantity::Velocity => "`history = \"velocity\"` of a support",
+        MotionQuantity::Displacement => "`history = \"displacement\"` of a support",
+    }
+}
+
+fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), factor: Option<f64>, report: &mut Report) {
+    let in_deck = deck.units.as_ref().zip(unit.known).map(|(units, (quantity, si))| {
+        let [length, _, time] = units.value.scales();
+        (units.value.label(), si * time.powi(quantity.power_of_time()) / length)
+    });
+    match (in_deck, factor) {
+        (Some((label, right)), _) => {
+            let factor_is =
+                factor.map_or("no `scale` converts it".to_owned(), |factor| format!("the scale is {}", short(factor)));
+            let given = factor.unwrap_or(1.0);
+            let slack = if factor.is_some() { SCALING } else { 1.001 };
+            if !(right / slack..=right * slack).contains(&given) && given != 0.0 {
+                let message = format!("the record `{file}` is in {}, and {factor_is}", unit.name);
+                report.warn(used.place, message, format!("in the units {label} that is `scale = {}`", short(right)));
+            }
+        }
+        (None, None) => {
+            let message = format!("the record `{file}` is in {}, and nothing says how much that is", unit.name);
+            let hint = match unit.known {
+                Some((_, si)) => format!(
+                    "`scale = {}` in metres and seconds, {} in millimetres and seconds; 1.0 where the deck has this unit",
+                    short(si),
+                    short(1e3 * si)
+                ),
+                None => "`scale` converts it to the units of the deck; 1.0 says that it is in them".to_owned(),
+            };
+            report.warn(used.place, message, hint);
+        }
+        (None, Some(_)) => {}
+    }
+}
+
+fn uses(deck: &Deck) -> Vec<Use<'_>> {
+    let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration).map(|base| Use {
+        amplitude: &base.amplitude,
+        quantity: MotionQuantity::Acceleration,
+        scale: base.scale.as_ref().map(|scale| scale.value),
+        what: "the ground",
+        place: &base.span,
+    });
+    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref());
+    let supports = motions.flat_map(|motions| [&motions.ux, &motions.uy, &motions.uz]).flatten().map(|motion| Use {
+        amplitude: &motion.amplitude,
+        quantity: of_support(motion),
+        scale: motion.scale.as_ref().map(|scale| scale.value),
+        what: "the support",
+        place: &motion.span,
+    });
+    let joints = deck.joints.iter().filter_map(|joint| joint.motion.as_ref()).flat_map(|motion| {
+        let quantities = [MotionQuantity::Displacement, MotionQuantity::Velocity, MotionQuantity::Acceleration];
+        quantities.into_iter().zip([&motion.position, &motion.velocity, &motion.acceleration]).filter_map(
+            move |(quantity, value)| {
+                let scale = Some(value.as_ref()?.value);
+                Some(Use { amplitude: &motion.amplitude, quantity, scale, what: "the joint", place: &motion.span })
+            },
+        )
+    });
+    ground.chain(supports).chain(joints).collect()
+}
+
+fn of_support(motion: &Motion) -> MotionQuantity {
+    match motion.history.as_ref().map_or(History::Displacement, |history| history.value) {
+        History::Displacement => MotionQuantity::Displacement,
+        History::Velocity => MotionQuantity::Velocity,
+        History::Acceleration => MotionQuantity::Acceleration,
+    }
+}

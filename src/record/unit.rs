@@ -1,0 +1,75 @@
+//! The units that headers of records name.
+
+/// The quantity of a motion that a record gives over time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MotionQuantity {
+    /// A length.
+    Displacement,
+    /// A length per time.
+    Velocity,
+    /// A length per time squared.
+    Acceleration,
+}
+
+impl MotionQuantity {
+    /// The word of the field for it.
+    pub fn word(self) -> &'static str {
+        match self {
+            MotionQuantity::Displacement => "displacements",
+            MotionQuantity::Velocity => "velocities",
+            MotionQuantity::Acceleration => "accelerations",
+        }
+    }
+
+    /// The power of the time by which the length is divided.
+    pub fn power_of_time(self) -> i32 {
+        match self {
+            MotionQuantity::Displacement => 0,
+            MotionQuantity::Velocity => 1,
+            MotionQuantity::Acceleration => 2,
+        }
+    }
+}
+
+/// The unit that the header of a record names. The values are not converted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordUnit {
+    /// The unit as the file writes it.
+    pub name: String,
+    /// The quantity and the unit in metres and seconds; `None` for a unit that is not known here.
+    pub known: Option<(MotionQuantity, f64)>,
+}
+
+/// Standard gravity, in m/s².
+const G: f64 = 9.80665;
+
+impl RecordUnit {
+    /// The unit of this name.
+    pub fn new(name: &str) -> RecordUnit {
+        RecordUnit { name: name.to_owned(), known: known(&name.to_ascii_uppercase()) }
+    }
+}
+
+fn known(name: &str) -> Option<(MotionQuantity, f64)> {
+    match name {
+        "G" | "G'S" | "GS" => return Some((MotionQuantity::Acceleration, G)),
+        "GAL" | "GALS" => return Some((MotionQuantity::Acceleration, 0.01)),
+        _ => {}
+    }
+    let (length, per) = name.split_once('/').unwrap_or((name, ""));
+    let length = match length {
+        "M" => 1.0,
+        "CM" => 0.01,
+        "MM" => 1e-3,
+        "IN" => 0.0254,
+        "FT" => 0.3048,
+        _ => return None,
+    };
+    let quantity = match per.replace("SEC", "S").replace(['*', '^'], "").as_str() {
+        "" => MotionQuantity::Displacement,
+        "S" => MotionQuantity::Velocity,
+        "S2" | "S/S" => MotionQuantity::Acceleration,
+        _ => return None,
+    };
+    Some((quantity, length))
+}
