@@ -3,6 +3,7 @@
 //! Prescribed motion needs all of them: an amplitude may be a displacement, a velocity or an acceleration, and the other
 //! two follow. At a kink or a jump derivatives have two limits; the impulse of a jump's derivative is left out.
 
+use crate::math::cubic_curve::CubicCurve;
 use std::f64::consts::PI;
 
 /// The side of a jump or a kink on which a value is wanted.
@@ -19,6 +20,8 @@ pub enum Side {
 pub enum Amplitude {
     /// Straight lines through (time, value), constant beyond the ends; times do not fall, and equal times are a jump.
     Table(StraightLines),
+    /// Cubics through (time, value), constant beyond the ends; equal times are a jump.
+    Curve(CubicCurve),
     /// sin(ω (t − start) + phase) from start to end, 0 outside.
     Sine {
         /// ω, in radians per time.
@@ -110,7 +113,23 @@ pub struct Jump {
     pub after: f64,
 }
 
+impl Jump {
+    /// What is left of a sine that ends at a zero is rounding of its argument.
+    fn is_felt(&self) -> bool {
+        self.time.is_finite() && (self.after - self.before).abs() > 1e-12
+    }
+}
+
 impl Amplitude {
+    /// The points (time, value) of a table, by time; `None` for other functions.
+    pub fn points(&self) -> Option<&[[f64; 2]]> {
+        match self {
+            Amplitude::Table(table) => Some(table.points()),
+            Amplitude::Curve(curve) => Some(curve.points()),
+            _ => None,
+        }
+    }
+
     /// The phase, in radians, of what a frequency response excites; `None` of functions of time.
     pub fn harmonic_phase(&self) -> Option<f64> {
         match self {
@@ -122,19 +141,19 @@ impl Amplitude {
     /// Where the value jumps, in order of time.
     pub fn jumps(&self) -> Vec<Jump> {
         let at = |time: f64, before: f64, after: f64| Jump { time, before, after };
+        if let Some(points) = self.points() {
+            let pairs = points.windows(2).filter(|p| p[0][0] == p[1][0]);
+            return pairs.map(|p| at(p[0][0], p[0][1], p[1][1])).filter(Jump::is_felt).collect();
+        }
         let all = match *self {
-            Amplitude::Table(StraightLines { ref points, .. }) => {
-                points.windows(2).filter(|p| p[0][0] == p[1][0]).map(|p| at(p[0][0], p[0][1], p[1][1])).collect()
-            }
             Amplitude::Sine { start, end, .. } | Amplitude::SineSquared { start, end, .. } => {
                 vec![at(start, 0.0, self.value(start)), at(end, self.value(end), 0.0)]
             }
             Amplitude::Step { start, end } => vec![at(start, 0.0, 1.0), at(end, 1.0, 0.0)],
             Amplitude::Ramp { start, end } if start == end => vec![at(start, 0.0, 1.0)],
-            Amplitude::Ramp { .. } | Amplitude::Constant | Amplitude::Harmonic { .. } => Vec::new(),
+            _ => Vec::new(),
         };
-        // What is left of a sine that ends at a zero is rounding of its argument.
-        all.into_iter().filter(|j| j.time.is_finite() && (j.after - j.before).abs() > 1e-12).collect()
+        all.into_iter().filter(Jump::is_felt).collect()
     }
 
     /// The same function at times that are later by this much.
@@ -145,6 +164,7 @@ impl Amplitude {
                 let points = table.points.into_iter().map(|[time, value]| [time + by, value]).collect();
                 Amplitude::Table(StraightLines::new(points))
             }
+            Amplitude::Curve(curve) => Amplitude::Curve(curve.later(by)),
             Amplitude::Sine { angular_frequency, phase, start, end } => {
                 Amplitude::Sine { angular_frequency, phase, start: start + by, end: end + by }
             }
@@ -161,6 +181,7 @@ impl Amplitude {
     pub fn kinks(&self) -> Vec<f64> {
         let all = match *self {
             Amplitude::Table(StraightLines { ref points, .. }) => points.iter().map(|point| point[0]).collect(),
+            Amplitude::Curve(ref curve) => curve.breaks().collect(),
             Amplitude::Sine { start, end, .. }
             | Amplitude::SineSquared { start, end, .. }
             | Amplitude::Ramp { start, end }
@@ -190,6 +211,7 @@ impl Amplitude {
                     turned.then_some(p[0][0])
                 })
             }
+            Amplitude::Curve(ref curve) => curve.turn(0.0).filter(|turn| *turn < end),
             Amplitude::Sine { angular_frequency: w, phase, start, end } => {
                 let side = w.signum();
                 inside(start, end, &|k| start + ((k + 0.5) * PI - phase * side) / w.abs(), PI / w.abs())
@@ -203,11 +225,11 @@ impl Amplitude {
 
     /// How long from t = 0 the value stays as it is then; infinite where for ever.
     pub fn rest(&self) -> f64 {
+        if let Some(points) = self.points() {
+            let change = points.windows(2).find(|p| p[1][0] > 0.0 && p[0][1] != p[1][1]);
+            return change.map_or(f64::INFINITY, |p| p[0][0].max(0.0));
+        }
         match *self {
-            Amplitude::Table(StraightLines { ref points, .. }) => {
-                let change = points.windows(2).find(|p| p[1][0] > 0.0 && p[0][1] != p[1][1]);
-                change.map_or(f64::INFINITY, |p| p[0][0].max(0.0))
-            }
             Amplitude::Sine { angular_frequency: w, start, end, .. }
             | Amplitude::SineSquared { angular_frequency: w, start, end }
                 if w != 0.0 && end > 0.0 =>
@@ -221,10 +243,7 @@ impl Amplitude {
 
     /// Where a table begins; others are given at all times.
     pub fn begin(&self) -> f64 {
-        match self {
-            Amplitude::Table(StraightLines { points, .. }) => points.first().map_or(0.0, |p| p[0]),
-            _ => 0.0,
-        }
+        self.points().and_then(<[_]>::first).map_or(0.0, |point| point[0])
     }
 
     /// The factor at a time. At a jump it is the value from later times, except at the end of a sine.
@@ -235,6 +254,7 @@ impl Amplitude {
                 (Some(p), None) | (None, Some(p)) => p[1],
                 (None, None) => 0.0,
             },
+            Amplitude::Curve(ref curve) => curve.value(t),
             Amplitude::Sine { angular_frequency: w, phase, start, end } if start <= t && t <= end => {
                 (w * (t - start) + phase).sin()
             }
@@ -257,6 +277,7 @@ impl Amplitude {
                 (Some(a), Some(b)) => slope(a, b),
                 _ => 0.0,
             },
+            Amplitude::Curve(ref curve) => curve.rates(t, side == Side::Before)[0],
             Amplitude::Sine { angular_frequency: w, phase, start, end } if lies_in([start, end], t, side) => {
                 w * (w * (t - start) + phase).cos()
             }
@@ -271,6 +292,7 @@ impl Amplitude {
     /// Second derivative; where it jumps the limit of a side.
     pub fn second_rate(&self, t: f64, side: Side) -> f64 {
         match *self {
+            Amplitude::Curve(ref curve) => curve.rates(t, side == Side::Before)[1],
             Amplitude::Sine { angular_frequency: w, phase, start, end } if lies_in([start, end], t, side) => {
                 -w * w * (w * (t - start) + phase).sin()
             }
@@ -284,22 +306,25 @@ impl Amplitude {
     /// The kink that a time misses by less than `slack`, or that time.
     pub fn snapped(&self, t: f64, slack: f64) -> f64 {
         let near = |kink: f64| (kink - t).abs() <= slack;
+        if let Some(points) = self.points() {
+            let (before, after) = around(points, t);
+            return [before, after].into_iter().flatten().map(|point| point[0]).find(|&time| near(time)).unwrap_or(t);
+        }
         let found = match *self {
-            Amplitude::Table(StraightLines { ref points, .. }) => {
-                let (before, after) = around(points, t);
-                [before, after].into_iter().flatten().map(|point| point[0]).find(|&time| near(time))
-            }
             Amplitude::Sine { start, end, .. }
             | Amplitude::SineSquared { start, end, .. }
             | Amplitude::Ramp { start, end }
             | Amplitude::Step { start, end } => [start, end].into_iter().find(|&time| near(time)),
-            Amplitude::Constant | Amplitude::Harmonic { .. } => None,
+            _ => None,
         };
         found.unwrap_or(t)
     }
 
     /// Where the first derivative jumps, in order of time.
     pub fn slope_jumps(&self) -> Vec<f64> {
+        if let Amplitude::Curve(curve) = self {
+            return curve.corners().to_vec();
+        }
         let jumps = |time: &f64| self.rate(*time, Side::Before) != self.rate(*time, Side::After);
         let mut all = self.kinks();
         all.dedup();
@@ -322,6 +347,7 @@ impl Amplitude {
     fn primitives(&self, t: f64) -> (f64, f64) {
         match *self {
             Amplitude::Table(ref table) => table_primitives(table, t),
+            Amplitude::Curve(ref curve) => curve.primitives(t).into(),
             Amplitude::Sine { angular_frequency: w, phase, start, end } => over(start, end, t, |u| {
                 // With z = ωu:  P = Im e^{iφ} (e^{iz} − 1)/(iω),  ∫P = Im e^{iφ} (e^{iz} − 1 − iz)/(iω)², free of 1/ω.
                 let z = w * u;
@@ -422,16 +448,20 @@ fn sine_rest(z: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::cubic_curve::CurveShape;
     use crate::math::quadrature::gauss;
     use rand::{RngExt, SeedableRng, rngs::SmallRng};
 
     fn all() -> Vec<Amplitude> {
         let points = vec![[0.3, -1.0], [0.5, 2.0], [1.25, 2.0], [2.0, 0.5]];
+        let gentle = vec![[-0.3, -1.0], [0.5, 0.6], [1.25, 1.5], [2.0, 0.5]];
         vec![
             Amplitude::Table(StraightLines::new(points.clone())),
             Amplitude::Table(StraightLines::new(points.iter().map(|p| [p[0] - 0.6, p[1]]).collect())),
             Amplitude::Table(StraightLines::new(vec![[1.0, 3.0]])),
             Amplitude::Table(StraightLines::new(vec![[0.5, 1.0], [1.0, 1.0], [1.0, -2.0], [1.5, 0.0]])),
+            Amplitude::Curve(CubicCurve::new(gentle.clone(), CurveShape::Spline)),
+            Amplitude::Curve(CubicCurve::new(gentle, CurveShape::Monotone).later(-0.6)),
             Amplitude::Sine { angular_frequency: 7.0, phase: 0.4, start: 0.25, end: 1.6 },
             Amplitude::Sine { angular_frequency: 0.0, phase: 0.4, start: 0.25, end: f64::INFINITY },
             Amplitude::Sine { angular_frequency: 1e-3, phase: -0.4, start: -0.25, end: 2.0 },

@@ -14,6 +14,7 @@ mod contact;
 mod decks;
 mod determinism;
 mod docs;
+mod driven;
 mod edges;
 mod elements;
 mod error_bars;

@@ -338,6 +338,10 @@ fn quantities() {
         ])
     );
     assert_snapshot!("falling_times", portal(&[("[2.0, 0.0]", "[0.5, 0.0]")]));
+    let table = |keys: &str| portal(&[("[2.0, 0.0]]\n", &format!("[2.0, 0.0]]\n{keys}\n"))]);
+    assert_snapshot!("amplitude_interpolation", table("interpolation = \"spline\"\nrows = true"));
+    let ramp = "kind = \"ramp\"\nend = 1.0\ninterpolation = \"cubic\"\n";
+    assert_snapshot!("amplitude_interpolation_of_a_ramp", portal(&[("kind = \"table\"\n", ramp)]));
     assert_snapshot!("implausible_units", portal(&[("title =", "units = \"mm-t-s\"\ntitle =")]));
 }
 

@@ -1,7 +1,7 @@
 //! The end of a run in words: its status, its warnings about energy, its expectations.
 
 use crate::integrators::spectrum::spectrum;
-use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, Model, StepLength};
+use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, History, Model, StepLength};
 use crate::names::{instant, short, to_digits};
 use crate::output::error_bars::ErrorBar;
 use crate::output::expect::Verdict;
@@ -162,7 +162,14 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
         StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
     };
-    let remedy = format!("see `numerical` in energy.csv, and try {shorter}");
+    let remedy = match velocity_jump(model) {
+        Some(time) => format!(
+            "see `numerical` in energy.csv. The velocity of a prescribed motion jumps, first at t = {}: let steps end there, or round its \
+             corners by `interpolation = \"monotone\"` of its amplitude",
+            instant(time)
+        ),
+        None => format!("see `numerical` in energy.csv, and try {shorter}"),
+    };
     if balance.generated > SEEN * balance.peak.max(unseen) {
         let part = part(balance.generated);
         // Plastic work is booked with the stress at the end of a step, which the motion meets only then. It is the plastic
@@ -183,6 +190,15 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     } else {
         None
     }
+}
+
+/// The first time within the run at which the velocity of positions that supports and joints prescribe jumps.
+fn velocity_jump(model: &Model) -> Option<f64> {
+    let [begin, end] = [model.analysis.begin, model.analysis.end_time];
+    let motions = model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref());
+    let positions = motions.filter(|motion| motion.history == History::Displacement);
+    let jumps = positions.flat_map(|motion| model.loading.amplitudes[motion.amplitude].slope_jumps());
+    jumps.filter(|time| (begin..end).contains(time) && *time > begin).min_by(f64::total_cmp)
 }
 
 /// The warning about a scheme that damps nothing where material yields and steps are hard to take, from the effort of the steps.

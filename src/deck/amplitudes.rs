@@ -13,7 +13,7 @@ pub struct Amplitude {
     /// The function.
     #[schemars(required)]
     pub kind: Maybe<AmplitudeKind>,
-    /// [[time, value], ...], two or more, times increasing; straight lines between them, the first and last value held
+    /// [[time, value], ...], two or more, times increasing; `interpolation` says how they are joined, the first and last value are held
     /// before and after unless `before` and `after` say otherwise. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
     /// A file with the points instead; the path is relative to the deck. Headers of PEER (.AT2, .VT2, .DT2), ESM, K-NET and CSMIP (volume 2) are
@@ -28,6 +28,9 @@ pub struct Amplitude {
     pub rows: Maybe<bool>,
     /// The time between two values of a file without times, above 0; the first is at 0. (table)
     pub time_step: Maybe<f64>,
+    /// The curve between the points. Default: "linear"; where the points are positions that a support or a joint of a dynamic run prescribes,
+    /// "cubic" between the corners of the table, which stay corners. (table)
+    pub interpolation: Maybe<Interpolation>,
     /// Factor on the values, such as 9.81 for a record in g. Default: 1. (table)
     pub scale: Maybe<f64>,
     /// Time by which all points are later. Default: 0. (table)
@@ -59,7 +62,7 @@ pub struct Amplitude {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AmplitudeKind {
-    /// Straight lines through `points`, or through those of a `file`.
+    /// Lines or curves through `points`, or through those of a `file`.
     Table,
     /// sin(w (t - start) + phase) from `start` to `end`.
     Sine,
@@ -73,6 +76,18 @@ pub enum AmplitudeKind {
     Constant,
     /// cos(w t + phase) at each frequency of a frequency response, which alone has any.
     Harmonic,
+}
+
+/// The curve between the points of a table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Interpolation {
+    /// Straight lines.
+    Linear,
+    /// A spline of cubics with continuous second derivatives, at rest where the values rest.
+    Cubic,
+    /// Cubics with continuous first derivatives that do not overshoot, at rest at both ends.
+    Monotone,
 }
 
 /// Beyond the ends of a table.

@@ -1,6 +1,7 @@
 //! Vectors and matrices of fixed size, rotations, quadrature rules.
 
 pub mod convex;
+pub mod cubic_curve;
 pub mod curved_faces;
 pub mod cylinder;
 #[cfg(feature = "portable")]

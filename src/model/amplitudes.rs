@@ -10,6 +10,7 @@ use crate::deck::Deck;
 use crate::deck::amplitudes as words;
 use crate::deck::words::{Maybe, Table};
 use crate::diagnostic::{At, Span};
+use crate::math::cubic_curve::{CubicCurve, CurveShape};
 
 /// Reads `[amplitudes]`, with the records that have been read for them. Each gives one, also those with errors, since others refer to them
 /// by their index.
@@ -91,7 +92,7 @@ fn read_amplitude<'d>(
 }
 
 /// The keys of tables, and where they are written.
-fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 9] {
+fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 10] {
     [
         ("points", span(&a.points)),
         ("file", span(&a.file)),
@@ -102,6 +103,7 @@ fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 9] {
         ("after", span(&a.after)),
         ("scale", span(&a.scale)),
         ("shift", span(&a.shift)),
+        ("interpolation", span(&a.interpolation)),
     ]
 }
 
@@ -161,7 +163,15 @@ fn table<'d>(
     if points.iter().flatten().any(|number| !number.is_finite()) || points.windows(2).any(is_steep) {
         return report.error(place, beyond);
     }
-    Some(Amplitude::Table(amplitude::StraightLines::new(points)))
+    let shape = match a.interpolation.as_ref().map(|interpolation| interpolation.value) {
+        Some(words::Interpolation::Cubic) => CurveShape::Spline,
+        Some(words::Interpolation::Monotone) => CurveShape::Monotone,
+        Some(words::Interpolation::Linear) | None => {
+            return Some(Amplitude::Table(amplitude::StraightLines::new(points)));
+        }
+    };
+    let curve = CubicCurve::new(points, shape);
+    if curve.is_finite() { Some(Amplitude::Curve(curve)) } else { report.error(place, beyond) }
 }
 
 /// Radians per time.

@@ -41,6 +41,7 @@ use super::output::{Selection, output, write_all_nodes};
 use super::part_context::PartContext;
 use super::parts::Parts;
 use super::places::nodes::{Nodes, Topology};
+use super::position_curves::position_curves;
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, iterate_along};
 use super::procedure::mass_scaling::check_mass_scaling;
@@ -217,8 +218,8 @@ fn model<'d>(
 ) -> Model {
     let Procedure { analysis, scheme, iteration } = analysis(deck, stage, report);
     let mut amplitudes = amplitudes(deck, stage, records, report);
-    let Ground { mut scene, mut nodes, groups, rigid } = ground(deck, (stage, analysis), input, report);
-
+    let Ground { mut scene, mut nodes, groups, rigid } =
+        ground(deck, (stage, analysis), (input, &mut amplitudes), report);
     // These tables connect nodes.
     let masses = masses(&scene, &mut nodes, report);
     let mut links = links(&scene, &mut nodes, report);
@@ -294,9 +295,10 @@ struct Ground<'d> {
 fn ground<'d>(
     deck: &'d Deck,
     (stage, analysis): (Option<CurrentStage<'d>>, Analysis),
-    input: Option<&'d Input>,
+    (input, amplitudes): (Option<&'d Input>, &mut Vec<Amplitude>),
     report: &mut Report<'d>,
 ) -> Ground<'d> {
+    let position_curves = position_curves(deck, stage, &analysis, amplitudes, report);
     let mut nodes = Nodes::default();
     points(deck, &mut nodes);
     let bodies = bodies(deck, &mut nodes, report);
@@ -319,7 +321,7 @@ fn ground<'d>(
     let PartContext { groups, mut parts, sections, .. } = context;
     parts.stiffnesses = sections.stiffnesses;
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
-    Ground { scene: Scene { deck, stage, analysis, names, bodies, parts }, nodes, groups, rigid }
+    Ground { scene: Scene { deck, stage, analysis, names, bodies, parts, position_curves }, nodes, groups, rigid }
 }
 
 /// Makes a node for each of `[points]`; they are the first nodes of all.

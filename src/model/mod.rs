@@ -26,6 +26,7 @@ mod output;
 mod part_context;
 mod parts;
 mod places;
+mod position_curves;
 mod procedure;
 mod records;
 mod report;

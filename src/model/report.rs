@@ -64,6 +64,11 @@ impl<'d> Report<'d> {
         self.push(Diagnostic::warning(message).at(place).hint(hint));
     }
 
+    /// Tells of something that is taken as it was most likely meant, with a hint at the caret.
+    pub fn note(&mut self, place: &Span, message: impl Into<String>, hint: impl Into<String>) {
+        self.push(Diagnostic::note(message).at(place).hint(hint));
+    }
+
     /// Reports a problem.
     pub fn push(&mut self, problem: Diagnostic) {
         self.problems.push(problem);

@@ -1,9 +1,9 @@
 //! What the tables that act on a scene refer to: its names, bodies and parts, which no longer change. Lists of names become
 //! nodes here.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
-use super::data::{Analysis, Body};
+use super::data::{Analysis, Body, History};
 use super::names::Names;
 use super::parts::Parts;
 use super::places::place::Place;
@@ -29,6 +29,8 @@ pub(super) struct Scene<'d> {
     pub bodies: Vec<Body>,
     /// The deformable parts.
     pub parts: Parts,
+    /// Indices of the curves that positions follow, by those of the tables through whose points they go.
+    pub position_curves: HashMap<usize, usize>,
 }
 
 /// The kinds of names that a list may hold besides points, bodies and sets.
@@ -41,6 +43,14 @@ pub(super) enum Reach {
 }
 
 impl<'d> Scene<'d> {
+    /// The amplitude that a motion by this quantity follows where the deck names the one of this index.
+    pub fn amplitude_of_motion(&self, index: usize, history: History) -> usize {
+        match history {
+            History::Displacement => self.position_curves.get(&index).copied().unwrap_or(index),
+            History::Velocity | History::Acceleration => index,
+        }
+    }
+
     /// The nodes that a place covers, some of them perhaps more than once.
     pub fn nodes_of(&self, place: Place) -> Vec<usize> {
         self.names.nodes_of(place, &self.parts)

@@ -129,6 +129,7 @@ impl<'d> Supports<'_, 'd> {
             }
             let scale = motion.scale.as_ref().map_or(1.0, |scale| scale.value);
             let Some(amplitude) = amplitude else { continue };
+            let amplitude = self.scene.amplitude_of_motion(amplitude, history);
             read.push((dof, Some(PrescribedMotion { amplitude, scale, history }), &motion.span));
         }
         read

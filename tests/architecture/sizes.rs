@@ -16,7 +16,7 @@ const LINES: usize = 60;
 
 /// Plain data: what a deck says or means, and what a step writes to.
 const WIDE: Known = &[
-    ("deck/amplitudes.rs: Amplitude", 17),
+    ("deck/amplitudes.rs: Amplitude", 18),
     ("deck/analysis.rs: Analysis", 16),
     ("deck/beams.rs: Beam", 17),
     ("deck/joints.rs: Joint", 23),

@@ -19,8 +19,8 @@ pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64
             continue;
         }
         match amplitude {
-            Amplitude::Table(table) => {
-                let points = table.points();
+            Amplitude::Table(_) | Amplitude::Curve(_) => {
+                let points = amplitude.points().unwrap_or_default();
                 let (Some([first, before]), Some([last, after])) = (points.first(), points.last()) else { continue };
                 if words.after.is_none() && *after != 0.0 && *last < end_time - slack {
                     let message = format!(

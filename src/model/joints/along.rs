@@ -169,6 +169,7 @@ impl<'d> Along<'_, 'd> {
                 self.amplitudes.len() - 1
             }
         };
+        let index = self.scene.amplitude_of_motion(index, history);
         let starts = scale.value * self.amplitudes[index].value(0.0);
         let begins = self.scene.stage.is_none_or(|stage| stage.is_first());
         let moves = self.scene.analysis.kind == AnalysisKind::Dynamic && begins;

@@ -1,5 +1,6 @@
 //! The output times and events that steps must end at, and the intervals between them.
 
+use crate::amplitude::Amplitude;
 use crate::model::{AnalysisKind, Cadence, History, Model, When};
 use crate::snapshot::Keep;
 use crate::solve::context::Context;
@@ -218,28 +219,20 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
     Schedule { intervals: parted(intervals, &kicks(model), 1e-9 * end), samples }
 }
 
-/// Times at which the velocity of a prescribed motion jumps, in order. Where the jumps of a motion follow each other within a few steps they
-/// are samples of one that is smooth.
+/// Times at which the velocity of a prescribed motion jumps, or the acceleration of a curve, in order: the work of both sides counts.
 fn kicks(model: &Model) -> Vec<f64> {
-    /// Steps between jumps, at least.
-    const APART: f64 = 4.0;
-    let apart = APART * model.analysis.nominal_step();
     let mut all = Vec::new();
     if model.analysis.kind != AnalysisKind::Dynamic {
         return all;
     }
     for motion in model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref()) {
         let amplitude = &model.loading.amplitudes[motion.amplitude];
-        let times: Vec<f64> = match motion.history {
-            History::Displacement => amplitude.slope_jumps(),
-            History::Velocity => amplitude.jumps().iter().map(|jump| jump.time).collect(),
-            History::Acceleration => Vec::new(),
-        };
-        let alone = |k: usize| {
-            let far = |other: Option<&f64>| other.is_none_or(|other| (other - times[k]).abs() >= apart * (1.0 - 1e-9));
-            far(k.checked_sub(1).and_then(|before| times.get(before))) && far(times.get(k + 1))
-        };
-        all.extend((0..times.len()).filter(|&k| alone(k)).map(|k| times[k]));
+        match motion.history {
+            History::Displacement if matches!(amplitude, Amplitude::Curve(_)) => all.extend(amplitude.kinks()),
+            History::Displacement => all.extend(amplitude.slope_jumps()),
+            History::Velocity => all.extend(amplitude.jumps().iter().map(|jump| jump.time)),
+            History::Acceleration => {}
+        }
     }
     all.sort_by(f64::total_cmp);
     all

@@ -175,7 +175,8 @@ impl RungeKuttaStepper {
     pub fn error(&self, cx: &Context, dt: f64) -> Size {
         let (tableau, nodes) = (self.tableau, cx.independent_nodes.len());
         let mut largest = [Size::default(); 2];
-        for k in 0..nodes {
+        // Coordinates of joints are no lengths: the motion that errors are compared with leaves them out, and bodies have them.
+        for k in (0..nodes).filter(|&k| !cx.numbers.contains(&cx.independent_nodes[k])) {
             for (largest, weights) in largest.iter_mut().zip(tableau.errors) {
                 let sum = |sum: Vec6, &(of, weight): &(usize, f64)| sum + self.stages[of * nodes + k][0] * weight;
                 let error = weights.iter().fold(Vec6::zeros(), sum);

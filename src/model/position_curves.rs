@@ -1,0 +1,120 @@
+//! Tables of positions that a motion follows: straight lines between samples have no acceleration, so supports and joints that move as they say
+//! follow splines between the corners of the table.
+
+use super::data::{Analysis, AnalysisKind};
+use super::report::Report;
+use super::stages::CurrentStage;
+use crate::amplitude::{Amplitude, Side};
+use crate::deck::Deck;
+use crate::deck::amplitudes::AmplitudeKind;
+use crate::deck::supports::History;
+use crate::deck::words::Maybe;
+use crate::math::cubic_curve::{CubicCurve, CurveShape};
+use crate::names::short;
+use std::collections::{BTreeSet, HashMap};
+
+/// A curve that leaves the values at both ends of a segment by this part of their range is told: eight samples of a period give 0.04.
+const OVERSHOOT: f64 = 0.05;
+/// Velocities that jump by less than this part of the largest do not count.
+const FELT: f64 = 1e-2;
+
+/// Adds curves to the amplitudes for the tables that prescribe positions in a run with inertia. Returns their indices by those of the tables.
+pub(super) fn position_curves(
+    deck: &Deck,
+    stage: Option<CurrentStage>,
+    analysis: &Analysis,
+    amplitudes: &mut Vec<Amplitude>,
+    report: &mut Report,
+) -> HashMap<usize, usize> {
+    let is_dynamic = |kind: AnalysisKind| kind == AnalysisKind::Dynamic;
+    let any_dynamic = stage
+        .map_or(is_dynamic(analysis.kind), |stage| stage.sequence.stages.iter().any(|stage| is_dynamic(stage.kind)));
+    let mut curves = HashMap::new();
+    if !any_dynamic {
+        return curves;
+    }
+    for index in of_positions(deck) {
+        let words = &deck.amplitudes.0[index].1;
+        let is_table = words.kind.as_ref().is_some_and(|kind| kind.value == AmplitudeKind::Table);
+        if is_table
+            && words.interpolation.is_none()
+            && let Some(points) = amplitudes[index].points()
+        {
+            let curve = CubicCurve::new(points.to_vec(), CurveShape::SplineWithCorners);
+            if curve.is_finite() && !curve.is_straight() {
+                curves.insert(index, amplitudes.len());
+                amplitudes.push(Amplitude::Curve(curve));
+            }
+        }
+        if is_dynamic(analysis.kind) {
+            let used = curves.get(&index).copied().unwrap_or(index);
+            check_corners(deck, index, (&amplitudes[used], analysis), report);
+        }
+    }
+    curves
+}
+
+/// Indices of the amplitudes that supports and joints take for positions.
+fn of_positions(deck: &Deck) -> BTreeSet<usize> {
+    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
+        let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
+        all.into_iter().flatten()
+    });
+    let is_position =
+        |history: &Maybe<History>| history.as_ref().is_none_or(|history| history.value == History::Displacement);
+    let of_supports = motions.filter(|motion| is_position(&motion.history)).map(|motion| &motion.amplitude);
+    let of_joints = deck.joints.iter().filter_map(|joint| joint.motion.as_ref());
+    let of_joints = of_joints.filter(|motion| motion.position.is_some()).map(|motion| &motion.amplitude);
+    of_supports.chain(of_joints).flatten().filter_map(|name| deck.amplitudes.position(name)).collect()
+}
+
+/// Warns of velocities that jump within the run, and tells of a curve that overshoots.
+fn check_corners(deck: &Deck, index: usize, (amplitude, analysis): (&Amplitude, &Analysis), report: &mut Report) {
+    let (name, words) = &deck.amplitudes.0[index];
+    let slack = 1e-9 * analysis.end_time;
+    let is_inside = |time: f64| time > analysis.begin + slack && time < analysis.end_time - slack;
+    let rates = |time: f64| [Side::Before, Side::After].map(|side| amplitude.rate(time, side));
+    let all: Vec<(f64, f64)> = amplitude
+        .slope_jumps()
+        .into_iter()
+        .map(|time| (time, rates(time)))
+        .map(|(time, [before, after])| (time, (after - before).abs()))
+        .collect();
+    let largest = amplitude.kinks().into_iter().flat_map(rates).fold(0.0, |most: f64, rate| most.max(rate.abs()));
+    let corners: Vec<f64> = all
+        .into_iter()
+        .filter(|&(time, jump)| is_inside(time) && jump > FELT * largest)
+        .map(|(time, _)| time)
+        .collect();
+    if let Some(first) = corners.first() {
+        let more = match corners.len() - 1 {
+            0 => String::new(),
+            1 => " and once more".to_owned(),
+            more => format!(" and {more} times more"),
+        };
+        let message = format!(
+            "amplitude `{}` prescribes positions whose velocity jumps at t = {}{more}",
+            name.value,
+            short(*first)
+        );
+        let is_table = words.kind.as_ref().is_some_and(|kind| kind.value == AmplitudeKind::Table);
+        let remedy = match is_table {
+            true => {
+                "`interpolation = \"monotone\"` rounds corners without overshoot, \"cubic\" follows samples of a smooth motion"
+            }
+            false => "a table with `interpolation = \"monotone\"` starts and stops smoothly",
+        };
+        report.warn(&name.span, message, format!("the force is an impulse there, which no table shows: {remedy}"));
+    }
+    let Amplitude::Curve(curve) = amplitude else { return };
+    if let Some((part, [from, to])) = curve.overshoot().filter(|(part, _)| *part > OVERSHOOT) {
+        let message = format!(
+            "the curve of amplitude `{}` goes beyond its points between t = {} and {} by {} % of their range",
+            name.value,
+            short(from),
+            short(to),
+            (100.0 * part).round()
+        );
+        report.note(&name.span, message, "`interpolation = \"monotone\"` does not, \"linear\" has corners");
+    }
+}
