@@ -3,6 +3,7 @@
 //! Every motion is the real part of a complex one times exp(iωt). [`direct`] solves (K + iωC − ω²M) x = f at each frequency, with
 //! the matrices as they are; [`modal`] takes natural modes.
 
+mod damped_rest;
 mod direct;
 mod dynamic_stiffness;
 mod excitation;

@@ -2,7 +2,7 @@
 //!
 //! The modes found answer with their inertia and with Ĉ = Φᵀ C Φ, which need not be diagonal; all others as springs with the first
 //! term of their inertia (mode acceleration and its next term; R. R. Craig & A. J. Kurdila, Fundamentals of Structural Dynamics (2006),
-//! chapter 11). With the shift s, at which K − s M is factorised, and P that removes the modes found,
+//! chapter 11). Local dampers add motions to these modes ([`super::damped_rest`]). With the shift s, at which K − s M is factorised, and P that removes the modes found,
 //!   x = Σ φ q + P (r + (ω² − s) S M r),   r = S f,   S = (K − s M)⁻¹.
 //! Supports that move carry the scene along as S would have it; what is left are forces of inertia and damping. The damping ratio of modes is
 //! that of motions relative to what follows supports in statics: of that S leaves s/λ of the inertia of what it carries along.
@@ -15,6 +15,7 @@ use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
 use super::super::steady::Response;
+use super::damped_rest::{RestMotion, dot, rest_motions};
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
 use super::matrices::Matrices;
@@ -62,7 +63,12 @@ pub fn response(
     let gyroscopic = Gyroscopic::of(at);
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
     let shift = shift(&mut pencil, &pairs)?;
-    let mut space = Space::new(&pairs, &matrices.C, asked.damping_ratio, shift);
+    let rest = if gyroscopic.acts() {
+        Vec::new()
+    } else {
+        rest_motions(&mut pencil, &matrices, &pairs, |at, x| remove_modes(at, &pairs, x))
+    };
+    let mut space = Space::new((&pairs, &rest), &matrices.C, asked.damping_ratio, shift);
     let parts = space.parts(&mut pencil, &excitation, &matrices);
     let mut response = Response::of(at.model);
     let motion = Motion::new(&pencil, &space, &parts, &excitation, &response.nodes);
@@ -122,6 +128,8 @@ fn shift(pencil: &mut Pencil, pairs: &[Pair]) -> Result<f64, ModesFault> {
 /// The space of the modes found.
 struct Space<'p> {
     pairs: &'p [Pair],
+    /// Motions that their dampers cause besides, numbered after them.
+    rest: &'p [RestMotion],
     /// Ĉ with the damping ratio of modes.
     damping: DMatrix<f64>,
     /// True where Ĉ is diagonal to rounding.
@@ -146,16 +154,18 @@ struct Parts {
 }
 
 impl<'p> Space<'p> {
-    fn new(pairs: &'p [Pair], C: &Sparse, ratio: f64, shift: f64) -> Space<'p> {
-        let m = pairs.len();
+    fn new((pairs, rest): (&'p [Pair], &'p [RestMotion]), C: &Sparse, ratio: f64, shift: f64) -> Space<'p> {
+        let shapes: Vec<&Vec<f64>> = pairs.iter().map(|(_, phi)| phi).chain(rest.iter().map(|of| &of.shape)).collect();
+        let squares = pairs.iter().map(|(lambda, _)| *lambda).chain(rest.iter().map(|of| of.stiffness * of.mass));
+        let m = shapes.len();
         let mut damping = DMatrix::zeros(m, m);
-        for (j, (lambda, phi)) in pairs.iter().enumerate() {
+        for (j, (phi, square)) in shapes.iter().zip(squares).enumerate() {
             let mut product = vec![0.0; phi.len()];
             C.multiply(phi, &mut product);
-            for (i, (_, other)) in pairs.iter().enumerate() {
+            for (i, other) in shapes.iter().enumerate() {
                 damping[(i, j)] = dot(other, &product);
             }
-            damping[(j, j)] += 2.0 * ratio * lambda.max(0.0).sqrt();
+            damping[(j, j)] += 2.0 * ratio * square.max(0.0).sqrt();
         }
         let largest = damping.amax();
         let beside = |i: usize, j: usize| if i == j { 0.0 } else { damping[(i, j)].abs() };
@@ -164,29 +174,36 @@ impl<'p> Space<'p> {
         let stiff = |lambda: f64| lambda > ZERO * stiffest;
         let carried =
             pairs.iter().map(|(lambda, _)| if stiff(*lambda) { 2.0 * ratio * shift / lambda.sqrt() } else { 0.0 });
-        Space { pairs, damping, diagonal: !coupled, shift, carried: carried.collect() }
+        // What dampers cause besides has mass of its own and is not carried.
+        let carried = carried.chain(rest.iter().map(|_| 0.0)).collect();
+        Space { pairs, rest, damping, diagonal: !coupled, shift, carried }
     }
 
     /// What a force does.
     fn part(&mut self, pencil: &mut Pencil, force: &[f64]) -> Part {
-        let modal = self.pairs.iter().map(|(_, phi)| dot(phi, force)).collect();
+        let modal = self.shapes().map(|phi| dot(phi, force)).collect();
         let mut first = force.to_vec();
         pencil.solve(&mut first);
-        self.remove_modes(pencil, &mut first);
-        let mut second = vec![0.0; first.len()];
-        pencil.mass.multiply(&first, &mut second);
+        self.remove(pencil, force, &mut first);
+        let mut inertia = vec![0.0; first.len()];
+        pencil.mass.multiply(&first, &mut inertia);
+        let mut second = inertia.clone();
         pencil.solve(&mut second);
-        self.remove_modes(pencil, &mut second);
+        self.remove(pencil, &inertia, &mut second);
         Part { modal, rest: [first, second] }
     }
 
-    /// Removes the modes found from a motion.
-    fn remove_modes(&self, pencil: &Pencil, x: &mut [f64]) {
-        let mut product = vec![0.0; x.len()];
-        pencil.mass.multiply(x, &mut product);
-        for (_, phi) in self.pairs {
-            let part = dot(phi, &product);
-            x.iter_mut().zip(phi).for_each(|(x, phi)| *x -= part * phi);
+    /// The modes, then the motions besides.
+    fn shapes(&self) -> impl Iterator<Item = &Vec<f64>> {
+        self.pairs.iter().map(|(_, phi)| phi).chain(self.rest.iter().map(|of| &of.shape))
+    }
+
+    /// Removes the modes found from the answer S g to a force g, and what it has of the motions besides.
+    fn remove(&self, pencil: &Pencil, force: &[f64], x: &mut [f64]) {
+        remove_modes(pencil, self.pairs, x);
+        for RestMotion { shape, stiffness, mass } in self.rest {
+            let part = dot(shape, force) / (stiffness - self.shift * mass);
+            x.iter_mut().zip(shape).for_each(|(x, shape)| *x -= part * shape);
         }
     }
 
@@ -210,11 +227,19 @@ impl<'p> Space<'p> {
         Parts { loads, supports }
     }
 
+    /// What stiffness and inertia of a motion leave at the square of an angular frequency.
+    fn stiffness(&self, i: usize, square: f64) -> f64 {
+        match i.checked_sub(self.pairs.len()) {
+            None => self.pairs[i].0 - square,
+            Some(k) => self.rest[k].stiffness - square * self.rest[k].mass,
+        }
+    }
+
     /// The factors of the modes for these forces on them.
     fn coordinates(&self, omega: f64, forces: DVector<C64>) -> DVector<C64> {
         let square = omega * omega;
         let entry = |i: usize, j: usize| {
-            let stiffness = if i == j { self.pairs[i].0 - square } else { 0.0 };
+            let stiffness = if i == j { self.stiffness(i, square) } else { 0.0 };
             C64::new(stiffness, omega * self.damping[(i, j)])
         };
         if self.diagonal {
@@ -237,7 +262,7 @@ impl<'p> Space<'p> {
             let left = C64::new(self.pairs[i].0 - square, omega * self.damping[(i, i)]).norm();
             square > 0.0 && left < NOTHING_LEFT * square && forces[i].norm() > UNDRIVEN * largest
         };
-        (0..forces.len()).find(|&i| is_free(i))
+        (0..self.pairs.len()).find(|&i| is_free(i))
     }
 }
 
@@ -266,7 +291,7 @@ impl Motion {
             (moved, [rest(inertia), rest(damping)])
         });
         Motion {
-            modes: space.pairs.iter().map(|(_, phi)| of(phi)).collect(),
+            modes: space.shapes().map(of).collect(),
             loads: parts.loads.iter().map(rest).collect(),
             supports: supports.collect(),
         }
@@ -282,7 +307,7 @@ impl Motion {
     ) -> (Vec<[C64; 6]>, Option<usize>) {
         let omega = TAU * frequency;
         let beyond = omega * omega - space.shift;
-        let mut forces = DVector::from_element(space.pairs.len(), C64::new(0.0, 0.0));
+        let mut forces = DVector::from_element(space.shapes().count(), C64::new(0.0, 0.0));
         let mut sum: Vec<[C64; 6]> = Vec::new();
         let mut carried = Vec::new();
         let mut add = |factor: C64, moved: &[Vec6]| {
@@ -323,6 +348,12 @@ impl Motion {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+/// Removes the modes found from a motion.
+fn remove_modes(pencil: &Pencil, pairs: &[Pair], x: &mut [f64]) {
+    let mut product = vec![0.0; x.len()];
+    pencil.mass.multiply(x, &mut product);
+    for (_, phi) in pairs {
+        let part = dot(phi, &product);
+        x.iter_mut().zip(phi).for_each(|(x, phi)| *x -= part * phi);
+    }
 }
