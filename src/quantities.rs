@@ -248,10 +248,15 @@ pub const JOINT_COORDINATE: [Column; 3] = [
     )
     .positive("along the axis, on `to`"),
 ];
-/// All that a joint exerts on its second part; the quantities of [`JOINT`] are those of its constraints on the first.
+/// All that a joint exerts on its first part.
 pub const JOINT_REACTION: [Column; 6] = wrench(
-    "force on the second part: of all that the joint is, drive, motor and friction included",
-    "moment on the second part, about that end, likewise",
+    "force of the joint on its first part (`from`): of all that it is, drive, motor, spring and friction included",
+    "moment of the joint on its first part, about that end, likewise",
+);
+/// What supports exert at a point.
+pub const REACTION: [Column; 6] = wrench(
+    "force of the supports on the structure at this point",
+    "moment of the supports on the structure at this point",
 );
 
 /// Elongation, its rate and force of a link, then force and moment on its first end.
@@ -437,6 +442,48 @@ pub const RESPONSE_FREQUENCY: Column = Column::scalar("frequency", "frequency of
 pub const PLASTIC_STRAIN: Column = Column::scalar("plastic_strain", "largest accumulated plastic strain", Unit::One);
 /// The stress of a layer of a shell; `[[expect]]` asks for the largest of a whole shell.
 pub const VON_MISES: Column = Column::scalar("von_mises", "von Mises stress", Unit::Stress).kind("stress");
+
+/// What a shell carries per length, and the stress at its faces.
+pub const SHELL_RESULTANTS: [Column; 10] = [
+    membrane("N11"),
+    membrane("N22"),
+    membrane("N12"),
+    bending("M11"),
+    bending("M22"),
+    bending("M12"),
+    shear("Q1"),
+    shear("Q2"),
+    surface_stress("von_mises_bottom", "von Mises stress in the lowest layer; of an elastic shell, at the surface"),
+    surface_stress("von_mises_top", "von Mises stress in the highest layer; of an elastic shell, at the surface"),
+];
+
+const fn membrane(name: &'static str) -> Column {
+    Column::scalar(name, "membrane force per length", Unit::ForcePerLength)
+        .kind("membrane force")
+        .in_axes(Axes::Surface)
+        .positive("tension")
+}
+
+const fn bending(name: &'static str) -> Column {
+    Column::scalar(name, "bending moment per length", Unit::MomentPerLength)
+        .kind("bending moment")
+        .in_axes(Axes::Surface)
+        .positive("tension at the top, the side of the normal")
+}
+
+const fn shear(name: &'static str) -> Column {
+    Column::scalar(name, "transverse shear force per length", Unit::ForcePerLength)
+        .kind("shear force")
+        .in_axes(Axes::Surface)
+        .positive("∂M11/∂1 + ∂M12/∂2 = Q1")
+}
+
+const fn surface_stress(name: &'static str, meaning: &'static str) -> Column {
+    Column::scalar(name, meaning, Unit::Stress).kind("surface stress")
+}
+
+/// The force in an element of a bar.
+pub const AXIAL_FORCE: Column = section_force("N", "axial force, damping included", "tension");
 
 /// Forces and moments in a section of a beam.
 pub const SECTION_FORCES: [Column; 6] = [

@@ -15,9 +15,11 @@ pub struct Expect {
     pub at: Maybe<String>,
     /// Instead of `at`: number of a mode, 1 or more; the quantity is then a column of modes.csv, and needs no time.
     pub mode: Maybe<u64>,
-    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv or energy.csv; "fx" to "mz" of a joint, what
-    /// its constraints and its drive do to `from`; "force" of a contact, its size; "plastic_strain" of a beam or bar, the largest
-    /// anywhere.
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv or energy.csv. "fx" to "mz" of a joint act on its first part
+    /// (`from`); of a supported point or body they are the reaction, the force of its supports on the structure. "force" of a contact is
+    /// its size. Of a beam "N", "Vy", "Vz", "T", "My", "Mz", of a bar "N" and of a shell "N11" to "Q2", "von_mises_bottom" and
+    /// "von_mises_top" are the values of the largest magnitude anywhere in it, with their signs; "von_mises" of a shell and
+    /// "plastic_strain" of a beam, bar or shell are the largest anywhere.
     #[schemars(required)]
     pub quantity: Maybe<String>,
     /// Time at which the value is taken; with arc-length control, the first time the load reaches it.

@@ -29,7 +29,7 @@ pub struct Output {
     pub contacts: Maybe<FlagOrTable<ContactOutput>>,
     /// Write reactions.csv: reactions of supports and joints. Default: false.
     pub reactions: Maybe<bool>,
-    /// Write sections.csv for beams and shells.csv for shells: stress resultants. `true` is { at = "points" }. Default: false.
+    /// Write sections.csv for beams, bars.csv for bars and shells.csv for shells: stress resultants. `true` is { at = "points" }. Default: false.
     pub sections: Maybe<FlagOrTable<Sections>>,
     /// Write layers.csv: stress through the thickness of shells. Default: false.
     pub layers: Maybe<bool>,

@@ -182,6 +182,12 @@ impl ElementBlock for YieldingBars {
         }
     }
 
+    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
+        let old = now.history.get(self.history_range(e))?;
+        let tension = self.tension(&self.strain(e, now.nodes), now.dt, old, Moduli::Algorithmic);
+        Some(tension.material + tension.damping)
+    }
+
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let at = self.strain(e, now.nodes);
         let free = self.elements[e].free;

@@ -83,6 +83,10 @@ pub trait ElementBlock: Send + Sync {
     fn end_forces(&self, _e: usize, _now: &Configuration) -> Option<[Force; 2]> {
         None
     }
+    /// Force along element `e` with its damping, positive in tension; `None` for what resists more than stretching.
+    fn axial_force(&self, _e: usize, _now: &Configuration) -> Option<f64> {
+        None
+    }
     /// The number of integration points of an element at which [`ElementBlock::point`] gives results.
     fn points(&self) -> usize {
         0

@@ -72,9 +72,16 @@ impl<'d> Expects<'_, 'd> {
         let mut column = None;
         if let (Some((at, columns)), Some(quantity), Some(name)) = (&at, quantity, name) {
             let strain = quantity.value == PLASTIC_STRAIN.name && !columns.contains(&PLASTIC_STRAIN);
-            if strain && matches!(at, ExpectAt::Shells(..) | ExpectAt::Sections(_)) {
+            if strain && matches!(at, ExpectAt::Shells(..) | ExpectAt::Sections(_) | ExpectAt::Elements(..)) {
                 let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
                 return self.report.error(&quantity.span, message);
+            }
+            let reaction = quantities::REACTION.iter().position(|column| column.name == quantity.value);
+            if let (ExpectAt::Node(_), Some(dof)) =
+                (at, reaction.filter(|_| !columns.iter().any(|of| of.name == quantity.value)))
+            {
+                let message = format!("`{}` has no support in {}, so it has no reaction", name.value, DIRECTIONS[dof]);
+                return self.report.error_with(&quantity.span, message, "reactions are those of `[[supports]]`");
             }
             column = self.column(columns, quantity, name);
         }
@@ -231,13 +238,17 @@ impl<'d> Expects<'_, 'd> {
             return Some((ExpectAt::Analysis, vec![quantities::TIME]));
         }
         match self.scene.place_or_node(name) {
-            Some(Place::Point(node)) => Some((ExpectAt::Node(node), quantities::MOTION.concat())),
+            Some(Place::Point(node)) => {
+                let columns = [quantities::MOTION.concat(), self.reactions(node)].concat();
+                Some((ExpectAt::Node(node), columns))
+            }
             Some(Place::Body(body)) => {
-                let columns = [&quantities::MOTION.concat()[..], &QUATERNION].concat();
-                Some((ExpectAt::Node(self.scene.names.body_node(body)), columns))
+                let node = self.scene.names.body_node(body);
+                let columns = [&quantities::MOTION.concat()[..], &QUATERNION, &self.reactions(node)].concat();
+                Some((ExpectAt::Node(node), columns))
             }
             Some(Place::Joint(joint)) => {
-                let mut columns = quantities::JOINT.to_vec();
+                let mut columns = quantities::JOINT_REACTION.to_vec();
                 let kind = self.scene.deck.joints.get(joint).and_then(|joint| joint.kind.as_ref());
                 if kind.is_some_and(|kind| !kind.make.coordinates.is_empty()) {
                     columns.extend(quantities::JOINT_COORDINATE);
@@ -266,6 +277,19 @@ impl<'d> Expects<'_, 'd> {
                 self.scene.names.unknown("point, body, part or link", name, known, self.report)
             }
         }
+    }
+
+    /// The reactions at a node: of the directions in which supports hold or move it, or the point of its name that holds it.
+    fn reactions(&self, node: usize) -> Vec<Column> {
+        let list = &self.topology.list;
+        let is_here = |held: usize| held == node || list[held].label == list[node].label;
+        let mut columns = Vec::new();
+        for (dof, column) in quantities::REACTION.into_iter().enumerate() {
+            if self.topology.restraints().any(|held| held.dof == dof && is_here(held.node)) {
+                columns.push(column);
+            }
+        }
+        columns
     }
 
     /// A surface; one with errors, which have been reported, has no parts.
@@ -305,13 +329,12 @@ impl<'d> Expects<'_, 'd> {
         let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
         let (from, count) = (elements(&self.scene.parts.list[..start]), elements(&self.scene.parts.list[start..end]));
         if count == 0 {
-            return self.report.error(&name.span, format!("`{}` is rigid, so it has no plastic strain", name.value));
-        }
-        if !self.scene.parts.list[start].yields() {
-            let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
+            let message = format!("`{}` is rigid, so it has no axial force and no plastic strain", name.value);
             return self.report.error(&name.span, message);
         }
-        Some((ExpectAt::Elements(from, from + count), quantities_of(at.kind)))
+        let mut columns = quantities_of(at.kind);
+        columns.retain(|column| self.scene.parts.list[start].yields() || *column != PLASTIC_STRAIN);
+        Some((ExpectAt::Elements(from, from + count), columns))
     }
 
     /// The name of the column that a word stands for.

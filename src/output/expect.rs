@@ -16,9 +16,9 @@ pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
     answers(at).flat_map(|answers| (answers.quantities)(at)).collect()
 }
 
-/// What the solver must compute where something is expected of one thing.
-pub fn needs(at: ExpectAt) -> Wanted {
-    answers(at).fold(Wanted::NOTHING, |all, answers| all | answers.needs)
+/// What the solver must compute where a quantity of one thing is expected.
+pub fn needs(at: ExpectAt, quantity: &str) -> Wanted {
+    find(at, quantity).map_or(Wanted::NOTHING, |(answers, _)| answers.needs)
 }
 
 /// The answers of the tables that know quantities of one thing.

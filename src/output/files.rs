@@ -229,8 +229,8 @@ pub fn wanted(model: &Model) -> Wanted {
     let fields = model.output.fields.map(|_| drawn);
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
-        When::Max | When::Min | When::Abs => needs(expect.at).at_every_step(),
-        When::Time(_) | When::Target(_) | When::End => needs(expect.at),
+        When::Max | When::Min | When::Abs => needs(expect.at, &expect.quantity).at_every_step(),
+        When::Time(_) | When::Target(_) | When::End => needs(expect.at, &expect.quantity),
     });
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };

@@ -46,8 +46,10 @@ impl Wanted {
     pub const NODAL_RESULTANTS: Wanted = Wanted(1 << 10);
     /// Forces of each touch of contacts.
     pub const CONTACT_TOUCHES: Wanted = Wanted(1 << 11);
+    /// Axial forces of bars.
+    pub const BARS: Wanted = Wanted(1 << 12);
     /// All quantities.
-    pub const ALL: Wanted = Wanted((1 << 12) - 1);
+    pub const ALL: Wanted = Wanted((1 << 13) - 1);
 
     /// True where all of `what` is wanted where tables are due.
     pub const fn has(self, what: Wanted) -> bool {
@@ -127,6 +129,8 @@ pub struct Derived {
     pub nodal_resultants: Vec<[f64; 6]>,
     /// Stress resultants of all beams in deck order.
     pub sections: Vec<SectionPoint>,
+    /// Axial forces of all elements of bars in deck order.
+    pub bars: Vec<f64>,
     /// Elastic energies of all beams, bars and shells in deck order.
     pub parts: Vec<PartEnergy>,
     /// The loads at the instant, by which ends of beams are in balance.
@@ -136,7 +140,7 @@ pub struct Derived {
 }
 
 keep!(Derived { effort } without {
-    energy, links, joints, contacts, contact_touches, plastic_strains, failed, broken, shells, shear_balance, nodal_resultants, sections, parts, loading,
+    energy, links, joints, contacts, contact_touches, plastic_strains, failed, broken, shells, shear_balance, nodal_resultants, sections, bars, parts, loading,
 });
 
 /// The request for the derived quantities of one accepted step.
@@ -209,6 +213,9 @@ impl Derived {
             excitation.loading(state.time, if begins { Side::After } else { Side::Before }, &mut self.loading);
             results::section_points(system, model, (now, &self.loading), &mut self.sections);
         }
+        if is_wanted(Wanted::BARS) {
+            results::axial_forces(system, now, &mut self.bars);
+        }
         if is_wanted(Wanted::PARTS) {
             energy::part_energies(system, model, now, &mut self.parts);
         }
@@ -226,6 +233,7 @@ impl Derived {
         self.shells.clear();
         self.nodal_resultants.clear();
         self.sections.clear();
+        self.bars.clear();
         self.parts.clear();
     }
 }

@@ -10,6 +10,15 @@ use super::parts::shells::{self, ShellState};
 use crate::model::Model;
 use crate::state::{Configuration, Node};
 
+/// Writes the axial force of each element of all bars into `out`, in deck order.
+pub fn axial_forces(system: &System, now: &Configuration, out: &mut Vec<f64>) {
+    out.clear();
+    for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
+        let now = group.configuration(now);
+        out.extend((0..group.block.len()).filter_map(|e| group.block.axial_force(e, &now)));
+    }
+}
+
 /// Writes the states of all links into `out`, in deck order.
 pub fn link_states(system: &System, now: &Configuration, out: &mut Vec<LinkState>) {
     links::link_states(&system.links, &system.groups, now, out);
@@ -73,6 +82,7 @@ pub fn section_points(
     (now, loading): (&Configuration, &Loading),
     out: &mut Vec<SectionPoint>,
 ) {
-    let acting = system.beam_ends().map(|ends| EndForces { ends, loads: &system.loads, loading });
+    let acting =
+        system.beam_ends().map(|ends| EndForces { ends, loads: &system.loads, loading, damping: &system.mass_damping });
     beam_sections::section_points(&system.groups, model, now, acting, out);
 }

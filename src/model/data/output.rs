@@ -22,7 +22,7 @@ pub struct Output {
     pub contacts: Option<ContactRows>,
     /// True where reactions.csv is written.
     pub reactions: bool,
-    /// The places of beams that sections.csv is about; `None`: it is not written.
+    /// The places of beams that sections.csv is about; `None`: neither it nor the tables of bars and shells are written.
     pub sections: Option<SectionPlaces>,
     /// True where something in the deck may fail, which tables have columns for.
     pub failures: bool,

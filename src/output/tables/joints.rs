@@ -1,4 +1,4 @@
-//! joints.csv: coordinates of the joints, what acts along them, and what they exert on their second parts.
+//! joints.csv: coordinates of the joints, what acts along them, and what they exert on their first parts.
 
 use crate::model::{AnalysisKind, ExpectAt, Joint, JointCoordinate, Model};
 use crate::output::extent::Rows;
@@ -10,8 +10,8 @@ use std::io;
 pub static TABLE: TableKind = TableKind {
     file: "joints.csv",
     about: "One row for each joint. Written if `[output] joints = true` and there are joints. The first three numbers are those of \
-            joints with a coordinate, and empty for others. The reactions of a joint without anything along \
-            its coordinate are the negative of those in reactions.csv, about its second end.",
+            joints with a coordinate, and empty for others. Forces and moments act on its first part, as those of links \
+            and those in reactions.csv do, which leave out what motors, springs, stops and friction add.",
     columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),
     needs: NEEDS,
@@ -36,7 +36,7 @@ fn of_deck(model: &Model) -> impl Iterator<Item = &Joint> {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE]),
+        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE, &JOINT_REACTION]),
         _ => Vec::new(),
     }
 }
@@ -49,17 +49,17 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
 /// The columns of one joint; `None` where the frame does not have it. What a joint has none of is no number.
 fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
     let (made, held) = (frame.model.constraints.joints.get(joint)?, frame.derived.joints.get(joint)?);
-    let [mut f, mut m] = held.on_second;
+    let (mut f, mut m) = (held.f, held.m);
     let [mut q, mut rate, mut effort] = [f64::NAN; 3];
     if let Some(coordinate) = &made.coordinate {
         let [from, to] = made.ends.map(|node| &frame.state.nodes[node]);
         let link = coordinate.spring.and_then(|spring| frame.derived.links.get(spring));
         let [along, speed, _] = coordinate.lock.gap(from, to);
         (q, rate) = link.map_or((along, speed), |link| (link.elongation, link.rate));
-        // What acts besides the constraint equations, on the second end.
+        // What acts besides the constraint equations, positive on the second end.
         let acting = motor(coordinate, frame) - link.map_or(0.0, |link| link.force);
         effort = held.drive + acting;
-        let [_, G] = coordinate.lock.gradient(from, to);
+        let [G, _] = coordinate.lock.gradient(from, to);
         f += acting * G.fixed_rows::<3>(0);
         m += acting * G.fixed_rows::<3>(3);
     }

@@ -1,5 +1,6 @@
 //! The tables of results, a file each. A new table is one more file and one line of [`TABLES`].
 
+mod bars;
 mod bodies;
 mod contact_pairs;
 mod contacts;
@@ -32,6 +33,7 @@ pub static TABLES: &[&TableKind] = &[
     &joints::TABLE,
     &reactions::TABLE,
     &sections::TABLE,
+    &bars::TABLE,
     &shells::TABLE,
     &layers::TABLE,
     &parts::TABLE,

@@ -1,9 +1,9 @@
 //! reactions.csv: force or moment on the structure in every restrained direction, and on the first part of every joint.
 
-use crate::model::{DIRECTIONS, ExpectAt};
+use crate::model::{DIRECTIONS, ExpectAt, Restraint};
 use crate::output::extent::Rows;
 use crate::output::table::{Answers, TableKind, WriteRow};
-use crate::quantities::{Axes, Column, JOINT, Unit, names};
+use crate::quantities::{Axes, Column, REACTION, Unit, names};
 use crate::solve::{Frame, JointState, Wanted};
 use std::io;
 
@@ -46,18 +46,22 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Joint(_) => names(&[&JOINT]),
+        ExpectAt::Node(_) => names(&[&REACTION]),
         _ => Vec::new(),
     }
 }
 
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
-    let ExpectAt::Joint(i) = at else { return None };
-    let joint = frame.derived.joints.get(i)?;
-    of_joint(joint).get(index).copied()
+    let ExpectAt::Node(node) = at else { return None };
+    let nodes = &frame.model.nodes;
+    // A node that depends on another is held at a point of its name.
+    let is_here =
+        |held: &Restraint| held.dof == index && (held.node == node || nodes[held.node].label == nodes[node].label);
+    let held = frame.model.constraints.restraints.iter().zip(frame.reactions);
+    held.filter(|(restraint, _)| is_here(restraint)).map(|(_, value)| *value).reduce(|sum, value| sum + value)
 }
 
-/// What a joint exerts on its first part, in the order of [`JOINT`].
+/// What a joint exerts on its first part, in the order of [`DIRECTIONS`].
 fn of_joint(joint: &JointState) -> [f64; 6] {
     let [f, m] = [joint.f, joint.m];
     [f.x, f.y, f.z, m.x, m.y, m.z]
