@@ -594,3 +594,19 @@ fn degrees_are_said() {
         assert!(found.iter().all(|found| !found.contains("degrees")), "{found:?}\n{deck}");
     }
 }
+
+/// A stiff damper stops a mass within a step: the work from the power at the ends of steps is c v² Δt, which is 50 J of 0.5 J that there were.
+/// Nothing has grown, and the mass is at rest.
+#[test]
+fn dampers_that_stop_a_motion_within_a_step_are_no_energy_growth() {
+    let text = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.05\n[integrator]\nscheme = \"bathe\"\n\
+                [points]\na = [1.0, 0.0, 0.0]\n[[masses]]\nat = \"a\"\nmass = 1.0\n\
+                [[supports]]\nat = \"a\"\nfix = [\"uy\", \"uz\"]\n[[initial]]\nat = \"a\"\nvelocity = [1.0, 0.0, 0.0]\n\
+                [[links]]\nname = \"k\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { node = \"a\" }\nstiffness = 1e4\ndamping = 1e3\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("deck.toml"), text).unwrap();
+    let run = Command::cargo_bin("rdsolve").unwrap().current_dir(&folder).args(["run", "deck.toml"]).assert().code(0);
+    let said = String::from_utf8([&run.get_output().stdout[..], &run.get_output().stderr].concat()).unwrap();
+    assert!(!said.contains("growth"), "{said}");
+    assert!(said.contains("dampers have dissipated more"), "{said}");
+}

@@ -99,7 +99,9 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
         return None;
     }
     let percent = |energy: f64| of_motion(energy, balance);
-    Some(if balance.lost() < 0.0 {
+    Some(if balance.lost() < 0.0 && balance.is_work_of_dampers(-balance.lost()) {
+        format!("balance of energy: dampers have dissipated more than there was, by {}", percent(-balance.lost()))
+    } else if balance.lost() < 0.0 {
         format!("numerical growth of energy: {}", percent(-balance.lost()))
     } else {
         format!("numerical dissipation: {}", percent(balance.lost()))
@@ -178,6 +180,11 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
             format!(
                 "plastic flow has dissipated more energy than there was, by {part}: steps do not resolve the onset of yielding, \
                  and plastic strains are too large; {remedy}"
+            )
+        } else if balance.is_work_of_dampers(balance.generated) {
+            format!(
+                "dampers have dissipated more energy than there was, by {part}: their work is summed from the ends of steps, within which they \
+                 stop stiff motions, or the time integration feeds them; {remedy}"
             )
         } else {
             format!("energy growth: the time integration has added {part}; {remedy}")

@@ -154,6 +154,10 @@ pub struct Balance {
     pub available: f64,
     /// Energy dissipated by plastic flow.
     pub plastic: f64,
+    /// Energy dissipated by dampers, nodal and Rayleigh damping.
+    pub damping: f64,
+    /// Largest mechanical energy beyond what is available: this the time integration has added for sure.
+    pub raised: f64,
     /// The energy that rounding may make, see [`work_of_rounding`]: of less nothing is said.
     pub rounding: f64,
     /// What stages before have missed, and the work done in them.
@@ -172,6 +176,8 @@ keep!(Balance {
     peak,
     available,
     plastic,
+    damping,
+    raised,
     rounding,
     before,
     start,
@@ -206,6 +212,12 @@ impl Balance {
     /// A balance of a stage before which so much has been missed, and so much work done.
     pub fn after(missed: f64, external: f64) -> Balance {
         Balance { before: [missed, external], ..Balance::default() }
+    }
+
+    /// True where energy is missing in the balance, and no more than dampers account for, while the motion has not gained any: their work
+    /// is summed from its power at the ends of steps, which is too much where they stop a motion within a step.
+    pub fn is_work_of_dampers(&self, missing: f64) -> bool {
+        missing <= self.damping && self.raised < 0.5 * missing
     }
 
     /// Takes account of the external work of a step. Energies are summed at some steps only, and by then the work may
@@ -252,6 +264,8 @@ impl Balance {
         self.released = self.released.max(-stored);
         self.available = start + self.external + self.released;
         self.plastic = energy.plastic;
+        self.damping = energy.damping;
+        self.raised = self.raised.max(energy.mechanical - self.available);
         let dissipated = energy.numerical_dissipation() - self.before[0];
         (self.dissipated, self.lost) = (self.dissipated.max(dissipated), dissipated);
         // A mode beyond the stability limit may conserve the energy of central differences and still grow: then the

@@ -17,7 +17,8 @@ impl Ties {
     pub fn new(topology: &Topology, joints: &[Joint], linked: impl Iterator<Item = [usize; 2]>) -> Self {
         let count = topology.list.len();
         let mut ties = Ties { towards: (0..=count).collect(), linked: HashSet::new() };
-        for dependent in topology.dependents.iter().filter(|dependent| dependent.dofs[..3] == [true; 3]) {
+        // An attachment that leaves some directions free holds the others.
+        for dependent in topology.dependents.iter().filter(|dependent| dependent.dofs[..3].contains(&true)) {
             ties.join(dependent.node, dependent.master);
         }
         joints.iter().for_each(|joint| ties.join(joint.ends[0], joint.ends[1]));
