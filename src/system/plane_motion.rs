@@ -10,7 +10,12 @@ use crate::model::{Joint, Loading, Model, Node, Restraint};
 /// The global axis normal to the plane of a scene in which nothing can move out of it, unless the deck keeps
 /// out-of-plane motion.
 pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
-    if model.analysis.plane { (0..3).rev().find(|&n| is_plane(model, inertias, rigid_links, n)) } else { None }
+    if model.analysis.plane { that_holds(model, inertias, rigid_links) } else { None }
+}
+
+/// The same, whatever the deck keeps.
+pub fn that_holds(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
+    (0..3).rev().find(|&n| is_plane(model, inertias, rigid_links, n))
 }
 
 fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], normal: usize) -> bool {
