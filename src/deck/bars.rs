@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
-use super::words::{Maybe, Names, OneOrMany};
+use super::words::{Maybe, Names, OneOrMany, Table};
 use crate::diagnostic::At;
 
 /// A bar or cable: no bending.
@@ -34,6 +35,8 @@ pub struct Bar {
     pub free_length: Maybe<f64>,
     /// Mass matrix. Default: "lumped".
     pub mass: Maybe<MassKind>,
+    /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
+    pub damping: Maybe<Table<PartDamping>>,
 }
 
 impl PartTable for Bar {
@@ -43,6 +46,10 @@ impl PartTable for Bar {
 
     fn members(&self) -> Vec<&At<String>> {
         names(&self.path)
+    }
+
+    fn damping(&self) -> Option<&At<Table<PartDamping>>> {
+        self.damping.as_ref()
     }
 
     fn material(&self) -> Option<&At<String>> {

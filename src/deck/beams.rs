@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
-use super::words::{Maybe, Names, OneOrMany, Vector};
+use super::words::{Maybe, Names, OneOrMany, Table, Vector};
 use crate::diagnostic::At;
 use crate::elements::beam::{DEFAULT_ORDER, IntegrationRule};
 
@@ -54,6 +55,8 @@ pub struct Beam {
     pub offset_start: Maybe<Vector>,
     /// Rigid offset from the last point of the path to the end of the beam, global components at t = 0. Default: none.
     pub offset_end: Maybe<Vector>,
+    /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
+    pub damping: Maybe<Table<PartDamping>>,
 }
 
 impl PartTable for Beam {
@@ -72,6 +75,10 @@ impl PartTable for Beam {
     /// The nodes of a path have names of their own, or stand between two that have.
     fn is_node_list(&self) -> bool {
         self.group.is_some()
+    }
+
+    fn damping(&self) -> Option<&At<Table<PartDamping>>> {
+        self.damping.as_ref()
     }
 
     fn material(&self) -> Option<&At<String>> {

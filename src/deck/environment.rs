@@ -37,9 +37,11 @@ pub struct BaseAcceleration {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Damping {
-    /// Rayleigh's alpha in C = alpha M + beta K, per unit of time, 0 or more. Default: 0. Alias: `alpha`.
+    /// Rayleigh's alpha in C = alpha M + beta K, per unit of time, 0 or more; it acts on velocities relative to supports that move
+    /// together, otherwise relative to the ground. Default: 0. Alias: `alpha`.
     pub mass_factor: Maybe<f64>,
-    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more; it acts on strain rates of beams, bars and shells.
+    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more; it acts on strain rates of beams, bars and shells, and on springs of
+    /// links and joints, not on stops, friction and contacts.
     /// Default: 0. Alias: `beta`.
     pub stiffness_factor: Maybe<f64>,
     /// Dampers from nodes to the ground.

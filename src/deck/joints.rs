@@ -4,8 +4,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::links::End;
+use super::part_damping::SpringDamping;
 use super::words::kinds::Kinds;
-use super::words::{Maybe, Names, Numbers, Table};
+use super::words::{Maybe, Names, NumberOrTable, Numbers, Table};
 use crate::constraints::joints::kind::{Coordinate, MakeJoint};
 use crate::constraints::joints::{JOINTS, JointKind};
 use crate::diagnostic::At;
@@ -40,8 +41,9 @@ pub struct Joint {
     pub stiffness: Maybe<f64>,
     /// The coordinate at which that spring is without effort. Default: 0.
     pub rest: Maybe<f64>,
-    /// Force per velocity, or moment per angular velocity, of a damper along the coordinate, 0 or more. Default: 0.
-    pub damping: Maybe<f64>,
+    /// Force per velocity, or moment per angular velocity, of a damper along the coordinate, 0 or more, or `{ beta, viscous }`.
+    /// Default: 0, and beta of `[damping]`.
+    pub damping: Maybe<NumberOrTable<Table<SpringDamping>>>,
     /// The least and the largest coordinate, between stops on either side; they hold 0, where the joint starts.
     pub limits: Maybe<Numbers<2>>,
     /// Force per length, or moment per radian, of the stops, above 0. Required with `limits`.

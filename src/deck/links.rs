@@ -3,8 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::part_damping::SpringDamping;
 use super::part_table::PartTable;
-use super::words::{Maybe, Names, Numbers, Table, Vector};
+use super::words::{Maybe, Names, NumberOrTable, Numbers, Table, Vector};
 use crate::diagnostic::At;
 
 /// A spring and damper between two ends, along the line between them, along a direction, or a bushing.
@@ -24,8 +25,8 @@ pub struct Link {
     pub law: Maybe<LinkLaw>,
     /// Force per elongation, above 0; of a linear link also 0. (linear, compression-only, tension-only)
     pub stiffness: Maybe<f64>,
-    /// Force per rate of elongation, 0 or more. Default: 0.
-    pub damping: Maybe<f64>,
+    /// Force per rate of elongation, 0 or more, or `{ beta, viscous }`. Default: 0, and beta of `[damping]`.
+    pub damping: Maybe<NumberOrTable<Table<SpringDamping>>>,
     /// Free play before the link acts, a length of 0 or more. Default: 0. (compression-only, tension-only)
     pub gap: Maybe<f64>,
     /// Force at zero elongation, tension positive. Default: 0. (linear)

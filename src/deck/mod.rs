@@ -23,6 +23,7 @@ pub mod materials;
 pub mod mesh;
 pub mod number_slips;
 pub mod output;
+pub mod part_damping;
 pub mod part_table;
 pub mod parts;
 pub mod read;

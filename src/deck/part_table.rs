@@ -1,6 +1,7 @@
 //! What the table of any part answers, each in the file of its kind, and what the tables of deformable parts have in common.
 
-use super::words::{Names, OneOrMany};
+use super::part_damping::PartDamping;
+use super::words::{Names, OneOrMany, Table};
 use crate::diagnostic::At;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -31,6 +32,11 @@ pub trait PartTable {
 
     /// The name of the material that it is made of.
     fn material(&self) -> Option<&At<String>> {
+        None
+    }
+
+    /// Its own Rayleigh damping.
+    fn damping(&self) -> Option<&At<Table<PartDamping>>> {
         None
     }
 

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
 use crate::diagnostic::At;
@@ -47,6 +48,8 @@ pub struct Shell {
     pub mass: Maybe<MassKind>,
     /// The shell is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
+    /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
+    pub damping: Maybe<Table<PartDamping>>,
 }
 
 impl PartTable for Shell {
@@ -73,6 +76,10 @@ impl PartTable for Shell {
             Some(corners) if corners.values.len() == 3 => 3,
             _ => 4,
         }
+    }
+
+    fn damping(&self) -> Option<&At<Table<PartDamping>>> {
+        self.damping.as_ref()
     }
 
     fn material(&self) -> Option<&At<String>> {

@@ -75,6 +75,12 @@ impl CoordinateLaw {
     pub const FREE: CoordinateLaw =
         CoordinateLaw { stiffness: 0.0, rest: 0.0, damping: 0.0, stops: None, friction: None, hysteresis: None };
 
+    /// The same law with a factor β on its elastic stiffness, a time; stops and friction, which are stiff to hold something, stay as they are.
+    pub fn damped_by(self, beta: f64) -> CoordinateLaw {
+        let yields = self.hysteresis.as_ref().map_or(0.0, Hysteresis::stiffness);
+        CoordinateLaw { damping: self.damping + beta * (self.stiffness + yields), ..self }
+    }
+
     /// The number of history variables.
     pub fn memory(&self) -> usize {
         self.end_of_hysteresis() + if self.load_memory().is_some() { LOAD_MEMORY } else { 0 }

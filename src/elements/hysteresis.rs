@@ -48,6 +48,11 @@ impl Hysteresis {
         Ok(Hysteresis { sliders, count: points.len(), after })
     }
 
+    /// Effort per coordinate before anything yields.
+    pub fn stiffness(&self) -> f64 {
+        self.after + self.acting().map(|slider| slider.stiffness).sum::<f64>()
+    }
+
     /// The number of history variables: the anchor of each slider.
     pub fn memory(&self) -> usize {
         self.count

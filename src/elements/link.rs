@@ -76,10 +76,12 @@ impl LinkLaw {
         }
     }
 
-    /// The force with a damper `c`. A one-sided link has no force when open, and its damper never changes the sign of the force.
+    /// The force with a damper `c` and a factor `beta` on the stiffness. A one-sided link has no force when open, and its damper never changes the sign of the force.
     #[inline]
-    fn damped_force(&self, delta: f64, rate: f64, c: f64) -> LinkForce {
+    fn damped_force(&self, delta: f64, rate: f64, c: f64, beta: f64) -> LinkForce {
         let (elastic, stiffness) = self.force(delta);
+        // A table may fall; its damper must not drive it.
+        let c = c + beta * stiffness.max(0.0);
         let open = LinkForce { force: 0.0, elastic, stiffness: 0.0, damping: 0.0 };
         match self {
             LinkLaw::CompressionOnly { .. } if stiffness == 0.0 || elastic + c * rate > 0.0 => open,
@@ -139,6 +141,8 @@ pub struct Link {
     pub law: LinkLaw,
     /// Force per rate of elongation.
     pub damping: f64,
+    /// Rayleigh's factor on the stiffness (time).
+    beta: f64,
     /// A unit vector fixed in space along which the link acts; none for the line of the nodes.
     pub direction: Option<Vec3>,
     /// The force at which it fails; none for a link that does not.
@@ -189,8 +193,18 @@ impl Link {
         };
         let rounding = 1e-12 * initial_length.abs().max(free_length.abs());
         let initial_elongation = touching.filter(|at| (elongation - at).abs() <= rounding).unwrap_or(elongation);
-        let (failure, take_up) = (None, None);
-        Link { nodes, law, damping, direction, failure, take_up, start, span, initial_length, initial_elongation }
+        let (beta, failure, take_up) = (0.0, None, None);
+        Link { nodes, law, damping, beta, direction, failure, take_up, start, span, initial_length, initial_elongation }
+    }
+
+    /// The same link with a factor on its stiffness, a time, by which it damps besides its damper.
+    pub fn damped_by(self, beta: f64) -> Link {
+        Link { beta, ..self }
+    }
+
+    /// True where its force depends on the rate.
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0 || (self.beta > 0.0 && !matches!(self.law, LinkLaw::Linear { stiffness: 0.0, .. }))
     }
 
     /// The same link, of which a node takes up length: the elongation is that of its ends and the displacement of this node along x.
@@ -246,7 +260,7 @@ impl Link {
     /// The force at an elongation, none where the link has failed.
     #[inline]
     fn force(&self, line: &LinkAxis, memory: &[f64]) -> LinkForce {
-        let acting = self.law.damped_force(line.delta, line.rate, self.damping);
+        let acting = self.law.damped_force(line.delta, line.rate, self.damping, self.beta);
         match has_failed(memory) {
             true => {
                 LinkForce { force: 0.0, elastic: 0.0, stiffness: FAILED_STIFFNESS * acting.stiffness, damping: 0.0 }
@@ -314,7 +328,7 @@ impl ElementBlock for Links {
     }
 
     fn is_damped(&self) -> bool {
-        self.links.iter().any(|l| l.damping > 0.0)
+        self.links.iter().any(Link::is_damped)
     }
 
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
@@ -342,6 +356,11 @@ impl ElementBlock for Links {
                 F[node][0] -= force;
             }
         }
+    }
+
+    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
+        let link = &self.links[e];
+        Some(link.force(&link.line(now.nodes), self.memory(e, now.history)).force)
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
@@ -392,7 +411,7 @@ impl ElementBlock for Links {
             let r = link.force(&line, memory);
             (r.force - r.elastic) * line.rate
         };
-        self.with_memory(now.history).filter(|(link, _)| link.damping > 0.0).map(power).sum()
+        self.with_memory(now.history).filter(|(link, _)| link.is_damped()).map(power).sum()
     }
 
     fn history(&self) -> usize {
@@ -454,8 +473,8 @@ mod tests {
     #[test]
     fn one_sided_links_never_pull_the_wrong_way() {
         let bumper = LinkLaw::CompressionOnly { stiffness: 10.0, gap: 0.0 };
-        assert_eq!(bumper.damped_force(0.1, -1.0, 5.0).force, 0.0);
-        assert_eq!(bumper.damped_force(-0.1, 1.0, 5.0).force, 0.0);
-        assert_eq!(bumper.damped_force(-0.1, -1.0, 5.0).force, -6.0);
+        assert_eq!(bumper.damped_force(0.1, -1.0, 5.0, 0.0).force, 0.0);
+        assert_eq!(bumper.damped_force(-0.1, 1.0, 5.0, 0.0).force, 0.0);
+        assert_eq!(bumper.damped_force(-0.1, -1.0, 5.0, 0.0).force, -6.0);
     }
 }

@@ -2,6 +2,7 @@
 
 use super::beams::paths::{counts, path, segments};
 use super::data::{Bar, MassKind, Part, PartIndex, PartKind};
+use super::own_damping;
 use super::part_context::PartContext;
 use super::report::Owner;
 use super::values::{chosen, flag, span};
@@ -29,6 +30,7 @@ fn read_bar<'d>(
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Bar> {
     let mass = chosen(&bar.mass);
+    let damping = own_damping::of_part(&bar.damping, cx.report);
     let stiffness = bar_stiffness(owner, bar, mass, cx);
     let path = path(owner, &bar.path, false, cx)?;
     let lengths = segments(owner, &bar.path.as_ref()?.values, &path, cx);
@@ -56,7 +58,7 @@ fn read_bar<'d>(
     cx.parts.entry_mut(at).nodes = nodes;
     let tension_only = flag(&bar.tension_only, false);
     let yielding = cx.materials.yielding_of(&bar.material)?;
-    Some(Bar { name, axial_stiffness, mass_per_length, mass, tension_only, free, yielding, elements })
+    Some(Bar { name, axial_stiffness, mass_per_length, mass, damping, tension_only, free, yielding, elements })
 }
 
 /// E A and mass per length.

@@ -36,6 +36,7 @@ use super::masses::masses;
 use super::materials::materials;
 use super::merge_diagnostics::merge_diagnostics;
 use super::mesh_file::{Input, MeshNodes};
+use super::moving_frames::moving_frames;
 use super::names::Names;
 use super::output::{Selection, output, write_all_nodes};
 use super::part_context::PartContext;
@@ -268,6 +269,9 @@ fn model<'d>(
     };
     model.parts.extend(links.list.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
     finish(&mut model, all_nodes, deck.integrator.is_none());
+    if model.analysis.has_inertia() && !report.has_errors() {
+        model.damping.frames = moving_frames(&model, deck, report);
+    }
     model
 }
 

@@ -78,5 +78,5 @@ pub(super) fn damping<'d>(scene: &Scene<'d>, topology: &Topology, report: &mut R
             }
         }
     }
-    Damping { mass_factor, stiffness_factor, nodal }
+    Damping { mass_factor, stiffness_factor, nodal, ..Damping::default() }
 }

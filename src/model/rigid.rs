@@ -63,6 +63,7 @@ impl<'d> Maker<'_, 'd> {
         let origin = self.nodes.x(*nodes.first()?);
         let mut sums = MassIntegrals::default();
         for &part in parts {
+            self.reject_damping(part);
             cells.extend(self.take_out(part, origin, &mut sums));
         }
         let (center, inertia) = (sums.center(), sums.inertia());
@@ -96,6 +97,16 @@ impl<'d> Maker<'_, 'd> {
             self.attach(node, master, &owner)?;
         }
         Some(Rigid { body, parts, elements })
+    }
+
+    /// A rigid part has no damping of its own: its mass is that of a body.
+    fn reject_damping(&mut self, part: PartIndex) {
+        let given = self.deck.part(part).and_then(|part| part.table.damping());
+        if let Some(given) = given {
+            let message = "`damping` does not apply to a rigid part";
+            let hint = "`alpha` of [damping] acts on the mass of bodies";
+            self.report.error_with::<()>(&given.span, message, hint);
+        }
     }
 
     /// Moves the elements of a part from the model into integrals, x from `origin`; returns the nodes of each.

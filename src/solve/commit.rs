@@ -129,6 +129,8 @@ fn update_reactions_and_work(
         state.reactions[i] = new;
     }
     state.work.external += cx.system.external_work((&state.nodes, &ws.loads.start), (&ws.trial, &ws.loads.end));
+    let carrying = cx.system.carrying_power(&state.nodes) + cx.system.carrying_power(&ws.trial);
+    state.work.external += 0.5 * dt * carrying;
     let old = state.work.damping_power;
     let new = extrapolate(old, damping_power);
     state.work.damping += 0.5 * dt * (old + new);

@@ -23,7 +23,8 @@ impl Power {
     pub fn at_start(cx: &Context, ws: &mut Workspace, state: &State, driven: bool) -> Power {
         cx.system.external(&state.nodes, &ws.loads.start, &mut ws.forces);
         let driving = if driven { driving_power(&state.reactions, &ws.prescribed.start) } else { 0.0 };
-        let external = external_power(&ws.forces, &state.nodes) + driving;
+        let carrying = cx.system.carrying_power(&state.nodes);
+        let external = external_power(&ws.forces, &state.nodes) + driving + carrying;
         Power { external, damping: damping_power(cx, &state.configuration()) }
     }
 
@@ -39,7 +40,8 @@ impl Power {
         let damping =
             damping_power(cx, &Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None });
         cx.system.external(&ws.trial, &ws.loads.instant, &mut ws.forces);
-        Power { external: external + external_power(&ws.forces, &ws.trial), damping }
+        let carrying = cx.system.carrying_power(&ws.trial);
+        Power { external: external + external_power(&ws.forces, &ws.trial) + carrying, damping }
     }
 }
 

@@ -327,7 +327,12 @@ impl Assembly {
         }
         let gyroscopic = self.gyroscopic && weights.stiffness;
         for inertia in &system.inertias {
-            own[inertia.node] += inertia.tangent(&nodes[inertia.node], &weights, system.mass_damping, gyroscopic);
+            let damping = &system.mass_damping;
+            own[inertia.node] += inertia.tangent(&nodes[inertia.node], &weights, damping.alpha, gyroscopic);
+            if let Some(k) = damping.by_place(inertia, nodes).filter(|_| gyroscopic) {
+                let mut block = own[inertia.node].fixed_view_mut::<3, 3>(0, 0);
+                block += k;
+            }
         }
         for damping in &system.nodal_damping {
             for i in 0..3 {
@@ -361,10 +366,10 @@ impl Assembly {
     }
 
     fn add_masses(&mut self, system: &System, weights: TangentWeights, values: &mut [f64]) {
-        let w = weights.acceleration + system.mass_damping * weights.rate;
         let Scratch { projections, projected, local, .. } = &mut self.scratch;
         let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         for (mass, destination) in system.consistent_masses().iter().zip(&self.masses) {
+            let w = weights.acceleration + mass.alpha * weights.rate;
             if destination.projection.is_none() {
                 let m = &mut projected[..mass.m.len()];
                 m.iter_mut().zip(&mass.m).for_each(|(scaled, m)| *scaled = w * m);

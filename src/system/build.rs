@@ -11,15 +11,25 @@ use crate::model::{self, Model};
 /// nodes.
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
     let mut masses = NodalMasses::new(model, x);
+    let damping = &model.damping;
+    if model.parts.iter().any(|part| part.own_damping().alpha.is_some()) {
+        masses.lumped.with_drags();
+    }
+    masses.lumped.set_alpha(damping.mass_factor);
     model.bodies.iter().for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));
     model.masses.iter().for_each(|mass| masses.lumped.add(mass.node, mass.mass, &mass.inertia));
-    model.parts.iter().for_each(|part| assembled(part).add_masses(&model.stiffnesses, &mut masses));
+    for part in &model.parts {
+        let (first, alpha) = (masses.consistent.len(), damping.alpha(&part.own_damping()));
+        masses.lumped.set_alpha(alpha);
+        assembled(part).add_masses(&model.stiffnesses, &mut masses);
+        masses.consistent[first..].iter_mut().for_each(|mass| mass.alpha = alpha);
+    }
     (masses.lumped.finish(), masses.consistent)
 }
 
 /// The blocks of like elements in the order of the parts. `plane` is the normal of a plane motion.
 pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Group> {
-    let setting = Setting { model, x, beta: model.damping.stiffness_factor, plane };
+    let setting = Setting { model, x, plane };
     let mut groups = Vec::new();
     let mut end = 0;
     for (place, part) in model.parts.iter().enumerate() {

@@ -4,6 +4,7 @@ use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
 use super::loads::{Loading, load_on};
+use super::mass_damping::MassDamping;
 use super::mass_scaling::MassScaling;
 use super::multipliers::{Multipliers, REGULARIZATION, REGULARIZATION_OF_TREES};
 use super::node_sums::SumChunk;
@@ -57,8 +58,8 @@ pub struct System {
     mass_scaling: Option<MassScaling>,
     /// The dampers between nodes and the ground.
     pub(super) nodal_damping: Vec<model::NodalDamping>,
-    /// The Rayleigh factor on the mass (per time).
-    pub(super) mass_damping: f64,
+    /// Rayleigh damping of masses.
+    pub(super) mass_damping: MassDamping,
     /// The tangent may hold the gyroscopic matrix C(r) (37).
     pub(super) gyroscopic: bool,
     /// The global axis normal to the plane of motion, where the scene is plane.
@@ -128,6 +129,11 @@ impl System {
         self.mass_scaling.as_ref()
     }
 
+    /// The global axis normal to a plane out of which nothing can move the scene, whether or not it is kept in it.
+    pub fn plane_that_holds(&self, model: &Model) -> Option<usize> {
+        plane_motion::that_holds(model, &self.inertias, &self.rigid_links)
+    }
+
     /// The bodies that turn by their angular momentum in implicit schemes, in ascending order of nodes.
     pub fn turning_bodies(&self) -> &[TurningBody] {
         &self.turning_bodies
@@ -189,7 +195,7 @@ impl System {
             loads: model.loading.nodal.clone(),
             pressures: model.loading.pressures.clone(),
             nodal_damping: model.damping.nodal.clone(),
-            mass_damping: model.damping.mass_factor,
+            mass_damping: MassDamping::of(model),
             dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,
         };
         system.joint_loads = joint_loads::find(model, &system.joints, (&system.links, &system.groups));
@@ -216,7 +222,7 @@ impl System {
             loads: Vec::new(),
             pressures: Vec::new(),
             nodal_damping: Vec::new(),
-            mass_damping: 0.0,
+            mass_damping: MassDamping::default(),
             gyroscopic: false,
             plane: self.plane,
             dynamic: self.dynamic,
@@ -266,8 +272,10 @@ impl System {
             thread_partition::run_partitions(partitions, &self.groups, now, memory, *threads);
             scale = node_sums::sum(chunks, partitions, (&self.inertias, &add), *threads, F);
         }
+        let relative = |node: usize| self.mass_damping.relative(node, nodes)[0];
+        let drag = self.mass_damping.acts().then_some(&relative as &dyn Fn(usize) -> Vec3);
         for mass in &self.consistent {
-            mass.add_forces(nodes, &loading.field, self.dynamic, self.mass_damping, F);
+            mass.add_forces(nodes, &loading.field, self.dynamic, drag, F);
         }
         for damping in &self.nodal_damping {
             let node = &nodes[damping.node];
@@ -291,8 +299,8 @@ impl System {
         for inertia in inertias {
             let node = &nodes[inertia.node];
             let mut f = inertia.force(node, field, self.dynamic, scale);
-            if self.mass_damping > 0.0 {
-                inertia.add_damping(node, self.mass_damping, &mut f);
+            if self.mass_damping.acts() {
+                self.mass_damping.add(inertia, nodes, &mut f);
             }
             for (sum, f) in F[inertia.node - first].iter_mut().zip(f) {
                 *sum += f;
@@ -313,7 +321,7 @@ impl System {
             }
         }
         for mass in &self.consistent {
-            mass.add_forces(nodes, &loading.field, false, 0.0, F);
+            mass.add_forces(nodes, &loading.field, false, None, F);
         }
         self.add_loads(nodes, loading, F, &mut scale);
         self.transfer_to_masters(nodes, forces);
@@ -480,16 +488,26 @@ impl System {
         let mut power: f64 = thread_partition::sum(&self.groups, self.uses_threads(threads), &|group| {
             group.block.damping_power(&group.configuration(now))
         });
-        if self.mass_damping > 0.0 {
-            let twice = 2.0 * self.mass_damping;
-            power += self.inertias.iter().map(|i| twice * i.kinetic_energy(&nodes[i.node])).sum::<f64>();
-            power += self.consistent.iter().map(|m| twice * m.kinetic_energy(nodes)).sum::<f64>();
-        }
+        power += self.mass_damping.powers((&self.inertias, &self.consistent), nodes)[0];
         for d in &self.nodal_damping {
             let node = &nodes[d.node];
             power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
         }
         power
+    }
+
+    /// Rayleigh damping of masses.
+    pub fn mass_damping(&self) -> &MassDamping {
+        &self.mass_damping
+    }
+
+    /// Power of the supports that move the frames relative to which masses are damped, besides that of their reactions.
+    pub fn carrying_power(&self, nodes: &[Node]) -> f64 {
+        if self.dynamic && self.mass_damping.has_frames() {
+            self.mass_damping.powers((&self.inertias, &self.consistent), nodes)[1]
+        } else {
+            0.0
+        }
     }
 
     /// Dampers between nodes and the ground.
@@ -499,7 +517,7 @@ impl System {
 
     /// True where any viscous damping acts.
     pub fn is_damped(&self) -> bool {
-        self.mass_damping > 0.0 || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
+        self.mass_damping.acts() || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
     }
 
     /// True where the equation of motion is linear in the motion, with constant matrices.
@@ -545,6 +563,26 @@ impl System {
         for mass in &self.consistent {
             for (a, b, m) in mass.pairs() {
                 crate::elements::subtract(&mut F[a], 0, &(-m * linear(&motions[b])));
+            }
+        }
+        self.transfer_to_masters(nodes, forces);
+    }
+
+    /// Writes the forces α M q of Rayleigh damping, transferred to independent nodes, for small motions q of all nodes.
+    pub fn drag_of(&self, nodes: &[Node], motions: &[Vec6], forces: &mut Forces) {
+        let F = &mut forces.on_nodes[..];
+        F.fill([0.0; 6]);
+        for inertia in &self.inertias {
+            let q = &motions[inertia.node];
+            let (mass, J) = inertia.drag(&nodes[inertia.node], self.mass_damping.alpha);
+            crate::elements::subtract(&mut F[inertia.node], 0, &(-mass * linear(q)));
+            if let Some(J) = J {
+                crate::elements::subtract(&mut F[inertia.node], 3, &-(J * angular(q)));
+            }
+        }
+        for mass in &self.consistent {
+            for (a, b, m) in mass.pairs() {
+                crate::elements::subtract(&mut F[a], 0, &(-mass.alpha * m * linear(&motions[b])));
             }
         }
         self.transfer_to_masters(nodes, forces);

@@ -22,6 +22,17 @@ pub struct Inertia {
     pub rotary: bool,
     /// True where the node turns by its angular momentum: one of [`super::TurningBody`].
     pub turns: bool,
+    /// What damps its motion where its shares have factors α of their own; `None` where that of all masses holds.
+    pub drag: Option<Box<OwnDrag>>,
+}
+
+/// The sum of α m and of α J₀ at a node whose shares have different factors.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OwnDrag {
+    /// Force per velocity.
+    pub mass: f64,
+    /// Moment per angular velocity, in the axes of [`Inertia::J0`].
+    pub J0: Mat3,
 }
 
 impl Inertia {
@@ -57,11 +68,16 @@ impl Inertia {
         [f.x, f.y, f.z, -m.x, -m.y, -m.z]
     }
 
-    /// Subtracts the Rayleigh damping force `factor` × M v from `f`.
-    pub fn add_damping(&self, node: &Node, factor: f64, f: &mut Force) {
-        crate::elements::subtract(f, 0, &(factor * self.mass * node.v));
-        if self.rotary {
-            crate::elements::subtract(f, 3, &(factor * (self.J(node) * node.omega)));
+    /// Rayleigh damping: force per velocity and moment per angular velocity, global components, with the factor `alpha` of masses that
+    /// have none of their own. `None` without rotary inertia.
+    #[inline]
+    pub fn drag(&self, node: &Node, alpha: f64) -> (f64, Option<Mat3>) {
+        match &self.drag {
+            None => (alpha * self.mass, self.rotary.then(|| alpha * self.J(node))),
+            Some(own) => {
+                let R = node.R();
+                (own.mass, self.rotary.then(|| R * own.J0 * R.transpose()))
+            }
         }
     }
 
@@ -82,10 +98,16 @@ impl Inertia {
         let mut K = Mat6::zeros();
         let w = acceleration + damping * rate;
         K.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-        K *= w * self.mass;
+        K *= self.drag.as_ref().map_or(w * self.mass, |own| acceleration * self.mass + rate * own.mass);
         if self.rotary {
             let J = self.J(node);
-            let mut k = w * J;
+            let mut k = match &self.drag {
+                None => w * J,
+                Some(own) => {
+                    let R = node.R();
+                    acceleration * J + rate * (R * own.J0 * R.transpose())
+                }
+            };
             if let (true, true, Some(kappa)) = (gyroscopic, self.turns, turning) {
                 k += self.momentum_tangent(node, &J, rate, acceleration / rate, kappa);
             } else if gyroscopic {
@@ -111,27 +133,56 @@ impl Inertia {
 }
 
 /// Sums mass and inertia on each node.
-pub struct Lumped(Vec<(f64, Mat3)>);
+pub struct Lumped {
+    sums: Vec<(f64, Mat3)>,
+    /// The same sums times α, where parts have factors of their own.
+    drags: Vec<OwnDrag>,
+    /// α of what is added.
+    alpha: f64,
+}
 
 impl Lumped {
     /// No mass at this number of nodes.
     pub fn new(nodes: usize) -> Self {
-        Lumped(vec![(0.0, Mat3::zeros()); nodes])
+        Lumped { sums: vec![(0.0, Mat3::zeros()); nodes], drags: Vec::new(), alpha: 0.0 }
+    }
+
+    /// Sums what damps the masses besides, for parts with factors α of their own.
+    pub fn with_drags(&mut self) {
+        self.drags = vec![OwnDrag { mass: 0.0, J0: Mat3::zeros() }; self.sums.len()];
+    }
+
+    /// Sets α of what is added from now on.
+    pub fn set_alpha(&mut self, alpha: f64) {
+        self.alpha = alpha;
     }
 
     /// Adds a mass and an inertia tensor J₀ at a node.
     pub fn add(&mut self, node: usize, mass: f64, J0: &Mat3) {
-        self.0[node].0 += mass;
-        self.0[node].1 += J0;
+        self.sums[node].0 += mass;
+        self.sums[node].1 += J0;
+        if let Some(drag) = self.drags.get_mut(node) {
+            drag.mass += self.alpha * mass;
+            drag.J0 += self.alpha * J0;
+        }
     }
 
     /// The nodes that have mass or inertia.
     pub fn finish(self) -> Vec<Inertia> {
         let entry = |(node, (mass, J0)): (usize, (f64, Mat3))| {
             let rotary = J0 != Mat3::zeros();
-            (mass > 0.0 || rotary).then_some(Inertia { node, mass, weighing: mass, J0, rotary, turns: false })
+            let drag = || self.drags.get(node).cloned().map(Box::new);
+            (mass > 0.0 || rotary).then(|| Inertia {
+                node,
+                mass,
+                weighing: mass,
+                J0,
+                rotary,
+                turns: false,
+                drag: drag(),
+            })
         };
-        self.0.into_iter().enumerate().filter_map(entry).collect()
+        self.sums.into_iter().enumerate().filter_map(entry).collect()
     }
 }
 
@@ -142,6 +193,8 @@ pub struct ConsistentMass {
     pub nodes: Vec<usize>,
     /// Entries, row-major over the nodes of the element.
     pub m: Vec<f64>,
+    /// Rayleigh's factor on it, per time.
+    pub alpha: f64,
 }
 
 impl ConsistentMass {
@@ -155,7 +208,7 @@ impl ConsistentMass {
             shapes.iter().zip(weights).map(|(shape, w)| 0.5 * w * shape[a] * shape[b]).sum::<f64>()
         };
         let m = (0..n * n).map(|i| mass * entry(i / n, i % n)).collect();
-        ConsistentMass { nodes: nodes.to_vec(), m }
+        ConsistentMass { nodes: nodes.to_vec(), m, alpha: 0.0 }
     }
 
     /// Entries ∫ N_a N_b over a shell element of this mass per area with the corners `x`.
@@ -163,7 +216,7 @@ impl ConsistentMass {
         let n = nodes.len();
         let products = crate::elements::shell::products(x);
         let m = (0..n * n).map(|i| mass * products[i / n][i % n]).collect();
-        ConsistentMass { nodes: nodes.to_vec(), m }
+        ConsistentMass { nodes: nodes.to_vec(), m, alpha: 0.0 }
     }
 
     /// Each entry of the matrix with its row's and its column's node.
@@ -172,12 +225,23 @@ impl ConsistentMass {
         self.m.iter().enumerate().map(move |(i, &m)| (self.nodes[i / n], self.nodes[i % n], m))
     }
 
-    /// Subtracts M (a − field) and the Rayleigh damping force `damping` × M v from `F`; weight alone unless `dynamic`.
-    pub fn add_forces(&self, nodes: &[Node], field: &Vec3, dynamic: bool, damping: f64, F: &mut [Force]) {
+    /// Subtracts M (a − field) and Rayleigh's damping force α M v from `F`, with velocities `relative` to what carries the damping where there
+    /// is any; weight alone unless `dynamic`.
+    pub fn add_forces(
+        &self,
+        nodes: &[Node],
+        field: &Vec3,
+        dynamic: bool,
+        relative: Option<&dyn Fn(usize) -> Vec3>,
+        F: &mut [Force],
+    ) {
         for (a, b, m) in self.pairs() {
             let mut acceleration = -field;
             if dynamic {
-                acceleration += nodes[b].a + damping * nodes[b].v;
+                acceleration += nodes[b].a;
+            }
+            if let Some(relative) = relative {
+                acceleration += self.alpha * relative(b);
             }
             crate::elements::subtract(&mut F[a], 0, &(m * acceleration));
         }

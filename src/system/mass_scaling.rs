@@ -77,6 +77,7 @@ impl MassScaling {
         (inertias, place): (&mut [Inertia], &[usize]),
     ) {
         let told = self.part(&model.parts[group.part]);
+        let alpha = model.damping.alpha(&model.parts[group.part].own_damping());
         for (e, scaling) in given.iter().enumerate() {
             let Some(element) = assembled(&model.parts[group.part]).lumped(group.first + e, &model.stiffnesses, masses)
             else {
@@ -95,6 +96,10 @@ impl MassScaling {
             for share in element.0.iter().filter(|share| share.mass > 0.0) {
                 let (mass, J0) = scaling.of(share);
                 let inertia = &mut inertias[place[share.node]];
+                if let Some(drag) = &mut inertia.drag {
+                    drag.mass += alpha * (mass - share.mass);
+                    drag.J0 += alpha * (J0 - share.J0);
+                }
                 inertia.mass += mass - share.mass;
                 inertia.J0 += J0 - share.J0;
             }
@@ -146,7 +151,8 @@ impl ScaledPart {
 /// What the elements of a group need for a critical time step, as they lie at t = 0, with damping in proportion to their mass and stiffness.
 fn needed(group: &Group, (model, masses): (&Model, &NodalMasses), nodes: &[Node], step: f64) -> Vec<ElementScaling> {
     let block = &group.block;
-    let limit = largest_stiffness(step, model.damping.mass_factor, model.damping.stiffness_factor);
+    let own = model.parts[group.part].own_damping();
+    let limit = largest_stiffness(step, model.damping.alpha(&own), model.damping.beta(&own));
     let history = vec![0.0; group.history.len()];
     let now = Configuration { history: &history, ..Configuration::of(nodes) };
     let length = (block.dofs() * block.nodes(0).len()).pow(2);

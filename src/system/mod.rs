@@ -23,6 +23,7 @@ mod joint_loads;
 mod joint_tree;
 pub mod joints;
 mod loads;
+pub mod mass_damping;
 mod mass_scaling;
 pub mod masses;
 mod multipliers;

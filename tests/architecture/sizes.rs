@@ -18,10 +18,11 @@ const LINES: usize = 60;
 const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 18),
     ("deck/analysis.rs: Analysis", 16),
-    ("deck/beams.rs: Beam", 17),
+    ("deck/beams.rs: Beam", 18),
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 17),
     ("deck/mod.rs: Deck", 30),
+    ("solve/derived.rs: Derived", 16),
     ("solve/workspace.rs: Workspace", 16),
     ("system/energy.rs: Energy", 16),
 ];

@@ -5,7 +5,7 @@ use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::amplitude::Amplitude;
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::model::{AnalysisKind, Link, LinkKind, MassKind, Model, PartType, Update};
+use rdsolve::model::{AnalysisKind, Link, LinkKind, MassKind, Model, OwnDamping, PartType, Update};
 use rdsolve::system::energy::Energy;
 use rdsolve::system::{Forces, Loading, System, results};
 
@@ -163,7 +163,14 @@ fn bushings_tell_the_moment_at_their_first_end() {
     fix(&mut m, ground, 0..6);
     let stiffness = [1e3, 2e3, 3e3, 100.0, 200.0, 300.0];
     let kind = LinkKind::Bushing { stiffness, damping: [0.0; 6], axes: Mat3::identity() };
-    m.add(Link { name: "mount".into(), ends: [ground, block], kind, failure: None, take_up: None });
+    m.add(Link {
+        name: "mount".into(),
+        ends: [ground, block],
+        kind,
+        own_damping: OwnDamping::default(),
+        failure: None,
+        take_up: None,
+    });
     push(&mut m, block, Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.1, 0.2, 0.3), false, None);
     let state = run(&m).last().clone();
     let mut links = Vec::new();

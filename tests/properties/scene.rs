@@ -153,7 +153,16 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
         made.push(BeamElement { nodes, frame, section: m.stiffnesses.len() - 1 });
     }
     let name = format!("beam{}", m.count(PartKind::Beam));
-    m.add(Beam { name, order, mass, rotary_inertia: true, yielding: None, graded: false, elements: made });
+    m.add(Beam {
+        name,
+        order,
+        mass,
+        rotary_inertia: true,
+        damping: OwnDamping::default(),
+        yielding: None,
+        graded: false,
+        elements: made,
+    });
 }
 
 pub fn line(m: &mut Model, ends: [usize; 2], law: LinkLaw, damping: f64, direction: Option<Vec3>) {
@@ -161,7 +170,7 @@ pub fn line(m: &mut Model, ends: [usize; 2], law: LinkLaw, damping: f64, directi
     let free_length = direction.map_or(arm.norm(), |d| d.dot(&arm));
     let kind = LinkKind::Line { law, damping, direction, free_length };
     let name = format!("link{}", m.count(PartKind::Link));
-    m.add(Link { name, ends, kind, failure: None, take_up: None });
+    m.add(Link { name, ends, kind, own_damping: OwnDamping::default(), failure: None, take_up: None });
 }
 
 pub fn spring(m: &mut Model, ends: [usize; 2], stiffness: f64, damping: f64) {
@@ -175,6 +184,7 @@ pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_lengt
         axial_stiffness,
         mass_per_length,
         mass,
+        damping: OwnDamping::default(),
         tension_only: false,
         free: 1.0,
         yielding: None,
@@ -211,6 +221,7 @@ pub fn shell(
         plate,
         density: 3.0,
         mass,
+        damping: OwnDamping::default(),
         yielding: None,
         axis: Vec3::x(),
         corners,
@@ -291,6 +302,7 @@ pub fn zoo(rng: &mut StdRng, kind: AnalysisKind, time_step: f64) -> Model {
             damping: [0.0; 6],
             axes: rotation::matrix(&turn(rng)),
         },
+        own_damping: OwnDamping::default(),
         failure: None,
         take_up: None,
     });

@@ -81,6 +81,11 @@ pub fn warnings(name: &str, sets: &[String]) -> Vec<String> {
     model::read(&source(name, sets)).1.into_iter().map(|problem| problem.message).collect()
 }
 
+/// What reading the text of a deck says, messages alone.
+pub fn warnings_of(text: &str) -> Vec<String> {
+    model::read(&Source::new("deck.toml", text, &[])).1.into_iter().map(|problem| problem.message).collect()
+}
+
 /// The model of a deck below `decks/`, with entries overridden as by `--set`.
 pub fn read(name: &str, sets: &[String]) -> Model {
     let source = source(name, sets);

@@ -14,6 +14,7 @@ use crate::mesh::MeshElement;
 use crate::model::beams::grading::{cuts, gradings};
 use crate::model::beams::paths::{counts, path, segments};
 use crate::model::data::{Beam, BeamElement, Part, PartIndex, PartKind};
+use crate::model::own_damping;
 use crate::model::part_context::PartContext;
 use crate::model::report::Owner;
 use crate::model::sections;
@@ -64,6 +65,7 @@ fn read_beam<'d>(
         cx.report.error::<()>(&at.span, "`order` can be 1, 2, 3 or 4");
     }
     let mass = chosen(&beam.mass);
+    let damping = own_damping::of_part(&beam.damping, cx.report);
     let shear = flag(&beam.shear, true);
     let section = cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report);
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
@@ -80,7 +82,8 @@ fn read_beam<'d>(
     }
     elements.iter_mut().for_each(|element| element.section = section);
     let graded = beam.grading.as_ref().is_some_and(|grading| grading.values.iter().any(|part| part.value < 1.0));
-    Some(Beam { name, order, mass, rotary_inertia: flag(&beam.rotary_inertia, true), yielding, graded, elements })
+    let rotary_inertia = flag(&beam.rotary_inertia, true);
+    Some(Beam { name, order, mass, rotary_inertia, damping, yielding, graded, elements })
 }
 
 /// A beam whose nodes and elements are to be made.

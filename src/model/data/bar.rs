@@ -1,12 +1,13 @@
 //! Bars and cables: lines of elements that resist stretching alone.
 
 use super::integrals::{MassIntegrals, along};
+use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
 use crate::materials::MaterialLaw;
 use crate::math::{Mat3, Vec3};
-use crate::quantities::{Column, PLASTIC_STRAIN};
+use crate::quantities::{AXIAL_FORCE, Column, PLASTIC_STRAIN};
 use crate::sections::Stiffness;
 
 /// A line of nodes, each two of them joined by an element that resists stretching alone.
@@ -20,6 +21,8 @@ pub struct Bar {
     pub mass_per_length: f64,
     /// The distribution of the mass.
     pub mass: MassKind,
+    /// Rayleigh factors of its own.
+    pub damping: OwnDamping,
     /// True where the bar goes slack under compression.
     pub tension_only: bool,
     /// Length without force over that at t = 0.
@@ -31,7 +34,7 @@ pub struct Bar {
 }
 
 impl PartAnswers for Bar {
-    const QUANTITIES: &'static [&'static [Column]] = &[&[PLASTIC_STRAIN]];
+    const QUANTITIES: &'static [&'static [Column]] = &[&[AXIAL_FORCE, PLASTIC_STRAIN]];
 
     fn name(&self) -> &str {
         &self.name
@@ -51,6 +54,10 @@ impl PartAnswers for Bar {
 
     fn yields(&self) -> bool {
         self.yielding.is_some()
+    }
+
+    fn own_damping(&self) -> OwnDamping {
+        self.damping
     }
 
     fn mass_kind(&self) -> Option<MassKind> {

@@ -2,6 +2,7 @@
 
 use super::integrals::{MassIntegrals, along};
 use super::lattice;
+use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
 use crate::deck::part_table::MassKind;
@@ -21,6 +22,8 @@ pub struct Beam {
     pub mass: MassKind,
     /// True where the section's rotary inertia is kept.
     pub rotary_inertia: bool,
+    /// Rayleigh factors of its own.
+    pub damping: OwnDamping,
     /// The fibres and their law; `None` where the material is elastic.
     pub yielding: Option<FibreModel>,
     /// True where the elements of a segment differ in length.
@@ -63,6 +66,10 @@ impl PartAnswers for Beam {
 
     fn yields(&self) -> bool {
         self.yielding.is_some()
+    }
+
+    fn own_damping(&self) -> OwnDamping {
+        self.damping
     }
 
     fn mass_kind(&self) -> Option<MassKind> {

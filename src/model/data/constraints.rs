@@ -115,7 +115,7 @@ pub struct Restraint {
 }
 
 /// A prescribed motion: an amplitude times a factor.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PrescribedMotion {
     /// Index into [`super::Loading::amplitudes`].
     pub amplitude: usize,

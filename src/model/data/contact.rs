@@ -96,6 +96,10 @@ impl Contact {
 impl PartAnswers for Contact {
     const QUANTITIES: &'static [&'static [Column]] = &[&CONTACT, &[CONTACT_FORCE]];
 
+    fn has_damped_stiffness(&self) -> bool {
+        false
+    }
+
     fn name(&self) -> &str {
         &self.name
     }

@@ -1,5 +1,6 @@
 //! Springs, dampers, gaps and bushings between two nodes.
 
+use super::loading::OwnDamping;
 use super::part_answers::{Drawing, LinearSpring, PartAnswers};
 use crate::constraints::joint::ConstraintEquation;
 use crate::elements::coordinate_law::CoordinateLaw;
@@ -17,6 +18,8 @@ pub struct Link {
     pub ends: [usize; 2],
     /// Its law.
     pub kind: LinkKind,
+    /// Rayleigh factors of its own.
+    pub own_damping: OwnDamping,
     /// The forces at which it fails; none for one that does not.
     pub failure: Option<LinkFailure>,
     /// Where it is pretensioned, the node whose displacement along x is the length that has been taken up. A load pulls at it in the stage
@@ -85,6 +88,19 @@ impl PartAnswers for Link {
 
     fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
         self.ends.iter_mut().chain(&mut self.take_up).for_each(visit);
+    }
+
+    fn has_damped_stiffness(&self) -> bool {
+        match &self.kind {
+            LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, .. } => *stiffness > 0.0,
+            LinkKind::Line { .. } => true,
+            LinkKind::Bushing { stiffness, .. } => stiffness.iter().any(|k| *k > 0.0),
+            LinkKind::Joint { law, .. } => law.stiffness > 0.0 || law.hysteresis.is_some(),
+        }
+    }
+
+    fn own_damping(&self) -> OwnDamping {
+        self.own_damping
     }
 
     fn may_stiffen(&self) -> bool {

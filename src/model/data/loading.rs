@@ -1,5 +1,6 @@
 //! Loads, ground motion and damping.
 
+use super::moving_frame::MovingFrames;
 use crate::amplitude::Amplitude;
 use crate::elements::pressure::Face;
 use crate::math::Vec3;
@@ -84,13 +85,36 @@ pub struct BaseAcceleration {
     pub amplitude: usize,
 }
 
+/// Rayleigh factors that the deck gives a part by itself; `None` where those of the whole scene hold.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct OwnDamping {
+    /// α on its mass, 1/time.
+    pub alpha: Option<f64>,
+    /// β on its elastic stiffness, time.
+    pub beta: Option<f64>,
+}
+
+impl Damping {
+    /// α of a part.
+    pub fn alpha(&self, own: &OwnDamping) -> f64 {
+        own.alpha.unwrap_or(self.mass_factor)
+    }
+
+    /// β of a part.
+    pub fn beta(&self, own: &OwnDamping) -> f64 {
+        own.beta.unwrap_or(self.stiffness_factor)
+    }
+}
+
 /// Viscous damping besides that of links.
 #[derive(Debug, Clone, Default)]
 pub struct Damping {
     /// Rayleigh's α in C = α M + β K, 1/time.
     pub mass_factor: f64,
-    /// Rayleigh's β, time; it acts on strain rates of deformable parts.
+    /// Rayleigh's β, time; it acts on strain rates of deformable parts and on springs of links and joints.
     pub stiffness_factor: f64,
+    /// The frames relative to which α acts.
+    pub frames: MovingFrames,
     /// Dampers of nodes.
     pub nodal: Vec<NodalDamping>,
 }

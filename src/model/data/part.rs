@@ -6,6 +6,7 @@ use super::beam::Beam;
 use super::contact::Contact;
 use super::integrals::MassIntegrals;
 use super::link::Link;
+use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, LinearSpring, NodeWeights, PartAnswers};
 use super::shell::Shell;
@@ -103,6 +104,16 @@ impl Part {
     /// True where the part may store less energy than none, because it gives way under a preload or by its table.
     pub fn may_release(&self) -> bool {
         ask!(self, may_release)
+    }
+
+    /// Rayleigh factors that the deck gives the part by itself.
+    pub fn own_damping(&self) -> OwnDamping {
+        ask!(self, own_damping)
+    }
+
+    /// True for a part with an elastic stiffness on which Rayleigh's β acts.
+    pub fn has_damped_stiffness(&self) -> bool {
+        ask!(self, has_damped_stiffness)
     }
 
     /// How the mass of the part is spread; `None` for a part without mass of its own.

@@ -1,6 +1,7 @@
 //! What every kind of part answers, each in the file of its kind. What a kind does not have is what is answered by default.
 
 use super::integrals::MassIntegrals;
+use super::loading::OwnDamping;
 use super::node::Node;
 use crate::deck::part_table::MassKind;
 use crate::math::{Mat3, Vec3};
@@ -71,6 +72,14 @@ pub trait PartAnswers {
 
     fn may_release(&self) -> bool {
         false
+    }
+
+    fn has_damped_stiffness(&self) -> bool {
+        true
+    }
+
+    fn own_damping(&self) -> OwnDamping {
+        OwnDamping::default()
     }
 
     fn mass_kind(&self) -> Option<MassKind> {

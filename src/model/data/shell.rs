@@ -2,12 +2,13 @@
 
 use super::integrals::MassIntegrals;
 use super::lattice;
+use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, NodeWeights, PartAnswers};
 use crate::deck::part_table::MassKind;
 use crate::elements::shell::{self, LayerModel, MOST_NODES, Plate};
 use crate::math::{Mat3, Vec3};
-use crate::quantities::{Column, PLASTIC_STRAIN, VON_MISES};
+use crate::quantities::{Column, PLASTIC_STRAIN, SHELL_RESULTANTS, VON_MISES};
 use crate::sections::Stiffness;
 
 /// A surface of elements of one shape. A part of the deck that has several is as many shells of the same name, one after the other.
@@ -21,6 +22,8 @@ pub struct Shell {
     pub density: f64,
     /// The distribution of the mass.
     pub mass: MassKind,
+    /// Rayleigh factors of its own.
+    pub damping: OwnDamping,
     /// The layers and their law; `None` where the material is elastic.
     pub yielding: Option<LayerModel>,
     /// Axis 1 of results, projected onto the surface element by element.
@@ -84,7 +87,7 @@ impl ShellElement {
 }
 
 impl PartAnswers for Shell {
-    const QUANTITIES: &'static [&'static [Column]] = &[&[VON_MISES, PLASTIC_STRAIN]];
+    const QUANTITIES: &'static [&'static [Column]] = &[&[VON_MISES, PLASTIC_STRAIN], &SHELL_RESULTANTS];
 
     fn name(&self) -> &str {
         &self.name
@@ -104,6 +107,10 @@ impl PartAnswers for Shell {
 
     fn yields(&self) -> bool {
         self.yielding.is_some()
+    }
+
+    fn own_damping(&self) -> OwnDamping {
+        self.damping
     }
 
     fn mass_kind(&self) -> Option<MassKind> {

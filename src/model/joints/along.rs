@@ -11,9 +11,10 @@ use crate::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
 use crate::elements::hysteresis::Hysteresis;
 use crate::math::{Mat3, Vec3};
 use crate::model::data::{
-    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, Node, PrescribedMotion,
+    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, Node, OwnDamping, PrescribedMotion,
 };
 use crate::model::links::ModelLinks;
+use crate::model::own_damping::of_spring;
 use crate::model::places::nodes::Nodes;
 use crate::model::report::{Owner, Report};
 use crate::model::scene::Scene;
@@ -73,6 +74,7 @@ pub struct ActsAlong<'d> {
     pub gear: Option<Gear<'d>>,
     effort: Option<JointEffort>,
     law: CoordinateLaw,
+    own_damping: OwnDamping,
     /// By how much the joint gives before friction slips, where the deck says so.
     stick: Option<f64>,
     /// True where its turns are counted although nothing acts.
@@ -100,10 +102,11 @@ impl<'d> Along<'_, 'd> {
         let motion = self.motion();
         let gear = self.gear();
         let effort = self.effort();
-        let law = self.law(kind, coordinate);
+        let (damping, own_damping) = of_spring("a joint", &self.joint.damping, self.report);
+        let law = self.law(kind, coordinate, damping);
         let stick = self.report.positive("stick", &joint.stick);
         let counted = self.is_counted();
-        Some(ActsAlong { coordinate, motion, gear, effort, law, stick, counted })
+        Some(ActsAlong { coordinate, motion, gear, effort, law, own_damping, stick, counted })
     }
 
     /// True where the joint is not there from t = 0 on, or comes back: its coordinate has no beginning that the deck draws.
@@ -248,7 +251,7 @@ impl<'d> Along<'_, 'd> {
         (effort.amplitude.is_none() || amplitude.is_some()).then_some(JointEffort { value: value?, amplitude })
     }
 
-    fn law(&mut self, kind: &JointKind, coordinate: Coordinate) -> CoordinateLaw {
+    fn law(&mut self, kind: &JointKind, coordinate: Coordinate, damping: f64) -> CoordinateLaw {
         let joint = self.joint;
         if let (Some(rest), None) = (&joint.rest, &joint.stiffness)
             && !self.report.is_spoiled(self.owner.span, "stiffness")
@@ -265,7 +268,7 @@ impl<'d> Along<'_, 'd> {
         CoordinateLaw {
             stiffness: if hysteresis.is_some() { 0.0 } else { spring },
             rest: joint.rest.as_ref().map_or(0.0, |rest| rest.value),
-            damping: self.report.not_negative("damping", &joint.damping, 0.0),
+            damping,
             stops: self.stops(),
             friction: self.friction(kind, coordinate),
             hysteresis,
@@ -459,7 +462,7 @@ impl ActsAlong<'_> {
             efforts.extend([load(from, -1.0), load(to, 1.0)]);
         }
         let spring = (self.counted || self.law != CoordinateLaw::FREE)
-            .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law)));
+            .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law), self.own_damping));
         joint.coordinate = Some(JointCoordinate { lock, axis, drive: None, effort: self.effort, spring });
         if let Some(drive) = drive {
             joint.lead(drive);

@@ -4,14 +4,15 @@ pub mod pretension;
 
 use crate::constraints::joint::ConstraintEquation;
 use crate::deck::links as words;
-use crate::deck::words::{Maybe, Numbers, Table};
-use crate::diagnostic::At;
+use crate::deck::words::{Maybe, NumberOrTable, Numbers, Table};
+use crate::diagnostic::{At, Span};
 use crate::elements::coordinate_law::CoordinateLaw;
 use crate::elements::link::LinkLaw;
 use crate::elements::link_failure::LinkFailure;
 use crate::math::Mat3;
-use crate::model::data::{Link, LinkKind, Load};
+use crate::model::data::{Link, LinkKind, Load, OwnDamping};
 use crate::model::links::pretension::pretension;
+use crate::model::own_damping::of_spring;
 use crate::model::places::axes::axes;
 use crate::model::places::ends::EndTable;
 use crate::model::places::nodes::Nodes;
@@ -35,9 +36,10 @@ impl ModelLinks {
         joint: &str,
         ends: [usize; 2],
         (lock, law): (ConstraintEquation, CoordinateLaw),
+        own_damping: OwnDamping,
     ) -> usize {
         let kind = LinkKind::Joint { lock, law };
-        self.list.push(Link { name: joint.to_owned(), ends, kind, failure: None, take_up: None });
+        self.list.push(Link { name: joint.to_owned(), ends, kind, own_damping, failure: None, take_up: None });
         self.list.len() - 1
     }
 }
@@ -56,7 +58,11 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
         };
         let (from, to) = (end("from", &link.from), end("to", &link.to));
         let ends = from.zip(to).map(|(from, to)| [from, to]);
-        let kind = if link.bushing.is_some() { bushing(link, report) } else { line(&owner, link, ends, nodes, report) };
+        let (damping, own_damping) = of_spring("a link", &link.damping, report);
+        let kind = match link.bushing {
+            Some(_) => bushing(link, report),
+            None => line(&owner, link, (ends, damping), nodes, report),
+        };
         if let Some([from, to]) = ends
             && from == to
         {
@@ -73,7 +79,7 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
                 }
                 node
             });
-            links.list.push(Link { name, ends, kind, failure, take_up });
+            links.list.push(Link { name, ends, kind, own_damping, failure, take_up });
         }
     }
     links
@@ -82,14 +88,13 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
 fn line<'d>(
     owner: &Owner<'d>,
     link: &'d words::Link,
-    ends: Option<[usize; 2]>,
+    (ends, damping): (Option<[usize; 2]>, f64),
     nodes: &Nodes,
     report: &mut Report<'d>,
 ) -> Option<LinkKind> {
     let unused = [("bushing_damping", span(&link.bushing_damping)), ("axes", span(&link.axes))];
     report.reject_unused("a link without `bushing`", &unused);
     let law = law(owner, link, report);
-    let damping = report.not_negative("damping", &link.damping, 0.0);
     let free_length = link.free_length.as_ref().map(|length| length.value);
     let direction = match &link.direction {
         Some(direction) => Some(report.unit("direction", direction)?),
@@ -123,7 +128,7 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
     match law {
         words::LinkLaw::Linear => {
             report.reject_unused("the law \"linear\"", &[gap, points]);
-            if link.damping.is_none() {
+            if dashpot(link).is_none() {
                 report.require(owner, "stiffness", &link.stiffness)?;
             }
             let stiffness = report.not_negative("stiffness", &link.stiffness, 0.0);
@@ -152,7 +157,7 @@ fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKin
     let unused = [
         ("law", span(&link.law)),
         ("stiffness", span(&link.stiffness)),
-        ("damping", span(&link.damping)),
+        ("damping", dashpot(link)),
         ("gap", span(&link.gap)),
         ("preload", span(&link.preload)),
         ("free_length", span(&link.free_length)),
@@ -167,6 +172,15 @@ fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKin
         None => Mat3::identity(),
     };
     Some(LinkKind::Bushing { stiffness: stiffness?, damping: damping?, axes })
+}
+
+/// The place of a damper along the line of a link, which a bushing does not have.
+fn dashpot(link: &words::Link) -> Option<&Span> {
+    let given = link.damping.as_ref()?;
+    match &given.value {
+        NumberOrTable::Number(_) => Some(&given.span),
+        NumberOrTable::Table(table) => span(&table.viscous),
+    }
 }
 
 /// The forces at which a link fails. Along a line there is no shear.

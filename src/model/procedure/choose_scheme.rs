@@ -25,6 +25,7 @@ fn is_soft(model: &Model) -> bool {
     let mut fastest = vec![0.0; model.nodes.len()];
     for part in &model.parts {
         let Some(LinearSpring { ends, stiffness, damping }) = part.linear_spring() else { return false };
+        let damping = damping + model.damping.beta(&part.own_damping()) * stiffness;
         for end in ends {
             let master = master(model, end);
             let Some(body) = model.bodies.iter().find(|body| body.node == master) else { continue };

@@ -32,9 +32,10 @@ pub fn check_mass_scaling(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme,
             "they act on all that resists acceleration, gravity on the true mass alone: move the supports instead";
         report.error_with::<()>(&base.span, message, hint);
     }
-    let alpha = deck.damping.as_ref().and_then(|damping| damping.mass_factor.as_ref());
-    if let Some(alpha) = alpha.filter(|alpha| alpha.value * step >= 1.0) {
-        let message = format!("no mass makes a step of {} stable with this `mass_factor`", short(step));
+    let of_all = deck.damping.iter().filter_map(|damping| Some(("mass_factor", damping.mass_factor.as_ref()?)));
+    let of_parts = deck.parts().filter_map(|part| Some(("alpha", part.table.damping()?.alpha.as_ref()?)));
+    for (key, alpha) in of_all.chain(of_parts).filter(|(_, alpha)| alpha.value * step >= 1.0) {
+        let message = format!("no mass makes a step of {} stable with this `{key}`", short(step));
         report.error_with::<()>(&alpha.span, message, format!("below {} one does", short(1.0 / step)));
     }
     if analysis.modes.is_none() {

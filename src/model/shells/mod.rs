@@ -12,6 +12,7 @@ use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plat
 use crate::math::{Vec3, curved_faces};
 use crate::mesh;
 use crate::model::data::{MassKind, Part, PartIndex, PartKind, Shell, ShellElement};
+use crate::model::own_damping;
 use crate::model::part_context::PartContext;
 use crate::model::places::nodes::Nodes;
 use crate::model::report::Owner;
@@ -53,10 +54,12 @@ fn read_shell<'d>(
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Vec<Shell>> {
     let mass = chosen(&shell.mass);
+    let damping = own_damping::of_part(&shell.damping, cx.report);
     let part = plate(owner, shell, mass, cx).map(|(plate, density, yielding, axis)| {
         cx.parts.entry_mut(at).contact_radius = 0.5 * plate.thickness;
         let (elements, numbers) = (Vec::new(), Vec::new());
-        Shell { name: name.clone(), plate, density, mass, yielding, axis, corners: 0, order: 1, elements, numbers }
+        let name = name.clone();
+        Shell { name, plate, density, mass, damping, yielding, axis, corners: 0, order: 1, elements, numbers }
     });
     if let Some(group) = &shell.group {
         let unused = [

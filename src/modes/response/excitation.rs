@@ -137,6 +137,14 @@ fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, Mod
             force.into_iter().zip(&own).filter(|(_, own)| **own).map(|(force, _)| force).collect()
         });
         at.system.project(nodes, &mut motion.moved);
+        // Masses are damped against the frames that supports move, so what moves with them is not.
+        if at.system.mass_damping().has_frames() {
+            let mut drag = Forces::new(at.system, nodes.len());
+            at.system.drag_of(nodes, &at.system.mass_damping().carry(nodes, &motion.moved), &mut drag);
+            let rows = plan.dofs.nodal_dofs().iter().zip(&own).filter(|(_, own)| **own).map(|(at, _)| *at);
+            let forces = motion.forces[1].iter_mut().zip(rows);
+            forces.for_each(|(force, (node, dof))| *force -= drag.on_nodes[node][dof]);
+        }
         at.system.gaps_of_motion(nodes, &motion.moved, &mut motion.gaps);
     }
     Ok(all)

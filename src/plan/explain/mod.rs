@@ -4,6 +4,7 @@ mod analysis;
 mod bars;
 mod beams;
 mod contacts;
+mod damping;
 mod explanation;
 mod links;
 mod mass_scaling;
@@ -29,11 +30,13 @@ pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     let mut text = Explanation::default();
     analysis::explain(&mut text, model);
     scene::explain(&mut text, plan, model, system);
+    damping::explain(&mut text, model);
     mass_scaling::explain(&mut text, model, system);
     solution::explain(&mut text, plan, model, system);
     threads::explain(&mut text, plan, system);
     text.omitted = omitted::list(plan, model, system);
     text.notes.extend(redundant_constraints(plan, model, system));
+    text.notes.extend(scene::plane_modes(model, system));
     text
 }
 

@@ -15,8 +15,6 @@ pub struct Setting<'s> {
     pub model: &'s Model,
     /// Initial positions of all nodes.
     pub x: &'s [Vec3],
-    /// Factor β of stiffness-proportional damping, time.
-    pub beta: f64,
     /// Normal of a plane motion; `None` for a motion in space.
     pub plane: Option<usize>,
 }

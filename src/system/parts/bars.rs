@@ -49,7 +49,8 @@ fn lumped(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> LumpedElement
     LumpedElement(nodes.iter().map(|&node| NodalShare { node, mass: own(node), J0: Mat3::zeros() }).collect())
 }
 
-fn block(part: &Bar, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
+fn block(part: &Bar, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
+    let beta = model.damping.beta(&part.damping);
     let elements = &part.elements[piece];
     match &part.yielding {
         None => Box::new(bar::elastic_bars(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),

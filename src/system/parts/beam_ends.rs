@@ -7,8 +7,9 @@ use crate::elements::{Force, IntegrationPoint, subtract};
 use crate::math::{Mat3, Vec3};
 use crate::model::{AnalysisKind, Beam, ExpectAt, MassKind, Model, PartType, SectionPlaces};
 use crate::state::Configuration;
-use crate::system::inertia::{ConsistentMass, Inertia};
+use crate::system::inertia::{ConsistentMass, Inertia, OwnDrag};
 use crate::system::loads::{Loading, load_on};
+use crate::system::mass_damping::MassDamping;
 use crate::system::mass_scaling::MassScaling;
 use crate::system::scale::Scale;
 use std::collections::HashMap;
@@ -16,8 +17,6 @@ use std::collections::HashMap;
 /// The ends of all elements of all beams, in deck order.
 pub struct BeamEnds {
     ends: Vec<[BeamEnd; 2]>,
-    /// Rayleigh factor on the mass, per time.
-    mass_damping: f64,
     dynamic: bool,
 }
 
@@ -27,6 +26,8 @@ struct BeamEnd {
     lumped: Inertia,
     /// The row of the consistent mass matrix: each node of the element with its mass.
     row: Vec<(usize, f64)>,
+    /// Rayleigh factor on the mass, per time.
+    alpha: f64,
     /// Axes of the section, columns, global components at t = 0.
     frame: Mat3,
     /// Loads that are shares of one along the element, by their index in the model.
@@ -57,6 +58,7 @@ impl BeamEnds {
                     let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
                     ConsistentMass::new(nodes, length * model.stiffnesses[spec.section].mass_per_length)
                 });
+                let alpha = model.damping.alpha(&beam.damping);
                 let own = lumped(beam, element, &model.stiffnesses, &masses);
                 let scaling = mass_scaling.map(|scaling| scaling.of(part, element));
                 ends.push([0, beam.order].map(|a| {
@@ -72,19 +74,17 @@ impl BeamEnds {
                             J0,
                             rotary: J0 != Mat3::zeros(),
                             turns: false,
+                            drag: Some(Box::new(OwnDrag { mass: alpha * mass, J0: alpha * J0 })),
                         },
                         row: row.map(|(_, column, m)| (column, m)).collect(),
+                        alpha,
                         frame: spec.frame,
                         loads: loads.remove(&(part, element, node)).unwrap_or_default(),
                     }
                 }));
             }
         }
-        BeamEnds {
-            ends,
-            mass_damping: model.damping.mass_factor,
-            dynamic: model.analysis.kind == AnalysisKind::Dynamic,
-        }
+        BeamEnds { ends, dynamic: model.analysis.kind == AnalysisKind::Dynamic }
     }
 
     /// The resultants at the ends of an element, counted over all beams, from the internal forces on its nodes there.
@@ -93,12 +93,13 @@ impl BeamEnds {
         element: usize,
         internal: [Force; 2],
         loads: (&[crate::model::Load], &Loading),
+        damping: &MassDamping,
         now: &Configuration,
     ) -> [IntegrationPoint; 2] {
         let ends = &self.ends[element];
         [0, 1].map(|k| {
             let (end, internal) = (&ends[k], internal[k]);
-            let outer = self.distributed(end, loads, now);
+            let outer = self.distributed(end, loads, damping, now);
             // On the first node the section acts from the other side.
             let sign = if k == 0 { -1.0 } else { 1.0 };
             let sum: Force = std::array::from_fn(|i| internal[i] - outer[i]);
@@ -112,16 +113,21 @@ impl BeamEnds {
         &self,
         end: &BeamEnd,
         (loads, loading): (&[crate::model::Load], &Loading),
+        damping: &MassDamping,
         now: &Configuration,
     ) -> Force {
         let node = &now.nodes[end.lumped.node];
         let mut sum = end.lumped.force(node, &loading.field, self.dynamic, &mut Scale::default());
-        if self.mass_damping > 0.0 {
-            end.lumped.add_damping(node, self.mass_damping, &mut sum);
+        let drags = self.dynamic && end.alpha > 0.0;
+        if drags {
+            damping.add(&end.lumped, now.nodes, &mut sum);
         }
         for &(column, m) in &end.row {
             let other = &now.nodes[column];
-            let inertia = if self.dynamic { other.a + self.mass_damping * other.v } else { Vec3::zeros() };
+            let mut inertia = if self.dynamic { other.a } else { Vec3::zeros() };
+            if drags {
+                inertia += end.alpha * damping.relative(column, now.nodes)[0];
+            }
             subtract(&mut sum, 0, &(m * (inertia - loading.field)));
         }
         for &index in &end.loads {

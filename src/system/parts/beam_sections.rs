@@ -7,6 +7,7 @@ use crate::model::{Beam, Load, Model, PartType};
 use crate::state::Configuration;
 use crate::system::group::Group;
 use crate::system::loads::Loading;
+use crate::system::mass_damping::MassDamping;
 
 /// The state of an integration point of a beam.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +41,8 @@ pub struct EndForces<'a> {
     pub loads: &'a [Load],
     /// ... and what they are at the instant.
     pub loading: &'a Loading,
+    /// Rayleigh damping of their masses.
+    pub damping: &'a MassDamping,
 }
 
 /// Writes the stress resultants of all beams into `out`, in deck order: those at their integration points, and with what acts along the
@@ -67,7 +70,7 @@ pub fn section_points(
             let end = start + (model.nodes[nodes.1].x - model.nodes[nodes.0].x).norm();
             let ends = acting.as_ref().and_then(|acting| {
                 let internal = group.block.end_forces(e, &now)?;
-                Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), &now))
+                Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), acting.damping, &now))
             });
             let mut push = |place, s: f64, at: IntegrationPoint| {
                 out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, ..at } });

@@ -53,7 +53,8 @@ impl Assembled for Beam {
 }
 
 fn block<const N: usize>(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn ElementBlock> {
-    let &Setting { model, x, beta, plane } = setting;
+    let &Setting { model, x, plane } = setting;
+    let beta = model.damping.beta(&part.damping);
     let elements = part.elements[piece].iter().map(|e| BeamGeometry {
         nodes: &e.nodes,
         frame: &e.frame,

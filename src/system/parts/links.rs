@@ -86,23 +86,25 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
         let drive = coordinates.filter(|coordinate| coordinate.spring == Some(spring)).find_map(|of| of.drive)?;
         Some(drive.at(x))
     };
+    let beta = |part: &Link| model.damping.beta(&part.own_damping);
     let element = |(index, part): (usize, &Link)| match &part.kind {
         LinkKind::Line { law, damping, direction, free_length } => {
             let start = part.ends.map(|node| x[node]);
             let line = link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start);
-            LinkElement::Line(line.failing(part.failure).taken_up(part.take_up))
+            LinkElement::Line(line.damped_by(beta(part)).failing(part.failure).taken_up(part.take_up))
         }
         LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
             nodes: part.ends,
             axes: *axes,
             stiffness: Vec3::from_column_slice(&stiffness[..3]),
             spring: RotationalSpring::new(Vec3::from_column_slice(&stiffness[3..])),
-            damping: *damping,
+            damping: std::array::from_fn(|i| damping[i] + beta(part) * stiffness[i]),
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
             failure: part.failure,
         }),
         LinkKind::Joint { lock, law } => {
-            LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law: *law, drive: drive(index) })
+            let law = law.damped_by(beta(part));
+            LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law, drive: drive(index) })
         }
     };
     model.each::<Link>().enumerate().map(element).collect()

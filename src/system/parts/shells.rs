@@ -104,7 +104,8 @@ fn lumped(part: &Shell, nodes: &[usize], masses: &NodalMasses) -> LumpedElement 
     LumpedElement(nodes.iter().zip(areas).map(share).collect())
 }
 
-fn block(part: &Shell, piece: Range<usize>, &Setting { x, beta, .. }: &Setting) -> Box<dyn ElementBlock> {
+fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
+    let beta = model.damping.beta(&part.damping);
     let size = part.size();
     let elements = part.elements[piece].iter().map(|e| shell::ShellGeometry {
         nodes: &e.nodes[..size],
