@@ -148,6 +148,14 @@ impl ElementBlock for YieldingBars {
         self.is_slack(self.strain(e, now.nodes).strain, &now.history[self.history_range(e)])
     }
 
+    fn has_kinks(&self) -> bool {
+        self.tension_only
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        if self.tension_only { (0..self.len()).filter(|&e| self.is_inactive(e, now)).count() } else { 0 }
+    }
+
     fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
         !self.tension_only && self.strain(e, before).e.dot(&self.strain(e, now).e) < 0.0
     }

@@ -137,6 +137,14 @@ pub trait ElementBlock: Send + Sync {
     fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
         false
     }
+    /// True where forces have kinks: their slope jumps where something opens, closes, slips, yields or comes to a stop.
+    fn has_kinks(&self) -> bool {
+        false
+    }
+    /// A number of the branches between kinks on which the elements are; histories tell the others.
+    fn branches(&self, _now: &Configuration) -> usize {
+        0
+    }
     /// True where element `e` has passed through zero length or area, or stands against its own sections, so that it is no longer what
     /// it models. `before`: the nodes at the start of the step.
     fn is_turned_over(&self, _e: usize, _before: &[Node], _now: &[Node]) -> bool {

@@ -130,6 +130,16 @@ impl CoordinateLaw {
         }
         state
     }
+
+    /// A number of the branch between kinks: the stop that pushes, and the springs that go on slipping by the rate.
+    pub fn branch(&self, q: f64, rate: f64, memory: &[f64]) -> usize {
+        /// The way on which a spring shows whether it slips, as a part of the coordinate or of the way on which friction sticks.
+        const AHEAD: f64 = 1e-7;
+        let size = q.abs().max(self.friction.map_or(0.0, |friction| friction.stick));
+        let ahead = q + AHEAD * size * rate.signum();
+        let by_q = CoordinateLaw { stops: None, ..*self }.at(ahead, rate, memory, 0.0).by_q;
+        self.stops.map_or(0, |stops| stops.branch(q)).wrapping_add(by_q.to_bits() as usize)
+    }
 }
 
 impl Stops {
@@ -137,6 +147,12 @@ impl Stops {
     fn depth(&self, q: f64) -> (f64, f64) {
         let [low, high] = self.limits;
         if q - high >= low - q { (q - high, 1.0) } else { (low - q, -1.0) }
+    }
+
+    /// 1 between the stops, 0 and 2 at them.
+    pub fn branch(&self, q: f64) -> usize {
+        let [low, high] = self.limits;
+        usize::from(q > low) + usize::from(q >= high)
     }
 
     fn add(&self, memory: &[f64], state: &mut CoordinateState) {

@@ -57,6 +57,25 @@ impl LinkLaw {
         }
     }
 
+    /// Number of elongations at which dN/dδ jumps.
+    pub fn kinks(&self) -> usize {
+        match self {
+            LinkLaw::Linear { .. } => 0,
+            LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. } => 1,
+            LinkLaw::Table { points } => points.len() - 2,
+        }
+    }
+
+    /// Number of them below an elongation.
+    pub fn branch(&self, delta: f64) -> usize {
+        match self {
+            LinkLaw::Linear { .. } => 0,
+            LinkLaw::CompressionOnly { gap, .. } => usize::from(delta > -gap),
+            LinkLaw::TensionOnly { gap, .. } => usize::from(delta >= *gap),
+            LinkLaw::Table { points } => points[1..points.len() - 1].partition_point(|point| point[0] <= delta),
+        }
+    }
+
     /// ∫ N dδ from 0 to δ.
     pub fn energy(&self, delta: f64) -> f64 {
         match self {
@@ -335,6 +354,14 @@ impl ElementBlock for Links {
         let link = &self.links[e];
         let one_sided = matches!(link.law, LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. });
         one_sided && link.law.force(link.line(now.nodes).delta).1 == 0.0
+    }
+
+    fn has_kinks(&self) -> bool {
+        self.links.iter().any(|link| link.failure.is_some() || link.law.kinks() > 0)
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        self.links.iter().map(|link| link.law.branch(link.line(now.nodes).delta)).sum()
     }
 
     fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {

@@ -12,6 +12,7 @@ mod control;
 mod derived;
 mod effort;
 mod energy_growth;
+mod events;
 mod explicit;
 mod failure;
 mod frame;

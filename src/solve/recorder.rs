@@ -5,6 +5,7 @@ use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
 use super::effort::Effort;
 use super::energy_growth::{EnergyGrowth, checks_energy_growth};
+use super::events::Events;
 use super::failure::Failure;
 use super::frame::{Frame, Observer};
 use super::handover::Handover;
@@ -38,6 +39,8 @@ pub struct Recorder {
     initial_energy: Option<f64>,
     /// What has failed.
     breakage: Breakage,
+    /// What errors of steps do not go with their order for.
+    pub events: Events,
     /// The energy that what failed before the step at hand had stored.
     pub eroded: f64,
     derived: Derived,
@@ -50,7 +53,7 @@ pub struct Recorder {
 }
 
 keep!(Recorder {
-    counts, before, is_trial, most_steps, growth, initial_energy, breakage, eroded, tables, fields, looked_inside, pending, derived,
+    counts, before, is_trial, most_steps, growth, initial_energy, breakage, events, eroded, tables, fields, looked_inside, pending, derived,
 } without { wanted, observing });
 
 /// The progress of a cadence.
@@ -118,6 +121,7 @@ impl Recorder {
             growth: EnergyGrowth::default(),
             initial_energy: None,
             breakage: Breakage::default(),
+            events: Events::default(),
             eroded: 0.0,
             derived: Derived::new(model),
             tables: Pace::default(),
@@ -130,6 +134,7 @@ impl Recorder {
     /// Sums the energy at the start of the run, or of a stage. What comes or goes between stages is not counted as missed.
     pub fn begin(&mut self, cx: &Context, state: &State, handover: Option<&Handover>) {
         self.breakage.begin(cx.system, state);
+        self.events.begin(cx, state);
         self.eroded = state.work.material.eroded;
         let sums = !cx.is_dynamic() || self.wanted.has(Wanted::ENERGY) || checks_energy_growth(cx.model);
         let sum = |initial: Option<f64>| Energy::of(cx.system, state, initial, cx.plan.threads);
@@ -207,6 +212,7 @@ impl Recorder {
         let (due, drawn) = self.is_due(cx.model, step, state.time);
         self.spend(step);
         self.breakage.look(cx, state);
+        self.events.look(cx, state);
         self.pending = (!due).then_some(step.dt);
         // Reading the clock twice costs a twentieth of a step of two bodies.
         let began = (due || drawn).then(Instant::now);

@@ -133,7 +133,7 @@ impl Run<'_> {
         let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(search.pieces.now);
         let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, search.between);
         let (outcome, state) = self.once(&mut trace, &schedule, search);
-        let run = trace.into_kept();
+        let run = trace.into_kept().with_events(self.recorder.events.met());
         // What fails with shorter steps did come to its end with those before.
         if search.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
             let of_before = search.error.before;
@@ -272,7 +272,7 @@ impl Run<'_> {
         let mut unseen = Unseen(observer);
         let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, search.between);
         let (outcome, _) = self.once(&mut trace, &schedule, search);
-        let trial = trace.into_kept();
+        let trial = trace.into_kept().with_events(self.recorder.events.met());
         let Search { error, judged, .. } = &mut *search;
         error.add(self.recorder.own());
         std::mem::swap(&mut self.recorder, &mut judged.recorder);

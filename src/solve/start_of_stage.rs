@@ -33,10 +33,8 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
         state.algorithmic_accelerations = state.nodes.iter().map(|node| stack(&node.a, &node.alpha)).collect();
     }
     if let Some(before) = &handover.out_of_balance {
-        let (nodes, algorithmic) = (state.nodes.clone(), state.algorithmic_accelerations.clone());
         jump_velocities(cx, ws, &mut state)?;
         jump_from(cx, ws, &mut state, before, Side::After)?;
-        go_on_algorithmic(&mut state, (&nodes, &algorithmic));
     } else if cx.model.analysis.goes_on() {
         kick(cx, ws, &mut state)?;
     } else {

@@ -140,6 +140,8 @@ fn motion_that_grows_by_itself_fails() {
         let Outcome::Failed { time, failure } = done.outcome else { panic!("{:?}", done.outcome) };
         println!("{time}: {failure}");
         assert!(matches!(failure, Failure::EnergyGrowth { ratio, .. } if ratio > 1.0), "{failure:?}");
+        // The balance was kept for a while, and lost before the end.
+        assert!(failure.valid_until().is_some_and(|until| until > 0.0 && until < time), "{failure:?}");
         assert!(time < 0.2, "{time}");
         assert!(failure.to_string().contains("times the energy that there was"), "{failure}");
     }

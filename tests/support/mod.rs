@@ -375,6 +375,11 @@ impl Row {
         self.0.get(column).unwrap_or_else(|| panic!("no column `{column}`"))
     }
 
+    /// All columns that hold a number here.
+    pub fn numbers(&self) -> Vec<(&str, f64)> {
+        self.0.iter().filter_map(|(column, text)| Some((column.as_str(), text.parse().ok()?))).collect()
+    }
+
     pub fn number(&self, column: &str) -> f64 {
         self.text(column).parse().unwrap_or_else(|_| panic!("{column}: {}", self.text(column)))
     }

@@ -1,7 +1,7 @@
 //! Steps of Runge-Kutta schemes by the error estimate of their embedded schemes.
 
 use super::adaptive::StepController;
-use super::tolerance::{FollowTolerance, fails_late};
+use super::tolerance::{EventLimit, FollowTolerance};
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::explicit::RungeKuttaStepper;
@@ -33,11 +33,12 @@ pub struct EmbeddedErrorController {
     /// Length of the first step of a run, and the longest allowed.
     first: f64,
     longest: f64,
-    /// The state at the start of the step, of scenes in which something may fail.
+    /// The state at the start of the step, of scenes in which events may fall into it.
     before: State,
+    events: EventLimit,
 }
 
-keep!(EmbeddedErrorController { stepper, tolerance, next, motion, longest } without { asked, first, before });
+keep!(EmbeddedErrorController { stepper, tolerance, next, motion, longest, events } without { asked, first, before });
 
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.
@@ -51,6 +52,7 @@ impl EmbeddedErrorController {
             first,
             longest: f64::INFINITY,
             before: State::default(),
+            events: EventLimit::default(),
         }
     }
 
@@ -94,6 +96,7 @@ impl FollowTolerance for EmbeddedErrorController {
         let longer = (tolerance / self.asked).powf(1.0 / self.stepper.error_order()).clamp(1.0, 2.0);
         (self.tolerance, self.next) = (tolerance, self.first * longer);
         self.longest = longest.unwrap_or(f64::INFINITY);
+        self.events = EventLimit::default();
     }
 }
 
@@ -120,15 +123,18 @@ impl StepController for EmbeddedErrorController {
         let dt = to - state.time;
         self.stepper.evaluate_stages(cx, ws, state, to)?;
         let motion = self.judge(cx, ws, dt)?;
-        let fails = cx.system.can_fail();
-        if fails {
+        let meets_events = cx.system.has_kinks();
+        if meets_events {
             self.before.clone_from(state);
         }
         let report = self.stepper.accept(cx, ws, state, to)?;
-        if fails && fails_late(cx, [&self.before, state], self.tolerance) {
+        if meets_events && self.events.is_passed(cx, [&self.before, state], self.tolerance) {
             state.copy_from(&self.before);
             self.next = 0.5 * dt;
             return Err(Failure::ErrorTooLarge { dt });
+        }
+        if meets_events {
+            self.events.accept([&self.before, state]);
         }
         // A step refused by contacts or joints has not moved anything, so its motion is no reference for errors.
         self.motion = motion;

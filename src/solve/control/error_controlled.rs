@@ -11,7 +11,7 @@
 use super::adaptive::StepController;
 use super::error_measure::ErrorMeasure;
 use super::lasting_error::LastingError;
-use super::tolerance::{FollowTolerance, fails_late};
+use super::tolerance::{EventLimit, FollowTolerance};
 use crate::integrators::spectrum::error_constant;
 use crate::integrators::{AlphaFamily, RotationUpdate};
 use crate::math::{Vec3, Vec6, stack};
@@ -89,10 +89,11 @@ pub struct ErrorController<'a> {
     /// The errors of a step by node, and the same after more filters.
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
+    events: EventLimit,
 }
 
 keep!(ErrorController<'_> { 
-    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting,
+    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting, events,
  } without { asked, constant, order, first, most });
 
 /// An estimated error relative to the largest motion.
@@ -125,6 +126,7 @@ impl<'a> ErrorController<'a> {
             inside: State::default(),
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             lasting: LastingError::new(nodes),
+            events: EventLimit::default(),
         }
     }
 
@@ -275,6 +277,7 @@ impl FollowTolerance for ErrorController<'_> {
         self.longest = longest.unwrap_or(self.most);
         (self.lasting_intensity, self.intensity) = (None, None);
         self.lasting.forget();
+        self.events = EventLimit::default();
     }
 }
 
@@ -309,7 +312,7 @@ impl StepController for ErrorController<'_> {
         self.start.copy_from(state);
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
         let report = self.stepper.step(cx, ws, state, to)?;
-        if fails_late(cx, [&self.start, state], self.tolerance) {
+        if self.events.is_passed(cx, [&self.start, state], self.tolerance) {
             self.take_back(state);
             (ws.rotation_drift, ws.joint_violation) = (drift, violation);
             self.length = 0.5 * dt;
@@ -321,6 +324,7 @@ impl StepController for ErrorController<'_> {
             return Ok(None);
         }
         if self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {
+            self.events.accept([&self.start, state]);
             return Ok(Some(report));
         }
         self.take_back(state);

@@ -1,7 +1,12 @@
 //! Controllers whose steps follow a tolerance.
 
+use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::state::State;
+
+/// Steps in which an event falls are no longer than this part of the run, times the root of the tolerance. What such a step errs by goes with
+/// the square of its length; a step of a twentieth of what opens and closes again then errs by less than a tenth of the tolerance.
+const LONGEST_WITH_EVENT: f64 = 0.01;
 
 /// A controller that can run again with another tolerance.
 pub trait FollowTolerance {
@@ -10,11 +15,42 @@ pub trait FollowTolerance {
     fn follow(&mut self, cx: &Context, tolerance: f64, longest: Option<f64>);
 }
 
-/// True where something failed in a step from a state to the next, and the step is too long for the time of that: it may err by the
-/// `tolerance` times the duration of the run, over which motions err by the same part. The step is then to be taken in halves.
-pub fn fails_late(cx: &Context, [before, after]: [&State; 2], tolerance: f64) -> bool {
-    let dt = after.time - before.time;
-    let analysis = &cx.model.analysis;
-    after.work.material.eroded != before.work.material.eroded
-        && dt > (tolerance * analysis.duration()).max(2.0 * analysis.least_step)
+/// Finds steps that are too long for an event which falls into them.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct EventLimit {
+    /// Whether material flows, and whether something slips, in the step that was taken last.
+    flows: [bool; 2],
+}
+
+keep!(EventLimit { flows });
+
+impl EventLimit {
+    /// True where the step from a state to the next is to be taken in halves. What fails in it may err by the `tolerance` times the duration
+    /// of the run, over which motions err by the same part; other events bend forces alone.
+    pub fn is_passed(&self, cx: &Context, [before, after]: [&State; 2], tolerance: f64) -> bool {
+        let (dt, analysis) = (after.time - before.time, &cx.model.analysis);
+        let longer_than = |part: f64| dt > (part * analysis.duration()).max(2.0 * analysis.least_step);
+        if after.work.material.eroded != before.work.material.eroded && longer_than(tolerance) {
+            return true;
+        }
+        longer_than(LONGEST_WITH_EVENT * tolerance.sqrt())
+            && cx.system.has_kinks()
+            && (self.flows_otherwise(cx, flows(before, after))
+                || cx.system.branches(before) != cx.system.branches(after))
+    }
+
+    /// True where flow begins or ends.
+    fn flows_otherwise(&self, cx: &Context, [yields, slips]: [bool; 2]) -> bool {
+        slips != self.flows[1] || yields != self.flows[0] && cx.system.yields_at_once()
+    }
+
+    /// Takes account of a step that stands.
+    pub fn accept(&mut self, [before, after]: [&State; 2]) {
+        self.flows = flows(before, after);
+    }
+}
+
+fn flows(before: &State, after: &State) -> [bool; 2] {
+    let [before, after] = [before, after].map(|state| &state.work.material);
+    [(after.plastic, after.viscous) != (before.plastic, before.viscous), after.friction != before.friction]
 }

@@ -15,6 +15,9 @@ const MOST_NODES: usize = 20_000;
 const SLOPE: f64 = 0.8;
 /// Number of steps for whose ends there is room from the first step on; memory that is not touched costs nothing.
 const USUAL_STEPS: usize = 1 << 16;
+/// The factor between the errors of two runs that have met events, at most: that of steps twice as long, in which events leave errors of first
+/// order.
+const EVENTFUL: f64 = 2.0;
 /// Runs of nearly the same steps tell nothing of each other.
 const TELLING: f64 = 1.1;
 
@@ -42,9 +45,11 @@ pub struct Kept {
     longest: f64,
     /// The times between which runs are compared.
     between: [f64; 2],
+    /// True where the run has met events.
+    met_events: bool,
 }
 
-keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between });
+keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events });
 
 impl<'o> Trace<'o> {
     /// An empty trace in front of another observer, to be compared between these times; the error of a step goes with this power of its
@@ -133,15 +138,27 @@ impl Kept {
         self.times += 1;
     }
 
-    /// The factor by which the error of another run is larger, as those of its steps tell that this one has not gone too.
+    /// Notes whether the run has met events.
+    pub fn with_events(self, met_events: bool) -> Kept {
+        Kept { met_events, ..self }
+    }
+
+    /// The factor by which the error of another run is larger, as those of its steps tell that this one has not gone too. That of a step in
+    /// which an event falls goes with its length at best.
     pub fn apart(&self, other: &Kept) -> f64 {
+        let apart = self.steps_apart(other);
+        if self.met_events || other.met_events { apart.min(EVENTFUL) } else { apart }
+    }
+
+    /// The same where no run meets an event.
+    fn steps_apart(&self, other: &Kept) -> f64 {
         let [own, theirs] = [(self, other), (other, self)].map(|(run, than)| run.own_steps(than));
         if own.left > 0.0 { (theirs.left / own.left).powf(SLOPE) } else { 1.0 }
     }
 
     /// True where the steps of another run are enough longer to tell the error of this one.
     pub fn is_told_by(&self, other: &Kept) -> bool {
-        !self.has_steps_of(other) && self.apart(other) > TELLING
+        !self.has_steps_of(other) && self.steps_apart(other) > TELLING
     }
 
     /// True where most steps are those of the other run, which something else than their tolerance dictates.

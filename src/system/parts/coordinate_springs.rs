@@ -96,6 +96,17 @@ impl ElementBlock for CoordinateSprings {
         self.springs.iter().any(|spring| spring.law.damping > 0.0 || loses(&spring.law))
     }
 
+    fn has_kinks(&self) -> bool {
+        let has = |law: &CoordinateLaw| law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some();
+        self.springs.iter().any(|spring| has(&spring.law))
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        let memories = self.memories.iter().filter_map(|memory| now.history.get(memory.clone()));
+        let states = self.states(now).zip(memories);
+        states.fold(0, |sum, ((spring, at), memory)| sum.wrapping_add(spring.law.branch(at.q, at.rate, memory)))
+    }
+
     fn history(&self) -> usize {
         self.memories.last().map_or(0, |last| last.end)
     }

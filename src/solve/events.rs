@@ -1,0 +1,41 @@
+//! Events that a run has met: impacts, slip, yielding, stops, breaking, and other kinks of forces. Where one falls into a step, the error of
+//! the step is of first order in its length, whatever the scheme.
+
+use super::context::Context;
+use crate::materials::Dissipation;
+use crate::model::StepLength;
+use crate::snapshot::keep;
+use crate::state::State;
+
+/// Watches for events where the errors of steps are told. Nothing is looked at in other runs.
+#[derive(Default)]
+pub struct Events {
+    /// The branches at the beginning; `None` where nothing is looked at.
+    branches: Option<usize>,
+    /// What was dissipated before.
+    spent: Dissipation,
+    met: bool,
+}
+
+keep!(Events { branches, spent, met });
+
+impl Events {
+    /// Begins with the state at the beginning of a run, or of a stage.
+    pub fn begin(&mut self, cx: &Context, state: &State) {
+        let tells = matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. });
+        let branches = (tells && cx.system.has_kinks()).then(|| cx.system.branches(state));
+        *self = Events { branches, spent: state.work.material, met: false };
+    }
+
+    /// Looks at the state at the end of a step.
+    pub fn look(&mut self, cx: &Context, state: &State) {
+        if let Some(branches) = self.branches.filter(|_| !self.met) {
+            self.met = state.work.material != self.spent || cx.system.branches(state) != branches;
+        }
+    }
+
+    /// True where the run has met any.
+    pub fn met(&self) -> bool {
+        self.met
+    }
+}
