@@ -69,6 +69,7 @@ mod study;
 mod sudden_loads;
 mod sweep;
 mod table_sizes;
+mod thin_rods;
 mod turning;
 
 mod scene;
