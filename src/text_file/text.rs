@@ -13,10 +13,23 @@ pub struct Text<'t> {
     pub path: &'t str,
     /// All bytes of the file.
     pub bytes: &'t [u8],
+    /// Where its lines come from, if not all from this file.
+    pieces: &'t [Piece],
     /// The place in `bytes` where the next line begins.
     next: usize,
     /// The number of the last line read.
     line: usize,
+}
+
+/// Lines in a row that come from one file.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// The number of the first in the text, counted from 1.
+    pub first: usize,
+    /// The path of the file, for messages.
+    pub path: String,
+    /// The number of the first in its file.
+    pub line: usize,
 }
 
 /// A line without its end.
@@ -40,9 +53,27 @@ pub struct Word<'t> {
 }
 
 impl<'t> Text<'t> {
-    /// The text from its first line.
+    /// The text from its first line, without a byte order mark.
     pub fn new(path: &'t str, bytes: &'t [u8]) -> Self {
-        Text { path, bytes, next: 0, line: 0 }
+        Text { path, bytes: bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes), pieces: &[], next: 0, line: 0 }
+    }
+
+    /// The text with lines of several files.
+    pub fn of_pieces(path: &'t str, bytes: &'t [u8], pieces: &'t [Piece]) -> Self {
+        Text { pieces, ..Text::new(path, bytes) }
+    }
+
+    /// The path of the file from which a line comes, and its number there.
+    pub fn origin(&self, line: usize) -> (&'t str, usize) {
+        let piece = self.pieces.iter().rfind(|piece| piece.first <= line);
+        piece.map_or((self.path, line), |piece| (piece.path.as_str(), piece.line + line - piece.first))
+    }
+
+    /// A line as messages show it.
+    pub fn excerpt(&self, line: usize) -> Excerpt {
+        let text = self.bytes.split(|&byte| byte == b'\n').nth(line.max(1) - 1).unwrap_or_default().trim_ascii_end();
+        let (path, line) = self.origin(line);
+        Excerpt::new(path.to_owned(), line, text, 0..text.len())
     }
 
     /// Goes on behind the line of this number; the start of the text is before the line 1.
@@ -105,8 +136,8 @@ impl<'t> Text<'t> {
 
     /// An error with an excerpt of the line.
     fn draw(&self, message: impl Into<String>, line: usize, text: &[u8], columns: Range<usize>) -> Fault {
-        let path = self.path.to_owned();
-        Box::new(Diagnostic::error(message).of(Excerpt::new(path, line, text, columns)))
+        let (path, line) = self.origin(line);
+        Box::new(Diagnostic::error(message).of(Excerpt::new(path.to_owned(), line, text, columns)))
     }
 }
 
@@ -170,6 +201,19 @@ impl Word<'_> {
             false => Err(error),
         });
         read.ok().filter(|number: &f64| number.is_finite())
+    }
+
+    /// A finite number as Fortran reads it: the letter of the exponent may be missing, as in `1.5-3`.
+    pub fn fortran_number(&self) -> Option<f64> {
+        let without_letter = || {
+            let sign = self.bytes.iter().rposition(|byte| matches!(byte, b'+' | b'-')).filter(|&at| at > 0)?;
+            let [mantissa, exponent] = [&self.bytes[..sign], &self.bytes[sign..]].map(std::str::from_utf8);
+            let mantissa = mantissa.ok().filter(|text| {
+                text.contains('.') && text.ends_with(['.', '0', '1', '2', '3', '4', '5', '6', '7', '8', '9'])
+            })?;
+            format!("{mantissa}e{}", exponent.ok()?).parse().ok().filter(|number: &f64| number.is_finite())
+        };
+        self.number().or_else(without_letter)
     }
 
     /// A coordinate: a finite number that is no larger than lengths are.
