@@ -104,10 +104,8 @@ const KEYS: &[Row] = &[
 
 /// Guesses at the top of the deck, or anywhere, for what stands elsewhere.
 const ELSEWHERE: &[(&[&str], &str)] = &[
-    (&["gravity"], "gravity stands in [environment]"),
     (&["rayleigh"], "Rayleigh damping is [damping] with `alpha` (mass_factor) and `beta` (stiffness_factor)"),
     (&["extends", "include", "import", "base"], "a deck is one file; variants of it are made with --set KEY=VALUE"),
-    (&["file"], "values stand in the deck itself; only [mesh], [amplitudes] and [study] name a file"),
     (&["elements"], "elements are [[beams]], [[bars]] and [[shells]]"),
     (
         &["modes", "eigenvalues", "modal"],
@@ -132,7 +130,7 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
     (
         &["csv", "path", "record", "file_name", "filename", "filePath"],
         "angular_frequency",
-        "a record in a file is `file` = \"record.csv\" here",
+        "that is `file` here; `columns`, `rows` and `time_step` say how it is read",
         Some("file"),
     ),
     (
@@ -160,12 +158,6 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
         "a force or moment between the ends is `effort` = { value = ..., amplitude = \"...\" }",
         Some("effort"),
     ),
-    (
-        &["friction", "mu"],
-        "cross_axis",
-        "dry friction is `friction_moment` or `friction_force`, whatever the joint carries",
-        None,
-    ),
     (&["spring", "k"], "cross_axis", "that is `stiffness` here, along the coordinate", Some("stiffness")),
     (&["stops", "stop", "range"], "cross_axis", "that is `limits` = [a, b], with `limit_stiffness`", Some("limits")),
     (&["pitch"], "cross_axis", "that is `lead`, the length of a turn", Some("lead")),
@@ -181,8 +173,8 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
     (
         &["q", "w", "udl", "beam", "beams", "line_load", "distributed", "load_per_length"],
         "follower",
-        "beams take no loads per length: give forces at points along them; gravity acts by itself",
-        None,
+        "that is `force_per_length` here, in global axes, or `local` in those of the section",
+        Some("force_per_length"),
     ),
     (&["phases", "phase", "load_cases"], "integrator", "that is [[stages]] here", Some("stages")),
     (
@@ -357,33 +349,34 @@ pub fn value(guess: &str, known: &[&str]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::deck::tables::{DeckTable, tables};
     use std::collections::HashSet;
 
     /// Keys and words that the schema knows.
     fn known() -> (HashSet<String>, HashSet<String>) {
-        fn collect(value: &serde_json::Value, keys: &mut HashSet<String>, words: &mut HashSet<String>) {
+        fn collect(value: &serde_json::Value, words: &mut HashSet<String>) {
             match value {
                 serde_json::Value::Object(entries) => {
-                    for (name, value) in entries {
-                        if let ("properties", Some(properties)) = (name.as_str(), value.as_object()) {
-                            keys.extend(properties.keys().cloned());
-                        }
-                        if let ("const", Some(word)) = (name.as_str(), value.as_str()) {
-                            words.insert(word.to_owned());
-                        }
-                        if let ("enum", Some(list)) = (name.as_str(), value.as_array()) {
-                            words.extend(list.iter().filter_map(|word| word.as_str().map(str::to_owned)));
-                        }
-                        collect(value, keys, words);
-                    }
+                    words.extend(entries.get("const").and_then(|word| word.as_str()).map(str::to_owned));
+                    let list = entries.get("enum").and_then(|list| list.as_array()).into_iter().flatten();
+                    words.extend(list.filter_map(|word| word.as_str().map(str::to_owned)));
+                    entries.values().for_each(|value| collect(value, words));
                 }
-                serde_json::Value::Array(list) => list.iter().for_each(|value| collect(value, keys, words)),
+                serde_json::Value::Array(list) => list.iter().for_each(|value| collect(value, words)),
                 _ => {}
             }
         }
-        let (mut keys, mut words) = Default::default();
-        collect(schemars::schema_for!(crate::deck::Deck).as_value(), &mut keys, &mut words);
-        (keys, words)
+        let mut words = HashSet::new();
+        collect(schemars::schema_for!(crate::deck::Deck).as_value(), &mut words);
+        (tables().iter().flat_map(|table| table.keys.clone()).collect(), words)
+    }
+
+    /// All sentences, each with a key of the tables in which it is said, if it is said in some alone.
+    fn sentences() -> impl Iterator<Item = (&'static str, &'static str)> {
+        let notes = NOTES.iter().map(|(_, mark, sentence, _)| (*sentence, *mark));
+        let anywhere = ELSEWHERE.iter().chain(NO_VALUES).map(|(_, sentence)| *sentence);
+        let examples = EXAMPLES.iter().map(|(_, sentence)| *sentence);
+        notes.chain(anywhere.chain(examples).map(|sentence| (sentence, "")))
     }
 
     #[test]
@@ -403,6 +396,84 @@ mod tests {
         }
         for (_, ours) in VALUES {
             ours.iter().for_each(|word| assert!(words.contains(*word), "there is no word `{word}`"));
+        }
+    }
+
+    /// Keys and tables that stand in a sentence between backticks or brackets are those of the deck.
+    #[test]
+    fn sentences_speak_of_what_there_is() {
+        let (keys, words) = known();
+        let labels: HashSet<&str> = tables().iter().map(|table| table.label.as_str()).collect();
+        let mut seen = 0;
+        for (sentence, _) in sentences() {
+            for quoted in sentence.split('`').skip(1).step_by(2) {
+                let of_text = quoted.split(|c: char| !(c.is_ascii_alphanumeric() || "_-".contains(c)));
+                for word in of_text.filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic())) {
+                    seen += 1;
+                    assert!(keys.contains(word) || words.contains(word), "`{word}` in: {sentence}");
+                }
+            }
+            for bracket in sentence.split_inclusive(']').filter_map(|part| part.rfind('[').map(|at| &part[at..])) {
+                let name = bracket.trim_matches(['[', ']']);
+                if keys.contains(name.split('.').next().unwrap()) && !name.contains([',', ' ']) {
+                    seen += 1;
+                    let is_there = [format!("[{name}]"), format!("[[{name}]]"), format!("[{name}.NAME]")];
+                    assert!(is_there.iter().any(|label| labels.contains(label.as_str())), "[{name}] in: {sentence}");
+                }
+            }
+        }
+        assert!(seen > 40, "{seen}");
+    }
+
+    /// What a sentence denies is not there: keys, or words, of its tables that hold one of these. Whoever adds such a key finds the
+    /// sentence here that denies it.
+    const DENIALS: &[(&str, &[&str])] = &[
+        ("that is `orientation` here, which lies in the local x-y plane, not in x-z", &["xz"]),
+        ("parts begin where their points lie: only velocities are given", &["displace", "position"]),
+        ("there are no temperatures", &["temperature", "thermal"]),
+        ("there are no solid elements", &["solid", "hexa", "tetra"]),
+        ("the material models are elastic and J2 plasticity", &["johnson", "hyper", "concrete"]),
+        (
+            "a body's axes at t = 0 are the global ones: give its inertia about them",
+            &["orientation", "rotation", "frame"],
+        ),
+        ("bodies.csv is written by itself", &["bodies"]),
+    ];
+
+    #[test]
+    fn no_hint_denies_what_there_is() {
+        let (keys, words) = known();
+        let tables = tables();
+        let of_tables = |mark: &str| tables.iter().filter(|table| table.keys.iter().any(|key| key == mark)).collect();
+        for (sentence, mark) in sentences() {
+            let denies = |word: &str| ["no", "not", "only", "nothing", "never", "none", "cannot"].contains(&word);
+            let listed = DENIALS.iter().find(|(listed, _)| *listed == sentence);
+            let mut parts = sentence.split(|c: char| !c.is_ascii_alphabetic());
+            assert!(listed.is_some() || !parts.any(denies), "list what this sentence denies: {sentence}");
+            let here: Vec<&DeckTable> = of_tables(mark);
+            let here: HashSet<&String> = match mark {
+                "" => keys.union(&words).collect(),
+                _ => here.into_iter().flat_map(|table| &table.keys).collect(),
+            };
+            for stem in listed.into_iter().flat_map(|(_, stems)| *stems) {
+                let found = here.iter().find(|word| word.contains(stem));
+                assert!(found.is_none(), "there is `{}`, which is denied: {sentence}", found.unwrap());
+            }
+        }
+        for (listed, _) in DENIALS {
+            assert!(sentences().any(|(sentence, _)| sentence == *listed), "nothing says: {listed}");
+        }
+        // A guess that is a key of the table is no guess.
+        for (guesses, mark, sentence, _) in NOTES {
+            for table in of_tables(mark) as Vec<&DeckTable> {
+                let key = table.keys.iter().find(|key| guesses.contains(&key.as_str()));
+                assert!(
+                    key.is_none(),
+                    "`{}` is a key of {}, and so no guess for: {sentence}",
+                    key.unwrap(),
+                    table.label
+                );
+            }
         }
     }
 

@@ -33,6 +33,7 @@ pub mod shells;
 pub mod stages;
 pub mod study;
 pub mod supports;
+mod tables;
 mod value;
 
 pub use crate::words;

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Problem, Value, Wanted, Wrong};
-use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, set, study};
+use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, set, study, tables};
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::{nearest, quoted};
 
@@ -170,12 +170,16 @@ impl Reader {
         if let Some(hint) = hints::elsewhere(key) {
             return diagnostic.hint(hint);
         }
+        let place = tables::place_of(key);
         match nearest(key, known.iter().copied()) {
             Some(near) => {
                 spoil(near);
-                diagnostic.hint(format!("did you mean `{near}`?"))
+                place.into_iter().fold(diagnostic.hint(format!("did you mean `{near}`?")), Diagnostic::hint)
             }
-            None => diagnostic.hint("not a key of this table").hint(format!("the keys are {}", known.join(", "))),
+            None => {
+                let place = place.unwrap_or_else(|| "not a key of this table".to_owned());
+                diagnostic.hint(place).hint(format!("the keys are {}", known.join(", ")))
+            }
         }
     }
 
