@@ -14,7 +14,7 @@ pub struct Attachment {
     /// Name of a beam, instead of a body: each node is attached to the nearest node of it. Where the beam is
     /// rigid, all go with its body.
     pub beam: Maybe<String>,
-    /// Names of points, bodies or sets. Those on the beam itself stay as they are.
+    /// Names of points, bodies, parts or sets. Those on the beam itself stay as they are.
     #[schemars(required)]
     pub nodes: Maybe<Names>,
     /// Degrees of freedom that are taken from the body or beam. Default: "all".

@@ -5,7 +5,9 @@ use serde::Deserialize;
 
 use super::words::Maybe;
 
-/// A mesh from a file. Each of its groups is a set of nodes by its name; shells and beams are made of groups by `group`.
+/// A mesh from a file. Each of its groups is a set of nodes by its name; shells and beams are made of groups by `group`. Where several
+/// groups have one name, lists of nodes take the set of nodes and `group` the set of elements. `node-set:NAME`, `element-set:NAME`,
+/// `line-set:NAME` and `face-set:NAME` say which, and `INSTANCE.NAME` names a set of an instance or a part.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {

@@ -9,7 +9,7 @@ use super::words::{FlagOrTable, Maybe, Names, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
-    /// Nodes in nodes.csv: "named", "all", or names of points and sets. Default: "named".
+    /// Nodes in nodes.csv: "named", "all", or names of points, parts and sets. Default: "named".
     pub nodes: Maybe<Names>,
     /// Steps between two rows of all tables, 1 or more; 1 writes every step. Default, where there is no `interval` either:
     /// 1 as long as the tables stay below some 20 MB, otherwise 2, 5, 10 and so on; with automatic steps those that are

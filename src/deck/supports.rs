@@ -9,7 +9,7 @@ use super::words::{Directions, Maybe, Names, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
-    /// Names of points, bodies or sets.
+    /// Names of points, bodies, parts or sets.
     #[schemars(required)]
     pub at: Maybe<Names>,
     /// Degrees of freedom that are restrained at zero: "all", "translations", "rotations" or a list such as ["ux", "ry"].

@@ -2,6 +2,7 @@
 
 use super::ids::Ids;
 use crate::math::Vec3;
+use std::collections::HashMap;
 
 /// A mesh from a file. Its elements are valid: their nodes exist, are distinct and span a length or a convex area.
 #[derive(Debug)]
@@ -14,8 +15,14 @@ pub struct Mesh {
     pub groups: Vec<MeshGroup>,
     /// Parts of the file that were not read.
     pub skipped: Vec<Skipped>,
+    /// What was read otherwise than one might think.
+    pub notes: Vec<MeshNote>,
     /// The indices of the nodes by their numbers in the file.
     pub(super) ids: Ids,
+    /// Indices of groups by each name under which they are found.
+    pub(super) by_name: HashMap<String, Vec<u32>>,
+    /// True where case has no meaning in names of groups.
+    pub(super) folds_case: bool,
 }
 
 /// A node of a mesh.
@@ -92,6 +99,8 @@ pub struct MeshElement {
     pub kind: CellShape,
     /// The indices of its nodes; those beyond their number are 0.
     pub(super) nodes: [u32; MOST_CELL_NODES],
+    /// The index of a node that gives the direction of its section: it lies from the first node to that one.
+    pub toward: Option<u32>,
     /// Its line in the file, counted from 1.
     pub line: u32,
 }
@@ -103,17 +112,50 @@ impl MeshElement {
     }
 }
 
-/// A named group of nodes and elements.
+/// What the file groups under a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GroupKind {
+    /// A set of nodes.
+    #[default]
+    Nodes,
+    /// Elements that are points.
+    Points,
+    /// Elements, all of which are lines.
+    Lines,
+    /// Elements, all of which are faces.
+    Faces,
+    /// Elements of any shape.
+    Elements,
+}
+
+/// A named group of nodes or of elements. Groups of different kinds or scopes may have the same name.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct MeshGroup {
     /// The name in the file; a nameless group is named after its tag.
     pub name: String,
+    /// What the file groups under it.
+    pub kind: GroupKind,
+    /// Names that may stand before its own with a point between: the instance and its part, or the assembly.
+    pub scopes: Vec<String>,
+    /// True for a group outside parts and instances.
+    pub is_outer: bool,
     /// Indices into [`Mesh::elements`], each once, in the order of the file.
     pub elements: Vec<u32>,
     /// Indices into [`Mesh::nodes`], each once: the nodes that the file lists, then those of the elements.
     pub nodes: Vec<u32>,
     /// The number of its elements of shapes that are not read.
     pub skipped: usize,
+}
+
+/// What was read otherwise than one might think.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MeshNote {
+    /// What was found.
+    pub what: String,
+    /// What that means for the mesh.
+    pub meaning: String,
+    /// The line, counted from 1.
+    pub line: usize,
 }
 
 /// Parts of one kind in a file that were not read.
@@ -133,8 +175,14 @@ impl Mesh {
         self.ids.get(id)
     }
 
-    /// The group of a name.
+    /// The indices of all groups of a name, which may have that of a scope and a point before it.
+    pub fn named(&self, name: &str) -> &[u32] {
+        let found = if self.folds_case { self.by_name.get(&name.to_lowercase()) } else { self.by_name.get(name) };
+        found.map_or(&[], |found| found)
+    }
+
+    /// The first group of a name.
     pub fn group(&self, name: &str) -> Option<&MeshGroup> {
-        self.groups.iter().find(|group| group.name == name)
+        self.named(name).first().map(|&group| &self.groups[group as usize])
     }
 }

@@ -1,11 +1,11 @@
 //! The mesh while a reader collects it, by the numbers of the file, and the checks when it is complete.
 
-use super::data::{CellShape, MOST_CELL_NODES, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
+use super::data::{CellShape, GroupKind, MOST_CELL_NODES, Mesh, MeshElement, MeshGroup, MeshNode, MeshNote, Skipped};
 use super::ids::{Ids, short};
 use crate::diagnostic::Diagnostic;
 use crate::math::{Vec3, curved_faces};
 use crate::text_file::{Fault, Text};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// The most messages that are shown about one file.
 const MOST_FAULTS: usize = 20;
@@ -25,6 +25,10 @@ pub struct Draft {
     pub groups: Vec<RawGroup>,
     /// Parts of the file that were not read.
     pub skipped: Vec<Skipped>,
+    /// What was read otherwise than one might think.
+    pub notes: Vec<MeshNote>,
+    /// True where case has no meaning in names of groups.
+    pub folds_case: bool,
     /// Errors so far.
     pub faults: Vec<Fault>,
     /// Index in `skipped` by what was skipped.
@@ -40,8 +44,22 @@ pub struct RawElement {
     pub kind: CellShape,
     /// The numbers of its nodes in the file; those beyond their number mean nothing.
     pub nodes: [u64; MOST_CELL_NODES],
+    /// The number of a node that gives the direction of its section.
+    pub toward: Option<u64>,
     /// The line in the file, counted from 1.
     pub line: u32,
+}
+
+impl RawElement {
+    /// The element with a number added to all of its own.
+    pub fn moved(mut self, offset: u64) -> Self {
+        self.id += offset;
+        self.nodes[..self.kind.size()]
+            .iter_mut()
+            .chain(&mut self.toward)
+            .for_each(|node| *node = node.saturating_add(offset));
+        self
+    }
 }
 
 /// A group whose nodes are given by their numbers in the file.
@@ -49,6 +67,12 @@ pub struct RawElement {
 pub struct RawGroup {
     /// The name in the file.
     pub name: String,
+    /// What the file groups under it.
+    pub kind: GroupKind,
+    /// Names that may stand before its own, with a point between.
+    pub scopes: Vec<String>,
+    /// True outside parts and instances.
+    pub is_outer: bool,
     /// Indices into [`Draft::elements`].
     pub elements: Vec<u32>,
     /// Numbers of the nodes that the file lists, with the line.
@@ -58,6 +82,11 @@ pub struct RawGroup {
 }
 
 impl Draft {
+    /// An empty mesh; `folds_case`: case has no meaning in names of groups.
+    pub fn new(folds_case: bool) -> Self {
+        Draft { folds_case, ..Draft::default() }
+    }
+
     /// Adds a node.
     pub fn node(&mut self, id: u64, x: Vec3, line: usize) {
         self.nodes.push(MeshNode { id, x });
@@ -66,8 +95,26 @@ impl Draft {
 
     /// Adds an element and returns its index.
     pub fn element(&mut self, id: u64, kind: CellShape, nodes: [u64; MOST_CELL_NODES], line: usize) -> u32 {
-        self.elements.push(RawElement { id, kind, nodes, line: short(line) });
+        self.elements.push(RawElement { id, kind, nodes, toward: None, line: short(line) });
         short(self.elements.len() - 1)
+    }
+
+    /// Drops nodes and elements that are given again as they are. Groups must not hold any elements yet.
+    pub fn drop_repeated(&mut self) {
+        let (ids, again) = Ids::new(self.nodes.iter().map(|node| node.id));
+        let first = |id: u64| ids.get(id).unwrap_or(usize::MAX);
+        let same: HashSet<usize> =
+            again.into_iter().filter(|&at| self.nodes.get(first(self.nodes[at].id)) == self.nodes.get(at)).collect();
+        retain(&mut self.nodes, &same);
+        retain(&mut self.lines, &same);
+        let (ids, again) = Ids::new(self.elements.iter().map(|element| element.id));
+        let is_same = |at: &usize| {
+            let of = |element: &RawElement| (element.kind, element.nodes, element.toward);
+            let other = ids.get(self.elements[*at].id).map(|first| of(&self.elements[first]));
+            other == Some(of(&self.elements[*at]))
+        };
+        let same = again.into_iter().filter(is_same).collect();
+        retain(&mut self.elements, &same);
     }
 
     /// Counts parts of the file that are not read.
@@ -107,7 +154,9 @@ impl Draft {
         if !self.faults.is_empty() {
             return Err(self.faults.into_iter().map(|fault| *fault).collect());
         }
-        Ok(Mesh { nodes: self.nodes, elements, groups, skipped: self.skipped, ids })
+        let by_name = by_name(&groups, self.folds_case);
+        let Draft { nodes, skipped, notes, folds_case, .. } = self;
+        Ok(Mesh { nodes, elements, groups, skipped, notes, ids, by_name, folds_case })
     }
 
     /// Notes an error at a line, and there at a number, unless there are too many.
@@ -125,7 +174,7 @@ impl Draft {
     /// The element with the indices of its nodes; notes what is wrong with it.
     fn checked(&mut self, text: &Text, ids: &Ids, raw: &RawElement) -> MeshElement {
         let (kind, line) = (raw.kind, raw.line as usize);
-        let mut element = MeshElement { id: raw.id, kind, nodes: [0; MOST_CELL_NODES], line: raw.line };
+        let mut element = MeshElement { id: raw.id, kind, nodes: [0; MOST_CELL_NODES], toward: None, line: raw.line };
         for (node, id) in element.nodes.iter_mut().zip(&raw.nodes[..kind.size()]) {
             let Some(index) = ids.get(*id) else {
                 self.complain(text, line, Some(*id), || {
@@ -134,6 +183,13 @@ impl Draft {
                 return element;
             };
             *node = short(index);
+        }
+        if let Some(id) = raw.toward {
+            element.toward = ids.get(id).map(short);
+            if element.toward.is_none() {
+                let message = || format!("element {} has the direction node {id}, which does not exist", raw.id);
+                self.complain(text, line, Some(id), message);
+            }
         }
         let nodes = element.nodes();
         for (i, node) in nodes.iter().enumerate() {
@@ -159,7 +215,8 @@ impl Draft {
         let (mut of_node, mut of_element) = (vec![0u32; self.nodes.len()], vec![0u32; self.elements.len()]);
         for (index, raw) in std::mem::take(&mut self.groups).into_iter().enumerate() {
             let mark = short(index + 1);
-            let mut group = MeshGroup { name: raw.name, skipped: raw.skipped, ..MeshGroup::default() };
+            let RawGroup { name, kind, scopes, is_outer, skipped, .. } = raw;
+            let mut group = MeshGroup { name, kind, scopes, is_outer, skipped, ..MeshGroup::default() };
             let mut take = |group: &mut MeshGroup, node: usize| {
                 if std::mem::replace(&mut of_node[node], mark) != mark {
                     group.nodes.push(short(node));
@@ -189,6 +246,26 @@ impl Draft {
         }
         groups
     }
+}
+
+/// Takes entries out of a list.
+fn retain<T>(list: &mut Vec<T>, without: &HashSet<usize>) {
+    let mut at = 0..;
+    list.retain(|_| !at.next().is_some_and(|at| without.contains(&at)));
+}
+
+/// The groups by the names under which they are found, also after the names of their scopes.
+fn by_name(groups: &[MeshGroup], folds_case: bool) -> HashMap<String, Vec<u32>> {
+    let mut by_name: HashMap<String, Vec<u32>> = HashMap::new();
+    for (index, group) in groups.iter().enumerate() {
+        let scoped = group.scopes.iter().map(|scope| format!("{scope}.{}", group.name));
+        let names: HashSet<String> = scoped
+            .chain([group.name.clone()])
+            .map(|name| if folds_case { name.to_lowercase() } else { name })
+            .collect();
+        names.into_iter().for_each(|name| by_name.entry(name).or_default().push(short(index)));
+    }
+    by_name
 }
 
 /// What is wrong with the nodes between the corners of an element, which are at `x`.

@@ -1,7 +1,7 @@
 //! Gmsh in ASCII, versions 4.1 and 2.2. The groups are the physical groups of dimension 0, 1 and 2. A group without a name is
 //! called `physical_7` by its tag, or `physical_7_lines` where groups of several dimensions have that tag and no name.
 
-use super::data::{CellShape, MOST_CELL_NODES};
+use super::data::{CellShape, GroupKind, MOST_CELL_NODES};
 use super::draft::{Draft, RawGroup};
 use super::ids::short;
 use crate::math::{LARGEST_LENGTH, Vec3};
@@ -63,7 +63,7 @@ impl Groups {
         place
     }
 
-    /// The groups by name: groups of several dimensions with one name are one.
+    /// The groups by name: those of one dimension with one name are one.
     fn named(mut self) -> Vec<RawGroup> {
         let alone = |&(dimension, tag): &Physical| {
             let same = |other: &Physical| other.1 == tag && other.0 != dimension && !self.names.contains_key(other);
@@ -76,12 +76,13 @@ impl Groups {
         };
         let names: Vec<String> = self.list.iter().map(|(key, _)| name(key)).collect();
         let mut groups: Vec<RawGroup> = Vec::new();
-        let mut known: HashMap<String, usize> = HashMap::new();
-        for ((_, group), name) in self.list.drain(..).zip(names) {
+        let mut known: HashMap<(u8, String), usize> = HashMap::new();
+        for (((dimension, _), group), name) in self.list.drain(..).zip(names) {
             let next = groups.len();
-            let at = *known.entry(name.clone()).or_insert(next);
+            let at = *known.entry((dimension, name.clone())).or_insert(next);
             if at == next {
-                groups.push(RawGroup { name, ..group });
+                let kind = [GroupKind::Points, GroupKind::Lines, GroupKind::Faces][dimension.min(2) as usize];
+                groups.push(RawGroup { name, kind, ..group });
             } else {
                 groups[at].nodes.extend(group.nodes);
                 groups[at].elements.extend(group.elements);
@@ -100,16 +101,16 @@ pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     let four = format(text)?;
     let (mut groups, mut nodes, mut elements) = (Groups::default(), false, false);
     while let Some(line) = text.line() {
-        let Some(name) = line.bytes.strip_prefix(b"$") else {
+        let Some(name) = line.bytes.trim_ascii_start().strip_prefix(b"$") else {
             return Err(text.fault("this line belongs to no section", line.number));
         };
         match name {
             b"PhysicalNames" => names(text, &mut groups)?,
             b"Entities" if four => entities(text, &mut groups)?,
             b"PartitionedEntities" => return Err(text.fault("partitioned meshes are not read", line.number)),
-            b"Nodes" => {
+            b"Nodes" | b"ParametricNodes" => {
                 nodes = true;
-                if four { nodes_4(text, draft)? } else { nodes_2(text, draft)? }
+                if four { nodes_4(text, draft)? } else { nodes_2(text, draft, name == b"ParametricNodes")? }
             }
             b"Elements" => {
                 elements = true;
@@ -133,8 +134,12 @@ pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
 
 /// The first section: true for version 4.1, false for 2.2.
 fn format(text: &mut Text) -> Result<bool, Fault> {
-    let first = text.line().ok_or_else(|| text.fault("the file is empty", 1))?;
-    if first.bytes != b"$MeshFormat" {
+    let mut first = text.line().ok_or_else(|| text.fault("the file is empty", 1))?;
+    while first.bytes.trim_ascii_start() == b"$Comments" {
+        skip_section(text, &mut Draft::default(), "Comments", first)?;
+        first = text.line().ok_or_else(|| text.fault_at_end("the file has no $MeshFormat"))?;
+    }
+    if first.bytes.trim_ascii_start() != b"$MeshFormat" {
         return Err(text.fault("a Gmsh file begins with $MeshFormat", first.number));
     }
     let line = within(text, "MeshFormat")?;
@@ -164,7 +169,7 @@ fn skip_section(text: &mut Text, draft: &mut Draft, name: &str, line: TextLine) 
     let close = format!("$End{name}");
     loop {
         match text.line() {
-            Some(line) if line.bytes == close.as_bytes() => break,
+            Some(line) if line.bytes.trim_ascii_start() == close.as_bytes() => break,
             Some(_) => {}
             None => return Err(text.fault_at_end(format!("the file ends within ${name}"))),
         }
@@ -178,7 +183,7 @@ fn skip_section(text: &mut Text, draft: &mut Draft, name: &str, line: TextLine) 
 /// The next line of a section; an error where the section or the file ends.
 fn within<'t>(text: &mut Text<'t>, section: &str) -> Result<TextLine<'t>, Fault> {
     match text.line() {
-        Some(line) if line.bytes.starts_with(b"$") => {
+        Some(line) if line.bytes.trim_ascii_start().starts_with(b"$") => {
             Err(text.fault(format!("${section} has fewer lines than its counts require"), line.number))
         }
         Some(line) => Ok(line),
@@ -189,7 +194,7 @@ fn within<'t>(text: &mut Text<'t>, section: &str) -> Result<TextLine<'t>, Fault>
 /// Reads the end of a section.
 fn end(text: &mut Text, section: &str) -> Result<(), Fault> {
     match text.line() {
-        Some(line) if line.bytes.strip_prefix(b"$End").is_some_and(|name| name == section.as_bytes()) => Ok(()),
+        Some(line) if line.bytes.trim_ascii_start().strip_prefix(b"$End") == Some(section.as_bytes()) => Ok(()),
         Some(line) => Err(text.fault(format!("$End{section} is missing here"), line.number)),
         None => Err(text.fault_at_end(format!("the file ends before $End{section}"))),
     }
@@ -341,14 +346,23 @@ fn nodes_4(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     counted(text, line, "Nodes", "nodes", all, draft.nodes.len() - before)
 }
 
-/// Nodes of version 2.2. A line has: number x y z.
-fn nodes_2(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
-    let line = within(text, "Nodes")?;
+/// Nodes of version 2.2. A line has: number x y z. Behind these `parametric` ones have the dimension of their entity, its tag, and a
+/// parameter for each dimension below three.
+fn nodes_2(text: &mut Text, draft: &mut Draft, parametric: bool) -> Result<(), Fault> {
+    let section = if parametric { "ParametricNodes" } else { "Nodes" };
+    let line = within(text, section)?;
     for _ in 0..Numbers::of(text, line).whole("the number of nodes")? {
-        let line = within(text, "Nodes")?;
+        let line = within(text, section)?;
         let mut words = Numbers::of(text, line);
         let id = words.whole("a node")?;
         let x = words.vector()?;
+        if parametric {
+            let dimension = words.whole("the dimension")?;
+            words.signed("the entity")?;
+            for _ in 0..if dimension < 3 { dimension } else { 0 } {
+                words.number("a parameter")?;
+            }
+        }
         words.end()?;
         draft.node(id, x, line.number);
     }

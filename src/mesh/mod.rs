@@ -14,23 +14,39 @@ mod normals;
 
 use crate::diagnostic::Diagnostic;
 use crate::text_file::Text;
-pub use data::{CellShape, MOST_CELL_NODES, Mesh, MeshElement, MeshGroup, MeshNode, Skipped};
+pub use data::{CellShape, GroupKind, MOST_CELL_NODES, Mesh, MeshElement, MeshGroup, MeshNode, MeshNote, Skipped};
 use draft::Draft;
 pub use normals::{FOLD, normals};
 
-/// Reads a mesh from the bytes of a file whose path, for messages, is `path`. The extension gives the format, .msh or .inp.
+/// Reads a mesh from the bytes of a file that includes no other.
 ///
 /// # Errors
 /// All errors found in the file, at least one.
 pub fn read(path: &str, bytes: &[u8]) -> Result<Mesh, Vec<Diagnostic>> {
-    let mut text = Text::new(path, bytes);
-    let mut draft = Draft::default();
-    let extension = path.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase());
-    let read = match extension.as_deref() {
-        Some("msh") => gmsh::read(&mut text, &mut draft),
-        Some("inp") => abaqus::read(&mut text, &mut draft),
+    read_text(&mut Text::new(path, bytes))
+}
+
+/// True for the path of a file that may include others.
+pub fn may_include(path: &str) -> bool {
+    extension(path).as_deref() == Some("inp")
+}
+
+fn extension(path: &str) -> Option<String> {
+    path.rsplit_once('.').map(|(_, extension)| extension.to_ascii_lowercase())
+}
+
+/// Reads a mesh from a text. The extension of its path gives the format, .msh or .inp.
+///
+/// # Errors
+/// All errors found in the file, at least one.
+pub fn read_text(text: &mut Text) -> Result<Mesh, Vec<Diagnostic>> {
+    // Abaqus and CalculiX do not tell capitals from small letters in names.
+    let mut draft = Draft::new(may_include(text.path));
+    let read = match extension(text.path).as_deref() {
+        Some("msh") => gmsh::read(text, &mut draft),
+        Some("inp") => abaqus::read(text, &mut draft),
         _ => {
-            let message = format!("`{path}` does not have the extension of a mesh");
+            let message = format!("`{}` does not have the extension of a mesh", text.path);
             return Err(vec![Diagnostic::error(message).hint("meshes are .msh (Gmsh) or .inp (Abaqus, CalculiX)")]);
         }
     };
@@ -39,5 +55,5 @@ pub fn read(path: &str, bytes: &[u8]) -> Result<Mesh, Vec<Diagnostic>> {
         draft.faults.push(fault);
         return Err(draft.faults.into_iter().map(|fault| *fault).collect());
     }
-    draft.finish(&text)
+    draft.finish(text)
 }

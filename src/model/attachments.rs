@@ -28,7 +28,7 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
             report.error::<()>(&name.span, "nodes are attached to a `body` or to a `beam`, not to both");
         }
         let target = target(scene, &owner, attachment, report);
-        let spots = scene.spots(&owner, "nodes", &attachment.nodes, Reach::Nodes, report);
+        let spots = scene.spots(&owner, "nodes", &attachment.nodes, Reach::Parts, report);
         if report.is_spoiled(owner.span, "dofs") {
             continue;
         }

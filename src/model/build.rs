@@ -14,6 +14,7 @@ use super::data::{
     Analysis, AnalysisKind, ArcLength, Cadence, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part,
     Rigid, Solution, StepLength,
 };
+use super::doubts::all_held::check_all_held;
 use super::doubts::amplitude_ends::check_amplitude_ends;
 use super::doubts::angles::check_angles;
 use super::doubts::node_places::place_nodes;
@@ -279,6 +280,10 @@ fn model<'d>(
 fn check_sound(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, ties: Ties, report: &mut Report) {
     if report.has_errors() {
         return;
+    }
+    // What one stage holds, another may let go.
+    if scene.stage.is_none() {
+        check_all_held(scene.deck, topology, report);
     }
     // Of several stages the times are those of all.
     if scene.stage.is_none() && scene.analysis.modes.is_none() {

@@ -3,12 +3,13 @@
 use std::collections::HashMap;
 
 use super::data::MeshFile;
+use super::group_names::{self, GroupChoice};
 use super::mesh_file::MeshNodes;
 use super::names::Names;
 use super::report::Report;
 use crate::deck::Deck;
 use crate::diagnostic::At;
-use crate::mesh::{self, MOST_CELL_NODES, Mesh};
+use crate::mesh::{self, GroupKind, MOST_CELL_NODES, Mesh};
 use crate::names::{joined, nearest, quoted};
 
 /// The groups and elements of the mesh that parts have taken so far.
@@ -16,7 +17,7 @@ pub(super) struct Groups<'d> {
     /// The nodes of the mesh.
     pub mesh: MeshNodes<'d>,
     /// Groups that are parts, with what they are: "shell `roof`".
-    parts: HashMap<&'d str, String>,
+    parts: HashMap<usize, String>,
     /// True for each element that is in a part.
     taken: Vec<bool>,
     /// The number of each node of the mesh in the part in hand, from 1; 0 for none.
@@ -46,12 +47,13 @@ impl<'d> Groups<'d> {
             return report.error_with(&name.span, message, "give it `[mesh]` with its `file`");
         };
         let mesh = &input.mesh;
-        let Some(group) = mesh.group(name) else { return unknown_group(mesh, name, report) };
-        if let Some(other) = self.parts.get(name.as_str()) {
+        let at = meant(mesh, name, faces, report)?;
+        if let Some(other) = self.parts.get(&at) {
             let message = format!("group `{}` is already {other}", name.value);
             return report.error(&name.span, message);
         }
-        self.parts.insert(name.as_str(), what.to_owned());
+        self.parts.insert(at, what.to_owned());
+        let group = &mesh.groups[at];
         if group.skipped > 0 {
             let message = format!("{} elements of group `{}` are of unsupported types", group.skipped, name.value);
             report.lose_connections();
@@ -64,7 +66,13 @@ impl<'d> Groups<'d> {
         if elements.is_empty() {
             report.lose_connections();
             let wanted = if faces { "triangles or quadrilaterals" } else { "segments" };
-            return report.error(&name.span, format!("group `{}` has no {wanted}", name.value));
+            let message = format!("group `{}` has no {wanted}", name.value);
+            return match group.kind {
+                GroupKind::Nodes => {
+                    report.error_with(&name.span, message, "it is a set of nodes; name a set of elements")
+                }
+                _ => report.error(&name.span, message),
+            };
         }
         let mut shared = 0;
         for e in indices().filter(|&e| is_meant(&&mesh.elements[e])) {
@@ -128,6 +136,23 @@ impl<'d> Groups<'d> {
             elements: input.mesh.elements.len(),
             used: self.taken.iter().filter(|&&taken| taken).count(),
         })
+    }
+}
+
+/// The group that a part of lines or of `faces` is made of.
+fn meant(mesh: &Mesh, name: &At<String>, faces: bool, report: &mut Report) -> Option<usize> {
+    let Some(place) = group_names::place(mesh, name) else { return unknown_group(mesh, name, report) };
+    match if faces { place.faces } else { place.lines } {
+        GroupChoice::One(group) => {
+            group_names::note_part(mesh, name, group as usize, faces, report);
+            Some(group as usize)
+        }
+        GroupChoice::Many => {
+            report.lose_connections();
+            group_names::ambiguous(mesh, name, "write the one that is meant", report)
+        }
+        // What it has instead is said.
+        GroupChoice::None => place.groups().next().or_else(|| mesh.named(name).first().map(|&group| group as usize)),
     }
 }
 

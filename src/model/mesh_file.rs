@@ -7,9 +7,10 @@ use sha2::{Digest, Sha256};
 use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
 use crate::deck::Deck;
-use crate::diagnostic::{Diagnostic, Excerpt};
+use crate::diagnostic::Diagnostic;
 use crate::mesh::{self, Mesh};
-use crate::text_file::read_regular;
+use crate::text_file::includes::Included;
+use crate::text_file::{Text, read_regular};
 
 /// A mesh that has been read.
 #[derive(Debug)]
@@ -38,39 +39,54 @@ impl Input {
                 );
             }
         };
-        match mesh::read(&path, &bytes) {
-            Ok(mesh) => {
-                let said = said(&mesh, &path, &bytes).into_iter().map(|problem| problem.at(&file.span)).collect();
-                let digest = Sha256::digest(&bytes).into();
-                (Some(Input { path, mesh, digest }), said)
-            }
+        match read(&path, bytes) {
+            Ok((input, said)) => (Some(input), said.into_iter().map(|problem| problem.at(&file.span)).collect()),
             Err(problems) => (None, problems.into_iter().map(|problem| problem.at(&file.span)).collect()),
         }
     }
 }
 
-/// Warnings about what the reader skipped: elements, then keywords.
-fn said(mesh: &Mesh, path: &str, bytes: &[u8]) -> Vec<Diagnostic> {
+/// Reads a mesh with the files that it includes, and what there is to say about them.
+fn read(path: &str, bytes: Vec<u8>) -> Result<(Input, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let folder = Path::new(path).parent().unwrap_or(Path::new(""));
+    let whole = match mesh::may_include(path) {
+        true => Included::new(path, bytes, &mut |name: &str| read_regular(&folder.join(name)))
+            .map_err(|fault| vec![*fault])?,
+        false => Included::alone(bytes),
+    };
+    let mut text = Text::of_pieces(path, &whole.bytes, &whole.pieces);
+    let mesh = mesh::read_text(&mut text)?;
+    let said = said(&mesh, &text);
+    let digest = Sha256::digest(&whole.bytes).into();
+    Ok((Input { path: path.to_owned(), mesh, digest }, said))
+}
+
+/// Warnings about what the reader skipped: elements, then keywords; and its notes.
+fn said(mesh: &Mesh, text: &Text) -> Vec<Diagnostic> {
     let is_keyword = |skipped: &&mesh::Skipped| skipped.what.starts_with(['*', '$']);
     let (keywords, elements): (Vec<_>, Vec<_>) = mesh.skipped.iter().partition(is_keyword);
-    let warning = |skipped: &[&mesh::Skipped], message: String| {
-        let line = skipped[0].line;
-        let text = bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
-        Diagnostic::warning(message).of(Excerpt::new(path.to_owned(), line, text, 0..text.len()))
+    let warning =
+        |skipped: &[&mesh::Skipped], message: String| Diagnostic::warning(message).of(text.excerpt(skipped[0].line));
+    let place = |line: usize| match text.origin(line) {
+        (path, line) if path == text.path => format!("line {line}"),
+        (path, line) => format!("line {line} of {path}"),
     };
     let mut said = Vec::new();
     if !elements.is_empty() {
-        let list: Vec<String> = elements.iter().map(|s| format!("{} {} (line {})", s.count, s.what, s.line)).collect();
+        let of_kind = |s: &&mesh::Skipped| format!("{} {} ({})", s.count, s.what, place(s.line));
+        let list: Vec<String> = elements.iter().map(of_kind).collect();
         said.push(warning(&elements, format!("elements of unsupported types are skipped: {}", list.join(", "))));
     }
     if !keywords.is_empty() {
         let line = |s: &&mesh::Skipped| {
             let more = if s.count > 1 { format!(" and {} more", s.count - 1) } else { String::new() };
-            format!("{} (line {}{more})", s.what, s.line)
+            format!("{} ({}{more})", s.what, place(s.line))
         };
         let list: Vec<String> = keywords.iter().map(line).collect();
         said.push(warning(&keywords, format!("keywords that are not read are skipped: {}", list.join(", "))));
     }
+    let note = |note: &mesh::MeshNote| Diagnostic::note(&note.what).hint(&note.meaning).of(text.excerpt(note.line));
+    said.extend(mesh.notes.iter().map(note));
     said
 }
 

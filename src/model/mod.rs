@@ -12,6 +12,7 @@ mod data;
 mod doubts;
 mod environment;
 mod expects;
+mod group_names;
 mod groups;
 mod initial;
 mod joints;

@@ -4,11 +4,13 @@
 use std::collections::{HashMap, HashSet};
 
 use super::bodies::Bodies;
+use super::group_names::{self, GroupChoice, GroupPlace};
 use super::mesh_file::MeshNodes;
 use super::parts::Parts;
 use super::places::place::Place;
 use super::report::Report;
 use crate::deck::Deck;
+use crate::deck::loads::Load;
 use crate::deck::parts::{DeckPart, PartIndex};
 use crate::diagnostic::{At, Diagnostic, Span};
 
@@ -47,6 +49,7 @@ impl<'d> Names<'d> {
         deck.parts().for_each(|part| names.add_part(&part, report));
         names.add_groups(report);
         names.check_sets(report);
+        names.check_groups(report);
         names
     }
 
@@ -97,22 +100,28 @@ impl<'d> Names<'d> {
         let deck = self.deck;
         let Some(input) = self.mesh.input else { return };
         let Some(file) = deck.mesh.as_ref().and_then(|mesh| mesh.file.as_ref()) else { return };
-        let parts: HashSet<&str> = deck.parts().filter_map(|part| part.table.group()).map(|at| at.as_str()).collect();
-        for (index, group) in input.mesh.groups.iter().enumerate() {
+        let parts: Vec<&str> = deck.parts().filter_map(|part| part.table.group()).map(|at| at.as_str()).collect();
+        // A part may be called like the group it is made of.
+        let made: HashSet<u32> = parts.iter().flat_map(|name| input.mesh.named(name)).copied().collect();
+        let mut seen = HashSet::new();
+        for group in input.mesh.groups.iter().filter(|group| seen.insert(&group.name)) {
             let name = group.name.as_str();
+            let is_part = || input.mesh.named(name).iter().any(|group| made.contains(group));
             if RESERVED.contains(&name) {
-                if !parts.contains(name) {
+                if !is_part() {
                     let message = format!("group `{name}` of the mesh has a reserved name");
-                    report.warn(&file.span, message, "it cannot be used as a set");
+                    let first = input.mesh.named(name).first().map_or(0, |&first| first as usize);
+                    let spelling = group_names::spelling(&input.mesh, first);
+                    report.warn(&file.span, message, format!("the deck finds it as `{spelling}`"));
                 }
                 continue;
             }
             match self.places.get(name) {
                 None => {
-                    self.places.insert(name, (Place::Group(index), &file.span));
+                    let place = group_names::place(&input.mesh, name).map(Place::Group);
+                    self.places.extend(place.map(|place| (name, (place, &file.span))));
                 }
-                // A part may be called like the group it is made of.
-                Some(_) if parts.contains(name) => {}
+                Some(_) if is_part() => {}
                 Some((place, span)) => {
                     let message = format!("{} `{name}` has the name of a group of the mesh", place.noun());
                     report.error_with::<()>(span, message, "rename it, here or in the mesh");
@@ -200,10 +209,24 @@ impl<'d> Names<'d> {
         known
     }
 
-    /// What a name stands for, `mesh.17` and `shell.edge1` to `shell.edge4` among them.
+    /// What a name stands for, `mesh.17`, `shell.edge1` to `shell.edge4`, `node-set:root` and `STRIP-1.root` among them.
     pub fn place(&self, name: &str) -> Option<Place> {
         let node = || self.mesh.node(name).map(Place::Point);
-        self.declared(name).or_else(node).or_else(|| self.edge(name))
+        self.declared(name).or_else(node).or_else(|| self.edge(name)).or_else(|| self.group(name))
+    }
+
+    /// The groups of the mesh that a name stands for.
+    fn group(&self, name: &str) -> Option<Place> {
+        group_names::place(&self.mesh.input?.mesh, name).map(Place::Group)
+    }
+
+    /// What a name stands for in a list of nodes. A part that has but the name of its elements leaves it to a set of nodes.
+    fn node_place(&self, name: &str) -> Option<Place> {
+        let place = self.place(name)?;
+        let Place::Part(part) = place else { return Some(place) };
+        let is_group = self.deck.part(part).is_some_and(|part| part.table.name().is_none());
+        let set = || self.mesh.input.and_then(|input| group_names::set_of_nodes(&input.mesh, name));
+        Some(if is_group { set().map_or(place, Place::Group) } else { place })
     }
 
     /// The edge that `shell.edge2` stands for.
@@ -236,13 +259,21 @@ impl<'d> Names<'d> {
 
     /// What a name stands for; a name that stands for nothing is an error.
     pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
-        self.place(name)
-            .or_else(|| self.unknown("point, body, set or part", name, || self.known(Place::has_nodes), report))
+        self.place(name).or_else(|| self.unknown_part(name, report))
+    }
+
+    /// [`Names::find`] in a list of points, bodies, parts and sets.
+    pub fn find_in_parts(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
+        self.node_place(name).or_else(|| self.unknown_part(name, report))
+    }
+
+    fn unknown_part(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
+        self.unknown("point, body, set or part", name, || self.known(Place::has_nodes), report)
     }
 
     /// [`Names::find`] in a list of points, bodies and sets.
     pub fn find_nodes(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
-        self.place(name)
+        self.node_place(name)
             .or_else(|| self.unknown("point, body or set", name, || self.known(|place| !self.is_part(place)), report))
     }
 
@@ -274,7 +305,7 @@ impl<'d> Names<'d> {
 
     /// The node of a point, where `key` wants nothing else.
     pub fn point(&self, key: &str, name: &At<String>, parts: &Parts, report: &mut Report<'d>) -> Option<usize> {
-        match self.place(name) {
+        match self.node_place(name) {
             Some(Place::Point(node)) => Some(node),
             Some(set @ (Place::Group(_) | Place::Set(_))) => match self.nodes_of(set, parts)[..] {
                 [node] => Some(node),
@@ -324,9 +355,14 @@ impl<'d> Names<'d> {
         let part = match place {
             Place::Part(part) => Some(part),
             Place::Body(body) => self.rigid_part(body),
-            Place::Group(index) => {
-                let name = self.mesh.input?.mesh.groups[index].name.as_str();
-                let is_made_of_it = |part: &DeckPart| part.table.group().is_some_and(|group| group.value == name);
+            Place::Group(group) => {
+                let mesh = &self.mesh.input?.mesh;
+                let pick = |of: &GroupPlace, at: PartIndex| if at.kind.is_surface() { of.faces } else { of.lines };
+                let is_made_of_it = |part: &DeckPart| {
+                    let own = part.table.group().and_then(|name| group_names::place(mesh, name));
+                    own.and_then(|own| pick(&own, part.at).one())
+                        .is_some_and(|own| pick(&group, part.at).one() == Some(own))
+                };
                 let mut meant = self.deck.parts().filter(|part| is_meant(part.at));
                 meant.find(is_made_of_it).map(|part| part.at)
             }
@@ -337,13 +373,17 @@ impl<'d> Names<'d> {
 
     /// A place without its sets, in the order of the deck.
     pub fn leaves(&self, place: Place) -> Vec<Place> {
+        self.leaves_by(place, |name| self.place(name))
+    }
+
+    fn leaves_by(&self, place: Place, find: impl Fn(&str) -> Option<Place>) -> Vec<Place> {
         let (mut leaves, mut todo, mut seen) = (Vec::new(), vec![place], HashSet::new());
         while let Some(place) = todo.pop() {
             match place {
                 Place::Set(set) if !seen.insert(set) => {}
                 Place::Set(set) => {
                     let members = self.deck.sets.0[set].1.values.iter().rev();
-                    todo.extend(members.filter_map(|name| self.place(name)));
+                    todo.extend(members.filter_map(|name| find(name)));
                 }
                 place => leaves.push(place),
             }
@@ -354,7 +394,7 @@ impl<'d> Names<'d> {
     /// The nodes that a place covers, some of them perhaps more than once. Parts have those that are made so far.
     pub fn nodes_of(&self, place: Place, parts: &Parts) -> Vec<usize> {
         let mut nodes = Vec::new();
-        for place in self.leaves(place) {
+        for place in self.leaves_by(place, |name| self.node_place(name)) {
             match place {
                 Place::Point(node) => nodes.push(node),
                 Place::Body(body) => nodes.push(self.body_nodes[body]),
@@ -363,7 +403,9 @@ impl<'d> Names<'d> {
                     let edges = parts.entry(part).and_then(|entry| entry.edges.get(edge));
                     nodes.extend(edges.into_iter().flatten());
                 }
-                Place::Group(group) => nodes.extend(self.mesh.group_nodes(group)),
+                Place::Group(group) => {
+                    nodes.extend(group.nodes.one().into_iter().flat_map(|g| self.mesh.group_nodes(g)))
+                }
                 Place::Set(_) | Place::Joint(_) => {}
             }
         }
@@ -372,22 +414,55 @@ impl<'d> Names<'d> {
 
     /// Groups of the mesh that lists of the deck name.
     pub fn groups_in_lists(&self) -> impl Iterator<Item = usize> {
+        let loads = self.deck.loads.iter().filter_map(|load| load.at.as_ref()).flat_map(|at| &at.value.values);
+        let names = self.node_lists().chain(loads);
+        let places = names.flat_map(|name| [self.place(name), self.node_place(name)]).flatten();
+        places
+            .flat_map(|place| if let Place::Group(group) = place { Some(group) } else { None })
+            .flat_map(|g| g.groups())
+    }
+
+    /// Names in lists of nodes, and of single nodes.
+    fn node_lists(&self) -> impl Iterator<Item = &'d At<String>> {
         let deck = self.deck;
         let points = deck.joints.iter().flat_map(|joint| [&joint.from, &joint.to]).flatten();
         let points = points.filter_map(|end| end.node.as_ref());
         let lists = deck.masses.iter().map(|mass| &mass.at);
         let lists = lists.chain(deck.attachments.iter().map(|attachment| &attachment.nodes));
         let lists = lists.chain(deck.supports.iter().map(|support| &support.at));
-        let lists = lists.chain(deck.loads.iter().map(|load| &load.at));
+        let lists = lists.chain(deck.loads.iter().filter(|load| !is_over_surfaces(load)).map(|load| &load.at));
         let lists = lists.chain(deck.initial.iter().map(|initial| &initial.at));
         let lists = lists.chain(deck.damping.iter().flat_map(|damping| &damping.nodal).map(|damper| &damper.at));
         let lists = lists.chain(deck.output.iter().map(|output| &output.nodes)).flatten().map(|at| &at.value);
         let lists = lists.chain(deck.sets.0.iter().map(|(_, members)| &members.value));
         let names = lists.flat_map(|names| &names.values).chain(points);
-        let names = names.chain(deck.parts().flat_map(|part| part.table.members()));
-        names.filter_map(|name| match self.place(name) {
-            Some(Place::Group(group)) => Some(group),
-            _ => None,
-        })
+        names.chain(deck.parts().flat_map(|part| part.table.members()))
     }
+
+    /// Reports names in lists of nodes that mean several groups of the mesh: which is taken, or that the deck has to say it.
+    pub fn check_groups(&self, report: &mut Report<'d>) {
+        let Some(input) = self.mesh.input else { return };
+        let mut seen = HashSet::new();
+        let nodes = self.node_lists().map(|name| (name, self.node_place(name)));
+        // What touches is a part rather than a set of nodes.
+        let touching = self.deck.contacts.iter().filter_map(|contact| contact.with.as_ref()).flat_map(|at| &at.values);
+        let places = nodes.chain(touching.map(|name| (name, self.place(name))));
+        for (name, place) in places.filter(|(name, _)| seen.insert(name.as_str())) {
+            match place {
+                Some(Place::Group(GroupPlace { nodes: GroupChoice::Many, .. })) => {
+                    let hint = "write the one that is meant, or several in a list";
+                    group_names::ambiguous::<()>(&input.mesh, name, hint, report);
+                }
+                Some(Place::Group(GroupPlace { nodes: GroupChoice::One(taken), .. })) => {
+                    group_names::note_choice(&input.mesh, name, taken as usize, report);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// True for a load that is spread over faces.
+fn is_over_surfaces(load: &Load) -> bool {
+    load.pressure.is_some() || load.force_per_area.is_some()
 }

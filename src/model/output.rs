@@ -101,7 +101,7 @@ fn named_nodes(scene: &Scene, nodes: &[Node]) -> Vec<usize> {
 /// Nodes that the table lists, sorted.
 fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, report: &mut Report<'d>) -> Vec<usize> {
     let owner = Owner::new("`[output]`", &table.span);
-    let spots = scene.spots(&owner, "nodes", &table.nodes, Reach::Nodes, report);
+    let spots = scene.spots(&owner, "nodes", &table.nodes, Reach::Parts, report);
     for spot in spots.iter().filter(|spot| spot.direct && is_body(scene, spot.node)) {
         let message = format!("`{}` is a body, and not written with the nodes", spot.name);
         report.error_with::<()>(spot.span, message, "remove it: bodies are always written to bodies.csv");

@@ -4,6 +4,7 @@
 use std::collections::{HashMap, HashSet};
 
 use super::data::{Analysis, Body, History};
+use super::group_names::GroupChoice;
 use super::names::Names;
 use super::parts::Parts;
 use super::places::place::Place;
@@ -36,9 +37,10 @@ pub(super) struct Scene<'d> {
 /// The kinds of names that a list may hold besides points, bodies and sets.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
-    /// A list of points, bodies and sets alone.
+    /// A list of points, bodies and sets alone: each node gets the whole load or mass, of which a beam would take many. (Shells are
+    /// lists of nodes like sets: their inner ones have no other name.)
     Nodes,
-    /// A list that may hold beams and bars too. (Shells are lists of nodes like sets: their inner ones have no other name.)
+    /// A list that may hold beams and bars too.
     Parts,
 }
 
@@ -79,12 +81,17 @@ impl<'d> Scene<'d> {
         for name in &list.values {
             let place = match reach {
                 Reach::Nodes => self.names.find_nodes(name, report),
-                Reach::Parts => self.names.find(name, report),
+                Reach::Parts => self.names.find_in_parts(name, report),
             };
             let Some(place) = place else { continue };
-            if reach == Reach::Nodes && self.names.is_part(place) {
-                let message = format!("`{key}` takes points, bodies or sets, and `{}` is {}", name.value, place.kind());
-                report.error_with::<()>(&name.span, message, "name the points that are meant");
+            if self.names.is_part(place) && (reach == Reach::Nodes || !place.has_nodes()) {
+                let taken = if reach == Reach::Nodes { "bodies or sets" } else { "bodies, parts or sets" };
+                let message = format!("`{key}` takes points, {taken}, and `{}` is {}", name.value, place.kind());
+                let hint = match place.has_nodes() {
+                    true => "name the points that are meant, or a set of the part: each of its nodes gets the whole",
+                    false => "name the points that are meant",
+                };
+                report.error_with::<()>(&name.span, message, hint);
                 continue;
             }
             let direct = matches!(place, Place::Point(_) | Place::Body(_));
@@ -105,6 +112,8 @@ impl<'d> Scene<'d> {
     /// Says of a set or group that it covers no node, unless an error of what is in it has been said.
     pub fn report_empty(&self, place: Place, name: &At<String>, report: &mut Report<'d>) {
         let members = match place {
+            // This has been said.
+            Place::Group(group) if group.nodes == GroupChoice::Many => return,
             Place::Group(_) => {
                 let hint = "its elements are of unsupported types, or it has none";
                 report.error_with::<()>(&name.span, format!("the group `{}` has no nodes", name.value), hint);

@@ -1,10 +1,12 @@
 //! Meshes from files: what is read, what is refused, and parts made of them against patches of the deck.
 
+mod cards;
 mod command;
 mod messages;
 mod parts;
 mod read;
 mod rigid;
+mod sets;
 mod ties;
 
 use crate::support;

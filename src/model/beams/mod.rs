@@ -24,6 +24,9 @@ use std::collections::HashSet;
 /// Sine of the angle between orientation and axis below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
 
+/// Angle between the section axes of deck and file from which it is said: more than coordinates of four digits are off.
+const TURNED: f64 = 1e-3;
+
 /// Part of a segment by which its node between may miss the middle.
 const HALF_WAY: f64 = 1e-6;
 
@@ -153,7 +156,41 @@ impl<'d> Line<'_, 'd> {
             return cx.report.error_with(place, message, "it must point to the side, where local y is to lie");
         }
         self.takes_segments(group, &segments, curved, cx)?;
-        toward.map(|_| made)
+        self.check_directions(group, &segments, toward?, cx);
+        Some(made)
+    }
+
+    /// Warns where the file turns the sections of some segments otherwise than the deck does.
+    fn check_directions(
+        &self,
+        group: &At<String>,
+        segments: &[&MeshElement],
+        toward: Vec3,
+        cx: &mut PartContext<'_, 'd>,
+    ) {
+        let (first, nodes) = (cx.groups.mesh.first, &cx.nodes);
+        let (mut count, mut most) = (0, (0.0, 0, Vec3::zeros()));
+        for segment in segments {
+            let Some(directed) = segment.toward else { continue };
+            let [a, b] = [0, 1].map(|k| nodes.x(first + segment.nodes()[k] as usize));
+            let given = nodes.x(first + directed as usize) - a;
+            let [Some(deck), Some(file)] = [toward, given].map(|y| frame(&(b - a), &y)) else { continue };
+            let angle = deck.column(1).angle(&file.column(1));
+            count += usize::from(angle > TURNED);
+            if angle > most.0 {
+                most = (angle, segment.id, file.column(1).into());
+            }
+        }
+        if count > 0 {
+            let (angle, id, y) = (most.0.to_degrees(), most.1, most.2.map(|x| (x * 1e4).round() / 1e4 + 0.0));
+            let place = self.orientation.map_or(&group.span, |at| &at.span);
+            let message = format!(
+                "`orientation` differs from the direction nodes of {count} elements of group `{}`, by {angle:.1} degrees in element {id}",
+                group.value
+            );
+            let hint = format!("the deck's is taken; for element {id} the file has [{:?}, {:?}, {:?}]", y.x, y.y, y.z);
+            cx.report.warn(place, message, hint);
+        }
     }
 
     /// Reports segments of three nodes that no element of the beam can take; `curved`: how many are not straight.

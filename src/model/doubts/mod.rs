@@ -1,5 +1,6 @@
 //! What is odd about a deck that is otherwise sound: nothing in it, things nothing uses, what has no effect.
 
+pub mod all_held;
 pub mod amplitude_ends;
 pub mod angles;
 pub mod coincidence;

@@ -354,7 +354,9 @@ fn line_of(
     topology: &Topology,
     report: &mut Report,
 ) -> Vec<[usize; 2]> {
-    if let Place::Group(group) = place {
+    if let Place::Group(group) = place
+        && let Some(group) = group.lines.one()
+    {
         let segments = scene.names.mesh.group_segments(group);
         if !segments.is_empty() {
             return segments;

@@ -1,6 +1,7 @@
 //! What a name of the deck can stand for.
 
 use crate::deck::parts::PartIndex;
+use crate::model::group_names::GroupPlace;
 
 /// The thing that a name of the deck stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -14,8 +15,8 @@ pub enum Place {
     Part(PartIndex),
     /// An edge of a surface, counted from 0.
     Edge(PartIndex, usize),
-    /// A group of the mesh.
-    Group(usize),
+    /// Groups of the mesh of one name.
+    Group(GroupPlace),
 }
 
 impl Place {
