@@ -12,7 +12,7 @@ use crate::constraints::joint::ConstraintEquation;
 use crate::constraints::rigid_link::RigidLink;
 use crate::elements::Force;
 use crate::math::{Vec3, Vec6};
-use crate::model::{AnalysisKind, Joint, Link, LinkKind, Load, Model};
+use crate::model::{AnalysisKind, Joint, Load, Model, count_along};
 use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
 use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
@@ -317,12 +317,7 @@ fn recount(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) ->
         coordinate.lock = lock;
         springs.extend(coordinate.spring.map(|spring| (spring, lock)));
     }
-    let mut links: Vec<&mut Link> = model.each_mut::<Link>().collect();
-    for (spring, counted) in springs {
-        if let LinkKind::Joint { lock, .. } = &mut links[spring].kind {
-            *lock = counted;
-        }
-    }
+    count_along(model.each_mut(), &springs);
     changed
 }
 

@@ -9,32 +9,30 @@ const FEW: usize = 8;
 /// Points of a contact, likewise: more than the corners of the bodies that touch.
 const FEW_POINTS: usize = 64;
 
-impl System {
-    /// True where forces have kinks that a motion may pass.
-    pub fn has_kinks(&self) -> bool {
-        self.groups.iter().any(has_kinks)
-    }
+/// True where forces have kinks that a motion may pass.
+pub fn has_kinks(system: &System) -> bool {
+    system.groups.iter().any(bends)
+}
 
-    /// True where material yields in so few elements that the forces of the scene have a kink there.
-    pub fn yields_at_once(&self) -> bool {
-        let yields = self.groups.iter().filter(|group| group.kind.is_deformable() && !group.history.is_empty());
-        (1..=FEW).contains(&yields.map(|group| group.block.len()).sum())
-    }
+/// True where material yields in so few elements that the forces of the scene have a kink there.
+pub fn yields_at_once(system: &System) -> bool {
+    let yields = system.groups.iter().filter(|group| group.kind.is_deformable() && !group.history.is_empty());
+    (1..=FEW).contains(&yields.map(|group| group.block.len()).sum())
+}
 
-    /// A number of the branches on which a state is; it changes where something opens, closes or comes to a stop.
-    pub fn branches(&self, state: &State) -> usize {
-        let groups = self.groups.iter().filter(|group| has_kinks(group));
-        groups.fold(0, |sum: usize, group| sum.wrapping_add(branches(group, state)))
-    }
+/// A number of the branches on which a state is; it changes where something opens, closes or comes to a stop.
+pub fn branches(system: &System, state: &State) -> usize {
+    let groups = system.groups.iter().filter(|group| bends(group));
+    groups.fold(0, |sum: usize, group| sum.wrapping_add(branches_of(group, state)))
 }
 
 /// True where the forces of a group have kinks.
-fn has_kinks(group: &Group) -> bool {
+fn bends(group: &Group) -> bool {
     let yields = group.kind.is_deformable() && !group.history.is_empty();
     yields || group.kind.is_unilateral() || group.block.has_kinks() || group.block.can_fail()
 }
 
-fn branches(group: &Group, state: &State) -> usize {
+fn branches_of(group: &Group, state: &State) -> usize {
     let history = &state.history[group.history.clone()];
     let now = Configuration { nodes: &state.nodes, history, dt: 0.0, lead: None };
     let block = &group.block;

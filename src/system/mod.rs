@@ -23,7 +23,7 @@ mod inertia;
 mod joint_loads;
 mod joint_tree;
 pub mod joints;
-mod kinks;
+pub mod kinks;
 mod loads;
 pub mod mass_damping;
 mod mass_scaling;

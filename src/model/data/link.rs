@@ -133,3 +133,13 @@ impl PartAnswers for Link {
         (!self.is_of_joint()).then(|| Drawing::Curve { nodes: self.nodes(element), axes: Mat3::identity() })
     }
 }
+
+/// Lets what acts along the coordinates of joints, known by its index among all links, count by other equations.
+pub fn count_along<'l>(links: impl Iterator<Item = &'l mut Link>, equations: &[(usize, ConstraintEquation)]) {
+    let mut links: Vec<&mut Link> = links.collect();
+    for &(index, counted) in equations {
+        if let LinkKind::Joint { lock, .. } = &mut links[index].kind {
+            *lock = counted;
+        }
+    }
+}

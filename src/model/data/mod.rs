@@ -41,7 +41,7 @@ pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
-pub use link::{Link, LinkKind};
+pub use link::{Link, LinkKind, count_along};
 pub use loading::{BaseAcceleration, Damping, Load, Loading, NodalDamping, OwnDamping, Pressure};
 pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use modes::{ModeExtent, ModeKind, ModesAsked};

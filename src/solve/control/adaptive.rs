@@ -87,15 +87,7 @@ impl<C: StepController> CoverInterval for C {
             if let Some(watch) = march.stop_watch.as_deref_mut() {
                 watch.note(march.ws, march.state);
             }
-            let taken = self.step(march.cx, march.ws, march.state, target, length);
-            let mut taken = taken.map(|report| {
-                let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {
-                    self.take_back(state);
-                    let taken = self.step(cx, ws, state, time, length);
-                    taken.and_then(|report| report.ok_or(Failure::ErrorTooLarge { dt }))
-                };
-                report.map(|report| end_at_stop(march, (target - dt, target), report, again))
-            });
+            let mut taken = step_or_stop(self, march, target, length);
             if let Ok(Some((_, stop))) = &taken
                 && let Err(failure) = show_inside(self, march, stop.unwrap_or(dt))?
             {
@@ -135,6 +127,26 @@ impl<C: StepController> CoverInterval for C {
         }
         Ok(())
     }
+}
+
+/// Takes a step to a time, for which the proposal was `length`, or to where the stage stops before it; its length is then told beside the report.
+///
+/// # Errors
+/// As for [`StepController::step`].
+fn step_or_stop(
+    controller: &mut impl StepController,
+    march: &mut March,
+    target: f64,
+    length: f64,
+) -> Result<Option<(StepReport, Option<f64>)>, Failure> {
+    let from = march.state.time;
+    let taken = controller.step(march.cx, march.ws, march.state, target, length)?;
+    let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {
+        controller.take_back(state);
+        let taken = controller.step(cx, ws, state, time, length);
+        taken.and_then(|report| report.ok_or(Failure::ErrorTooLarge { dt: time - from }))
+    };
+    Ok(taken.map(|report| end_at_stop(march, (from, target), report, again)))
 }
 
 /// Shows what lies inside the step of length `dt` that was taken. The failure inside is that of a time where no equilibrium was found.

@@ -11,6 +11,7 @@ use crate::solve::report::StepReport;
 use crate::solve::size::Size;
 use crate::solve::workspace::Workspace;
 use crate::state::State;
+use crate::system::kinks::has_kinks;
 
 /// Safety factor on the length that would just meet the tolerance.
 const SAFETY: f64 = 0.9;
@@ -123,7 +124,7 @@ impl StepController for EmbeddedErrorController {
         let dt = to - state.time;
         self.stepper.evaluate_stages(cx, ws, state, to)?;
         let motion = self.judge(cx, ws, dt)?;
-        let meets_events = cx.system.has_kinks();
+        let meets_events = has_kinks(cx.system);
         if meets_events {
             self.before.clone_from(state);
         }

@@ -3,6 +3,7 @@
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::state::State;
+use crate::system::kinks;
 
 /// Steps in which an event falls are no longer than this part of the run, times the root of the tolerance. What such a step errs by goes with
 /// the square of its length; a step of a twentieth of what opens and closes again then errs by less than a tenth of the tolerance.
@@ -34,14 +35,14 @@ impl EventLimit {
             return true;
         }
         longer_than(LONGEST_WITH_EVENT * tolerance.sqrt())
-            && cx.system.has_kinks()
+            && kinks::has_kinks(cx.system)
             && (self.flows_otherwise(cx, flows(before, after))
-                || cx.system.branches(before) != cx.system.branches(after))
+                || kinks::branches(cx.system, before) != kinks::branches(cx.system, after))
     }
 
     /// True where flow begins or ends.
     fn flows_otherwise(&self, cx: &Context, [yields, slips]: [bool; 2]) -> bool {
-        slips != self.flows[1] || yields != self.flows[0] && cx.system.yields_at_once()
+        slips != self.flows[1] || yields != self.flows[0] && kinks::yields_at_once(cx.system)
     }
 
     /// Takes account of a step that stands.
