@@ -46,7 +46,9 @@ impl Meets<'_, '_> {
         let (size, speed) = (self.size(), self.speed());
         let mut choices = Vec::new();
         match self.softest_part() {
-            Some((stiffness, part)) => choices.push((stiffness, format!("E A over the extent of `{part}`"))),
+            Some((stiffness, part)) => {
+                choices.push((stiffness, format!("E A over the length of an element of `{part}`")))
+            }
             None if speed > 0.0 => {
                 let depth = format!("an impact at {} presses {} in", short(speed), short(STRUCK * size));
                 choices.push((mass * (speed / (STRUCK * size)).powi(2), depth));
@@ -76,7 +78,7 @@ impl Meets<'_, '_> {
     /// meets. `None` where the deck says nothing of these.
     pub fn stiffness_under_loads(&self, mass: f64) -> Option<ChosenStiffness> {
         if let Some((stiffness, part)) = self.softest_part() {
-            let reason = format!("E A over the extent of `{part}`");
+            let reason = format!("E A over the length of an element of `{part}`");
             return Some(ChosenStiffness { stiffness, reason, rests_on_time: false });
         }
         let forces = self.whole_deck().loads.iter().filter_map(|load| load.force.as_ref());
@@ -86,18 +88,20 @@ impl Meets<'_, '_> {
         (force > 0.0).then(|| ChosenStiffness { stiffness: force / depth, reason, rests_on_time: false })
     }
 
-    /// The least stiffness of the deformable parts that touch, by their names.
+    /// The least stiffness of the deformable parts that touch, each by the shortest element that does, with the names of the parts. The spring
+    /// of a contact then gives way by no more than the mesh does anyway: a softer one would delay a blow by more than an element.
     fn softest_part(&self) -> Option<(f64, &str)> {
         let mut touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();
         if let Opposite::Facets(_) = self.opposite {
             touching.extend(self.opposite.nodes());
         }
-        let stiffness =
-            |part: &crate::model::data::Part| part.stretching(&self.topology.list, &self.scene.parts.stiffnesses);
+        let (nodes, stiffnesses) = (&self.topology.list, &self.scene.parts.stiffnesses);
         let softest = |touches: &dyn Fn(&[usize]) -> bool| {
-            let parts = self.scene.parts.list.iter();
-            let touching = parts.filter(|part| (0..part.elements()).any(|element| touches(part.nodes(element))));
-            let all = touching.filter_map(|part| Some((stiffness(part)?, part.name())));
+            let stiffest = |part: &crate::model::data::Part| {
+                let elements = (0..part.elements()).filter(|&element| touches(part.nodes(element)));
+                elements.filter_map(|element| part.stretching(element, nodes, stiffnesses)).reduce(f64::max)
+            };
+            let all = self.scene.parts.list.iter().filter_map(|part| Some((stiffest(part)?, part.name())));
             all.min_by(|a, b| a.0.total_cmp(&b.0))
         };
         // What hangs on a node of what touches does not touch; where nothing touches with a whole element, what has the nodes does.

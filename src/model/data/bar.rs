@@ -3,7 +3,7 @@
 use super::integrals::{MassIntegrals, along};
 use super::loading::OwnDamping;
 use super::node::Node;
-use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
+use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
 use crate::deck::part_table::MassKind;
 use crate::materials::MaterialLaw;
 use crate::math::{Mat3, Vec3};
@@ -73,8 +73,9 @@ impl PartAnswers for Bar {
         self.mass_per_length * (start - end).norm()
     }
 
-    fn stretching(&self, nodes: &[Node], _: &[Stiffness]) -> Option<f64> {
-        Some(self.axial_stiffness / extent(self.elements.iter().flatten(), nodes))
+    fn stretching(&self, element: usize, nodes: &[Node], _: &[Stiffness]) -> Option<f64> {
+        let [start, end] = self.elements[element].map(|node| nodes[node].x);
+        Some(self.axial_stiffness / (start - end).norm())
     }
 
     fn drawing(&self, element: usize) -> Option<Drawing<'_>> {

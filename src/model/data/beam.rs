@@ -4,7 +4,7 @@ use super::integrals::{MassIntegrals, along};
 use super::lattice;
 use super::loading::OwnDamping;
 use super::node::Node;
-use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers, extent};
+use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
 use crate::deck::part_table::MassKind;
 use crate::elements::beam::FibreModel;
 use crate::math::{Mat3, Vec3};
@@ -93,9 +93,9 @@ impl PartAnswers for Beam {
         stiffnesses[self.elements[element].section].mass_per_length * (start - end).norm()
     }
 
-    fn stretching(&self, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
-        let axial = self.elements.iter().map(|element| stiffnesses[element.section].N[(0, 0)]).reduce(f64::min)?;
-        Some(axial / extent(self.elements.iter().flat_map(|e| &e.nodes[..=self.order]), nodes))
+    fn stretching(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
+        let [start, end] = self.elements[element].ends(self.order).map(|node| nodes[node].x);
+        Some(stiffnesses[self.elements[element].section].N[(0, 0)] / (start - end).norm())
     }
 
     fn depths(&self, stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {

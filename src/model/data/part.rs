@@ -136,10 +136,10 @@ impl Part {
         ask!(self, linear_spring)
     }
 
-    /// The stiffness against stretching of the whole part, E A over its extent at t = 0, E times the thickness of a shell; `None`
-    /// for what has none.
-    pub fn stretching(&self, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
-        ask!(self, stretching nodes, stiffnesses)
+    /// The stiffness of an element against stretching at t = 0: E A over its length, E times the thickness of a shell; `None` for what has
+    /// none.
+    pub fn stretching(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
+        ask!(self, stretching element, nodes, stiffnesses)
     }
 
     /// The smaller and the larger depth of a cross-section: of a shell its thickness, of a beam those of the rectangle with the

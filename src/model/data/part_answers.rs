@@ -98,7 +98,7 @@ pub trait PartAnswers {
         None
     }
 
-    fn stretching(&self, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> Option<f64> {
+    fn stretching(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> Option<f64> {
         None
     }
 
@@ -126,13 +126,4 @@ pub trait PartAnswers {
     ) -> Vec<Vec<usize>> {
         Vec::new()
     }
-}
-
-/// The diagonal of the box about the nodes of a part at t = 0.
-pub(super) fn extent<'a>(of: impl Iterator<Item = &'a usize>, nodes: &[Node]) -> f64 {
-    let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
-    for &node in of {
-        (low, high) = (low.inf(&nodes[node].x), high.sup(&nodes[node].x));
-    }
-    (high - low).norm()
 }

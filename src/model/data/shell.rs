@@ -128,7 +128,7 @@ impl PartAnswers for Shell {
         self.density * self.plate.thickness * (0.5 * twice)
     }
 
-    fn stretching(&self, _: &[Node], _: &[Stiffness]) -> Option<f64> {
+    fn stretching(&self, _: usize, _: &[Node], _: &[Stiffness]) -> Option<f64> {
         Some(self.plate.E * self.plate.thickness)
     }
 
