@@ -41,8 +41,8 @@ pub struct Contact {
     /// With "augmented-lagrangian": the largest depth, and elastic slip of a load step, that are left, in units of length, at most 1e-4 and by default 1e-8 of
     /// the smallest size of what touches.
     pub penetration_tolerance: Maybe<f64>,
-    /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1. Default: 1, nothing is
-    /// lost. For a restitution of 0 give `damping`.
+    /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1, or 0. Default: 1, nothing is
+    /// lost. With 0 nothing rebounds: what lands stays as deep as the impact has pressed it in.
     pub restitution: Maybe<f64>,
     /// Force per normal velocity, 0 or more, instead of a restitution. The contact never pulls.
     pub damping: Maybe<f64>,

@@ -163,7 +163,7 @@ impl Stops {
         let (before, approach) = (self.depth(memory[0]).0, sign * state.rate);
         let landed = if before >= 0.0 { memory[IMPACT_SPEED] } else { sign * memory[RATE] };
         state.impact_speed = landed.max(approach).max(0.0);
-        let push = normal_force(self.stiffness, &self.loss, depth, approach, state.impact_speed);
+        let push = normal_force(self.stiffness, &self.loss, depth, 0.0, approach, state.impact_speed);
         state.effort += sign * push.force;
         state.by_q += push.by_depth;
         state.by_rate += push.by_rate;

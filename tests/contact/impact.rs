@@ -222,3 +222,79 @@ fn a_ball_on_a_free_plate_of_shells() {
     // Modes of the mesh that 2e-5 does not resolve are damped; nothing is gained.
     assert!(last[2] > -0.005 && last[2] < 0.1, "{last:?}");
 }
+
+/// A restitution of 0: what lands stays, without weight and with it, whatever mass the stiffness was meant for, and all of its energy is
+/// gone.
+#[test]
+fn nothing_rebounds_with_a_restitution_of_zero() {
+    for scheme in ["newmark", "wilson-theta", "generalized-alpha", "esdirk3", "central-difference", "runge-kutta"] {
+        for gravity in [0.0, 10.0] {
+            let with = format!("stiffness = 2e5\nrestitution = 0\n[integrator]\nscheme = \"{scheme}\"");
+            let done = go(&ball(0.01, -4.0, gravity, 2e-4, 0.06, &with), &mut fall);
+            let fastest = done.rows.iter().map(|row| row[2]).fold(f64::NEG_INFINITY, f64::max);
+            let last = done.rows.last().unwrap();
+            println!("{scheme}, g = {gravity}: {:.1e}, {last:?}", fastest / 4.0);
+            // The spring takes over at 1e-7 of the size of the scene in a time 1/ω, and pushes by some of these: 1e-5 of the speed. Weight makes
+            // it swing, more slowly than the speed g/ω = 0.03 at which it sinks in: a third of that.
+            let most = if gravity > 0.0 { 0.01 } else { 1e-4 };
+            assert!(fastest < most, "{scheme}: {fastest}");
+            // What is lost of 16 J: in the impact, and 15 % at most by steps that are a sixteenth of 1/ω.
+            let lost = 16.0 + 2.0 * gravity * (0.01 - last[1]);
+            assert!(
+                (last[5] + last[4] - lost).abs() < 0.01 * lost && last[4].abs() < 0.15 * lost,
+                "{scheme}: {last:?}"
+            );
+        }
+    }
+}
+
+/// A box, on which four corners press, a hundred times as heavy as the ball that the stiffness was chosen for, and boxes `among` each other.
+#[test]
+fn nothing_rebounds_from_faces_either() {
+    let box_on = |name: &str, mass: f64, contact: &str| {
+        format!(
+            r#"
+            analysis = {{ kind = "dynamic", end_time = 0.4, time_step = 1e-3 }}
+            integrator = {{ scheme = "newmark" }}
+            environment = {{ gravity = [0.0, 0.0, -10.0] }}
+            [[bodies]]
+            name = "{name}"
+            center = [0.0, 0.0, 0.3]
+            mass = {mass:?}
+            shape = {{ kind = "box", size = [0.4, 0.4, 0.4] }}
+            [[bodies]]
+            name = "floor"
+            center = [0.0, 0.0, -0.1]
+            mass = 10.0
+            shape = {{ kind = "box", size = [2.0, 2.0, 0.2] }}
+            [[supports]]
+            at = "floor"
+            fix = "all"
+            [[contacts]]
+            name = "c"
+            {contact}
+            restitution = 0
+            stiffness = 1e6
+            "#
+        )
+    };
+    let ways = [
+        r#"surface = { body = "floor" }
+            with = "a""#,
+        r#"among = ["a", "floor"]"#,
+        r#"surface = { shape = "plane", point = [0.0, 0.0, 0.0], normal = [0.0, 0.0, 1.0] }
+            with = "a""#,
+    ];
+    for contact in ways {
+        for mass in [2.0, 200.0] {
+            let done = go(&box_on("a", mass, contact), &mut |frame| {
+                vec![frame.state.nodes[0].x.z - 0.2, frame.state.nodes[0].v.z]
+            });
+            let landed = done.rows.iter().position(|row| row[0] < 0.0).expect("it lands");
+            let fastest = done.rows[landed..].iter().map(|row| row[1]).fold(f64::NEG_INFINITY, f64::max);
+            println!("{contact}, {mass}: {fastest:.1e}, {:?}", done.rows.last());
+            // It falls at 1.4 m/s, and swings by a third of g/ω at most, ω² = 4 k/m.
+            assert!(fastest < 0.3 * 10.0 * (mass / 4e6f64).sqrt(), "{mass}: {fastest}");
+        }
+    }
+}

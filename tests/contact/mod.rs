@@ -12,6 +12,7 @@ mod edges_of_solids;
 mod element;
 mod faces;
 mod faces_alone;
+mod flat_on_mesh;
 mod folds;
 mod impact;
 mod lines;

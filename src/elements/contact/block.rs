@@ -82,8 +82,8 @@ impl ElementBlock for Contacts {
             return true;
         }
         let old = history::of(self, e, now.history);
-        now.dt < old.safe_time()
-            || self.kinematics(&self.points[e], now.nodes).gap - old.lift(&self.law) > self.law.touching
+        let gap = || self.kinematics(&self.points[e], now.nodes).gap + self.inset(old);
+        now.dt < old.safe_time() || self.is_idle(old) || gap() - old.lift(&self.law) > self.law.touching
     }
 
     fn rubs(&self) -> bool {

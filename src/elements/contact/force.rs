@@ -36,7 +36,8 @@ pub(super) fn contact_force(
         true => old.rate().max(rate),
         false => rate,
     };
-    let normal = normal_force(law.stiffness, &law.loss, (old.lift(law) - at.gap).max(0.0), rate, speed);
+    let (depth, inset) = ((old.lift(law) - at.gap).max(0.0), contacts.inset(old));
+    let normal = normal_force(law.stiffness, &law.loss, depth, inset, rate, speed);
     let n = &at.closest.n;
     if law.friction == 0.0 || !known {
         return ContactForce { normal, friction: None, F: normal.force * n, M: Vec3::zeros() };
@@ -72,7 +73,11 @@ pub(super) fn touch(contacts: &Contacts, e: usize, now: &Configuration) -> Optio
     if now.dt < old.safe_time() {
         return None;
     }
-    let at = contacts.kinematics(&contacts.points[e], now.nodes);
+    let mut at = contacts.kinematics(&contacts.points[e], now.nodes);
+    if contacts.is_idle(old) {
+        return None;
+    }
+    at.gap += contacts.inset(old);
     // At zero gap there is no force yet, but stiffness.
     if at.gap - old.lift(&contacts.law) > contacts.law.touching {
         return None;

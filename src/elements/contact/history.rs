@@ -1,6 +1,6 @@
 //! The history variables of a point: a typed view of its numbers in [`crate::state::State::history`]. All points of a
 //! block have the same count of them: those of the normal force, then those of friction where there is any, then the
-//! rotations of the point's nodes where friction turns them, then the multiplier where there is one.
+//! rotations of the point's nodes where friction turns them, then the multiplier where there is one, or the inset.
 
 use super::kinematics::Contacts;
 use super::law::ContactLaw;
@@ -101,6 +101,12 @@ impl<'a> PointHistory<'a> {
         }
     }
 
+    /// The depth at which the spring of the normal force begins, where that is remembered; negative where nothing presses whatever the depth.
+    #[inline]
+    pub fn inset(self, keeps: bool) -> f64 {
+        if keeps { self.0[self.0.len() - 1] } else { 0.0 }
+    }
+
     /// Rotation of the k-th node relative to the surface. Where friction turns nodes.
     #[inline]
     pub fn rotation(self, k: usize) -> Quaternion<f64> {
@@ -155,6 +161,18 @@ impl<'a> PointHistoryMut<'a> {
         }
     }
 
+    /// Sets the depth at which the spring of the normal force begins, where that is remembered.
+    pub fn set_inset(&mut self, keeps: bool, inset: f64) {
+        if let (true, Some(last)) = (keeps, self.0.last_mut()) {
+            *last = inset;
+        }
+    }
+
+    /// Sets the gap, of what the motion is known of.
+    pub fn set_gap(&mut self, gap: f64) {
+        self.0[GAP] = gap;
+    }
+
     /// Sets |T|.
     pub fn set_friction_force(&mut self, force: f64) {
         self.0[FRICTION_FORCE] = force;
@@ -183,7 +201,7 @@ pub(super) fn width(contacts: &Contacts) -> usize {
         (true, false) => ROTATIONS,
         (true, true) => ROTATIONS + 4 * contacts.count,
     };
-    of_springs + usize::from(contacts.law.tolerance.is_some())
+    of_springs + usize::from(contacts.law.tolerance.is_some() || contacts.keeps_inset())
 }
 
 /// The history of point `e` in that of its block, which must not be empty.

@@ -1,5 +1,7 @@
 //! The position and motion of points relative to a surface.
 
+use super::corners::Corners;
+use super::history::PointHistory;
 use super::law::ContactLaw;
 use super::point::{ContactPoint, MOST_NODES};
 use super::surface::Surface;
@@ -24,6 +26,8 @@ pub struct Contacts {
     pub(super) count: usize,
     /// Friction turns nodes: their rotations belong to the history.
     pub(super) rolls: bool,
+    /// The corners of the carrier that touch what the points are nodes of.
+    pub(super) corners: Option<Corners>,
 }
 
 /// A point against the surface at an instant.
@@ -67,7 +71,29 @@ impl Contacts {
                 nodes
             })
             .collect();
-        Contacts { law, surface, carrier, points, nodes, count, rolls }
+        Contacts { law, surface, carrier, points, nodes, count, rolls, corners: None }
+    }
+
+    /// The same of nodes that press only where they are deeper in the carrier than its corners are in the faces of those nodes.
+    pub fn beside(self, corners: Corners) -> Self {
+        Contacts { corners: Some(corners), ..self }
+    }
+
+    /// True where the depth at which a spring begins is remembered.
+    pub(super) fn keeps_inset(&self) -> bool {
+        self.law.keeps_inset() || self.corners.is_some()
+    }
+
+    /// The depth at which the spring of a point begins.
+    #[inline]
+    pub(super) fn inset(&self, old: PointHistory) -> f64 {
+        old.inset(self.keeps_inset()).max(0.0)
+    }
+
+    /// True for a node that does not press, because a corner is deeper.
+    #[inline]
+    pub(super) fn is_idle(&self, old: PointHistory) -> bool {
+        self.corners.is_some() && (!old.is_known() || old.inset(true) < 0.0)
     }
 
     /// Position and velocity relative to the carrier, global components.

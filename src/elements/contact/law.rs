@@ -27,3 +27,10 @@ pub struct ContactLaw {
     /// True where the analysis has velocities, so that a far point stays far for a while.
     pub dynamic: bool,
 }
+
+impl ContactLaw {
+    /// True where the spring of the normal force may begin at a depth of its own, which is remembered.
+    pub fn keeps_inset(&self) -> bool {
+        self.dynamic && matches!(self.loss, Loss::Whole { .. })
+    }
+}

@@ -15,12 +15,13 @@
 //!
 //! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
-//! keep what a point remembers of the way it came; `multipliers` put
+//! keep what a point remembers of the way it came; `corners` says which nodes of a mesh press a solid that lies on it; `multipliers` put
 //! numbers of their own in the place of springs where a load step asks for no depth; `block` is what the equations see; `steps` bounds the steps; `resultant`
 //! sums what is shown. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
 
 mod block;
 pub mod convex;
+mod corners;
 pub mod facets;
 mod force;
 pub mod friction;
@@ -40,6 +41,7 @@ mod tangent;
 mod update;
 
 pub use convex::{ConvexBody, ConvexHeap, ConvexPairs};
+pub use corners::Corners;
 pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;

@@ -2,14 +2,16 @@
 
 use super::history::{PointHistory, PointHistoryMut};
 use super::law::ContactLaw;
-use super::restitution::normal_force;
+use super::restitution::{normal_force, taken_over};
 use crate::materials::Dissipation;
 use crate::state::Configuration;
 
 /// The motion along the normal at the instant of equilibrium.
 pub(super) struct NormalMotion {
-    /// The gap, negative inside.
+    /// The gap, negative where the spring is pressed in.
     pub gap: f64,
+    /// The depth at which the spring begins.
+    pub inset: f64,
     /// The approach speed δ̇.
     pub rate: f64,
     /// The power of damping, by [`damping_power`].
@@ -53,17 +55,17 @@ pub(super) fn way(old: PointHistory, part: f64) -> f64 {
 }
 
 /// The friction force at which a pair would have slipped at the last state: what begins to slip in a step has been pulled so far before.
-pub(super) fn slip_limit(law: &ContactLaw, old: PointHistory) -> f64 {
+pub(super) fn slip_limit(law: &ContactLaw, old: PointHistory, inset: f64) -> f64 {
     let depth = old.lift(law) - old.gap();
     // Damping alone would press what is still apart.
     if depth <= 0.0 {
         return 0.0;
     }
-    law.friction * normal_force(law.stiffness, &law.loss, depth, old.rate(), old.impact_speed()).force
+    law.friction * normal_force(law.stiffness, &law.loss, depth, inset, old.rate(), old.impact_speed()).force
 }
 
 /// Writes the motion along the normal, the impact and the power of its damping after `part` of the way from the last state to
-/// `now`; returns what the impact has dissipated.
+/// `now`; returns what the impact has dissipated, and the depth at which the spring begins from then on.
 pub(super) fn update_normal(
     law: &ContactLaw,
     at: &NormalMotion,
@@ -71,8 +73,8 @@ pub(super) fn update_normal(
     part: f64,
     old: PointHistory,
     new: &mut PointHistoryMut,
-) -> f64 {
-    let &NormalMotion { gap, rate, power, speed } = at;
+) -> (f64, f64) {
+    let &NormalMotion { gap, inset, rate, power, speed } = at;
     let dt = part * now.dt;
     let beyond = (part - 1.0) * now.dt;
     let way = way(old, part);
@@ -81,7 +83,22 @@ pub(super) fn update_normal(
     new.set_motion(end_gap, toward(old.rate(), rate), safe_time(law, end_gap, speed));
     new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
     new.set_damping_power(toward(old.damping_power(), power));
-    0.5 * dt * (old.damping_power() + new.read().damping_power())
+    let damped = 0.5 * dt * (old.damping_power() + new.read().damping_power());
+    if !law.keeps_inset() {
+        return (damped, inset);
+    }
+    let before = if old.is_known() { -old.gap() } else { 0.0 };
+    let depth = -new.read().gap();
+    if depth <= 0.0 {
+        // What comes out is met where it turns round.
+        return (damped, (inset + depth).max(0.0));
+    }
+    let kept = taken_over(&law.loss, (before, depth), inset, new.read().impact_speed(), dt);
+    new.set_gap(-kept);
+    // The acceleration found with the whole spring works on in the next step: what the spring leaves is the power of a damper.
+    let left = law.stiffness * (depth - kept) * new.read().rate();
+    new.set_damping_power(new.read().damping_power() + left);
+    (damped + 0.5 * dt * left, inset + depth - kept)
 }
 
 /// The impact speed and the age to come. `gap` and `rate` are those at the instant of equilibrium; `new` has those at the end

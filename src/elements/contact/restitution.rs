@@ -7,6 +7,11 @@
 /// The least coefficient of restitution: below it D grows as 1/e, and steps would have to resolve ever shorter impacts.
 pub const LEAST: f64 = 0.01;
 
+/// D of an impact that gives nothing back: what comes to rest on the spring that then takes over is damped critically.
+const WHOLE: f64 = 2.0;
+/// Part of the rate at which an impact dies out, at which the spring takes over from its damper.
+const TAKES_OVER: f64 = 0.5;
+
 /// The energy loss in an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Loss {
@@ -17,6 +22,11 @@ pub enum Loss {
         /// D of the coefficient of restitution.
         number: f64,
         /// The approach speed below which an impact counts as one at that speed.
+        floor: f64,
+    },
+    /// An impact gives back nothing.
+    Whole {
+        /// The approach speed up to which the spring takes the way at once, as a weight that sinks in asks for.
         floor: f64,
     },
     /// Viscous damping, force per velocity.
@@ -65,9 +75,9 @@ pub fn number(e: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The normal force at depth δ > 0 and rate δ̇, after an approach at `speed`.
+/// The normal force at depth δ > 0 and rate δ̇, after an approach at `speed`. `depth` is that of the spring, which begins at a depth `inset`.
 #[inline]
-pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f64) -> NormalForce {
+pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, inset: f64, rate: f64, speed: f64) -> NormalForce {
     let spring = stiffness * depth;
     let force = match *loss {
         Loss::None => NormalForce { force: spring, by_depth: stiffness, by_rate: 0.0 },
@@ -78,10 +88,28 @@ pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, rate: f64, speed: f
             let by_rate = if rate < speed { spring * d } else { 0.0 };
             NormalForce { force: spring * (1.0 + d * rate), by_depth: stiffness * (1.0 + d * rate), by_rate }
         }
+        Loss::Whole { floor } => {
+            let speed = speed.max(floor);
+            let d = if speed > 0.0 { WHOLE / speed } else { 0.0 };
+            let whole = stiffness * (depth + inset);
+            let by_rate = if rate < speed { whole * d } else { 0.0 };
+            NormalForce { force: spring + whole * d * rate, by_depth: stiffness * (1.0 + d * rate), by_rate }
+        }
         Loss::Damping(c) => NormalForce { force: spring + c * rate, by_depth: stiffness, by_rate: c },
     };
     // At zero depth there is no force yet, but stiffness.
     if force.force > 0.0 || force.force == 0.0 && force.by_depth > 0.0 { force } else { NormalForce::default() }
+}
+
+/// The part of the way from a depth of the spring to another, in the time `dt`, that the spring takes over from the damper of an impact
+/// that gives nothing back; the rest does not push any more. The spring is left out while the impact lasts, so that there is nothing that
+/// could drive apart what has met. A force that goes on presses it in nevertheless: it takes over at a rate that grows with its own depth.
+pub fn taken_over(loss: &Loss, (from, to): (f64, f64), inset: f64, speed: f64, dt: f64) -> f64 {
+    let Loss::Whole { floor } = *loss else { return to };
+    let from = from.max(0.0);
+    let whole = to + inset;
+    let growth = if whole > 0.0 { TAKES_OVER * speed.max(floor) / (WHOLE * whole) } else { 0.0 };
+    to.min(from + dt * (floor + growth * from))
 }
 
 #[cfg(test)]
@@ -99,7 +127,7 @@ mod tests {
             (0.9999, 1.0, 1.0, 1.0),
         ] {
             let loss = Loss::Restitution { number: number(e), floor: 0.0 };
-            let slope = |[x, v]: [f64; 2]| [v, -normal_force(k, &loss, x.max(0.0), v, v0).force / m];
+            let slope = |[x, v]: [f64; 2]| [v, -normal_force(k, &loss, x.max(0.0), 0.0, v, v0).force / m];
             let plus = |a: [f64; 2], s: f64, b: [f64; 2]| [a[0] + s * b[0], a[1] + s * b[1]];
             let h = (m / k).sqrt() * 1e-3 * if e < 0.1 { 0.1 } else { 1.0 };
             let mut y = [0.0, v0];

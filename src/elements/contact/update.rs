@@ -24,13 +24,16 @@ pub(super) fn update_point(
     if let Some(spent) = pass_over(law, (d.norm() - contacts.reach() - point.radius, speed), now, old, new) {
         return spent;
     }
-    let at = contacts.kinematics(point, now.nodes);
-    let touches = at.gap - old.lift(law) <= law.touching;
+    let mut at = contacts.kinematics(point, now.nodes);
+    at.gap += contacts.inset(old);
+    let touches = at.gap - old.lift(law) <= law.touching && !contacts.is_idle(old);
     let acting = touches.then(|| contact_force(contacts, point, &at, old, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let power = damping_power(law, at.gap, at.rate(), force);
-    let motion = NormalMotion { gap: at.gap, rate: at.rate(), power, speed };
-    let mut spent = Dissipation { impact: update_normal(law, &motion, now, part, old, new), ..Dissipation::default() };
+    let power = if touches { damping_power(law, at.gap, at.rate(), force) } else { 0.0 };
+    let motion = NormalMotion { gap: at.gap, inset: contacts.inset(old), rate: at.rate(), power, speed };
+    let (impact, inset) = update_normal(law, &motion, now, part, old, new);
+    let mut spent = Dissipation { impact, ..Dissipation::default() };
+    contacts.remember_inset(&at, inset, now, old, new);
     // The multiplier stays that of the equilibrium, under which the gap at hand gives its force; the next step begins from there.
     new.set_lift(law, old.lift(law));
     if law.friction > 0.0 {
@@ -62,7 +65,10 @@ fn update_friction(
         Some(friction) => {
             let end = pull + part * (friction.T.norm() - pull);
             new.set_friction_force(end);
-            (friction.slip, 0.5 * part * friction.slip.norm() * (pull.max(slip_limit(law, old)) + end))
+            (
+                friction.slip,
+                0.5 * part * friction.slip.norm() * (pull.max(slip_limit(law, old, contacts.inset(old))) + end),
+            )
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {

@@ -69,8 +69,8 @@ fn faces<'d>(
         return None;
     }
     let names = finder.report.require_nodes(owner, "with", &contact.with)?;
-    let (touchers, solids, back) = (FacetTouchers::Others, Vec::new(), Vec::new());
-    let mut faces = FacetSurface { part: part.value.clone(), facets, is_of_edges, touchers, solids, back };
+    let (touchers, solids, corners, back) = (FacetTouchers::Others, Vec::new(), Vec::new(), Vec::new());
+    let mut faces = FacetSurface { part: part.value.clone(), facets, is_of_edges, touchers, solids, corners, back };
     if names.values.iter().any(|at| at.value == ITSELF) {
         if let [_, _, ..] = names.values[..] {
             let hint = "give what else touches it a contact of its own";
@@ -98,12 +98,22 @@ fn faces<'d>(
     let points = finder.touching(owner, name, contact, is_rigid.then_some(root))?;
     faces.solids = solids_of(scene, &names.values, contact.radius.as_ref().map_or(0.0, |at| at.value), is_line);
     if !is_line {
+        faces.corners = corners_of(&faces.solids, &points, finder);
         warn_of_long_solids(finder, owner, contact, part, (&elements, half));
     }
     if !faces.solids.is_empty() {
         faces.back = finder.points_at(&own_nodes(&faces.facets), half, contact);
     }
     Some((faces, points))
+}
+
+/// Of each solid, the points that are its corners, by number.
+fn corners_of(solids: &[CarriedSurface], points: &[ContactPoint], finder: &Finder) -> Vec<Vec<usize>> {
+    let root = |node: usize| finder.topology.root(node);
+    let is_corner =
+        |point: &ContactPoint, node: usize| point.count == 1 && !point.is_line() && root(point.nodes[0]) == root(node);
+    let of = |node: usize| (0..points.len()).filter(|&e| is_corner(&points[e], node)).collect();
+    solids.iter().map(|carried| of(carried.node)).collect()
 }
 
 /// The facets of elements by their nodes, half as thick as given: lines from node to node, or faces.
@@ -253,7 +263,10 @@ fn balls<'d>(
     let carried = |one: &ConvexBody| CarriedSurface { node: one.node, surface: Surface::of_convex(&one.shape, 0.0) };
     let solids = if points.is_empty() { Vec::new() } else { finder.convex.iter().map(carried).collect() };
     let back = if solids.is_empty() { Vec::new() } else { points.clone() };
-    Some((FacetSurface { part: String::new(), facets, is_of_edges: false, touchers, solids, back }, points))
+    Some((
+        FacetSurface { part: String::new(), facets, is_of_edges: false, touchers, solids, corners: Vec::new(), back },
+        points,
+    ))
 }
 
 /// What is to touch among itself.

@@ -111,17 +111,20 @@ impl LawReader<'_, '_> {
         // An approach that sinks in no deeper than the weight does is no impact. Where there is no weight, a trace of length.
         let floor = (self.gravity.norm() / frequency).max(if mass > 0.0 { 1e-7 * extent * frequency } else { 0.0 });
         let loss = match (&contact.restitution, &contact.damping) {
+            (Some(at), _) if at.value == 0.0 => Loss::Whole { floor },
             (Some(at), _) if at.value < 1.0 => Loss::Restitution { number: restitution::number(at.value), floor },
             (_, Some(at)) if at.value > 0.0 => Loss::Damping(at.value),
             _ => Loss::None,
         };
         let resolved = dynamic && meeting.rigid && frequency.is_finite();
+        // What gives nothing back is stopped in half of the time.
+        let resolution = if matches!(loss, Loss::Whole { .. }) { 0.5 * RESOLUTION } else { RESOLUTION };
         ContactLaw {
             stiffness,
             loss,
             friction: contact.friction.as_ref().map_or(0.0, |at| at.value),
             floor,
-            resolution: if resolved { RESOLUTION / frequency } else { f64::INFINITY },
+            resolution: if resolved { resolution / frequency } else { f64::INFINITY },
             duration: TAU / frequency,
             near: 0.01 * extent,
             touching: if dynamic { 0.0 } else { TOUCHING * extent },

@@ -232,9 +232,9 @@ fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Opti
         report.reject_unused("a clearance monitor, a contact of stiffness 0 where nothing acts", &keys);
     }
     if let Some(at) = &contact.restitution {
-        if !(restitution::LEAST..=1.0).contains(&at.value) {
-            let message = format!("`restitution` lies between {} and 1", restitution::LEAST);
-            report.error_with::<()>(&at.span, message, "for restitution 0 give `damping`");
+        if at.value != 0.0 && !(restitution::LEAST..=1.0).contains(&at.value) {
+            let message = format!("`restitution` is 0, or lies between {} and 1", restitution::LEAST);
+            report.error_with::<()>(&at.span, message, "give 0 where nothing is to rebound");
         }
         if let Some(damping) = &contact.damping {
             report.error::<()>(&damping.span, format!("{} takes `restitution` or `damping`, not both", owner.what));

@@ -60,6 +60,8 @@ pub struct FacetSurface {
     pub touchers: FacetTouchers,
     /// The bodies that are boxes or hulls, whose surface the nodes of the facets touch.
     pub solids: Vec<CarriedSurface>,
+    /// Of each of these, the points that are its corners, by number.
+    pub corners: Vec<Vec<usize>>,
     /// The nodes of the facets, where there are such bodies.
     pub back: Vec<ContactPoint>,
 }

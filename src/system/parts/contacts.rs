@@ -2,7 +2,8 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use crate::elements::contact::{
-    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, FacetContacts, MOST_NODES, SurfaceShape, TouchKind,
+    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, Corners, FacetContacts, MOST_NODES, SurfaceShape,
+    TouchKind,
 };
 use crate::model::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::sections::Stiffness;
@@ -79,10 +80,18 @@ fn facet_blocks(
             blocks.push((Box::new(block), 0));
         }
     }
-    for carried in &faces.solids {
+    for (k, carried) in faces.solids.iter().enumerate() {
+        let corners = faces.corners.get(k).filter(|corners| !corners.is_empty()).map(|corners| {
+            let corners = corners.iter().map(|&e| points[e].clone()).collect();
+            Corners::new(FacetContacts::new(law, faces.touchers, corners, faces.facets.clone(), setting.x))
+        });
         for piece in pieces(faces.back.len()) {
             let points = faces.back[piece.clone()].to_vec();
             let block = Contacts::new(law, carried.surface.clone(), carried.node, points);
+            let block = match &corners {
+                Some(corners) => block.beside(corners.clone()),
+                None => block,
+            };
             blocks.push((Box::new(block), piece.start));
         }
     }

@@ -67,7 +67,8 @@ pub(super) fn law_of_faces(law: ContactLaw) -> ContactLaw {
 
 /// The number of history variables of a pair.
 pub(super) fn width(law: &ContactLaw) -> usize {
-    if law.friction > 0.0 { super::memory::WIDTH } else { FRICTION_FORCE }
+    let of_motion = if law.friction > 0.0 { super::memory::WIDTH } else { FRICTION_FORCE };
+    of_motion + usize::from(law.keeps_inset())
 }
 
 /// Two convex solids and the law between them.
@@ -113,6 +114,8 @@ impl PairKinematics<'_> {
 pub(in crate::elements::contact) struct PairForce {
     /// The depth D with its derivatives.
     pub depth: Depth,
+    /// The depth at which the spring begins.
+    pub inset: f64,
     /// Ḋ, per time.
     pub rate: f64,
     /// The normal force.
@@ -147,7 +150,8 @@ impl<'a> ConvexPair<'a> {
             false => rate,
         };
         let law = self.law;
-        let normal = normal_force(law.stiffness, &law.loss, depth.D, rate, speed);
+        let inset = old.inset(law.keeps_inset());
+        let normal = normal_force(law.stiffness, &law.loss, depth.D - inset, inset, rate, speed);
         let mut W = -normal.force * depth.g;
         let rubs = law.friction > 0.0 && old.is_known();
         let rubbing = rubs
@@ -158,7 +162,7 @@ impl<'a> ConvexPair<'a> {
         if let Some(rubbing) = &rubbing {
             W += rubbing.W;
         }
-        Some(PairForce { depth, rate, normal, rubbing, W })
+        Some(PairForce { depth, inset, rate, normal, rubbing, W })
     }
 
     /// Derivatives of the force W by the motion (u, ψ) at fixed rates, and by the rates.
@@ -217,6 +221,6 @@ impl<'a> ConvexPair<'a> {
     pub fn energy(&self, acting: &PairForce) -> f64 {
         let k = self.law.stiffness;
         let pull = acting.rubbing.as_ref().map_or(0.0, |rubbing| rubbing.pull);
-        0.5 * k * acting.depth.D * acting.depth.D + 0.5 * pull * pull / k
+        0.5 * k * (acting.depth.D - acting.inset).max(0.0).powi(2) + 0.5 * pull * pull / k
     }
 }

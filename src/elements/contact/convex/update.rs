@@ -26,11 +26,14 @@ pub(super) fn update_pair(
         return spent;
     }
     let acting = pair.force(&at, old);
-    let (gap, rate) = acting.as_ref().map_or_else(|| approach(&at), |acting| (-acting.depth.D, acting.rate));
+    let (gap, rate) =
+        acting.as_ref().map_or_else(|| approach(&at), |acting| (acting.inset - acting.depth.D, acting.rate));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
-    let motion = NormalMotion { gap, rate, power: damping_power(law, gap, rate, force), speed };
-    let mut spent =
-        Dissipation { impact: update_normal(law, &motion, now, part, old, &mut new), ..Dissipation::default() };
+    let inset = acting.as_ref().map_or(0.0, |acting| acting.inset);
+    let motion = NormalMotion { gap, inset, rate, power: damping_power(law, gap, rate, force), speed };
+    let (impact, inset) = update_normal(law, &motion, now, part, old, &mut new);
+    let mut spent = Dissipation { impact, ..Dissipation::default() };
+    new.set_inset(law.keeps_inset(), inset);
     if law.friction > 0.0 {
         spent.friction = update_friction((&at, acting.as_ref()), law.stiffness, way(old, part), old, &mut new);
     }

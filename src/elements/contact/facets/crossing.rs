@@ -38,7 +38,7 @@ pub(super) fn deepest_end<'a>(pair: &FacetPair<'a>, nodes: &[Node]) -> Option<(F
 pub(super) fn end_force(pair: &FacetPair, speed: impl Fn(f64) -> f64, nodes: &[Node]) -> Option<EndForce> {
     let (end, place) = deepest_end(pair, nodes)?;
     let (law, depth, rate) = (pair.law, -place.gap(), place.rate());
-    let normal = normal_force(law.stiffness, &law.loss, depth, rate, speed(rate));
+    let normal = normal_force(law.stiffness, &law.loss, depth, place.inset, rate, speed(rate));
     Some(EndForce {
         normal,
         depth,

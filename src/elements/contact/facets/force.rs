@@ -24,7 +24,7 @@ impl FacetPair<'_> {
             Some(old) => old.rate().max(rate),
             None => rate,
         };
-        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), rate, speed(rate));
+        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), place.inset, rate, speed(rate));
         let n = &place.n;
         let less = if self.is_of_edges() { crossing::end_force(self, speed, nodes) } else { None };
         let (M, C) = (Vec3::zeros(), Vec3::zeros());

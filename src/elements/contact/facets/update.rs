@@ -118,13 +118,11 @@ fn update_pair(
     let (gap, rate) = (place.gap(), place.rate());
     let less = acting.as_ref().and_then(|acting| acting.less.as_ref()).map_or(0.0, |end| end.power);
     let power = damping_power(&of.law, gap, rate, force) - less;
-    let motion = NormalMotion { gap, rate, power, speed: place.w.norm() };
-    let mut spent = Dissipation {
-        impact: update_normal(&of.law, &motion, now, part, old.motion(), &mut new.motion()),
-        ..Dissipation::default()
-    };
+    let motion = NormalMotion { gap, inset: place.inset_left(), rate, power, speed: place.w.norm() };
+    let (impact, inset) = update_normal(&of.law, &motion, now, part, old.motion(), &mut new.motion());
+    let mut spent = Dissipation { impact, ..Dissipation::default() };
     new.set_facet(touch.facet, place.side);
-    new.set_inset(place.inset_left());
+    new.set_inset(inset);
     if of.law.friction > 0.0 {
         spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, part, new);
     }
@@ -168,7 +166,7 @@ fn update_friction(
             let end = pull + part * (friction.T.norm() - pull);
             new.motion().set_friction_force(end);
             anchor += part * (friction.slip + n.dot(&(x - anchor)) * n);
-            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion())) + end)
+            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion(), memory.inset())) + end)
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {
@@ -214,7 +212,7 @@ fn update_friction_of_lines(
             let end = pull + part * (friction.T.norm() - pull);
             stretch(friction.T / k, part);
             new.motion().set_friction_force(end);
-            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion())) + end)
+            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion(), memory.inset())) + end)
         }
         // The two are apart: what was stretched lets go.
         None => {

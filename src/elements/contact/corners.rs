@@ -1,0 +1,66 @@
+//! Corners of a solid and the nodes of a mesh under it: which of them press.
+//!
+//! A solid that lies on a mesh is met by its corners, which touch faces, and by the nodes of these, which touch its surface. Where it lies
+//! flat all are equally deep, and nodes lie under it as the mesh happens to be: if they pressed too, they would turn it. A node therefore
+//! presses once it is deeper than any corner that is pushed back in its own direction, and then by what it is deeper from there on.
+
+use super::facets::FacetContacts;
+use super::history::{PointHistory, PointHistoryMut};
+use super::kinematics::{ContactKinematics, Contacts};
+use crate::state::{Configuration, Node};
+use std::sync::Arc;
+
+/// Cosine of the angle between the directions of a corner and a node up to which they press as one.
+const ONE_DIRECTION: f64 = 0.7;
+/// The part of a facet by which rounding may tell depths apart.
+const ROUNDING: f64 = 1e-9;
+
+/// The corners of a solid against the faces of a mesh.
+#[derive(Clone)]
+pub struct Corners {
+    of: Arc<FacetContacts>,
+}
+
+impl Corners {
+    /// The corners and the faces are those of a block of contacts.
+    pub fn new(of: FacetContacts) -> Self {
+        Corners { of: Arc::new(of) }
+    }
+}
+
+impl Contacts {
+    /// Writes the depth at which the spring of a point begins, `inset` by its own motion; the gap of one that is idle is that to the surface.
+    pub(super) fn remember_inset(
+        &self,
+        at: &ContactKinematics,
+        inset: f64,
+        now: &Configuration,
+        old: PointHistory,
+        new: &mut PointHistoryMut,
+    ) {
+        let Some(corners) = &self.corners else { return new.set_inset(self.keeps_inset(), inset) };
+        let was_idle = self.is_idle(old);
+        if !was_idle && at.gap < 0.0 {
+            return new.set_inset(true, inset);
+        }
+        let gap = at.gap - self.inset(old);
+        // What cannot come to touch in the next steps is not asked for.
+        let is_far = self.law.dynamic && gap > 4.0 * now.dt * at.w.norm() && gap > 0.0;
+        if is_far || !self.leads(corners, at, gap, now.nodes) {
+            new.set_inset(true, -1.0);
+            new.set_gap(gap);
+            return;
+        }
+        // What is inside as the motion begins is pushed out; later nothing jumps.
+        let inset = if !was_idle || now.dt <= 0.0 { inset.min(-gap).max(0.0) } else { (-gap).max(0.0) };
+        new.set_inset(true, inset);
+        new.set_gap(gap + inset);
+    }
+
+    /// True where a node is nearer to the solid than any of its corners, in about the same direction, to the faces.
+    fn leads(&self, corners: &Corners, at: &ContactKinematics, gap: f64, nodes: &[Node]) -> bool {
+        let outward = at.R * at.closest.n;
+        let least = corners.of.least_gap_toward(&-outward, ONE_DIRECTION, nodes);
+        gap < least - ROUNDING * corners.of.margin()
+    }
+}
