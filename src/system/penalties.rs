@@ -142,7 +142,7 @@ impl Diagonal {
         let (mut compliance, mut of_kind, mut largest) = (0.0, 0.0, 0.0f64);
         for &Place { end, node, index, slots, .. } in &self.0 {
             let g = projections[node][index].tr_mul(&G[end]);
-            let size = |slot: &Option<u32>| slot.map(|slot| values[slot as usize].abs());
+            let size = |slot: &Option<u32>| slot.map(|slot| outweighing(values[slot as usize]));
             let mean = |dofs: &[Option<u32>]| {
                 let known = || dofs.iter().filter_map(size);
                 known().sum::<f64>() / known().count().max(1) as f64
@@ -273,6 +273,11 @@ fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
         false if firmest > 0.0 => firmest,
         false => 1.0,
     }
+}
+
+/// The size of an entry of the diagonal by which a penalty factor is chosen: a factor as large as a negative entry would cancel it to zero.
+fn outweighing(entry: f64) -> f64 {
+    if entry < 0.0 { -INDEFINITE * entry } else { entry }
 }
 
 /// Gives the translations of a joint one penalty factor, and its rotations one, by their mean compliance. Redundant equations share loads in
