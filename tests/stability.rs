@@ -15,12 +15,14 @@ fn time(text: &str) -> f64 {
     text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap()
 }
 
-/// Runs a deck that is to end; its only warning.
-fn only_warning(deck: &str) -> String {
+/// What a run says of an equilibrium that becomes unstable: the reason for which it ends there, or its only warning.
+fn told(deck: &str) -> String {
     let (_, _, Said { outcome, warnings, .. }) = said(deck);
-    assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-    let [text] = &warnings[..] else { panic!("{warnings:?}\n{deck}") };
-    text.clone()
+    match (&outcome, &warnings[..]) {
+        (Outcome::Failed { failure, .. }, []) => failure.to_string(),
+        (Outcome::Done, [text]) => text.clone(),
+        _ => panic!("{outcome:?} {warnings:?}\n{deck}"),
+    }
 }
 
 const ALONG_X: &str = "[0.0, 1.0, 0.0]";
@@ -45,7 +47,7 @@ fn the_tangent_is_asked_whatever_matrix_leads_the_iteration() {
         // Loads grow along the path, so that it is no limit point that changes the signs of pivots.
         column(0.02, "control = \"arc-length\""),
     ] {
-        let text = only_warning(&deck);
+        let text = told(&deck);
         assert!(
             (1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3 && text.contains("`b` most, in direction ux"),
             "{text}"
@@ -72,7 +74,7 @@ fn loads_without_a_potential_do_not_hide_buckling() {
         (ALONG_X, "moment = [0.0, 0.0, 1e-6]", "plane = \"off\""),
         ("[1.0, 0.0, 0.0]", "force = [0.0, 0.0, 1e-3]\nfollower = true", ""),
     ] {
-        let text = only_warning(&(column(1000.0, 0.1, axis, plane) + &format!("[[loads]]\nat = \"b\"\n{load}\n")));
+        let text = told(&(column(1000.0, 0.1, axis, plane) + &format!("[[loads]]\nat = \"b\"\n{load}\n")));
         assert!((1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3, "{text}");
     }
     // Beck's column: a follower force does not buckle it, it flutters at 20.05 EI/L², which is 8.1 times this.
@@ -97,7 +99,7 @@ fn on_pins(hold: &str) -> String {
 #[test]
 fn a_part_that_may_turn_about_its_axis_is_still_seen_to_buckle() {
     for (hold, turns) in [("", true), (", \"rz\"", false)] {
-        let text = only_warning(&on_pins(hold));
+        let text = told(&on_pins(hold));
         assert!(
             (1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3 && text.contains("`m` most, in direction uy"),
             "{text}"
@@ -127,7 +129,7 @@ fn what_is_not_held_in_its_plane_is_said_not_to_be_judged() {
         "{:?}",
         pinned.remarks
     );
-    let text = only_warning(&portal("\"all\""));
+    let text = told(&portal("\"all\""));
     assert!(text.contains("out of its plane"), "{text}");
 }
 
@@ -173,7 +175,7 @@ direction = [0.0, 0.0, 1.0]
 at = "m"
 force = [10.0, 0.0, 0.0]
 "#;
-    let text = only_warning(deck);
+    let text = told(deck);
     assert!(text.contains("already from t = 0 on"), "{text}");
 }
 
@@ -234,7 +236,7 @@ fn what_slips_beside_it_does_not_hide_buckling() {
     for (friction, stiffness) in [(0.5, 1e6), (0.5, 1e11)] {
         for step in [0.1, 0.02] {
             let deck = column(1000.0, step, ALONG_X, "plane = \"off\"") + &slipping(friction, stiffness);
-            let text = only_warning(&deck);
+            let text = told(&deck);
             assert!((1000.0 * time(&text) / weak() - 1.0).abs() < 2e-3 && text.contains("is unstable"), "{text}");
             assert!(text.contains("`b` most, in direction ux"), "{text}");
         }
@@ -258,13 +260,13 @@ fn large_scenes_are_judged_by_the_whole_tangent() {
     let left = "[iteration]\ngyroscopic = \"left\"\n";
     // The symmetric part finds equilibria where μ² k is below twice the stiffness of the spring.
     let (slips, stiff) = (slipping(0.2, 1.5e3), slipping(0.5, 1e9));
-    let alone = time(&only_warning(&sheet(false, "")));
+    let alone = time(&told(&sheet(false, "")));
     let Outcome::Failed { failure, .. } = said(&sheet(false, &stiff)).2.outcome else {
         panic!("the symmetric part finds no equilibrium where it slips");
     };
     assert!(failure.to_string().contains("`gyroscopic = \"left\"`"), "{failure}");
     for deck in [sheet(false, &slips), sheet(false, &(slips.clone() + left)), sheet(false, &(stiff + left))] {
-        let text = only_warning(&deck);
+        let text = told(&deck);
         // The load is found to 1e-5 of a step.
         assert!((time(&text) - alone).abs() < 1e-4 && text.contains("is unstable"), "{text} {alone}");
     }
@@ -299,4 +301,64 @@ fn dead_loads_along_edges_have_a_potential() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success() && !said.contains("loads that follow"), "{said}");
     assert!(!has_potential("at = \"c\"\nmoment = [0.0, 1.0, 0.0]"));
+}
+
+/// The deflection over the length of a column that is clamped at its foot, at `ratio` times its buckling load: the elastica, K(k) = π/2 √ratio and
+/// w/L = 2 k/K(k) (S. P. Timoshenko & J. M. Gere, Theory of Elastic Stability, 1961, article 2.7).
+fn elastica(ratio: f64) -> f64 {
+    let K = |k: f64| {
+        let (mut a, mut b) = (1.0, (1.0 - k * k).sqrt());
+        for _ in 0..8 {
+            (a, b) = (0.5 * (a + b), f64::sqrt(a * b));
+        }
+        0.5 * std::f64::consts::PI / a
+    };
+    let wanted = 0.5 * std::f64::consts::PI * ratio.sqrt();
+    let (mut low, mut high) = (0.0, 1.0 - 1e-12);
+    for _ in 0..60 {
+        let k = 0.5 * (low + high);
+        if K(k) < wanted { low = k } else { high = k }
+    }
+    2.0 * low / wanted
+}
+
+/// A clamped column under one and a half times its buckling load, with a small load beside it: whatever the steps, it bends away to the side of that
+/// load. Steps of a hundredth had ended on the straight path, or on the other side.
+#[test]
+fn a_small_load_leads_to_the_path_that_buckles() {
+    for step in [0.01, 0.05, 0.25] {
+        for part in [1e-3, 1e-4, 1e-6] {
+            let load = 1.5 * weak();
+            let deck = column(load, step, ALONG_X, "plane = \"off\"")
+                + &format!("[[loads]]\nat = \"b\"\nforce = [{}, 0.0, 0.0]\n", part * load);
+            let (model, state, Said { outcome, warnings, .. }) = said(&deck);
+            assert!(matches!(outcome, Outcome::Done) && warnings.is_empty(), "{step} {part}: {outcome:?} {warnings:?}");
+            let moved = state.nodes[crate::support::node(&model, "b")].x.x;
+            // The small load moves the end by its own part, amplified twice or so; the mesh of the column errs by 3e-4.
+            let error = moved / elastica(1.5) - 1.0;
+            assert!(error.abs() < 2.0 * part + 1e-3, "{step} {part}: {moved} for {}", elastica(1.5));
+        }
+    }
+}
+
+/// Joints with multipliers have negative pivots of their own: a post on a hinge that a spring k holds upright buckles at k/L, and leans beyond
+/// with P L sin φ = k φ.
+#[test]
+fn multipliers_do_not_count_as_unstable() {
+    let post = |side: f64| {
+        format!(
+            "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 0.1, plane = \"off\" }}\n[[bodies]]\nname = \"post\"\n\
+             center = [0.0, 0.0, 1.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n[[joints]]\nname = \"hinge\"\nkind = \"revolute\"\n\
+             from = {{ ground = [0.0, 0.0, 0.0] }}\nto = {{ body = \"post\" }}\naxis = [0.0, 1.0, 0.0]\nstiffness = 100.0\n\
+             [[loads]]\nat = \"post\"\nforce = [{side}, 0.0, -150.0]\n"
+        )
+    };
+    let text = told(&post(0.0));
+    // k/L over 150 N; the tangents at the ends of a step are combined, which a rigid post makes exact.
+    assert!((time(&text) - 2.0 / 3.0).abs() < 1e-4 && text.contains("is unstable"), "{text}");
+    let (model, state, Said { outcome, warnings, .. }) = said(&post(1e-4));
+    assert!(matches!(outcome, Outcome::Done) && warnings.is_empty(), "{outcome:?} {warnings:?}");
+    let x = state.nodes[crate::support::node(&model, "post")].x.x;
+    let phi = x.asin();
+    assert!((150.0 * x / (100.0 * phi) - 1.0).abs() < 1e-5, "{x}");
 }

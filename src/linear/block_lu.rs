@@ -14,10 +14,13 @@ use super::kernel::{
 use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
+use super::stops::Stops;
 use crate::snapshot::{Keep, Snapshot};
 
 /// Numbers from which on it is asked whether the memory holds them.
 const WORTH_A_LOOK: usize = 1_000_000;
+/// Blocks after which it is asked whether the factorisation is to end: a hundredth of their time.
+const BETWEEN_LOOKS: usize = 64;
 /// The part of the geometric mean of the entries on the diagonal by which two entries differ that are not the same but for rounding, and
 /// for what an equilibrium leaves out of balance.
 const DIFFERENT: f64 = 1e-6;
@@ -146,8 +149,9 @@ impl<const B: usize> BlockLu<B> {
         (self.blocks.len() - 1) * B * B
     }
 
-    /// Right-looking elimination: inverts each D_k in turn and updates all blocks below and right of it.
-    pub(super) fn factor(&mut self) -> Result<(), Singular> {
+    /// Right-looking elimination: inverts each D_k in turn and updates all blocks below and right of it. False where `stops` is true before
+    /// it is done.
+    pub(super) fn factor(&mut self, stops: Stops) -> Result<bool, Singular> {
         let values = self.blocks.as_flattened_mut().as_flattened_mut();
         for &slot in &self.padding {
             values[slot] = 1.0;
@@ -158,6 +162,9 @@ impl<const B: usize> BlockLu<B> {
 
         let mut places = self.places.iter();
         for k in 0..self.elimination.groups() {
+            if k % BETWEEN_LOOKS == BETWEEN_LOOKS - 1 && stops() {
+                return Ok(false);
+            }
             let (done, rest) = self.blocks.split_at_mut(self.start[k + 1]);
             let (D, beside) = done[self.start[k]..].split_first_mut().expect("each position has its diagonal block");
             invert(D, &self.scales[k])
@@ -179,7 +186,7 @@ impl<const B: usize> BlockLu<B> {
                 }
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Replaces the right-hand side `b` by the solution.

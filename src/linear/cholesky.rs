@@ -11,6 +11,7 @@ use super::graph::Graph;
 use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
+use super::stops::Stops;
 use super::substitution::Factored;
 use super::tree::Layout;
 use super::triangle::LowerTriangle;
@@ -18,10 +19,7 @@ use crate::snapshot::{Keep, Snapshot};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{FaerError, SymbolicSparseColMat, SymbolicSparseColMatRef};
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-
-/// The flag of what nobody stops.
-pub(super) static NEVER: AtomicBool = AtomicBool::new(false);
+use std::sync::atomic::AtomicUsize;
 
 /// Factorisations of fewer operations run on one thread: there threads cost more time than they save.
 pub(super) const WORTH_THREADS: f64 = 5e8;
@@ -77,7 +75,7 @@ impl Keep for Cholesky {
             if length == L.len() { L.iter_mut().for_each(|number| number.keep(snapshot)) } else { snapshot.tear() }
         } else if snapshot.gives() {
             // Where nothing had been factored there is nothing to be formed, and nobody asks for it.
-            let _ = self.form(self.definite, &NEVER);
+            let _ = self.form(self.definite, &|| false);
         }
     }
 }
@@ -172,16 +170,16 @@ impl Cholesky {
     }
 
     /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
-    /// the same bits. Only the pool of several threads allocates. False where `stop` is raised before it is done.
-    pub(super) fn factor(&mut self, stop: &AtomicBool) -> Result<bool, Singular> {
-        let mut formed = if self.graph.multipliers == 0 { self.form(true, stop) } else { Err(0) };
+    /// the same bits. Only the pool of several threads allocates. False where `stops` is true before it is done.
+    pub(super) fn factor(&mut self, stops: Stops) -> Result<bool, Singular> {
+        let mut formed = if self.graph.multipliers == 0 { self.form(true, stops) } else { Err(0) };
         self.definite = formed.is_ok();
         if !self.definite {
-            formed = self.form(false, stop);
+            formed = self.form(false, stops);
         }
         match formed {
             Ok(None) => Ok(true),
-            Err(_) if stop.load(Ordering::Relaxed) => Ok(false),
+            Err(_) if stops() => Ok(false),
             Ok(Some(position)) | Err(position) => Err(self.singular(position)),
         }
     }
@@ -189,7 +187,7 @@ impl Cholesky {
     /// Forms L D Lᵀ at once.
     pub(super) fn factor_indefinite(&mut self) -> Result<(), Singular> {
         self.definite = false;
-        match self.form(false, &NEVER) {
+        match self.form(false, &|| false) {
             Ok(None) => Ok(()),
             Ok(Some(position)) | Err(position) => Err(self.singular(position)),
         }
@@ -199,10 +197,10 @@ impl Cholesky {
     ///
     /// # Errors
     /// As for [`Fronts::factor`].
-    fn form(&mut self, definite: bool, stop: &AtomicBool) -> Result<Option<usize>, usize> {
+    fn form(&mut self, definite: bool, stops: Stops) -> Result<Option<usize>, usize> {
         self.L.forget();
         let vanishing = AtomicUsize::new(usize::MAX);
-        let matrix = Matrix { triangle: &self.triangle, values: &self.values, definite, stop, vanishing: &vanishing };
+        let matrix = Matrix { triangle: &self.triangle, values: &self.values, definite, stops, vanishing: &vanishing };
         self.fronts.factor(matrix, &mut self.L)?;
         Ok(Some(vanishing.into_inner()).filter(|&position| position != usize::MAX))
     }
@@ -348,7 +346,7 @@ mod tests {
             assert!(file.stats().in_file && !memory.stats().in_file);
             for of in [&mut memory, &mut file] {
                 fill(of, side, shift);
-                assert_eq!(of.factor(&NEVER), Ok(true));
+                assert_eq!(of.factor(&|| false), Ok(true));
             }
             let wanted = solved(&mut memory);
             assert!(wanted.iter().all(|x| x.is_finite() && *x != 0.0));

@@ -12,6 +12,7 @@ use super::indefinite::{ldlt, ldlt_scratch};
 use super::packed::Packed;
 use super::pivot::PIVOT_TOLERANCE;
 use super::pool::LendingPool;
+use super::stops::Stops;
 use super::tree::{Front, Layout, StackSizes, Tree};
 use super::triangle::LowerTriangle;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -19,7 +20,7 @@ use faer::linalg::cholesky::llt::factor::cholesky_in_place_scratch;
 use faer::prelude::{Reborrow, ReborrowMut};
 use faer::{Accum, MatMut, Par};
 use std::ops::Range;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Fronts are assembled in pieces of about so many numbers, which stay in a core's cache.
 const PIECE: usize = 1 << 15;
@@ -136,8 +137,8 @@ pub(super) struct Matrix<'a> {
     pub values: &'a [f64],
     /// As L Lᵀ, not as L D Lᵀ.
     pub definite: bool,
-    /// Raised where the factorisation is to end before it is done.
-    pub stop: &'a AtomicBool,
+    /// True where the factorisation is to end before it is done.
+    pub stops: Stops<'a>,
     /// Lowered to the position of the first pivot that vanishes beside its entry of the diagonal.
     pub vanishing: &'a AtomicUsize,
 }
@@ -250,7 +251,7 @@ impl Tree {
         threads: bool,
     ) -> Result<(), usize> {
         let front = &self.fronts[s];
-        if K.stop.load(Ordering::Relaxed) {
+        if (K.stops)() {
             return Err(front.begin);
         }
         let (columns, rows, height) = (front.columns, front.rows, front.height());

@@ -2,16 +2,16 @@
 
 use super::block_lu::BlockLu;
 use super::block_slot::BlockSlot;
-use super::cholesky::{Cholesky, NEVER, WORTH_THREADS};
+use super::cholesky::{Cholesky, WORTH_THREADS};
 use super::factorization::Factorization;
 use super::graph::Graph;
 use super::memory::TooLarge;
 use super::pivot::Singular;
 use super::sparse::Sparse;
 use super::stats::Stats;
+use super::stops::Stops;
 use super::structure::Structure;
 use crate::snapshot::{Keep, Snapshot};
-use std::sync::atomic::AtomicBool;
 
 /// A matrix and its factorisation, the memory of both included.
 pub enum Solver {
@@ -116,19 +116,19 @@ impl Solver {
     /// # Errors
     /// A pivot is zero or not finite. [`Solver::solve`] then gives nothing of use until values are filled and factored again.
     pub fn factor(&mut self) -> Result<(), Singular> {
-        self.factor_unless(&NEVER).map(|_| ())
+        self.factor_unless(&|| false).map(|_| ())
     }
 
-    /// Factors the matrix as [`Solver::factor`] does. False where `stop` is raised before it is done: there are no factors then. A symmetric
-    /// matrix that is positive definite looks at the flag between fronts, every other one not at all.
+    /// Factors the matrix as [`Solver::factor`] does. False where `stops` is true before it is done, which is asked every few milliseconds:
+    /// there are no factors then.
     ///
     /// # Errors
     /// As for [`Solver::factor`].
-    pub fn factor_unless(&mut self, stop: &AtomicBool) -> Result<bool, Singular> {
+    pub fn factor_unless(&mut self, stops: Stops) -> Result<bool, Singular> {
         match self {
-            Solver::Block3(inner) => inner.factor().map(|()| true),
-            Solver::Block6(inner) => inner.factor().map(|()| true),
-            Solver::Cholesky(inner) => inner.factor(stop),
+            Solver::Block3(inner) => inner.factor(stops),
+            Solver::Block6(inner) => inner.factor(stops),
+            Solver::Cholesky(inner) => inner.factor(stops),
         }
     }
 

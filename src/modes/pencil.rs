@@ -127,7 +127,7 @@ impl<'a> Pencil<'a> {
         self.shift = shift;
         self.form(weights(0.0, -shift), true);
         self.factorizations += 1;
-        match self.solver.factor_unless(self.at.stop) {
+        match self.solver.factor_unless(&|| self.at.is_stopped()) {
             Ok(true) => Ok(self.negative()),
             Ok(false) => Err(0),
             Err(singular) => Err(singular.row),
@@ -217,7 +217,7 @@ impl<'a> Pencil<'a> {
                 solver.values()[slot] += shift * rate + turn;
             }
         });
-        match self.solver.factor_unless(self.at.stop) {
+        match self.solver.factor_unless(&|| self.at.is_stopped()) {
             Ok(true) => Ok(()),
             Ok(false) => Err(0),
             Err(singular) => Err(singular.row),

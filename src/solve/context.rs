@@ -1,6 +1,7 @@
 //! The constants of a run: the model, its plan, its system, and what is computed from them once.
 
 use super::node_chunks::NodeChunks;
+use super::stop_request::StopRequest;
 use crate::math::Vec3;
 use crate::model::{AnalysisKind, Model, Restraint};
 use crate::plan::Plan;
@@ -37,8 +38,8 @@ pub struct Context<'a> {
     pub wants_forces: bool,
     /// True where energies are wanted.
     pub wants_energy: bool,
-    /// The flag that ends the run when it is raised.
-    pub stop: &'a AtomicBool,
+    /// The request to end the run.
+    pub stop: StopRequest<'a>,
 }
 
 impl<'a> Context<'a> {
@@ -68,7 +69,7 @@ impl<'a> Context<'a> {
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
             wants_energy,
-            stop,
+            stop: StopRequest::of(stop),
         }
     }
 

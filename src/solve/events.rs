@@ -6,7 +6,7 @@ use crate::materials::Dissipation;
 use crate::model::StepLength;
 use crate::snapshot::keep;
 use crate::state::State;
-use crate::system::kinks::{branches, has_kinks};
+use crate::system::kinks;
 
 /// Watches for events where the errors of steps are told. Nothing is looked at in other runs.
 #[derive(Default)]
@@ -24,14 +24,14 @@ impl Events {
     /// Begins with the state at the beginning of a run, or of a stage.
     pub fn begin(&mut self, cx: &Context, state: &State) {
         let tells = matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. });
-        let branches = (tells && has_kinks(cx.system)).then(|| branches(cx.system, state));
+        let branches = (tells && kinks::has_kinks(cx.system)).then(|| kinks::branches(cx.system, state));
         *self = Events { branches, spent: state.work.material, met: false };
     }
 
     /// Looks at the state at the end of a step.
     pub fn look(&mut self, cx: &Context, state: &State) {
         if let Some(branches) = self.branches.filter(|_| !self.met) {
-            self.met = state.work.material != self.spent || branches(cx.system, state) != branches;
+            self.met = state.work.material != self.spent || kinks::branches(cx.system, state) != branches;
         }
     }
 

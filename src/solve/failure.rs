@@ -1,8 +1,9 @@
 //! The failures of steps, with the names of what failed.
 
+use super::warning::Instability;
 use crate::model::{DIRECTIONS, Model};
 use crate::modes::ModesFault;
-use crate::names::to_digits;
+use crate::names::{short, to_digits};
 use crate::plan::Plan;
 use crate::snapshot::{keep, keep_either};
 use crate::system::System;
@@ -154,6 +155,10 @@ pub enum Failure {
         /// The energy stored and dissipated in the step.
         stored: f64,
     },
+    /// A load step ends on an unstable branch; a shorter one may not.
+    UnstableStep,
+    /// The path of equilibria becomes unstable.
+    Buckles(Instability),
     /// The error of a step is larger than what is allowed.
     ErrorTooLarge {
         /// The length of the step.
@@ -166,7 +171,7 @@ pub enum Failure {
         /// The largest residual forces, or those that are no numbers.
         largest: Vec<NamedResidual>,
     },
-    /// A signal has ended a step that would have been the first.
+    /// A signal has ended a step that would have been the first, or took too long.
     Stopped,
 }
 
@@ -194,6 +199,8 @@ keep_either!(Failure {
     20 => Stopped,
     21 => ContactNotClosed { name, out },
     22 => NodeTurns { label, angle },
+    23 => UnstableStep,
+    24 => Buckles(instability),
 });
 
 /// A residual force, or a gap, with its name.
@@ -326,9 +333,9 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
-    /// True where a shorter step would end alike: a signal, and contacts whose multipliers come nearer at a pace that no step changes.
+    /// True where a shorter step would end alike: a signal, a path that becomes unstable, and contacts whose multipliers come nearer at a pace that no step changes.
     pub fn is_final(&self) -> bool {
-        matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. })
+        matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. } | Failure::Buckles(_))
     }
 
     /// True where the memory does not hold what was asked for.
@@ -390,6 +397,8 @@ impl Failure {
             | Failure::LoadStepTurns { .. }
             | Failure::NodeTurns { .. }
             | Failure::TurnedOver { .. }
+            | Failure::UnstableStep
+            | Failure::Buckles(_)
             | Failure::EquilibriumJumps { .. } => self.message_of_path(),
             _ => self.message_of_length(),
         }
@@ -433,6 +442,18 @@ impl Failure {
                 "the equilibrium jumps (snap-through, buckling or a mechanism): loads do {work:.3e} of work in a step that \
                  stores and dissipates {stored:.3e}, however short it is; `{label}` moves most, in direction {direction} \
                  (`control` = \"arc-length\" follows the path, a dynamic analysis shows the motion)"
+            ),
+            Failure::UnstableStep => {
+                "the load step ends on an unstable branch of equilibria: the structure buckles, and `least_step` \
+                                      keeps steps from following the path (a smaller one)"
+                    .to_owned()
+            }
+            Failure::Buckles(Instability { time, modes, label, direction, .. }) => format!(
+                "the equilibrium is unstable from t = {} on, where the structure buckles: the mode moves `{label}` most, in direction \
+                 {direction} (negative eigenvalues of the tangent: {modes}). Load steps stay on the unstable path, however short they are. \
+                 Give a load of a thousandth of the others there, or an offset of a thousandth of the length, and they follow the path that \
+                 buckles; where the load falls beyond, `control` = \"arc-length\" or a dynamic analysis does",
+                short(*time)
             ),
             Failure::TooManySteps { steps } => format!(
                 "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"

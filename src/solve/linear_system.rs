@@ -16,25 +16,31 @@ pub struct LinearSystem {
     pub assembly: Assembly,
     /// True as long as nothing has been computed that a signal may cost.
     pub loses_nothing: bool,
+    /// True while a step is under way that may be taken again.
+    pub in_step: bool,
 }
 
-keep!(LinearSystem { solver } without { assembly, loses_nothing });
+keep!(LinearSystem { solver } without { assembly, loses_nothing, in_step });
 
 impl LinearSystem {
     /// A matrix, to be assembled and factorised.
     pub fn new(solver: Solver, assembly: Assembly) -> LinearSystem {
-        LinearSystem { solver, assembly, loses_nothing: true }
+        LinearSystem { solver, assembly, loses_nothing: true, in_step: false }
     }
 
-    /// Factors the matrix. False where a signal has ended that, as it does before the first step of a run is done.
+    /// True where a signal ends what is computed: before the first step of a run is done, and where the step under way takes too long.
+    #[inline]
+    pub fn is_given_up(&self, cx: &Context) -> bool {
+        cx.stop.is_made() && (self.loses_nothing || self.in_step && cx.stop.is_overdue())
+    }
+
+    /// Factors the matrix. False where a signal has ended that.
     ///
     /// # Errors
     /// A pivot is zero or not finite.
     pub fn factor(&mut self, cx: &Context) -> Result<bool, Singular> {
-        match self.loses_nothing {
-            true => self.solver.factor_unless(cx.stop),
-            false => self.solver.factor().map(|()| true),
-        }
+        let (loses_nothing, in_step) = (self.loses_nothing, self.in_step);
+        self.solver.factor_unless(&|| cx.stop.is_made() && (loses_nothing || in_step && cx.stop.is_overdue()))
     }
 
     /// Makes the structure anew where pairs of elements act for which the matrix has no room: those that may act soon have room then.

@@ -50,9 +50,11 @@ pub struct LoadSteps {
     pub works: Works,
     /// The loads that the step under way brings on.
     pub sudden: Option<SuddenLoads>,
+    /// True where no step was short enough to leave the unstressed state: corrections are shortened then.
+    pub careful: bool,
 }
 
-keep!(LoadSteps: Default { stored, doubtful, peak, works, sudden });
+keep!(LoadSteps: Default { stored, doubtful, peak, works, sudden, careful });
 
 /// The works of loads and of supports in the load steps of a static analysis.
 #[derive(Debug, Clone, Copy, Default)]

@@ -67,7 +67,20 @@ impl March<'_, '_> {
         if stops || self.observer.wants_checkpoint(false) {
             self.show_checkpoint(controller, false)?;
         }
+        // What comes between a pause and the end of a step may be given up, and begun again from here.
+        self.ws.matrix.in_step = true;
         if stops { Err(Outcome::Stopped { time: self.state.time }) } else { Ok(()) }
+    }
+
+    /// The outcome of a run that ends by the failure of a step which `controller` leads. A step that a signal has ended leaves a checkpoint.
+    pub fn failed_step(&mut self, controller: &mut dyn Keep, failure: Failure) -> Outcome {
+        match failure {
+            Failure::Stopped if !self.ws.matrix.loses_nothing => {
+                let time = self.state.time;
+                self.pause(controller).err().unwrap_or(Outcome::Stopped { time })
+            }
+            failure => self.failed(failure),
+        }
     }
 
     /// At the end of a run that `controller` has led: shows a checkpoint from which the run may be made longer, where one is wanted.
@@ -115,6 +128,7 @@ impl March<'_, '_> {
     /// As for [`Recorder::notify`].
     pub fn notify(&mut self, step: &AcceptedStep) -> Result<(), Outcome> {
         self.ws.matrix.loses_nothing &= step.dt == 0.0;
+        self.ws.matrix.in_step = false;
         self.recorder.notify(self.cx, self.ws, self.state, self.observer, step)
     }
 

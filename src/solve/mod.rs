@@ -40,6 +40,7 @@ mod search;
 mod size;
 mod start;
 mod start_of_stage;
+mod stop_request;
 mod stop_watch;
 mod sudden_loads;
 mod time_stepper;

@@ -80,7 +80,7 @@ impl<C: StepController> CoverInterval for C {
             march.pause(self)?;
             let left = interval.to - march.state.time;
             let length = self.propose(march.cx, march.ws, march.state, left);
-            let length = length.map_err(|failure| march.failed(failure))?;
+            let length = length.map_err(|failure| march.failed_step(self, failure))?;
             let pieces = (left / length * (1.0 - 1e-9)).ceil().max(1.0);
             let target = if pieces == 1.0 { interval.to } else { march.state.time + left / pieces };
             let dt = target - march.state.time;
@@ -115,7 +115,7 @@ impl<C: StepController> CoverInterval for C {
                 Err(failure) => {
                     // The difference of two times is a length only to rounding.
                     if length <= least || dt <= least || failure.is_final() {
-                        return Err(march.failed(failure));
+                        return Err(march.failed_step(self, failure));
                     }
                     if !matches!(failure, Failure::ErrorTooLarge { .. }) {
                         self.cut_back(dt);
@@ -146,7 +146,7 @@ fn step_or_stop(
         let taken = controller.step(cx, ws, state, time, length);
         taken.and_then(|report| report.ok_or(Failure::ErrorTooLarge { dt: time - from }))
     };
-    Ok(taken.map(|report| end_at_stop(march, (from, target), report, again)))
+    taken.map(|report| end_at_stop(march, (from, target), report, again)).transpose()
 }
 
 /// Shows what lies inside the step of length `dt` that was taken. The failure inside is that of a time where no equilibrium was found.

@@ -166,7 +166,7 @@ impl ArcLengthController {
                 let unrestrained =
                     cx.system.history == 0 && matches!(failure, Failure::Singular { at_start: true, .. });
                 if !may_cut || unrestrained || failure.is_final() {
-                    return Err(march.failed(failure));
+                    return Err(march.failed_step(self, failure));
                 }
             }
         }

@@ -12,12 +12,15 @@ pub type TakeStep<'s> = dyn FnMut(&Context, &mut Workspace, &mut State, f64) -> 
 
 /// Takes account of the step between two times that has been taken. One that passes the value at which the stage stops is taken once more, to
 /// where it comes to the value. Returns the report of the step, and its length where it is the last.
+///
+/// # Errors
+/// The step cannot be taken again, as where a signal ends it; the state is that at its beginning.
 pub fn end_at_stop(
     march: &mut March,
     (from, to): (f64, f64),
     report: StepReport,
     step: &mut TakeStep,
-) -> (StepReport, Option<f64>) {
+) -> Result<(StepReport, Option<f64>), Failure> {
     /// Steps that are tried at most: by then the interval is at rounding.
     const TRIED: usize = 60;
     let March { cx, ws, state, stop_watch, .. } = march;
@@ -25,11 +28,9 @@ pub fn end_at_stop(
         let left = watch.passed(cx, state)?;
         Some((watch, left))
     }) else {
-        return (report, None);
+        return Ok((report, None));
     };
     let mut last = (report, left);
-    // A step has been found: a signal waits until it is shown.
-    ws.matrix.loses_nothing = false;
     // The Illinois form of the regula falsi.
     let (mut low, mut high) = ((from, watch.left_before(cx)), (to, last.1));
     for _ in 0..TRIED {
@@ -40,11 +41,10 @@ pub fn end_at_stop(
         watch.go_back(ws, state);
         match step(cx, ws, state, time) {
             Ok(report) => last = (report, watch.left(cx, state)),
+            Err(Failure::Stopped) => return Err(Failure::Stopped),
             // Then it ends a little beyond.
             Err(_) => {
-                if let Ok(report) = step(cx, ws, state, high.0) {
-                    last = (report, high.1);
-                }
+                last = (step(cx, ws, state, high.0)?, high.1);
                 break;
             }
         }
@@ -57,5 +57,5 @@ pub fn end_at_stop(
         }
     }
     watch.accept(cx, state, true);
-    (last.0, Some(state.time - from))
+    Ok((last.0, Some(state.time - from)))
 }

@@ -179,7 +179,10 @@ impl<'a> ErrorController<'a> {
     /// Measures the motion ahead in a few long steps: errors at the start are small against it, whatever they are
     /// against the motion so far. The trapezoidal rule is used, which does not overshoot. The state returns to the
     /// start of the step.
-    fn look_ahead(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] where a signal has ended one of them.
+    fn look_ahead(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
         state.copy_from(&self.start);
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
         let mut run = cx.model.analysis.duration();
@@ -189,6 +192,10 @@ impl<'a> ErrorController<'a> {
             let to = state.time + dt;
             match self.stepper.solver.stage(cx, ws, state, &Stage::from(&scheme), to) {
                 Ok(_) => self.measure.look_ahead(cx.model, state),
+                Err(Failure::Stopped) => {
+                    state.copy_from(&self.start);
+                    return Err(Failure::Stopped);
+                }
                 Err(_) => run *= 0.1,
             }
         }
@@ -196,6 +203,7 @@ impl<'a> ErrorController<'a> {
         self.stepper.solver.newton.discard_matrix();
         (ws.rotation_drift, ws.joint_violation) = (drift, violation);
         self.measure.begin(state.time);
+        Ok(())
     }
 
     /// Estimates the error of the step of length `dt` that led to `state`.
@@ -320,7 +328,7 @@ impl StepController for ErrorController<'_> {
         }
         let estimate = self.estimate(cx, ws, state, dt);
         if self.measure.is_waiting() && estimate.motion != Size::default() {
-            self.look_ahead(cx, ws, state);
+            self.look_ahead(cx, ws, state)?;
             return Ok(None);
         }
         if self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {

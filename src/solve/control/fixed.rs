@@ -23,6 +23,8 @@ const WHOLE_STEP: u64 = 1 << MOST_HALVINGS;
 /// each cut into more than `MANY` substeps count together.
 const MOST_SUBSTEPS: [usize; 2] = [1024, 4096];
 const MANY: usize = 32;
+/// Halvings of a step whose corrections are shortened.
+const CAREFUL_HALVINGS: u32 = 6;
 
 /// Leads any stepper in steps of given length.
 pub struct FixedController<'a> {
@@ -60,9 +62,11 @@ struct Substeps {
     violated_at_full_length: Option<Failure>,
     /// The failure that cut the last substep.
     cause: Option<Failure>,
+    /// The failure of the shortest step, where the step is tried again with shortened corrections.
+    of_shortest: Option<Failure>,
 }
 
-keep!(Substeps { from, to, at, length, taken, successes, cuts, violated_at_full_length, cause });
+keep!(Substeps { from, to, at, length, taken, successes, cuts, violated_at_full_length, cause, of_shortest });
 
 impl<'a> FixedController<'a> {
     /// A controller that leads this stepper.
@@ -84,18 +88,13 @@ impl<'a> FixedController<'a> {
             if let Some(watch) = march.stop_watch.as_deref_mut() {
                 watch.note(march.ws, march.state);
             }
-            match self.stepper.step(march.cx, march.ws, march.state, target) {
-                Ok(report) => {
-                    let stepper = &mut self.stepper;
-                    let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {
-                        stepper.forget_iterates();
-                        stepper.step(cx, ws, state, time)
-                    };
-                    let (report, stop) = end_at_stop(march, (target - dt, target), report, again);
+            match self.step_or_stop(march, target, dt) {
+                Ok((report, stop)) => {
                     if let Some(dt) = stop {
                         let end = AcceptedStep { due: true, last: true, ..self.step.accepted(&report, dt) };
                         return march.notify(&end).and(Err(Outcome::Done));
                     }
+                    march.ws.load_steps.careful = false;
                     self.step.count();
                     self.step.notify(march, &report, dt, [due, compared])?;
                     if march.has_released() {
@@ -105,6 +104,7 @@ impl<'a> FixedController<'a> {
                     self.check_substeps(march, dt)?;
                     self.step.grow();
                 }
+                Err(Failure::Stopped) => return Err(march.failed_step(self, Failure::Stopped)),
                 Err(failure) => {
                     self.step.cut_back(march, failure, dt)?;
                     march.count_cut();
@@ -118,6 +118,25 @@ impl<'a> FixedController<'a> {
             false => SubdividedSteps::default(),
         };
         Ok(())
+    }
+
+    /// Takes a step to a time, or to where the stage stops before it; its length is then told beside the report.
+    ///
+    /// # Errors
+    /// As for [`TimeStepper::step`].
+    fn step_or_stop(
+        &mut self,
+        march: &mut March,
+        target: f64,
+        dt: f64,
+    ) -> Result<(StepReport, Option<f64>), Failure> {
+        let stepper = &mut self.stepper;
+        let report = stepper.step(march.cx, march.ws, march.state, target)?;
+        let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {
+            stepper.forget_iterates();
+            stepper.step(cx, ws, state, time)
+        };
+        end_at_stop(march, (target - dt, target), report, again)
     }
 
     /// # Errors
@@ -172,6 +191,7 @@ impl Substeps {
         cuts: 0,
         violated_at_full_length: None,
         cause: None,
+        of_shortest: None,
     };
 
     fn of(from: f64, to: f64) -> Substeps {
@@ -224,7 +244,7 @@ impl Substeps {
     ///
     /// # Errors
     /// The failure, where no shorter substep is left or none would help.
-    fn cut_back(&mut self, march: &March, failure: Failure, dt: f64) -> Result<(), Outcome> {
+    fn cut_back(&mut self, march: &mut March, failure: Failure, dt: f64) -> Result<(), Outcome> {
         let analysis = &march.cx.model.analysis;
         // Smaller loads do not help an unrestrained structure; they may help one that yields.
         let unrestrained = analysis.kind == AnalysisKind::Static
@@ -235,7 +255,15 @@ impl Substeps {
             self.violated_at_full_length = Some(failure.clone());
         }
         let stops = failure.is_final();
-        if self.length == 1 || 0.5 * dt < analysis.least_step || unrestrained || stops {
+        let is_shortest = self.length == 1 || 0.5 * dt < analysis.least_step;
+        if is_shortest && !unrestrained && !stops && self.is_tried_with_care(march, &failure) {
+            return Ok(());
+        }
+        let careful = march.ws.load_steps.careful && self.length <= WHOLE_STEP >> CAREFUL_HALVINGS;
+        if let Some(failure) = self.of_shortest.take_if(|_| careful || is_shortest) {
+            return Err(march.failed(failure));
+        }
+        if is_shortest || unrestrained || stops {
             let first = self.violated_at_full_length.take().filter(|_| violated);
             return Err(march.failed(first.unwrap_or(failure)));
         }
@@ -244,5 +272,26 @@ impl Substeps {
         self.cuts += 1;
         self.successes = 0;
         Ok(())
+    }
+
+    /// After the failure of the shortest step: begins again at full length, with shortened corrections, where nothing is stressed yet. A flat
+    /// membrane or net is so soft then that no step is short enough. Returns false elsewhere, and where that was done already.
+    fn is_tried_with_care(&mut self, march: &mut March, failure: &Failure) -> bool {
+        let load_steps = &mut march.ws.load_steps;
+        let is_lost = matches!(
+            failure,
+            Failure::NotConverged { .. }
+                | Failure::NotFinite { .. }
+                | Failure::LoadStepTurns { .. }
+                | Failure::TurnedOver { .. }
+        );
+        let is_static = march.cx.model.analysis.kind == AnalysisKind::Static;
+        if !is_static || !is_lost || load_steps.peak.stressed || load_steps.careful {
+            return false;
+        }
+        (load_steps.careful, load_steps.doubtful) = (true, None);
+        (self.length, self.successes) = (WHOLE_STEP, 0);
+        self.of_shortest = Some(failure.clone());
+        true
     }
 }

@@ -16,6 +16,20 @@ pub fn size_of_correction(cx: &Context, ws: &Workspace) -> Size {
     size
 }
 
+/// Shortens the correction in `r` to what may still lie on the way to the equilibrium; returns whether it did. A flat membrane resists
+/// pressure by its bending alone until it has moved: its first correction is far too long, and each later one takes a third of that back.
+pub fn shorten(cx: &Context, ws: &mut Workspace) -> bool {
+    /// The largest translation, in parts of the model's length, and the largest rotation, in radians.
+    const LARGEST: [f64; 2] = [0.05, 0.25];
+    let size = size_of_correction(cx, ws);
+    let excess = (size.translation / (LARGEST[0] * cx.length)).max(size.rotation / LARGEST[1]);
+    let is_long = excess > 1.0 && excess.is_finite();
+    if is_long {
+        ws.r.iter_mut().for_each(|r| *r /= excess);
+    }
+    is_long
+}
+
 /// Adds the correction in `r` to the increments and the multipliers. Returns its size and that of the increments.
 pub fn correct(cx: &Context, ws: &mut Workspace) -> (Size, Size) {
     let (mut correction, mut motion) = (Size::default(), Size::default());

@@ -189,7 +189,10 @@ impl EquilibriumSolver {
             lead: None,
         };
         self.massless.check(cx, &now, stage)?;
-        let accepted = accept(cx, ws, self.projection.as_mut(), state, stage, to, work);
+        let turned_back = self.newton.has_turned_back(cx, ws);
+        let judge = |stability: &mut Stability| stability.judge(cx, ws, state, (to, turned_back));
+        let judged = self.stability.as_mut().map_or(Ok(()), judge);
+        let accepted = judged.and_then(|()| accept(cx, ws, self.projection.as_mut(), state, stage, to, work));
         if let (Ok(()), Some(stability)) = (&accepted, &mut self.stability)
             && stability.check(cx, ws, state, from, self.grows)
         {
@@ -197,7 +200,10 @@ impl EquilibriumSolver {
         }
         match &accepted {
             Ok(()) => {}
-            Err(Failure::ConstraintsViolated { .. }) => self.newton.discard_matrix(),
+            Err(Failure::ConstraintsViolated { .. } | Failure::UnstableStep | Failure::Buckles(_)) => {
+                self.newton.discard_matrix();
+            }
+            Err(_) if self.stability.as_ref().is_some_and(Stability::has_overwritten) => self.newton.discard_matrix(),
             Err(_) => self.newton.forget_iterates(),
         }
         accepted

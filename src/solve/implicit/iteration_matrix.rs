@@ -71,8 +71,10 @@ impl IterationMatrix {
         if let Some(turning) = &mut self.turning {
             turning.note(&ws.trial);
         }
-        if !self.is_stabilized {
-            self.refresh.done(key);
+        match self.is_stabilized {
+            // It leads one correction alone; the next matrix has the forces of joints in it.
+            true => self.refresh.rejected(),
+            false => self.refresh.done(key),
         }
         report.factorizations += 1;
         Ok(true)

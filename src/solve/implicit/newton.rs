@@ -3,7 +3,7 @@
 
 use super::anderson::Anderson;
 use super::arc_length::{ArcLengthConstraint, Condition};
-use super::correction::{correct, relative, size_of_correction};
+use super::correction::{correct, relative, shorten, size_of_correction};
 use super::ending::Ending;
 use super::iteration_matrix::IterationMatrix;
 use super::jump;
@@ -11,6 +11,7 @@ use super::lead::Lead;
 use super::line_search::LineSearch;
 use super::refresh::{Advice, Refresh};
 use super::step_progress::StepProgress;
+use crate::math::{Vec6, angular, linear};
 use crate::model::Method;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
@@ -36,9 +37,23 @@ pub struct Newton {
     lead: Lead,
     /// The residual a little ahead of a prediction, where it is differentiated.
     ahead: Vec<f64>,
+    /// What has led to the last equilibrium of a load step.
+    way: Way,
 }
 
-keep!(Newton { matrix, ending, anderson, line_search, lead } without { ahead });
+/// The way of an iteration to an equilibrium of a load step.
+#[derive(Default)]
+struct Way {
+    /// The increments after the first correction, by node; none where equilibria have no branches.
+    first: Vec<Vec6>,
+    /// True where a tangent behind the first correction had negative eigenvalues.
+    passes_unstable: bool,
+}
+
+keep!(Newton { matrix, ending, anderson, line_search, lead } without { ahead, way });
+
+/// By how much longer an iteration may be whose corrections are shortened.
+const LONGER: usize = 4;
 
 /// The verdict on a correction.
 enum Verdict {
@@ -66,6 +81,7 @@ impl Newton {
         let searches = system.history > 0 && !model.analysis.step_length.is_arc_length();
         let line_search = || LineSearch::new(plan.dofs.nodal_dofs().len(), model.nodes.len(), system.multipliers());
         let differentiates = system.yields() && !cx.is_dynamic();
+        let branches = !cx.is_dynamic() && !plan.linear && !model.analysis.step_length.is_arc_length();
         Newton {
             matrix: IterationMatrix::new(cx),
             ending: Ending::new(cx),
@@ -73,6 +89,10 @@ impl Newton {
             line_search: searches.then(line_search),
             lead: Lead::new(cx),
             ahead: vec![0.0; if differentiates { plan.dofs.unknowns() } else { 0 }],
+            way: Way {
+                first: vec![Vec6::zeros(); if branches { model.nodes.len() } else { 0 }],
+                passes_unstable: false,
+            },
         }
     }
 
@@ -177,14 +197,26 @@ impl Newton {
         mut progress: StepProgress,
         mut constraint: Option<(&mut ArcLengthConstraint, Condition)>,
     ) -> Result<StepReport, Failure> {
+        if ws.load_steps.careful {
+            progress.limit *= LONGER;
+        }
         motion::excite(cx, ws, state.time, progress.report.to, stage.scheme.instant);
+        self.way.passes_unstable = false;
         if !cx.is_dynamic() {
             ws.load_steps.peak.begin_step(&ws.loads.instant, &ws.prescribed.end, cx.length);
         }
         loop {
+            if ws.matrix.is_given_up(cx) {
+                return Err(Failure::Stopped);
+            }
             let to = progress.report.to;
             progress.report.residual = match std::mem::take(&mut progress.predicted) {
-                true if constraint.is_none() => self.residual_of_prediction(cx, ws, state, stage, to),
+                true if constraint.is_none() => {
+                    let (size, linearized) = self.residual_of_prediction(cx, ws, state, stage, to);
+                    // It does not tell whether multipliers balance the forces at the end of the step.
+                    progress.unjudged = linearized && cx.system.multipliers() > 0;
+                    size
+                }
                 _ => evaluate_residual(cx, ws, state, stage, to),
             };
             if !progress.report.residual.is_finite() {
@@ -197,12 +229,17 @@ impl Newton {
                 continue;
             }
             progress.new_matrix = self.matrix.refresh(cx, ws, state, stage, self.lead.nodes(), &mut progress.report)?;
+            self.look_for_branches(cx, ws, &progress);
             self.solve(cx, ws, &progress)?;
             if let Some((constraint, condition)) = &mut constraint {
                 let to = constraint.close(cx, ws, state, progress.report.to, *condition)?;
                 progress.move_time(cx, to);
             }
+            progress.unjudged |= ws.load_steps.careful && shorten(cx, ws);
             let (correction, motion) = self.correct(cx, ws);
+            if progress.report.iterations == 0 {
+                self.way.first.iter_mut().zip(&ws.increments).for_each(|(first, increment)| *first = increment.q);
+            }
             match self.judge(cx, ws, correction, motion, &mut progress)? {
                 Verdict::Converged => return Ok(progress.report),
                 Verdict::GoOn => {}
@@ -217,8 +254,26 @@ impl Newton {
         }
     }
 
+    /// Counts the negative eigenvalues of a new tangent of a load step. The first is left out: prescribed motion strains the elements beside it
+    /// alone until it is answered.
+    fn look_for_branches(&mut self, cx: &Context, ws: &Workspace, progress: &StepProgress) {
+        if progress.new_matrix && progress.report.iterations > 0 && !self.way.first.is_empty() {
+            self.way.passes_unstable |= ws.matrix.solver.negative_eigenvalues() > cx.system.multipliers();
+        }
+    }
+
+    /// True where the last equilibrium of a load step lies beyond an unstable branch, on the other side of the state than the loads push it:
+    /// it may be the mirror image of the one that they lead to.
+    pub fn has_turned_back(&self, cx: &Context, ws: &Workspace) -> bool {
+        let way = self.way.first.iter().zip(&ws.increments).map(|(first, increment)| {
+            let turns = angular(first).dot(&angular(&increment.q));
+            linear(first).dot(&linear(&increment.q)) + cx.length * cx.length * turns
+        });
+        self.way.passes_unstable && way.sum::<f64>() < 0.0
+    }
+
     /// The residual of a prediction, relative to the largest forces. Where material yields and supports move in statics, it is linearized in
-    /// their motion: they alone would strain the elements beside them beyond yield, and the matrix of such a state leads nowhere.
+    /// their motion: they alone would strain the elements beside them beyond yield, and the matrix of such a state leads nowhere. Tells whether it was.
     fn residual_of_prediction(
         &mut self,
         cx: &Context,
@@ -226,12 +281,12 @@ impl Newton {
         state: &State,
         stage: &Stage,
         to: f64,
-    ) -> f64 {
+    ) -> (f64, bool) {
         /// Part of the motion by which the residual is differentiated; a power of two, so that it is taken back exactly.
         const PART: f64 = 1.0 / (1 << 20) as f64;
         let moves = |given: &Prescribed| given.u != 0.0;
         if cx.is_dynamic() || !cx.system.yields() || !ws.prescribed.instant.iter().any(moves) {
-            return evaluate_residual(cx, ws, state, stage, to);
+            return (evaluate_residual(cx, ws, state, stage, to), false);
         }
         let scale =
             |ws: &mut Workspace, factor: f64| ws.prescribed.instant.iter_mut().for_each(|given| given.u *= factor);
@@ -244,7 +299,7 @@ impl Newton {
         for (r, ahead) in ws.r.iter_mut().zip(&self.ahead) {
             *r = 0.5 * (*r + ahead) + 0.5 / PART * (ahead - *r);
         }
-        size
+        (size, true)
     }
 
     /// Shortens the last correction where it went too far; returns whether it did.
@@ -315,8 +370,8 @@ impl Newton {
         if !size.is_finite() {
             return Err(residual::not_finite(cx, ws));
         }
-        if self.matrix.is_stabilized() {
-            return Ok(Verdict::GoOn);
+        if self.matrix.is_stabilized() || std::mem::take(&mut progress.unjudged) {
+            return Ok(if progress.is_exhausted() { Verdict::Exhausted } else { Verdict::GoOn });
         }
         let (iterations, residual, fresh) =
             (progress.report.iterations, progress.report.residual, progress.has_own_matrix());

@@ -3,6 +3,9 @@
 //! tangents at the ends of the step are combined, K(θ) = K₀ + θ (K₁ − K₀): the smallest θ at which one eigenvalue is negative gives the
 //! load, exactly where stresses grow with it (linear buckling), and the softest mode there is the mode of buckling.
 //!
+//! A load step that ends on an unstable branch is cut, for the path that the loads lead to may bend away from it within the step. Where a short
+//! step ends there too the path itself is unstable, and the run ends. Material that softens and what cannot be judged are warned of.
+//!
 //! The tangent of what slips is not symmetric: a point that is pressed deeper by δ is held back by μ k δ more, and nothing pushes it out for
 //! that. Its symmetric part may then have negative eigenvalues where nothing grows; where it has none, nothing does. So these only raise the
 //! suspicion, which the determinant of the whole tangent settles.
@@ -12,10 +15,16 @@ use super::tangent::{Criterion, Ends, Tangent};
 use crate::linear::{Factorization, TooLarge};
 use crate::snapshot::keep;
 use crate::solve::context::Context;
+use crate::solve::failure::Failure;
 use crate::solve::linear_system::LinearSystem;
 use crate::solve::warning::{Instability, Remark, Warning};
 use crate::solve::workspace::Workspace;
 use crate::state::{Configuration, State};
+use crate::system::Forces;
+
+/// Part of a step of the deck below which one that ends on an unstable branch is not cut again. A strut with a lateral load of 1e-6 of its
+/// buckling load bends away within 1e-4 of it.
+const SHORTEST: f64 = 1.0 / 4096.0;
 
 /// The watch over the equilibria of a static analysis.
 pub struct Stability {
@@ -28,11 +37,27 @@ pub struct Stability {
     own: Option<Box<LinearSystem>>,
     /// Negative eigenvalues at the last equilibrium, by which tangents that are not symmetric are known to be looked at.
     seen: usize,
+    /// What was found of the equilibrium at the end of a load step, until that is accepted.
+    found: Found,
     /// The motion out of the plane, where a plane motion leaves it out, until it has buckled.
     sideways: Option<Box<OutOfPlane>>,
 }
 
-keep!(Stability { counts, path, own, seen, sideways } without { criterion });
+keep!(Stability { counts, path, own, seen, sideways } without { criterion, found });
+
+/// What was found of an equilibrium.
+#[derive(Default)]
+struct Found {
+    /// The number of negative eigenvalues, where they were counted.
+    negative: Option<usize>,
+    instability: Option<Instability>,
+    /// True where it is unstable only because material softens.
+    softens: bool,
+    /// True where something slips along a path of given arc length, where nothing is judged.
+    slips: bool,
+    /// True where the matrix of the step has been overwritten.
+    overwritten: bool,
+}
 
 /// What was seen of a path.
 struct Path {
@@ -69,12 +94,51 @@ impl Stability {
             path: along.then_some(Path { grows: true }),
             own: own.map(|(solver, assembly)| Box::new(LinearSystem::new(solver, assembly))),
             seen: 0,
+            found: Found::default(),
             sideways: OutOfPlane::new(cx)?.map(Box::new),
         }))
     }
 
-    /// Judges the equilibrium at the end of an accepted step, whose start is left in `ws.trial` and which began at the time `from`. `grows`:
-    /// loads grow along the path there, which only a path of given arc length may not do.
+    /// Judges the equilibrium of a load step from `state` to the time `to`, which is left in `ws.trial`, before it is accepted. `turned_back`:
+    /// as in [`Newton::has_turned_back`](super::newton::Newton::has_turned_back).
+    ///
+    /// # Errors
+    /// [`Failure::UnstableStep`] where it lies on an unstable branch and a shorter step may not, [`Failure::Buckles`] where none would help.
+    pub fn judge(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        (to, turned_back): (f64, bool),
+    ) -> Result<(), Failure> {
+        self.found = Found::default();
+        if self.path.is_some() {
+            return Ok(());
+        }
+        let Workspace { matrix, forces, loads, trial, .. } = ws;
+        let [start, end] = [(&state.nodes, 0.0), (&*trial, to - state.time)].map(|(nodes, dt)| Configuration {
+            nodes,
+            history: &state.history,
+            dt,
+            lead: None,
+        });
+        let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [state.time, to] };
+        let analysis = &cx.model.analysis;
+        let shortest = (SHORTEST * analysis.nominal_step()).max(2.0 * analysis.least_step);
+        let cuts = to - state.time > shortest;
+        self.look(cx, (matrix, forces), &ends, None, cuts);
+        match self.found.instability.take_if(|found| found.certain && !found.already && !self.found.softens) {
+            Some(_) if cuts => Err(Failure::UnstableStep),
+            Some(instability) => Err(Failure::Buckles(instability)),
+            None if turned_back && cuts && self.seen == 0 && self.criterion == Criterion::Eigenvalues => {
+                Err(Failure::UnstableStep)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Takes account of the equilibrium at the end of an accepted step, whose start is left in `ws.trial` and which began at the time `from`.
+    /// `grows`: loads grow along the path there, which only a path of given arc length may not do.
     /// Returns true where the matrix of the step has been overwritten.
     pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64, grows: bool) -> bool {
         if from == 0.0 && cx.system.plane.is_some() && !cx.system.joints.is_empty() {
@@ -83,54 +147,90 @@ impl Stability {
         if self.sideways.as_mut().is_some_and(|out| !out.check(cx, ws, state, from)) {
             self.sideways = None;
         }
-        if !self.counts {
-            return false;
+        if self.path.is_some() {
+            let Workspace { matrix, forces, loads, trial, history, .. } = ws;
+            let [start, end] = [(&*trial, 0.0), (&state.nodes, state.time - from)].map(|(nodes, dt)| Configuration {
+                nodes,
+                history,
+                dt,
+                lead: None,
+            });
+            let ends =
+                Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
+            self.look(cx, (matrix, forces), &ends, Some(grows), false);
         }
-        let Workspace { matrix, forces, loads, trial, history, warnings, .. } = ws;
-        let end = Configuration { nodes: &state.nodes, history, dt: state.time - from, lead: None };
-        let own = self.own.is_some();
-        let matrix = self.own.as_deref_mut().unwrap_or(matrix);
-        matrix.make_room(cx, &end);
+        let Found { negative, instability, slips, overwritten, .. } = std::mem::take(&mut self.found);
+        self.seen = negative.unwrap_or(self.seen);
+        if slips {
+            ws.warnings.remark(Remark::Slipping);
+        }
+        if let Some(instability) = instability {
+            ws.warnings.add(Warning::Unstable(instability));
+            self.counts = false;
+        }
+        overwritten
+    }
+
+    /// True where the equilibrium judged last has left no matrix of the step.
+    pub fn has_overwritten(&self) -> bool {
+        self.found.overwritten
+    }
+
+    /// Looks at the equilibrium at the end of a step. Along a path of given arc length `grows` tells whether loads grow; of a step that `cuts`
+    /// where it is unstable, the time is not looked for.
+    fn look(
+        &mut self,
+        cx: &Context,
+        (matrix, forces): (&mut LinearSystem, &mut Forces),
+        ends: &Ends,
+        grows: Option<bool>,
+        cuts: bool,
+    ) {
+        if !self.counts {
+            return;
+        }
+        let Stability { found, own, path, seen, .. } = self;
+        let (is_own, before, end) = (own.is_some(), *seen, &ends.configurations[1]);
+        let matrix = own.as_deref_mut().unwrap_or(matrix);
+        matrix.make_room(cx, end);
         let mut tangent =
             Tangent { system: cx.system, dofs: &cx.plan.dofs, matrix, forces, springs: &[], criterion: self.criterion };
         // The matrix at hand is that of the last correction but one, whose motion differs by the square of the tolerance.
-        if own {
-            tangent.form(&end, &loads.end);
+        if is_own {
+            tangent.form(end, ends.loads[1]);
             // A plastic plateau has no stiffness, which is no buckling.
             if tangent.matrix.solver.factor().is_err() {
-                return false;
+                return;
             }
         }
         let negative = tangent.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
-        let before = std::mem::replace(&mut self.seen, negative);
+        found.negative = Some(negative);
         // At a limit point one mode becomes unstable, and loads go back.
-        let explained = self
-            .path
-            .as_mut()
-            .map_or(0, |path| before + usize::from(std::mem::replace(&mut path.grows, grows) != grows));
+        let turned = |path: &mut Path| grows.is_some_and(|grows| std::mem::replace(&mut path.grows, grows) != grows);
+        let explained = path.as_mut().map_or(0, |path| before + usize::from(turned(path)));
         let suspicious = match self.criterion {
             Criterion::Determinant => negative > before || tangent.count() > 0,
             _ => negative > explained,
         };
         if !suspicious {
-            return false;
+            return;
         }
-        let start = Configuration { nodes: trial, history, dt: 0.0, lead: None };
-        let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
-        match locate(cx, &mut tangent, &ends, negative > before, self.path.is_some()) {
-            Ok(Some(instability)) => {
-                warnings.add(Warning::Unstable(instability));
-                self.counts = false;
+        found.overwritten = !is_own;
+        found.softens = cx.system.history > 0 && tangent.is_stable_with_elastic_moduli(ends);
+        let looked = match self.criterion {
+            Criterion::Eigenvalues if cuts && !cx.system.rubs() && tangent.turns_unstable(ends) => {
+                Ok(Some(Instability { certain: true, ..Instability::default() }))
             }
-            Ok(None) => {}
-            Err(NotJudged) => warnings.remark(Remark::Slipping),
+            _ => locate(cx, &mut tangent, ends, negative > before, path.is_some()),
+        };
+        match looked {
+            Ok(instability) => found.instability = instability,
+            Err(NotJudged) => found.slips = true,
         }
-        if self.path.is_some() && !own {
+        if path.is_some() && !is_own {
             // The negative pivots of the equilibrium are told of each step.
-            tangent.form(&end, &loads.end);
-            tangent.matrix.solver.factor().is_err()
-        } else {
-            !own
+            tangent.form(end, ends.loads[1]);
+            found.overwritten = tangent.matrix.solver.factor().is_err();
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Stabilization of the first matrix of a load step. A body that hangs from a joint is held upright by the force of that joint alone, which
 //! is not known before the first correction: until then nothing resists its swing. Springs between all nodes and the ground take part in
-//! that one correction. The next matrix has the forces of joints in it, and has to do without.
+//! that one correction. The next matrix has the forces of joints in it, and has to do without. Links that are being pretensioned hold what hangs
+//! on them likewise.
 
 use super::mode::Mode;
 use crate::linear::{Solver, Sparse};
+use crate::model::Link;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 
@@ -16,9 +18,10 @@ const HELD: f64 = 1e-5;
 /// And part of the terms that this stiffness is summed from: a thousand times their rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// True where forces of joints may hold what elements do not.
+/// True where forces of joints or of pretensioned links may hold what elements do not.
 pub fn may_help(cx: &Context) -> bool {
-    !cx.is_dynamic() && !cx.system.joints.is_empty() && !cx.model.analysis.step_length.is_arc_length()
+    let may_hold = || !cx.system.joints.is_empty() || cx.model.each::<Link>().any(|link| link.take_up.is_some());
+    !cx.is_dynamic() && may_hold() && !cx.model.analysis.step_length.is_arc_length()
 }
 
 /// What held nothing by itself.

@@ -22,6 +22,8 @@ pub struct StepProgress {
     pub limit: usize,
     /// True where the increments at hand are the prediction.
     pub predicted: bool,
+    /// True where the correction at hand tells nothing of convergence: it was shortened, or answers a linearized residual.
+    pub unjudged: bool,
     /// Relative error of the time where it is unknown; loads are curves over it.
     time_error: f64,
 }
@@ -35,6 +37,7 @@ impl StepProgress {
             new_matrix: false,
             limit: cx.model.solution.iteration.limit,
             predicted: true,
+            unjudged: false,
             time_error: 0.0,
         }
     }

@@ -67,9 +67,13 @@ impl Ends<'_> {
 impl Tangent<'_> {
     /// Writes the tangent into the matrix.
     pub fn form(&mut self, now: &Configuration, loads: &Loading) {
+        self.form_with(now, loads, WEIGHTS);
+    }
+
+    fn form_with(&mut self, now: &Configuration, loads: &Loading, weights: TangentWeights) {
         self.system.residual(now, loads, self.forces);
         let LinearSystem { solver, assembly, .. } = &mut *self.matrix;
-        assembly.tangent(self.system, now, loads, self.forces, WEIGHTS, solver);
+        assembly.tangent(self.system, now, loads, self.forces, weights, solver);
         for &(slot, stiffness) in self.springs {
             solver.values()[slot] += stiffness;
         }
@@ -105,6 +109,23 @@ impl Tangent<'_> {
     pub fn unstable_modes_at_end(&mut self, ends: &Ends) -> Option<usize> {
         self.form(&ends.configurations[1], ends.loads[1]);
         self.unstable_modes()
+    }
+
+    /// True where the end of a step would be stable, were its material elastic from there on.
+    pub fn is_stable_with_elastic_moduli(&mut self, ends: &Ends) -> bool {
+        self.form_with(&ends.configurations[1], ends.loads[1], TangentWeights { moduli: Moduli::Elastic, ..WEIGHTS });
+        self.unstable_modes() == Some(0)
+    }
+
+    /// True where the start of a step is stable and its end is not, by more than rounding.
+    pub fn turns_unstable(&mut self, ends: &Ends) -> bool {
+        self.form(&ends.configurations[0], ends.loads[0]);
+        if self.unstable_modes() != Some(0) {
+            return false;
+        }
+        self.form(&ends.configurations[1], ends.loads[1]);
+        self.add_rounding();
+        self.unstable_modes().is_some_and(|modes| modes > 0)
     }
 
     /// The first instability in the step; `None` where the tangents between its ends show none.
