@@ -124,6 +124,10 @@ impl Observer for Watchers {
         self.files.on_modes(frame)
     }
 
+    fn on_response(&mut self, frame: &Frame) -> io::Result<()> {
+        self.files.on_response(frame)
+    }
+
     fn wants_checkpoint(&mut self, at_end: bool) -> bool {
         self.checkpoints.as_ref().is_some_and(|checkpoints| checkpoints.is_due(at_end))
     }

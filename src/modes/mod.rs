@@ -25,7 +25,7 @@ pub use linearized::Linearized;
 pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, Modes, Share};
 pub use rest::{multipliers_at_rest, own_stiffnesses};
-pub use steady::{Response, ResponseRow};
+pub use steady::{Response, ResponseRow, ResponseSoFar, Search};
 
 use crate::linear::Solver;
 use crate::model::{ModeKind, ModesAsked};
@@ -34,19 +34,24 @@ use crate::system::assembly::Assembly;
 /// Finds the modes that the model asks for about a state. The solver and its assembly are overwritten where the solver is symmetric.
 ///
 /// # Errors
-/// The reason why there are none.
-pub fn find(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+/// The reason why there are none; [`ModesFault::Stopped`] where the search is to pause or to end.
+pub fn find(at: &Linearized, linear: (&mut Solver, &mut Assembly), search: Search) -> Result<Modes, ModesFault> {
     let Some(asked) = &at.model.analysis.modes else { return Ok(Modes::default()) };
     if linear.0.is_symmetric() {
-        return find_with(at, asked, linear);
+        return find_with(at, asked, linear, search);
     }
     let (mut solver, mut assembly) = at.symmetric_solver()?;
-    find_with(at, asked, (&mut solver, &mut assembly))
+    find_with(at, asked, (&mut solver, &mut assembly), search)
 }
 
-fn find_with(at: &Linearized, asked: &ModesAsked, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+fn find_with(
+    at: &Linearized,
+    asked: &ModesAsked,
+    linear: (&mut Solver, &mut Assembly),
+    search: Search,
+) -> Result<Modes, ModesFault> {
     if let Some(asked) = &asked.response {
-        return response::find_response(at, asked, linear);
+        return response::find_response(at, asked, linear, search);
     }
     match asked.kind {
         ModeKind::Natural if asked.damped => damped::damped_modes(at, linear),

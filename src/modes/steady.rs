@@ -3,6 +3,7 @@
 use crate::linear::eigen::Complex;
 use crate::math::Vec6;
 use crate::model::{ExpectAt, Model};
+use crate::snapshot::keep;
 
 /// The response of some nodes.
 #[derive(Debug, Clone, Default)]
@@ -14,13 +15,36 @@ pub struct Response {
 }
 
 /// The motion at a frequency.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct ResponseRow {
     /// The frequency, cycles per time.
     pub frequency: f64,
     /// Small motions (u, θ) in the order of [`Response::nodes`], real and imaginary parts: those at ωt = 0 and at −π/2. Not finite
     /// where the undamped scene has no steady motion.
     pub motions: Vec<[Complex; 6]>,
+}
+
+keep!(ResponseRow: Default { frequency, motions });
+
+/// What has been found of a response, from which a search that was stopped goes on.
+#[derive(Debug, Default)]
+pub struct ResponseSoFar {
+    /// The rows of the frequencies solved for, ascending.
+    pub rows: Vec<ResponseRow>,
+    /// What has been left of the equations at most, and the frequency.
+    pub(super) worst: (f64, f64),
+    /// Frequencies at which there is no steady motion, each with the mode that grows there, from 0.
+    pub(super) resonances: Vec<(f64, Option<usize>)>,
+}
+
+keep!(ResponseSoFar { rows, worst, resonances });
+
+/// A search that may be interrupted: what it has found of a response, and whether it is to pause between two frequencies.
+pub struct Search<'s> {
+    /// What has been found of a response; the rows of one that is whole go into it.
+    pub so_far: &'s mut ResponseSoFar,
+    /// Tells whether a checkpoint is due.
+    pub pauses: &'s mut dyn FnMut() -> bool,
 }
 
 impl ResponseRow {
@@ -32,8 +56,8 @@ impl ResponseRow {
 }
 
 impl Response {
-    /// No motion yet of the nodes that tables or `[[expect]]` name.
-    pub(super) fn of(model: &Model) -> Response {
+    /// The motion so far of the nodes that tables or `[[expect]]` name.
+    pub(super) fn of(model: &Model, rows: Vec<ResponseRow>) -> Response {
         let expected = model.expects.iter().filter_map(|expect| match expect.at {
             ExpectAt::Response(node, _) => Some(node),
             _ => None,
@@ -42,7 +66,7 @@ impl Response {
         let mut nodes: Vec<usize> = model.output.nodes.iter().copied().chain(bodies).chain(expected).collect();
         nodes.sort_unstable();
         nodes.dedup();
-        Response { nodes, rows: Vec::new() }
+        Response { nodes, rows }
     }
 
     /// Keeps the motions of the nodes wanted from those of all nodes, real and imaginary parts.

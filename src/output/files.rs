@@ -7,7 +7,7 @@ use super::result_json;
 use super::table::{TableKind, WriteRows};
 use super::table_file::{EmptyFields, TableFile, TableMark};
 use super::table_size::size_in_words;
-use super::tables::TABLES;
+use super::tables::{TABLES, holds_response};
 use crate::model::{Cadence, Model, When};
 use crate::names::instant;
 use crate::plan::Plan;
@@ -186,6 +186,15 @@ impl Observer for Files {
             Some(fields) => fields.on_modes(frame),
             None => Ok(()),
         }
+    }
+
+    fn on_response(&mut self, frame: &Frame) -> io::Result<()> {
+        for OpenTable { file, write, .. } in self.tables.iter_mut().filter(|table| holds_response(table.kind)) {
+            if let Some(write) = write {
+                write(file, frame)?;
+            }
+        }
+        if self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
     }
 
     fn restart(&mut self, model: &Model) -> io::Result<()> {

@@ -6,6 +6,7 @@ use crate::model::Model;
 use crate::modes::Modes;
 use crate::snapshot::Snapshot;
 use crate::state::State;
+use std::ops::Range;
 
 /// One accepted step, read-only.
 pub struct Frame<'a> {
@@ -41,6 +42,8 @@ pub struct Frame<'a> {
     pub derived: &'a Derived,
     /// The modes about the state, where the frame is theirs.
     pub modes: Option<&'a Modes>,
+    /// The rows of the response of these modes that are shown.
+    pub rows: Range<usize>,
 }
 
 /// The observer of a run.
@@ -50,6 +53,11 @@ pub trait Observer {
 
     /// Receives the modes about a state, which has been shown before. An error is one of input/output.
     fn on_modes(&mut self, _: &Frame) -> std::io::Result<()> {
+        Ok(())
+    }
+
+    /// Receives rows of the response of modes that have been shown, a part after the other. An error is one of input/output.
+    fn on_response(&mut self, _: &Frame) -> std::io::Result<()> {
         Ok(())
     }
 

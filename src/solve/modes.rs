@@ -9,7 +9,7 @@ use super::recorder::AcceptedStep;
 use super::report::StepReport;
 use super::warning::Warning;
 use crate::model::{ModeKind, PrescribedMotion};
-use crate::modes::{Linearized, ModesFault, find, multipliers_at_rest, own_stiffnesses};
+use crate::modes::{Linearized, Modes, ModesFault, Search, find, multipliers_at_rest, own_stiffnesses};
 use crate::system::{Loading, Side};
 
 /// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
@@ -44,14 +44,14 @@ pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule)
         }
     }
     march.place.interval = AT_ITS_END;
-    march.pause(controller)?;
-    show(march).or_else(|ended| {
-        // A signal leaves a checkpoint here too.
-        if matches!(ended, Outcome::Stopped { .. }) {
-            march.pause(controller)?;
+    loop {
+        march.pause(controller)?;
+        match show(march, controller) {
+            // A checkpoint is due, or a signal leaves one.
+            Err(Outcome::Stopped { .. }) => {}
+            shown => return shown,
         }
-        Err(ended)
-    })
+    }
 }
 
 /// The loads in the state, and those of which buckling seeks the factor: all that act, or in a stage those that first act there.
@@ -129,10 +129,13 @@ fn loads_at_full_size(cx: &Context, reach: f64) -> [f64; 2] {
 }
 
 /// Finds the modes about the state and shows them.
-fn show(march: &mut March) -> Result<(), Outcome> {
+///
+/// # Errors
+/// [`Outcome::Stopped`] where the search ends before it is done; what it has found of a response is kept.
+fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
     let [loading, factored] = &loads(march.cx);
     let left = unbalanced(march, loading);
-    let March { cx, ws, state, stop, .. } = march;
+    let March { cx, ws, state, stop, observer, .. } = march;
     if cx.model.analysis.modes.as_ref().is_some_and(|asked| asked.damped) {
         // Bodies spin about the equilibrium as they do at t = 0.
         for (node, given) in state.nodes.iter_mut().zip(&cx.model.nodes) {
@@ -140,7 +143,8 @@ fn show(march: &mut March) -> Result<(), Outcome> {
         }
     }
     let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored, stop };
-    let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly));
+    let search = Search { so_far: &mut ws.response, pauses: &mut || observer.wants_checkpoint(false) };
+    let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly), search);
     let mut modes = found.map_err(|fault| match fault {
         ModesFault::Stopped => Outcome::Stopped { time: march.state.time },
         fault => march.failed(Failure::Modes(fault)),
@@ -151,6 +155,10 @@ fn show(march: &mut March) -> Result<(), Outcome> {
              become is not what these modes are about"
         )
     }));
+    if march.place.step > 0 {
+        // They have been shown before a checkpoint.
+        return show_response(march, controller, modes);
+    }
     if !modes.doubts.is_empty() {
         march.ws.warnings.add(Warning::Modes(modes.doubts.join("; ")));
     }
@@ -160,6 +168,34 @@ fn show(march: &mut March) -> Result<(), Outcome> {
     }
     march.ws.factorizations += modes.factorizations;
     march.ws.solves += modes.solves;
-    let March { cx, ws, state, recorder, observer, .. } = march;
-    recorder.notify_modes(cx, ws, state, *observer, &modes)
+    let March { cx, ws, state, recorder, observer, place, .. } = march;
+    recorder.notify_modes(cx, ws, state, *observer, &modes)?;
+    place.step = 1;
+    show_response(march, controller, modes)
+}
+
+/// Shows the rows of a response that have not been shown, with a pause now and then; the place tells how many have.
+fn show_response(march: &mut March, controller: &mut Controller, mut modes: Modes) -> Result<(), Outcome> {
+    /// Rows between two pauses.
+    const ROWS: usize = 256;
+    let mut rows = modes.response.as_mut().map_or_else(Vec::new, |response| std::mem::take(&mut response.rows));
+    while march.place.step <= rows.len() {
+        // A checkpoint keeps what has been found.
+        std::mem::swap(&mut march.ws.response.rows, &mut rows);
+        let paused = march.pause(controller);
+        std::mem::swap(&mut march.ws.response.rows, &mut rows);
+        paused?;
+        let begin = march.place.step - 1;
+        let shown = begin..(begin + ROWS).min(rows.len());
+        let March { cx, ws, state, recorder, observer, place, .. } = march;
+        place.step = 1 + shown.end;
+        if let Some(response) = &mut modes.response {
+            std::mem::swap(&mut response.rows, &mut rows);
+        }
+        recorder.notify_response(cx, ws, state, *observer, (&modes, shown))?;
+        if let Some(response) = &mut modes.response {
+            std::mem::swap(&mut response.rows, &mut rows);
+        }
+    }
+    Ok(())
 }

@@ -18,6 +18,7 @@ use crate::modes::Modes;
 use crate::snapshot::keep;
 use crate::state::State;
 use crate::system::energy::{Balance, Energy, work_of_rounding};
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 /// The account of a run. It is allocated once.
@@ -318,6 +319,27 @@ impl Recorder {
         Ok(())
     }
 
+    /// Shows rows of the response of modes that have been shown.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write.
+    pub fn notify_response(
+        &mut self,
+        cx: &Context,
+        ws: &Workspace,
+        state: &State,
+        observer: &mut dyn Observer,
+        (modes, rows): (&Modes, Range<usize>),
+    ) -> Result<(), Outcome> {
+        let began = Instant::now();
+        let report = &StepReport::begin(0.0);
+        let step = &AcceptedStep { dt: 0.0, report, cuts: 0, due: true, compared: false, last: true, passed: &[] };
+        let frame = Frame { modes: Some(modes), rows, ..self.frame(cx, ws, state, step, [true, false]) };
+        observer.on_response(&frame).map_err(Outcome::Io)?;
+        self.observing += began.elapsed();
+        Ok(())
+    }
+
     /// Decides whether tables are due, and whether fields are drawn; fields are drawn at the end too.
     fn is_due(&mut self, model: &Model, step: &AcceptedStep, time: f64) -> (bool, bool) {
         let (output, at) = (&model.output, (self.counts.steps, time));
@@ -367,6 +389,7 @@ impl Recorder {
             },
             derived: &self.derived,
             modes: None,
+            rows: 0..0,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),
         }

@@ -5,6 +5,7 @@ use super::linear_system::LinearSystem;
 use super::load_steps::LoadSteps;
 use super::warning::{Remark, Warnings};
 use crate::linear::{Solver, TooLarge};
+use crate::modes::ResponseSoFar;
 use crate::snapshot::{Keep, Snapshot, keep};
 use crate::state::{Increment, Node};
 use crate::system::{Forces, Loading, Prescribed, TurningStart};
@@ -44,6 +45,8 @@ pub struct Workspace {
     /// Largest gap of a joint at the end of a step, relative to `reach`, over all steps.
     pub joint_violation: f64,
     pub warnings: Warnings,
+    /// What has been found of a frequency response.
+    pub response: ResponseSoFar,
 }
 
 keep!(Workspace {
@@ -63,6 +66,7 @@ keep!(Workspace {
     rotation_drift,
     joint_violation,
     warnings,
+    response,
 });
 
 /// An excitation at the three times that a step needs.
@@ -107,6 +111,7 @@ impl Workspace {
             rotation_drift: 0.0,
             joint_violation: 0.0,
             warnings,
+            response: ResponseSoFar::default(),
         })
     }
 
@@ -125,6 +130,7 @@ impl Workspace {
         (*reach, *load_steps) = (cx.length, LoadSteps::default());
         (self.rotation_drift, self.joint_violation) = (0.0, 0.0);
         self.warnings = warnings_of(&self.matrix.solver);
+        self.response = ResponseSoFar::default();
     }
 }
 

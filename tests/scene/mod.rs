@@ -241,6 +241,7 @@ impl Extras {
                 || step == 10,
             last: step == 10,
             inside: false,
+            rows: 0..0,
             compared: false,
             reactions: &self.reactions,
             derived: &self.derived,

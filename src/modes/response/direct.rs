@@ -7,12 +7,13 @@ use super::super::modal::{natural_frequencies, natural_pairs};
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
-use super::super::steady::{Response, ResponseRow};
+use super::super::steady::{Response, ResponseRow, ResponseSoFar, Search};
 use super::dynamic_stiffness::DynamicStiffness;
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
+use super::look_up::look_up;
 use super::matrices::Matrices;
-use super::resonance::{Resonance, resonances_in_words};
+use super::resonance::resonances_in_words;
 use crate::linear::{Factorization, Solver};
 use crate::math::Vec6;
 use crate::model::{ModeExtent, ModeKind, ResponseAsked};
@@ -38,6 +39,7 @@ pub fn response(
     at: &Linearized,
     asked: &ResponseAsked,
     linear: (&mut Solver, &mut Assembly),
+    search: &mut Search,
 ) -> Result<Modes, ModesFault> {
     let mut found = Modes { kind: ModeKind::Natural, ..Modes::default() };
     let natural = match asked.resonances {
@@ -68,13 +70,22 @@ pub fn response(
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
     let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
-    let mut direct = Direct { pencil, excitation, stiffness, worst: (0.0, 0.0), resonances: Vec::new(), natural };
-    let mut response = Response::of(at.model);
-    for frequency in &all {
-        at.check_stop()?;
+    let mut direct = Direct { pencil, excitation, stiffness, so_far: &mut *search.so_far, natural };
+    let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
+    let mut solved = Ok(());
+    let known = response.rows.len().min(all.len());
+    for frequency in &all[known..] {
+        solved = look_up(at, response.rows.len() > known, &mut *search.pauses);
+        if solved.is_err() {
+            break;
+        }
         direct.solve(*frequency, &mut response);
     }
-    direct.find_resonances(&mut response);
+    let whole = solved.and_then(|()| direct.find_resonances(&mut response));
+    if let Err(stopped) = whole {
+        direct.so_far.rows = response.rows;
+        return Err(stopped);
+    }
     found.factorizations += all.len();
     found.solves += all.len();
     found.doubts.extend(gyroscopic.doubts);
@@ -119,10 +130,7 @@ struct Direct<'a> {
     pencil: Pencil<'a>,
     excitation: HarmonicExcitation,
     stiffness: DynamicStiffness,
-    /// What has been left of the equations at most, and the frequency.
-    worst: (f64, f64),
-    /// Frequencies at which there is no steady motion.
-    resonances: Vec<Resonance>,
+    so_far: &'a mut ResponseSoFar,
     /// Natural frequencies, where they are known.
     natural: Vec<f64>,
 }
@@ -152,12 +160,15 @@ impl Direct<'_> {
         /// Part of a frequency by which a natural one may differ to be the same.
         const SAME: f64 = 1e-6;
         let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME * frequency);
-        self.resonances.push(Resonance { frequency, mode });
+        self.so_far.resonances.push((frequency, mode));
     }
 
     /// Looks for resonances that rounding makes very large, not infinite: such a motion falls off within a part of its frequency in which no
     /// damping that anything has would let it.
-    fn find_resonances(&mut self, response: &mut Response) {
+    ///
+    /// # Errors
+    /// [`ModesFault::Stopped`] where a signal ends the search.
+    fn find_resonances(&mut self, response: &mut Response) -> Result<(), ModesFault> {
         /// The ratio to the least motion from which one is looked at.
         const LARGE: f64 = 1e6;
         /// Part of a frequency by which it is left, and the part of the motion that remains there at a resonance without damping.
@@ -169,6 +180,7 @@ impl Direct<'_> {
             if !motion.is_finite() || motion <= LARGE * least {
                 continue;
             }
+            self.pencil.at.check_stop()?;
             let Some([real, imaginary]) = self.motions(frequency * (1.0 + ASIDE[0])) else { continue };
             let mut beside = Response { nodes: response.nodes.clone(), rows: Vec::new() };
             beside.keep(frequency, [&real, &imaginary]);
@@ -178,6 +190,7 @@ impl Direct<'_> {
                 response.rows[place].motions.fill(infinite);
             }
         }
+        Ok(())
     }
 
     /// The motions of all nodes at a frequency, real and imaginary parts; `None` where the equations are singular.
@@ -205,8 +218,8 @@ impl Direct<'_> {
         for closing in 0..CLOSINGS {
             self.pencil.close_gaps(&motions, |tail, [real, imaginary]| f[n + tail] = C64::new(real, imaginary));
             let left = self.stiffness.solve(&f, &mut x);
-            if closing == 0 && left > self.worst.0 {
-                self.worst = (left, frequency);
+            if closing == 0 && left > self.so_far.worst.0 {
+                self.so_far.worst = (left, frequency);
             }
             sum.iter_mut().zip(&x).for_each(|(sum, x)| *sum += x);
             motions = self.driven(omega);
@@ -238,9 +251,9 @@ impl Direct<'_> {
     /// What is doubtful about the response, in words.
     fn doubts(&self) -> Vec<String> {
         let mut doubts = Vec::new();
-        doubts.extend(resonances_in_words(&self.resonances));
-        if self.worst.0 > DOUBTFUL {
-            let (left, frequency) = self.worst;
+        doubts.extend(resonances_in_words(&self.so_far.resonances));
+        if self.so_far.worst.0 > DOUBTFUL {
+            let (left, frequency) = self.so_far.worst;
             doubts.push(format!(
                 "near frequency {} the equations are next to singular: {left:.1e} of the excitation is left unbalanced",
                 short(frequency)

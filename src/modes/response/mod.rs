@@ -8,6 +8,7 @@ mod direct;
 mod dynamic_stiffness;
 mod excitation;
 mod frequencies;
+mod look_up;
 mod matrices;
 mod modal;
 mod resonance;
@@ -15,6 +16,7 @@ mod resonance;
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::mode::Modes;
+use super::steady::Search;
 use crate::linear::Solver;
 use crate::model::{ResponseAsked, ResponseMethod};
 use crate::system::assembly::Assembly;
@@ -27,9 +29,10 @@ pub fn find_response(
     at: &Linearized,
     asked: &ResponseAsked,
     linear: (&mut Solver, &mut Assembly),
+    mut search: Search,
 ) -> Result<Modes, ModesFault> {
     match asked.method {
-        ResponseMethod::Direct => direct::response(at, asked, linear),
-        ResponseMethod::Modal => modal::response(at, asked, linear),
+        ResponseMethod::Direct => direct::response(at, asked, linear, &mut search),
+        ResponseMethod::Modal => modal::response(at, asked, linear, &mut search),
     }
 }

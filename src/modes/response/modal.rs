@@ -14,12 +14,13 @@ use super::super::modal::{left_out, natural_pairs};
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
-use super::super::steady::Response;
+use super::super::steady::{Response, Search};
 use super::damped_rest::{RestMotion, dot, rest_motions};
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
+use super::look_up::look_up;
 use super::matrices::Matrices;
-use super::resonance::{Resonance, resonances_in_words};
+use super::resonance::resonances_in_words;
 use crate::linear::{Solver, Sparse};
 use crate::math::Vec6;
 use crate::model::{ModeExtent, ModeKind, ResponseAsked};
@@ -44,6 +45,7 @@ pub fn response(
     at: &Linearized,
     asked: &ResponseAsked,
     linear: (&mut Solver, &mut Assembly),
+    search: &mut Search,
 ) -> Result<Modes, ModesFault> {
     let mut pencil = Pencil::new(*at, linear);
     if pencil.mass.is_zero() {
@@ -70,17 +72,21 @@ pub fn response(
     };
     let mut space = Space::new((&pairs, &rest), &matrices.C, asked.damping_ratio, shift);
     let parts = space.parts(&mut pencil, &excitation, &matrices);
-    let mut response = Response::of(at.model);
+    let mut response = Response::of(at.model, std::mem::take(&mut search.so_far.rows));
     let motion = Motion::new(&pencil, &space, &parts, &excitation, &response.nodes);
-    let mut resonances = Vec::new();
-    for frequency in all {
+    let known = response.rows.len().min(all.len());
+    for &frequency in &all[known..] {
+        if let Err(stopped) = look_up(at, response.rows.len() > known, &mut *search.pauses) {
+            search.so_far.rows = response.rows;
+            return Err(stopped);
+        }
         let (row, mode) = motion.at(&space, &parts, &excitation, frequency);
         response.add(frequency, row);
-        resonances.extend(mode.map(|mode| Resonance { frequency, mode: Some(mode) }));
+        search.so_far.resonances.extend(mode.map(|mode| (frequency, Some(mode))));
     }
     let truncated = truncation((&natural, extent), pencil.at.unknowns(), highest, gyroscopic.acts());
     let mut doubts = gyroscopic.doubts;
-    doubts.extend(resonances_in_words(&resonances));
+    doubts.extend(resonances_in_words(&search.so_far.resonances));
     doubts.extend(truncated);
     doubts.extend(left_out(at).into_iter().filter(|_| !at.loads_have_potential()));
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();

@@ -49,6 +49,11 @@ pub fn of_file(name: &str) -> Option<&'static TableKind> {
     TABLES.iter().copied().find(|table| table.file == name)
 }
 
+/// True for the table whose rows come in parts, see [`crate::solve::Observer::on_response`].
+pub fn holds_response(table: &TableKind) -> bool {
+    std::ptr::eq(table, &response::TABLE)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

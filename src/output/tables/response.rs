@@ -58,7 +58,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     let nodes = model.output.nodes.iter().map(|&node| (model.nodes[node].label.as_str(), node));
     let bodies = model.bodies.iter().map(|body| (body.name.as_str(), body.node));
     let named: Vec<(&str, usize)> = nodes.chain(bodies).collect();
-    response.rows.iter().try_for_each(|row| write_row(table, frame, (response, row), &named))
+    response.rows[frame.rows.clone()].iter().try_for_each(|row| write_row(table, frame, (response, row), &named))
 }
 
 /// The rows of a frequency.

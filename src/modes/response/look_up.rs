@@ -1,0 +1,13 @@
+//! The look at what may end a search between two frequencies.
+
+use super::super::fault::ModesFault;
+use super::super::linearized::Linearized;
+
+/// Ends the search between two frequencies where it is to end, or to pause once it has come on.
+///
+/// # Errors
+/// [`ModesFault::Stopped`].
+pub(super) fn look_up(at: &Linearized, came_on: bool, pauses: &mut dyn FnMut() -> bool) -> Result<(), ModesFault> {
+    at.check_stop()?;
+    if came_on && pauses() { Err(ModesFault::Stopped) } else { Ok(()) }
+}
