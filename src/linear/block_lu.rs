@@ -14,7 +14,7 @@ use super::kernel::{
 use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
-use super::stops::Stops;
+use super::stops::StopQuery;
 use crate::snapshot::{Keep, Snapshot};
 
 /// Numbers from which on it is asked whether the memory holds them.
@@ -151,7 +151,7 @@ impl<const B: usize> BlockLu<B> {
 
     /// Right-looking elimination: inverts each D_k in turn and updates all blocks below and right of it. False where `stops` is true before
     /// it is done.
-    pub(super) fn factor(&mut self, stops: Stops) -> Result<bool, Singular> {
+    pub(super) fn factor(&mut self, stops: StopQuery) -> Result<bool, Singular> {
         let values = self.blocks.as_flattened_mut().as_flattened_mut();
         for &slot in &self.padding {
             values[slot] = 1.0;

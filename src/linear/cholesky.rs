@@ -11,7 +11,7 @@ use super::graph::Graph;
 use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
-use super::stops::Stops;
+use super::stops::StopQuery;
 use super::substitution::Factored;
 use super::tree::Layout;
 use super::triangle::LowerTriangle;
@@ -171,7 +171,7 @@ impl Cholesky {
 
     /// Tries L Lᵀ first, except with multipliers, whatever the matrices before were: otherwise a resumed run would not give
     /// the same bits. Only the pool of several threads allocates. False where `stops` is true before it is done.
-    pub(super) fn factor(&mut self, stops: Stops) -> Result<bool, Singular> {
+    pub(super) fn factor(&mut self, stops: StopQuery) -> Result<bool, Singular> {
         let mut formed = if self.graph.multipliers == 0 { self.form(true, stops) } else { Err(0) };
         self.definite = formed.is_ok();
         if !self.definite {
@@ -197,7 +197,7 @@ impl Cholesky {
     ///
     /// # Errors
     /// As for [`Fronts::factor`].
-    fn form(&mut self, definite: bool, stops: Stops) -> Result<Option<usize>, usize> {
+    fn form(&mut self, definite: bool, stops: StopQuery) -> Result<Option<usize>, usize> {
         self.L.forget();
         let vanishing = AtomicUsize::new(usize::MAX);
         let matrix = Matrix { triangle: &self.triangle, values: &self.values, definite, stops, vanishing: &vanishing };

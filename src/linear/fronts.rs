@@ -12,7 +12,7 @@ use super::indefinite::{ldlt, ldlt_scratch};
 use super::packed::Packed;
 use super::pivot::PIVOT_TOLERANCE;
 use super::pool::LendingPool;
-use super::stops::Stops;
+use super::stops::StopQuery;
 use super::tree::{Front, Layout, StackSizes, Tree};
 use super::triangle::LowerTriangle;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -138,7 +138,7 @@ pub(super) struct Matrix<'a> {
     /// As L Lᵀ, not as L D Lᵀ.
     pub definite: bool,
     /// True where the factorisation is to end before it is done.
-    pub stops: Stops<'a>,
+    pub stops: StopQuery<'a>,
     /// Lowered to the position of the first pivot that vanishes beside its entry of the diagonal.
     pub vanishing: &'a AtomicUsize,
 }

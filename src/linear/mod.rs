@@ -42,5 +42,5 @@ pub use pivot::Singular;
 pub use solver::Solver;
 pub use sparse::Sparse;
 pub use stats::Stats;
-pub use stops::Stops;
+pub use stops::StopQuery;
 pub use structure::Structure;

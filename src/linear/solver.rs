@@ -9,7 +9,7 @@ use super::memory::TooLarge;
 use super::pivot::Singular;
 use super::sparse::Sparse;
 use super::stats::Stats;
-use super::stops::Stops;
+use super::stops::StopQuery;
 use super::structure::Structure;
 use crate::snapshot::{Keep, Snapshot};
 
@@ -124,7 +124,7 @@ impl Solver {
     ///
     /// # Errors
     /// As for [`Solver::factor`].
-    pub fn factor_unless(&mut self, stops: Stops) -> Result<bool, Singular> {
+    pub fn factor_unless(&mut self, stops: StopQuery) -> Result<bool, Singular> {
         match self {
             Solver::Block3(inner) => inner.factor(stops),
             Solver::Block6(inner) => inner.factor(stops),

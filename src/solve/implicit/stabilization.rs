@@ -5,7 +5,6 @@
 
 use super::mode::Mode;
 use crate::linear::{Solver, Sparse};
-use crate::model::Link;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
 
@@ -20,8 +19,9 @@ const ROUNDING: f64 = 1e-13;
 
 /// True where forces of joints or of pretensioned links may hold what elements do not.
 pub fn may_help(cx: &Context) -> bool {
-    let may_hold = || !cx.system.joints.is_empty() || cx.model.each::<Link>().any(|link| link.take_up.is_some());
-    !cx.is_dynamic() && may_hold() && !cx.model.analysis.step_length.is_arc_length()
+    // The length that pretension takes up is a number.
+    let may_hold = !cx.system.joints.is_empty() || !cx.numbers.is_empty();
+    !cx.is_dynamic() && may_hold && !cx.model.analysis.step_length.is_arc_length()
 }
 
 /// What held nothing by itself.
