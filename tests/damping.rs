@@ -160,8 +160,9 @@ fn alpha_damps_motion_against_a_support_that_moves() {
     let damping = "[damping]\nalpha = 1.5\n";
     let (shaken, moved) = (sway(&mast(SHAKEN, damping)), sway(&mast(MOVED, damping)));
     let apart = shaken.iter().zip(&moved).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f64::max);
-    // Two forms of the same equation; in one of them displacements are rounded with the way of the foot, 0.9 m. Without frames: 21 %.
-    assert!(apart < 1e-3 * largest(&shaken, 0), "{apart}");
+    // The way of the foot is exact in one and the scheme's in the other: second order in the step, 1.1e-3 here and 2.6e-4 with half the
+    // step. Without frames the sway is off by 21 %.
+    assert!(apart < 2e-3 * largest(&shaken, 0), "{apart}");
     let [of_shaken, of_moved] = [&shaken, &moved].map(|rows| rows[rows.len() - 1]);
     // What is dissipated is the same; the trapezoidal rule sums it with an error of second order.
     assert!((of_shaken[1] - of_moved[1]).abs() < 2e-3 * of_shaken[1], "{of_shaken:?} {of_moved:?}");
@@ -193,7 +194,7 @@ fn a_factor_of_a_part_replaces_that_of_the_scene() {
 #[test]
 fn alpha_does_not_brake_what_a_support_turns() {
     let foot = "[amplitudes.start]\nkind = \"table\"\npoints = [[0.0, 0.0], [0.5, 2.0], [4.0, 2.0]]\n[[supports]]\nat = \"a\"\nfix = [\"ux\", \"uy\", \"uz\", \"ry\", \"rz\"]\nmotion = { rx = { amplitude = \"start\", history = \"velocity\" } }\n";
-    let model = read_deck(&mast(foot, "[damping]\nalpha = 20.0\nbeta = 1e-3\n"));
+    let model = read_deck(&mast(foot, "[damping]\nalpha = 20.0\nbeta = 1e-3\n[output]\nreactions = true\n"));
     let at = model.constraints.restraints.iter().position(|held| held.motion.is_some()).expect("a motion");
     let mut moment = 0.0;
     run_to_the_end(&model, &mut |frame: &Frame| {

@@ -215,7 +215,7 @@ fn corners_are_said() {
     for amplitude in [
         table(drawn, "interpolation = \"monotone\""),
         table("[0.0, 0.0], [1.0, 0.1]", ""),
-        table(&samples(swing, 1.0, 8), ""),
+        table(&samples(swing, 1.0, 16), ""),
         table(&samples(|t| swing(t.clamp(0.2, 0.7) - 0.2), 1.0, 100), "interpolation = \"monotone\""),
         table(&samples(|t| 0.1 * (TAU * t).sin(), 1.0, 40), ""),
     ] {

@@ -198,14 +198,14 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
     ),
     (
         &["displacement", "displacements", "velocity", "velocities", "acceleration", "accelerations", "disp", "u"],
-        "layers",
+        "reactions",
         "nodes.csv has them, for the nodes that `nodes` chooses",
         None,
     ),
-    (&["stress", "stresses", "strain", "forces", "section_forces", "S"], "layers", "that is `sections` here", None),
-    (&["joint_forces", "rf", "RF"], "layers", "that is `reactions` here", None),
-    (&["bodies"], "layers", "bodies.csv is written by itself", None),
-    (&["vtk", "vtu", "paraview"], "layers", "that is `fields` = { format = \"vtu\" } here", None),
+    (&["stress", "stresses", "strain", "forces", "section_forces", "S"], "reactions", "that is `sections` here", None),
+    (&["joint_forces", "rf", "RF"], "reactions", "that is `reactions` here", None),
+    (&["bodies"], "reactions", "bodies.csv is written by itself", None),
+    (&["vtk", "vtu", "paraview"], "reactions", "that is `fields` = { format = \"vtu\" } here", None),
     (
         &["half", "half_size", "half_lengths", "dimensions", "lengths", "extent"],
         "ends",
@@ -214,7 +214,7 @@ const NOTES: &[(&[&str], &str, &str, Option<&str>)] = &[
     ),
     (
         &["displacement", "displacements", "position", "positions", "rotation"],
-        "profile",
+        "normal_velocity",
         "parts begin where their points lie: only velocities are given",
         None,
     ),

@@ -269,10 +269,7 @@ fn model<'d>(
         study,
     };
     model.parts.extend(links.list.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
-    finish(&mut model, all_nodes, deck.integrator.is_none());
-    if model.analysis.has_inertia() && !report.has_errors() {
-        model.damping.frames = moving_frames(&model, deck, report);
-    }
+    finish(&mut model, all_nodes, deck, report);
     model
 }
 
@@ -391,8 +388,8 @@ fn lead_on(
 }
 
 /// Completes what only the whole model tells: the scheme of automatic steps, stable steps, nodes that nothing needs, and the list of all that are left.
-fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
-    if scheme_is_free && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
+fn finish(model: &mut Model, all_nodes: bool, deck: &Deck, report: &mut Report) {
+    if deck.integrator.is_none() && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
         model.solution.scheme = choose_scheme(model);
         model.solution.scheme_is_chosen = true;
     }
@@ -409,5 +406,8 @@ fn finish(model: &mut Model, all_nodes: bool, scheme_is_free: bool) {
     drop_unused(model);
     if all_nodes {
         write_all_nodes(model);
+    }
+    if model.analysis.has_inertia() && !report.has_errors() {
+        model.damping.frames = moving_frames(model, deck, report);
     }
 }

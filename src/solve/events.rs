@@ -30,8 +30,8 @@ impl Events {
 
     /// Looks at the state at the end of a step.
     pub fn look(&mut self, cx: &Context, state: &State) {
-        if let Some(branches) = self.branches.filter(|_| !self.met) {
-            self.met = state.work.material != self.spent || kinks::branches(cx.system, state) != branches;
+        if let Some(first) = self.branches.filter(|_| !self.met) {
+            self.met = state.work.material != self.spent || kinks::branches(cx.system, state) != first;
         }
     }
 

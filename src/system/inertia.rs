@@ -96,7 +96,7 @@ impl Inertia {
     /// without, it is M and α M alone.
     pub fn tangent(&self, node: &Node, weights: &TangentWeights, damping: f64, gyroscopic: bool) -> Mat6 {
         let TangentWeights { rate, acceleration, turning, .. } = *weights;
-        let free = self.free.as_ref().filter(|_| turning);
+        let free = self.free.as_deref().zip(turning);
         let mut K = Mat6::zeros();
         let w = acceleration + damping * rate;
         K.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
@@ -108,8 +108,8 @@ impl Inertia {
                 Some(own) => rate * (node.R() * own.J0 * node.R().transpose()),
             };
             let mut k = acceleration * J + damped;
-            if let (true, Some(free)) = (gyroscopic, free) {
-                k = turning_tangent(node, &J, free, [rate, acceleration]) + damped;
+            if let (true, Some((free, ahead))) = (gyroscopic, free) {
+                k = turning_tangent(node, &J, (free, ahead), [rate, acceleration]) + damped;
             } else if gyroscopic {
                 let (omega, alpha) = (skew(&node.omega), skew(&node.alpha));
                 let L = skew(&(J * node.omega));
@@ -124,18 +124,21 @@ impl Inertia {
     }
 }
 
-/// The derivative of J α + ω×J ω for a small turn δθ of a body whose coordinates turn back by κ = K ω: in axes of the body
-/// δω = (rate + ω~ − κ~) δθ and δα = (acceleration + rate (ω~ − 2 κ~) + (κ~ − ω~) κ~ + ½ (α + g)~) δθ. The body turns the whole moment
-/// too, which is not small about an axis with hardly any inertia.
-fn turning_tangent(node: &Node, J: &Mat3, free: &FreeMotion, [rate, acceleration]: [f64; 2]) -> Mat3 {
+/// The derivative of J α + ω×J ω for a small turn δθ of a body whose coordinates turn back by κ = K ω₀, a time `ahead` of the start of
+/// the step. With ω_f of free rotation δω = (rate + ω_f~ − κ~) δθ and
+/// δα = (acceleration + rate (ω_f~ − 2 κ~) + (κ~ − ω_f~) κ~ + ½ (α + g)~) δθ in axes of the body. It turns the whole moment too, which is
+/// not small about an axis with hardly any inertia.
+fn turning_tangent(node: &Node, J: &Mat3, (free, ahead): (&FreeMotion, f64), [rate, acceleration]: [f64; 2]) -> Mat3 {
     let (R, identity) = (node.R(), Mat3::identity());
-    let own = R.tr_mul(&node.omega);
-    let kappa = skew(&(R * (free.unwinding() * own)));
-    let mean = 0.5 * (node.alpha + R * free.acceleration(&own));
+    let (own, alpha) = (R.tr_mul(&node.omega), R.tr_mul(&node.alpha));
+    let g = free.acceleration(&own);
+    let kappa = skew(&(R * (free.unwinding() * (own - ahead * alpha))));
+    let of_free = skew(&(R * (own - ahead * (alpha - g))));
+    let mean = skew(&(R * (0.5 * (alpha + g))));
     let (omega, L) = (skew(&node.omega), J * node.omega);
     let moment = J * node.alpha + node.omega.cross(&L);
-    let of_omega = rate * identity + omega - kappa;
-    let of_alpha = acceleration * identity + rate * (omega - 2.0 * kappa) + (kappa - omega) * kappa + skew(&mean);
+    let of_omega = rate * identity + of_free - kappa;
+    let of_alpha = acceleration * identity + rate * (of_free - 2.0 * kappa) + (kappa - of_free) * kappa + mean;
     J * of_alpha + (omega * J - skew(&L)) * of_omega - skew(&moment)
 }
 

@@ -234,9 +234,10 @@ fn nothing_rebounds_with_a_restitution_of_zero() {
             let fastest = done.rows.iter().map(|row| row[2]).fold(f64::NEG_INFINITY, f64::max);
             let last = done.rows.last().unwrap();
             println!("{scheme}, g = {gravity}: {:.1e}, {last:?}", fastest / 4.0);
-            // The spring takes over at 1e-7 of the size of the scene in a time 1/ω, and pushes by some of these: 1e-5 of the speed. Weight makes
-            // it swing, more slowly than the speed g/ω = 0.03 at which it sinks in: a third of that.
-            let most = if gravity > 0.0 { 0.01 } else { 1e-4 };
+            // The spring takes over at 1e-7 of the size of the scene in a time 1/ω, and pushes by some of these: 1e-5 of the speed. Under weight
+            // the spring takes the way over at g/ω = 0.03 for some 1/ω, and is pressed in by up to three times the weight: it swings back by
+            // twice g/ω at most, and never leaves the surface.
+            let most = if gravity > 0.0 { 0.063 } else { 1e-4 };
             assert!(fastest < most, "{scheme}: {fastest}");
             // What is lost of 16 J: in the impact, and 15 % at most by steps that are a sixteenth of 1/ω.
             let lost = 16.0 + 2.0 * gravity * (0.01 - last[1]);
@@ -293,8 +294,8 @@ fn nothing_rebounds_from_faces_either() {
             let landed = done.rows.iter().position(|row| row[0] < 0.0).expect("it lands");
             let fastest = done.rows[landed..].iter().map(|row| row[1]).fold(f64::NEG_INFINITY, f64::max);
             println!("{contact}, {mass}: {fastest:.1e}, {:?}", done.rows.last());
-            // It falls at 1.4 m/s, and swings by a third of g/ω at most, ω² = 4 k/m.
-            assert!(fastest < 0.3 * 10.0 * (mass / 4e6f64).sqrt(), "{mass}: {fastest}");
+            // It falls at 1.4 m/s, and swings by twice g/ω at most, ω² = 4 k/m.
+            assert!(fastest < 2.0 * 10.0 * (mass / 4e6f64).sqrt(), "{mass}: {fastest}");
         }
     }
 }

@@ -193,7 +193,7 @@ fn instances_are_placed() {
 fn lists_take_beams_as_sets_do() {
     let head = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\n\
                 c = [2.0, 1.0, 0.0]\n[materials.m]\nmodel = \"elastic\"\nyoungs_modulus = 1e9\npoisson_ratio = 0.3\ndensity = 1.0\n\
-                [sections.s]\nshape = \"circle\"\nradius = 0.01\n[[beams]]\nname = \"rod\"\npath = [\"a\", \"b\"]\nelements = 3\n\
+                [sections.s]\nshape = \"rectangle\"\nwidth = 0.02\nheight = 0.02\n[[beams]]\nname = \"rod\"\npath = [\"a\", \"b\"]\nelements = 3\n\
                 material = \"m\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[bars]]\nname = \"tie\"\npath = [\"b\", \"c\"]\n\
                 material = \"m\"\narea = 1e-4\n[[bodies]]\nname = \"hub\"\ncenter = [2.0, 1.0, 0.0]\nmass = 1.0\n\
                 inertia = [1.0, 1.0, 1.0]\n[sets]\nof_rod = [\"rod\"]\nof_tie = [\"tie\"]\n";
