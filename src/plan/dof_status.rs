@@ -144,6 +144,11 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let mut moved = resisted.to_vec();
     for load in &model.loading.nodal {
+        if let Some(along) = load.coordinate() {
+            let reach = along.lock.reach()[along.end];
+            (0..6).for_each(|dof| moved[load.node][dof] |= reach[dof]);
+            continue;
+        }
         for i in 0..3 {
             moved[load.node][i] |= load.follower || load.force[i] != 0.0;
             moved[load.node][3 + i] |= load.follower || load.moment[i] != 0.0;

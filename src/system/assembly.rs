@@ -17,6 +17,7 @@ use crate::elements::{ElementBlock, Partners};
 use crate::linear::Solver;
 use crate::math::lanes::LANES;
 use crate::math::{Mat3, Mat6};
+use crate::model::LoadedCoordinate;
 use crate::state::{Configuration, Node};
 use rayon::prelude::*;
 
@@ -34,6 +35,8 @@ pub struct Assembly {
     masses: Vec<Destination>,
     /// Destinations of the faces under follower pressure, in their order.
     faces: Vec<Destination>,
+    /// Destinations of the efforts of joints, in the order of the loads.
+    efforts: Vec<Destination>,
     joints: Vec<Destination>,
     diagonals: Diagonals,
     scatter: Scatter,
@@ -96,6 +99,7 @@ impl Assembly {
             partners.iter().map(|(group, partners)| WanderingPairs::new(*group, partners, &mut find)).collect();
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
         let faces: Vec<Destination> = faces.map(|face| find.local(face.nodes(), 3)).collect();
+        let efforts = efforts(system).map(|(_, along)| find.local(&along.ends, 6)).collect();
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
         let joints: Vec<Destination> =
             joints.map(|(joint, own)| find.local(&joint.matrix_nodes().chain([own]).collect::<Vec<_>>(), 6)).collect();
@@ -113,6 +117,7 @@ impl Assembly {
             nodes: own,
             masses: of_masses,
             faces,
+            efforts,
             joints,
             diagonals,
             scatter,
@@ -200,6 +205,7 @@ impl Assembly {
             self.add_elements(system, now, weights, values);
             self.add_wanderers(system, now, weights.rate, values);
             self.add_pressures(system, nodes, loading, values);
+            self.add_efforts(system, nodes, loading, values);
         }
         self.form_nodes(system, nodes, loading, forces, weights);
         self.add_nodes(values);
@@ -292,6 +298,16 @@ impl Assembly {
         }
     }
 
+    fn add_efforts(&mut self, system: &System, nodes: &[Node], loading: &Loading, values: &mut [f64]) {
+        let Scratch { projections, projected, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+        let mut K = [0.0; 12 * 12];
+        for ((index, along), destination) in efforts(system).zip(&self.efforts) {
+            along.stiffness(loading.factors[index], nodes, &mut K);
+            how.add((&mut K, 12), destination, projected, values);
+        }
+    }
+
     /// Adds the joints last, for their penalty factors rest on the matrix of all the others.
     fn add_joints(
         &mut self,
@@ -348,7 +364,7 @@ impl Assembly {
             block += k;
         };
         for (load, factor) in system.loads.iter().zip(&loading.factors).filter(|(l, _)| l.follower) {
-            let [f, m] = follower_stiffness(load, *factor, &nodes[load.node]);
+            let [f, m] = follower_stiffness(load, *factor, nodes);
             add(load.node, 0, f);
             add(load.node, 3, m);
         }
@@ -387,4 +403,10 @@ impl Assembly {
             how.add((K, 3 * n), destination, projected, values);
         }
     }
+}
+
+/// The efforts of joints with the indices of their loads, each once.
+fn efforts(system: &System) -> impl Iterator<Item = (usize, &LoadedCoordinate)> {
+    let coordinates = system.loads.iter().enumerate().filter_map(|(index, load)| Some((index, load.coordinate()?)));
+    coordinates.filter(|(_, along)| along.end == 1)
 }

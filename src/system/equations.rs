@@ -3,7 +3,7 @@
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
-use super::loads::{Loading, load_on};
+use super::loads::{self, Loading, load_on};
 use super::mass_damping::MassDamping;
 use super::mass_scaling::MassScaling;
 use super::multipliers::{Multipliers, REGULARIZATION, REGULARIZATION_OF_TREES};
@@ -329,7 +329,7 @@ impl System {
 
     fn add_loads(&self, nodes: &[Node], loading: &Loading, F: &mut [Force], scale: &mut Scale) {
         for (load, factor) in self.loads.iter().zip(&loading.factors) {
-            let (f, m) = load_on(load, *factor, &nodes[load.node]);
+            let (f, m) = load_on(load, *factor, nodes);
             let f = [f.x, f.y, f.z, m.x, m.y, m.z];
             scale.include(&[f]);
             for (sum, f) in F[load.node].iter_mut().zip(f) {
@@ -377,13 +377,7 @@ impl System {
         work: &mut f64,
     ) {
         for i in nodal {
-            let (load, f0, f1) = (&self.loads[i], from.1.factors[i], to.1.factors[i]);
-            let (a, b) = (&from.0[load.node], &to.0[load.node]);
-            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, f0, a), load_on(load, f1, b));
-            *work += 0.5 * (f_a + f_b).dot(&b.relative_position(a));
-            if load.moment != Vec3::zeros() {
-                *work += 0.5 * (m_a + m_b).dot(&rotation::log(&(b.rotation * a.rotation.conjugate())));
-            }
+            *work += loads::load_work(&self.loads[i], (from.1.factors[i], from.0), (to.1.factors[i], to.0));
         }
         for i in pressures {
             let ends = [from.1.pressures[i], to.1.pressures[i]];
@@ -399,7 +393,7 @@ impl System {
         loading: &Loading,
         forces: &mut Vec<Force>,
     ) -> Vec3 {
-        let of_load = |i: usize| load_on(&self.loads[i], loading.factors[i], &nodes[self.loads[i].node]).0;
+        let of_load = |i: usize| load_on(&self.loads[i], loading.factors[i], nodes).0;
         let sum: Vec3 = nodal.map(of_load).sum();
         forces.clear();
         forces.resize(if pressures.is_empty() { 0 } else { nodes.len() }, [0.0; 6]);
@@ -428,7 +422,7 @@ impl System {
         }
         for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
             let (a, b) = (&from.0[load.node], &to.0[load.node]);
-            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, a), load_on(load, *f1, b));
+            let ((f_a, m_a), (f_b, m_b)) = (load_on(load, *f0, from.0), load_on(load, *f1, to.0));
             add(f_a, f_b, moved(load.node));
             add(m_a, m_b, rotation::log(&(b.rotation * a.rotation.conjugate())));
         }
@@ -525,7 +519,7 @@ impl System {
         self.groups.iter().all(|g| g.block.is_linear())
             && self.rigid_links.is_empty()
             && self.joints.is_empty()
-            && self.loads.iter().all(|l| !l.follower)
+            && self.loads.iter().all(|l| !l.follower && l.coordinate().is_none())
             && self.pressures.is_empty()
     }
 }

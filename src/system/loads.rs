@@ -1,7 +1,7 @@
 //! The loads that act at one instant.
 
-use crate::math::{Mat3, Vec3, skew};
-use crate::model;
+use crate::math::{Mat3, Vec3, angular, linear, rotation, skew};
+use crate::model::{self, LoadedCoordinate};
 use crate::snapshot::keep;
 use crate::state::Node;
 
@@ -30,12 +30,17 @@ impl Loading {
     }
 }
 
-/// Force and moment of a load on its node, global components; those of a follower load rotate with the node.
+/// Force and moment of a load on its node, global components; those of a follower load rotate with the node, those of an effort go along the
+/// coordinate of its joint.
 #[inline]
-pub(super) fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Vec3) {
+pub(super) fn load_on(load: &model::Load, factor: f64, nodes: &[Node]) -> (Vec3, Vec3) {
+    if let Some(LoadedCoordinate { ends: [a, b], end, lock, effort }) = load.coordinate() {
+        let G = lock.gradient(&nodes[*a], &nodes[*b])[*end];
+        return (factor * effort * linear(&G), factor * effort * angular(&G));
+    }
     let (f, m) = (factor * load.force, factor * load.moment);
     if load.follower {
-        let R = node.R();
+        let R = nodes[load.node].R();
         (R * f, R * m)
     } else {
         (f, m)
@@ -43,7 +48,49 @@ pub(super) fn load_on(load: &model::Load, factor: f64, node: &Node) -> (Vec3, Ve
 }
 
 /// Load stiffness −∂(f, m)/∂θ of a follower load, as the skew matrices of its force and its moment.
-pub(super) fn follower_stiffness(load: &model::Load, factor: f64, node: &Node) -> [Mat3; 2] {
-    let (f, m) = load_on(load, factor, node);
+pub(super) fn follower_stiffness(load: &model::Load, factor: f64, nodes: &[Node]) -> [Mat3; 2] {
+    let (f, m) = load_on(load, factor, nodes);
     [skew(&f), skew(&m)]
+}
+
+/// The work of a load by the mean of its values at two configurations, each a factor and the nodes.
+pub(super) fn load_work(load: &model::Load, from: (f64, &[Node]), to: (f64, &[Node])) -> f64 {
+    if let Some(coordinate) = load.coordinate() {
+        return 0.5 * (from.0 + to.0) * coordinate.effort * coordinate.way(from.1, to.1);
+    }
+    let (a, b) = (&from.1[load.node], &to.1[load.node]);
+    let ((f_a, m_a), (f_b, m_b)) = (load_on(load, from.0, from.1), load_on(load, to.0, to.1));
+    let work = 0.5 * (f_a + f_b).dot(&b.relative_position(a));
+    match load.moment == Vec3::zeros() {
+        true => work,
+        false => work + 0.5 * (m_a + m_b).dot(&rotation::log(&(b.rotation * a.rotation.conjugate()))),
+    }
+}
+
+impl LoadedCoordinate {
+    /// The way of the coordinate between two configurations, less than half a turn apart. The load on the second end counts it, that on the
+    /// first none of it.
+    fn way(&self, from: &[Node], to: &[Node]) -> f64 {
+        if self.end == 0 {
+            return 0.0;
+        }
+        let [before, after] = [from, to].map(|nodes| {
+            let [a, b] = self.ends.map(|end| &nodes[end]);
+            self.lock.gap(a, b)[0]
+        });
+        self.lock.nearest(after - before)
+    }
+
+    /// Writes the load stiffness −∂(f, m)/∂(x, θ) of both ends, 12×12 in row-major order.
+    pub(super) fn stiffness(&self, factor: f64, nodes: &[Node], K: &mut [f64]) {
+        K.fill(0.0);
+        let [a, b] = self.ends.map(|end| &nodes[end]);
+        self.lock.stiffness(a, b, -factor * self.effort, |row, column, block| {
+            for i in 0..3 {
+                for j in 0..3 {
+                    K[12 * (3 * row + i) + 3 * column + j] += block[(i, j)];
+                }
+            }
+        });
+    }
 }

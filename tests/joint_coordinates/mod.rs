@@ -11,6 +11,7 @@ mod linkages;
 mod motors;
 mod robot_arm;
 mod rubbing;
+mod slots;
 mod springs;
 mod stages;
 mod turns;

@@ -2,6 +2,7 @@
 
 use super::moving_frame::MovingFrames;
 use crate::amplitude::Amplitude;
+use crate::constraints::joint::ConstraintEquation;
 use crate::elements::pressure::Face;
 use crate::math::Vec3;
 
@@ -48,20 +49,60 @@ pub struct Load {
     pub follower: bool,
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
-    /// The part, by its index in [`super::Model::parts`], and its element, along which the load that this is a share of is spread.
-    pub along: Option<(usize, usize)>,
+    /// What it acts along: it is then a share of a load on that. `None` for a load on the node alone.
+    pub along: Option<LoadAlong>,
     /// False where the moment is none that acts on the node by itself: that of a share of a spread load, which makes up for the shape between the
     /// nodes and cancels those of its neighbours, and what iterations have left at the end of the stage before.
     pub moment_counts: bool,
 }
 
+/// What a load acts along, of which the loads on nodes are shares.
+#[derive(Debug, Clone, Copy)]
+pub enum LoadAlong {
+    /// An element over which a load per length is spread: the part, by its index in [`super::Model::parts`], and its element.
+    Element(usize, usize),
+    /// The coordinate of a joint: the load acts on the node as far as this moves the coordinate.
+    Coordinate(LoadedCoordinate),
+}
+
+/// The effort of a motor as the load on one end of its joint. The directions are those of the gradient of the coordinate, so that both ends
+/// together do the work of the effort along the coordinate, and action equals reaction.
+#[derive(Debug, Clone, Copy)]
+pub struct LoadedCoordinate {
+    /// The two ends of the joint.
+    pub ends: [usize; 2],
+    /// Which of them the load acts on, 0 or 1.
+    pub end: usize,
+    /// The equation that would lock the joint; its violation is the coordinate.
+    pub lock: ConstraintEquation,
+    /// Force or moment along the coordinate.
+    pub effort: f64,
+}
+
 impl Load {
+    /// The coordinate of a joint along which it acts.
+    pub fn coordinate(&self) -> Option<&LoadedCoordinate> {
+        match &self.along {
+            Some(LoadAlong::Coordinate(coordinate)) => Some(coordinate),
+            _ => None,
+        }
+    }
+
+    /// Multiplies it by a factor.
+    pub fn scale(&mut self, factor: f64) {
+        self.force *= factor;
+        self.moment *= factor;
+        if let Some(LoadAlong::Coordinate(coordinate)) = &mut self.along {
+            coordinate.effort *= factor;
+        }
+    }
+
     /// True where it has a potential, so that its tangent is symmetric: it does not follow its node, and its moment acts about the `normal` of a
     /// plane motion alone, since moments about axes fixed in space do work that depends on the order of rotations. A moment that does not count
-    /// by itself is left aside.
+    /// by itself is left aside. The potential of an effort is the coordinate times the effort.
     pub fn has_potential(&self, normal: Option<usize>) -> bool {
         let about_normal = || (0..3).all(|i| self.moment[i] == 0.0 || normal == Some(i));
-        !self.follower && (!self.moment_counts || about_normal())
+        self.coordinate().is_some() || !self.follower && (!self.moment_counts || about_normal())
     }
 }
 

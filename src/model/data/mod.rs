@@ -42,7 +42,7 @@ pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
 pub use link::{Link, LinkKind, count_along};
-pub use loading::{BaseAcceleration, Damping, Load, Loading, NodalDamping, OwnDamping, Pressure};
+pub use loading::{BaseAcceleration, Damping, Load, LoadAlong, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure};
 pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use modes::{ModeExtent, ModeKind, ModesAsked};
 pub use moving_frame::{MovingFrame, MovingFrames};

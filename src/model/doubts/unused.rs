@@ -1,7 +1,7 @@
 //! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
 
 use crate::elements::pressure::Face;
-use crate::model::data::{ArcLength, ExpectAt, Model, StepLength, Stop, StopQuantity, When};
+use crate::model::data::{ArcLength, ExpectAt, LoadAlong, Model, StepLength, Stop, StopQuantity, When};
 
 /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
 /// rigid parts have none.
@@ -21,7 +21,12 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     let drives = model.constraints.joints.iter_mut().filter_map(|joint| joint.coordinate.as_mut()?.drive.as_mut());
     drives.for_each(|drive| of(&mut drive.node));
     model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
-    model.loading.nodal.iter_mut().for_each(|load| of(&mut load.node));
+    for load in &mut model.loading.nodal {
+        of(&mut load.node);
+        if let Some(LoadAlong::Coordinate(coordinate)) = &mut load.along {
+            coordinate.ends.iter_mut().for_each(&mut *of);
+        }
+    }
     model.loading.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
     model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));
     model.output.nodes.iter_mut().for_each(&mut *of);

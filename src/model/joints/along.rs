@@ -11,7 +11,8 @@ use crate::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
 use crate::elements::hysteresis::Hysteresis;
 use crate::math::{Mat3, Vec3};
 use crate::model::data::{
-    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, Node, OwnDamping, PrescribedMotion,
+    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadAlong, LoadedCoordinate, Node,
+    OwnDamping, PrescribedMotion,
 };
 use crate::model::links::ModelLinks;
 use crate::model::own_damping::of_spring;
@@ -450,16 +451,20 @@ impl ActsAlong<'_> {
                 Coordinate::Angle => (Vec3::zeros(), pull),
                 Coordinate::Distance => (pull, Vec3::zeros()),
             };
-            let load = |node, sign: f64| Load {
-                node,
+            efforts.extend([(0, -1.0), (1, 1.0)].map(|(end, sign)| Load {
+                node: placed.ends[end],
                 force: sign * force,
                 moment: sign * moment,
-                follower: true,
+                follower: false,
                 amplitude: effort.amplitude,
-                along: None,
+                along: Some(LoadAlong::Coordinate(LoadedCoordinate {
+                    ends: placed.ends,
+                    end,
+                    lock,
+                    effort: effort.value,
+                })),
                 moment_counts: true,
-            };
-            efforts.extend([load(from, -1.0), load(to, 1.0)]);
+            }));
         }
         let spring = (self.counted || self.law != CoordinateLaw::FREE)
             .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law), self.own_damping));

@@ -2,7 +2,7 @@
 
 use crate::elements::beam;
 use crate::math::{Vec3, quadrature};
-use crate::model::data::{LineElement, Load, Part};
+use crate::model::data::{LineElement, Load, LoadAlong, Part};
 use crate::model::places::nodes::Topology;
 use crate::sections::Stiffness;
 
@@ -98,7 +98,7 @@ impl LineLoad {
             moment,
             follower: self.follower,
             amplitude: self.amplitude,
-            along: Some(along),
+            along: Some(LoadAlong::Element(along.0, along.1)),
             moment_counts: false,
         };
         line.nodes.iter().zip(shares).filter(|(_, share)| *share != [Vec3::zeros(); 2]).map(load).collect()

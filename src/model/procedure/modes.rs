@@ -135,8 +135,7 @@ pub fn hold_at_start(model: &mut Model) {
     };
     for load in &mut loading.nodal {
         let factor = at_start(&mut load.amplitude);
-        load.force *= factor;
-        load.moment *= factor;
+        load.scale(factor);
     }
     for load in &mut loading.pressures {
         load.pressure *= at_start(&mut load.amplitude);

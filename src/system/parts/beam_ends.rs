@@ -5,7 +5,7 @@ use super::beams::{in_section, lumped};
 use super::masses::NodalMasses;
 use crate::elements::{Force, IntegrationPoint, subtract};
 use crate::math::{Mat3, Vec3};
-use crate::model::{AnalysisKind, Beam, ExpectAt, MassKind, Model, PartType, SectionPlaces};
+use crate::model::{AnalysisKind, Beam, ExpectAt, LoadAlong, MassKind, Model, PartType, SectionPlaces};
 use crate::state::Configuration;
 use crate::system::inertia::{ConsistentMass, Inertia, OwnDrag};
 use crate::system::loads::{Loading, load_on};
@@ -45,7 +45,7 @@ impl BeamEnds {
     pub fn new(model: &Model, x: &[Vec3], mass_scaling: Option<&MassScaling>) -> BeamEnds {
         let mut loads: HashMap<(usize, usize, usize), Vec<usize>> = HashMap::new();
         for (index, load) in model.loading.nodal.iter().enumerate() {
-            if let Some((part, element)) = load.along {
+            if let Some(LoadAlong::Element(part, element)) = load.along {
                 loads.entry((part, element, load.node)).or_default().push(index);
             }
         }
@@ -131,7 +131,7 @@ impl BeamEnds {
             subtract(&mut sum, 0, &(m * (inertia - loading.field)));
         }
         for &index in &end.loads {
-            let (f, m) = load_on(&loads[index], loading.factors[index], node);
+            let (f, m) = load_on(&loads[index], loading.factors[index], now.nodes);
             subtract(&mut sum, 0, &-f);
             subtract(&mut sum, 3, &-m);
         }
