@@ -324,6 +324,9 @@ impl Assembly {
         let add = |j: usize, K: &mut [f64], values: &mut [f64]| {
             how.add((K, joints::width(&system.joints[j])), &destinations[j], projected, values);
         };
+        if weights.acceleration == 0.0 {
+            self.diagonals.round(system, nodes, &forces.on_dependents);
+        }
         let multipliers = &mut forces.multipliers;
         joints::tangents(system, nodes, (&mut self.diagonals, projections), multipliers, weights, values, add);
     }

@@ -14,6 +14,9 @@ pub(super) struct Diagonals {
     /// By node: the sum of [`Diagonal::moment`] over the joints that act on it, and the longest of their arms. Written where no inertia is in
     /// the matrix.
     on_nodes: Vec<[f64; 2]>,
+    /// By node: what rounding leaves of the stiffness against rotations that forces on dependent nodes have, where they cancel. Written
+    /// where no inertia is in the matrix.
+    rounding: Vec<f64>,
     /// By constraint equation: its force, or zero where that is rounding.
     forces: Vec<f64>,
     /// The size of the scene.
@@ -27,6 +30,7 @@ impl Diagonals {
         Diagonals {
             joints: system.joints.iter().map(of).collect(),
             on_nodes: vec![[0.0; 2]; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
+            rounding: vec![0.0; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
             forces: vec![0.0; system.multipliers()],
             extent: 0.0,
         }
@@ -57,6 +61,19 @@ impl Diagonals {
         }
     }
 
+    /// Measures the rounding of what forces on dependent nodes add to the stiffness of their masters: under an even load on a rigid part their sum
+    /// is zero.
+    pub fn round(&mut self, system: &System, nodes: &[Node], on_dependents: &[Vec3]) {
+        if system.joints.is_empty() {
+            return;
+        }
+        self.rounding.fill(0.0);
+        for (dependent, f) in system.rigid_links.iter().zip(on_dependents) {
+            let arm = dependent.arm(&nodes[dependent.master]);
+            self.rounding[dependent.master] += NOTHING * f.norm() * arm.norm();
+        }
+    }
+
     /// Measures the stiffness that the forces of joints have.
     fn measure(&mut self, system: &System, nodes: &[Node], projections: &[Vec<Mat6>]) {
         self.on_nodes.fill([0.0; 2]);
@@ -78,9 +95,9 @@ impl Diagonals {
         let on_nodes = places.iter().map(|place| self.on_nodes[place.independent]);
         let [moment, arm] = on_nodes.fold([0.0f64; 2], |most, of| [most[0].max(of[0]), most[1].max(of[1])]);
         let mut stiff = [0.0f64; 2];
-        for (dof, slot) in places.iter().flat_map(|place| place.slots.iter().enumerate()) {
+        for (dof, size) in places.iter().flat_map(|place| place.sizes(values, &self.rounding).into_iter().enumerate()) {
             let stiff = &mut stiff[usize::from(dof > 2)];
-            *stiff = slot.map_or(*stiff, |slot| stiff.max(values[slot as usize].abs()));
+            *stiff = size.map_or(*stiff, |size| stiff.max(size));
         }
         let [translations, rotations] = stiff;
         let moment = match translations == 0.0 {
@@ -105,6 +122,16 @@ struct Place {
     independent: usize,
     /// The slots of its six degrees of freedom on the diagonal.
     slots: [Option<u32>; 6],
+}
+
+impl Place {
+    /// The sizes of the numbers on the diagonal, zero where they are rounding.
+    fn sizes(&self, values: &[f64], rounding: &[f64]) -> [Option<f64>; 6] {
+        std::array::from_fn(|dof| {
+            let entry = values[self.slots[dof]? as usize];
+            Some(if dof > 2 && entry.abs() <= rounding[self.independent] { 0.0 } else { outweighing(entry) })
+        })
+    }
 }
 
 impl Diagonal {
@@ -137,19 +164,20 @@ impl Diagonal {
         G: &[Vec6; 2],
         (rotational, even): (bool, bool),
         projections: &[Vec<Mat6>],
-        values: &[f64],
+        (values, rounding): (&[f64], &[f64]),
     ) -> [f64; 2] {
         let (mut compliance, mut of_kind, mut largest) = (0.0, 0.0, 0.0f64);
-        for &Place { end, node, index, slots, .. } in &self.0 {
+        for place in &self.0 {
+            let &Place { end, node, index, .. } = place;
             let g = projections[node][index].tr_mul(&G[end]);
-            let size = |slot: &Option<u32>| slot.map(|slot| outweighing(values[slot as usize]));
-            let mean = |dofs: &[Option<u32>]| {
-                let known = || dofs.iter().filter_map(size);
+            let sizes = place.sizes(values, rounding);
+            let mean = |dofs: &[Option<f64>]| {
+                let known = || dofs.iter().flatten();
                 known().sum::<f64>() / known().count().max(1) as f64
             };
-            let means = if even { [mean(&slots[..3]), mean(&slots[3..])] } else { [0.0; 2] };
-            for (dof, (g, slot)) in g.iter().zip(&slots).enumerate() {
-                let Some(own) = size(slot) else { continue };
+            let means = if even { [mean(&sizes[..3]), mean(&sizes[3..])] } else { [0.0; 2] };
+            for (dof, (g, own)) in g.iter().zip(sizes).enumerate() {
+                let Some(own) = own else { continue };
                 let K = if even { means[usize::from(dof > 2)] } else { own };
                 if K > 0.0 {
                     compliance += g * g / K;
@@ -230,7 +258,8 @@ pub(super) fn set(
         firmest = [firmest[0].max(translations), firmest[1].max(rotations)];
         for (k, row) in joint.equations.iter().enumerate().filter(|_| firm.is_none()) {
             let how = (row.is_rotational(), multipliers.may_share());
-            let [s, heaviest] = diagonal.stiffness(&row.gradient(a, b), how, projections, values);
+            let [s, heaviest] =
+                diagonal.stiffness(&row.gradient(a, b), how, projections, (values, &diagonals.rounding));
             let s = match joint.is_driven(k) {
                 true => drive_penalty(
                     s,
