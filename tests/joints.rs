@@ -485,6 +485,29 @@ fn a_driven_screw_at_one_place_has_six_independent_equations() {
     assert_eq!(Plan::new(&model, &system, 1).redundant_constraints.as_deref(), Some(&[][..]));
 }
 
+/// Reactions that equations leave open are told of what the deck has: of the support of a point, or the attachment, and of its directions.
+#[test]
+fn redundant_reactions_are_those_of_supports_and_attachments() {
+    let told = |more: &str| {
+        let model = crate::support::read_deck(&format!(
+            "analysis = {{ kind = \"static\", end_time = 1.0, time_step = 0.5 }}\npoints = {{ p = [0.0, 0.0, 0.0], q = [1.0, 0.0, 0.5] }}\n\
+             [[bodies]]\nname = \"b\"\ncenter = [0.5, 0.5, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+             [[attachments]]\nbody = \"b\"\nnodes = [\"p\", \"q\"]\n{more}"
+        ));
+        let system = System::new(&model).expect("a system");
+        rdsolve::plan::explain::redundant_constraints(&Plan::new(&model, &system, 1), &model, &system).join("; ")
+    };
+    let clamped = told("[[supports]]\nat = [\"p\", \"q\"]\nfix = \"all\"\n");
+    assert!(clamped.starts_with("the support of `q`: ux, uy, uz, rz, rx and ry are redundant"), "{clamped}");
+    let hinged =
+        told("[[supports]]\nat = [\"p\", \"q\"]\nfix = \"translations\"\n[[supports]]\nat = \"p\"\nfix = [\"ry\"]\n");
+    assert!(hinged.contains("the support of `q`: ") && !hinged.contains("joint"), "{hinged}");
+    let second = "[[bodies]]\nname = \"c\"\ncenter = [0.5, -0.5, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+                  [[attachments]]\nbody = \"c\"\nnodes = [\"p\", \"q\"]\n";
+    let twice = told(second);
+    assert!(twice.starts_with("the attachment of `q`: ux, uy, uz, rz, rx and ry are redundant"), "{twice}");
+}
+
 #[test]
 fn hinges_that_say_the_same_share_the_weight() {
     // A door on three hinges in a line: 15 rows, 5 of them new.

@@ -14,7 +14,7 @@ pub struct Angle {
     pub p: Vec3,
     /// Unit vector across both, so that p, s and the axis make a right-handed frame.
     pub s: Vec3,
-    /// The unit vector of the second node whose turning is the angle: p, unless the angle counts from a later place of both nodes.
+    /// The unit vector of the second node whose angle from p to s it is: p itself, unless the angle counts from another place of the nodes.
     pub turned: Vec3,
 }
 
@@ -46,6 +46,12 @@ impl Angle {
         let (x, y) = (p.dot(&u), s.dot(&u));
         let square = x * x + y * y;
         Terms { x, y, turns: [p.cross(&u), s.cross(&u)], first: [-y / square, x / square] }
+    }
+
+    /// The components of the vector of the second node along p, s and across both.
+    pub fn across(&self, a: &Node, b: &Node) -> [f64; 3] {
+        let u = a.R().tr_mul(&(b.R() * self.turned));
+        [self.p.dot(&u), self.s.dot(&u), self.p.cross(&self.s).dot(&u)]
     }
 
     /// The angle of the second node from the first, from −π to π, with its first two derivatives in time.

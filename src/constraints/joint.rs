@@ -6,6 +6,7 @@
 //! = λ ∂²c, for spatial spins as everywhere.
 
 use super::angle::{Angle, body_vector};
+use super::given_angle::GivenAngle;
 use crate::math::{Mat3, Vec3, Vec6, skew, stack};
 use crate::state::Node;
 use std::f64::consts::TAU;
@@ -125,6 +126,8 @@ pub enum ConstraintEquation {
     },
     /// The second node has not turned from the first about an axis that both share.
     Angle(Angle),
+    /// One of the rotations of the first node against the second, a support, is zero.
+    Given(GivenAngle),
     /// The second node goes along a shared axis by `lead` for each turn about it: −(x_a − x_b)·R_b e − `at` = `lead` θ/2π.
     Screw {
         /// The angle θ of the second node from the first.
@@ -155,7 +158,9 @@ impl ConstraintEquation {
         match self {
             ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
             ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
-            ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) => [turns; 2],
+            ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) | ConstraintEquation::Given(_) => {
+                [turns; 2]
+            }
             ConstraintEquation::Screw { .. } => [[true; 6]; 2],
             ConstraintEquation::Distance { .. } => [moves; 2],
         }
@@ -195,6 +200,7 @@ impl ConstraintEquation {
                 let [gap, ..] = self.gap(a, b);
                 ConstraintEquation::Screw { angle: *angle, e: *e, at: at + gap, lead: *lead }
             }
+            ConstraintEquation::Given(angle) => ConstraintEquation::Given(angle.from_here(a)),
             // A drive is never held where it is: it goes on.
             ConstraintEquation::Angle(_) => *self,
         }
@@ -212,6 +218,7 @@ impl ConstraintEquation {
     pub fn nearest(&self, gap: f64) -> f64 {
         match self {
             ConstraintEquation::Angle(_) => gap - TAU * (gap / TAU).round(),
+            ConstraintEquation::Given(angle) => angle.nearest(gap),
             _ => gap,
         }
     }
@@ -236,6 +243,7 @@ impl ConstraintEquation {
                 [now - length, rate, u.dot(&w) + (v.norm_squared() - rate * rate) / now]
             }
             ConstraintEquation::Angle(angle) => angle.value(a, b),
+            ConstraintEquation::Given(angle) => angle.value(a, b),
             ConstraintEquation::Screw { angle, e, at, lead } => {
                 let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gap(a, b);
                 let turned = angle.value(a, b);
@@ -268,6 +276,7 @@ impl ConstraintEquation {
                 [stack(&u, &zero), stack(&-u, &zero)]
             }
             ConstraintEquation::Angle(angle) => angle.gradient(a, b),
+            ConstraintEquation::Given(angle) => angle.gradient(a, b),
             ConstraintEquation::Screw { angle, e, at, lead } => {
                 let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gradient(a, b);
                 let turned = angle.gradient(a, b);
@@ -300,6 +309,7 @@ impl ConstraintEquation {
                 }
             }
             ConstraintEquation::Angle(angle) => angle.stiffness(a, b, lambda, &mut add),
+            ConstraintEquation::Given(angle) => angle.stiffness(a, b, lambda, &mut add),
             ConstraintEquation::Screw { angle, e, lead, .. } => {
                 along_axis(&-e, b, &d, lambda, &mut add);
                 angle.stiffness(a, b, -lead / TAU * lambda, &mut add);
@@ -309,7 +319,8 @@ impl ConstraintEquation {
 
     /// True where the multiplier is a moment and the gap an angle; otherwise they are a force and a length.
     pub fn is_rotational(&self) -> bool {
-        matches!(self, ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_))
+        use ConstraintEquation::{Angle, Given, Perpendicular};
+        matches!(self, Perpendicular { .. } | Angle(_) | Given(_))
     }
 
     /// Tells, for motion in the plane normal to a global axis, whether the equation constrains anything; `None` where
@@ -326,6 +337,7 @@ impl ConstraintEquation {
             ConstraintEquation::Perpendicular { p, s } => (across(p) && across(s)).then_some(true),
             ConstraintEquation::Distance { .. } => across(d).then_some(true),
             ConstraintEquation::Angle(Angle { p, s, .. }) => (across(p) && across(s)).then_some(true),
+            ConstraintEquation::Given(angle) => Some(angle.axis == normal),
             // Its moment is about the axis along which its force acts.
             ConstraintEquation::Screw { .. } => None,
         }
@@ -339,6 +351,7 @@ impl ConstraintEquation {
             ConstraintEquation::Perpendicular { .. } => "turn",
             ConstraintEquation::Distance { .. } => "distance",
             ConstraintEquation::Angle(_) => "angle",
+            ConstraintEquation::Given(angle) => ["rx", "ry", "rz"][angle.axis],
             ConstraintEquation::Screw { .. } => "thread",
         }
     }

@@ -1,6 +1,7 @@
 //! Kinematic constraints between nodes, by elimination (rigid links) or by Lagrange multipliers (joints).
 
 pub mod angle;
+pub mod given_angle;
 pub mod joint;
 pub mod joints;
 pub mod rigid_link;

@@ -56,6 +56,7 @@ const KEYS: &[Row] = &[
     (&["node", "nodes", "point", "on", "set"], &["at", "nodes", "with", "path"]),
     (&["fixed", "dof", "dofs", "constrain", "restrain", "boundary"], &["fix"]),
     (&["displacement", "prescribed", "imposed", "move"], &["motion"]),
+    (&["euler", "euler_angles", "rotation_sequence", "rotation_order"], &["rotation"]),
     (&["torque", "couple", "moments"], &["moment"]),
     (&["value", "magnitude", "f", "F"], &["force"]),
     (&["function", "curve", "time_series", "time_function", "drive", "tsTag"], &["amplitude"]),

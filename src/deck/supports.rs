@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Directions, Maybe, Names, Table};
+use crate::math::turn::RotationAngles;
 
 /// Directions held at rest or moved as told.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -20,6 +21,44 @@ pub struct Support {
     pub stages: Maybe<Names>,
     /// Degrees of freedom that are prescribed as functions of time.
     pub motion: Maybe<Table<Motions>>,
+    /// What the rotations that `fix` and `motion` give mean together; `history` is about these numbers. Default: "vector".
+    pub rotation: Maybe<Rotation>,
+}
+
+/// What rotations about the global axes mean together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rotation {
+    /// The components of one rotation vector, as in nodes.csv.
+    #[default]
+    Vector,
+    /// Angles one after the other: rx about global x, ry about y as rx has turned it, rz about z as both have turned it.
+    Xyz,
+    /// Angles in the sequence rx, rz, ry.
+    Xzy,
+    /// Angles in the sequence ry, rx, rz.
+    Yxz,
+    /// Angles in the sequence ry, rz, rx.
+    Yzx,
+    /// Angles in the sequence rz, rx, ry.
+    Zxy,
+    /// Angles in the sequence rz, ry, rx: yaw, pitch and roll.
+    Zyx,
+}
+
+impl Rotation {
+    /// What the three numbers mean.
+    pub fn angles(self) -> RotationAngles {
+        RotationAngles::Sequence(match self {
+            Rotation::Vector => return RotationAngles::Vector,
+            Rotation::Xyz => [0, 1, 2],
+            Rotation::Xzy => [0, 2, 1],
+            Rotation::Yxz => [1, 0, 2],
+            Rotation::Yzx => [1, 2, 0],
+            Rotation::Zxy => [2, 0, 1],
+            Rotation::Zyx => [2, 1, 0],
+        })
+    }
 }
 
 /// Prescribed motion by direction.
@@ -32,7 +71,7 @@ pub struct Motions {
     pub uy: Maybe<Table<Motion>>,
     /// Displacement along global z.
     pub uz: Maybe<Table<Motion>>,
-    /// Rotation about global x, radians.
+    /// Rotation about global x, radians. With more than one rotation given, see `rotation`.
     pub rx: Maybe<Table<Motion>>,
     /// Rotation about global y, radians.
     pub ry: Maybe<Table<Motion>>,

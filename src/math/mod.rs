@@ -12,6 +12,7 @@ pub mod polyhedron;
 pub mod quadrature;
 pub mod quintic;
 pub mod rotation;
+pub mod turn;
 
 /// Column vector of three numbers.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -138,7 +138,7 @@ impl<'d> Attacher<'_, 'd> {
         let there = self.nodes.add_dependent(name.clone(), self.nodes.x(spot.node), master, spot.span);
         self.nodes.connect(there, true);
         self.nodes.connect(spot.node, self.dofs[3..].contains(&true));
-        self.joints.push(Joint::new(name, [spot.node, there], equations(self.dofs), false));
+        self.joints.push(Joint::new(name, [spot.node, there], equations(self.dofs), false).of_attachment());
     }
 
     /// Attaches each node to the nearest node of a beam; the beam's own stay.

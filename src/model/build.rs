@@ -62,6 +62,7 @@ use super::shells::edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::stages::{self, CurrentStage, StageSequence};
 use super::supports::supports;
+use super::supports::turns::given_turns;
 use super::values::vec3;
 use crate::amplitude::Amplitude;
 use crate::deck::Deck;
@@ -232,7 +233,7 @@ fn model<'d>(
 
     // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
     let fields = environment(deck, stage, report);
-    let mut actors = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
+    let (mut actors, turned) = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
     set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.sequence.bulges));
     let contacts = contacts(&scene, &masses, &joints, fields.gravity, &mut topology, report);
     let loads = loads(&scene, [efforts, std::mem::take(&mut links.pulls)].concat(), &topology, &mut actors, report);
@@ -260,7 +261,7 @@ fn model<'d>(
         masses,
         stiffnesses: scene.parts.stiffnesses,
         parts: scene.parts.list,
-        constraints: Constraints { dependents, joints, restraints },
+        constraints: Constraints { turns: given_turns(&turned, &restraints), dependents, joints, restraints },
         loading: fields.with(amplitudes, loads),
         damping,
         expects,
@@ -351,7 +352,7 @@ fn check(
     // A part left out by an error may have been the only one to use it.
     if deck.spoiled.is_empty() && !report.has_errors() {
         check_use(scene.stage.map_or(deck, |stage| stage.sequence.whole), topology, report);
-        check_joints(deck, joints, amplitudes, topology, report);
+        check_joints(scene, joints, amplitudes, topology, report);
     }
     let mesh = groups.finish(deck, &scene.names, report);
     check_slivers(deck, parts, topology, report);

@@ -1,5 +1,7 @@
 //! `[[supports]]`: directions whose motion is given.
 
+pub mod turns;
+
 use super::data::{Actors, AnalysisKind, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
 use super::places::nodes::Topology;
@@ -13,16 +15,18 @@ use crate::deck::supports as words;
 use crate::deck::words::Table;
 use crate::diagnostic::{At, Span};
 use std::collections::HashMap;
+use turns::{GivenRotations, TurnSetting, TurnedNode};
 
-/// Restrains nodes, and adds the joints that hold dependent nodes to their supports. Returns the motions by the names of their supports.
+/// Restrains nodes, and adds the joints that hold dependent nodes to their supports. Returns the motions by the names of their supports, and the
+/// nodes whose rotations are given together.
 pub(super) fn supports<'d>(
     scene: &Scene<'d>,
     amplitudes: &[Amplitude],
     (topology, joints): (&mut Topology, &mut Vec<Joint>),
     report: &mut Report<'d>,
-) -> NamedActors<'d> {
-    let (support_points, moved) = (HashMap::new(), Vec::new());
-    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, report };
+) -> (NamedActors<'d>, Vec<TurnedNode>) {
+    let (support_points, moved, rotations) = (HashMap::new(), Vec::new(), GivenRotations::default());
+    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, report };
     let mut named = Vec::new();
     for support in &scene.deck.supports {
         tables.support(support);
@@ -31,7 +35,10 @@ pub(super) fn supports<'d>(
             named.push((name, Actors { motions, ..Actors::default() }));
         }
     }
-    named
+    let Supports { topology, support_points, joints, rotations, report, .. } = tables;
+    let setting = TurnSetting { scene, amplitudes, topology, joints, support_points, report };
+    let together = rotations.take(setting, &mut named);
+    (named, together)
 }
 
 /// A direction that a support gives: with its motion, `None` for rest, and where the deck says so.
@@ -46,6 +53,8 @@ struct Supports<'a, 'd> {
     joints: &'a mut Vec<Joint>,
     /// Nodes and directions that the support at hand moves.
     moved: Vec<[usize; 2]>,
+    /// The nodes whose rotations are given.
+    rotations: GivenRotations<'d>,
     report: &'a mut Report<'d>,
 }
 
@@ -68,9 +77,17 @@ impl<'d> Supports<'_, 'd> {
                 "list the other directions in `fix`, such as [\"uy\", \"uz\"]",
             );
         }
+        let turns = fixed[3..].contains(&true) || motions.iter().any(|(dof, ..)| *dof > 2);
+        if let (Some(word), false, false) = (&support.rotation, turns, unread) {
+            let hint = "leave it out, or give rotations in `fix` or `motion`";
+            self.report.error_with::<()>(&word.span, "`rotation` needs a rotation that this support gives", hint);
+        }
         for spot in &spots {
             if !self.topology.is_loose(spot, "this support", self.report) {
                 self.restrain(spot, fixed, &motions);
+                if turns {
+                    self.rotations.note(spot, support.rotation.as_ref(), self.report);
+                }
             }
         }
     }

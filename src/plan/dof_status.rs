@@ -139,21 +139,27 @@ fn reach(block: &dyn ElementBlock, e: usize) -> [bool; 6] {
     reach
 }
 
+/// Marks the degrees of freedom on which loads on nodes act, at any time.
+fn moved_by_loads(model: &Model, moved: &mut [[bool; 6]]) {
+    for load in &model.loading.nodal {
+        let moved = &mut moved[load.node];
+        if let Some(along) = load.coordinate() {
+            let reach = along.lock.reach()[along.end];
+            (0..6).for_each(|dof| moved[dof] |= reach[dof]);
+            continue;
+        }
+        for i in 0..3 {
+            moved[i] |= load.follower || load.force[i] != 0.0;
+            moved[3 + i] |= load.follower || load.moment[i] != 0.0;
+        }
+    }
+}
+
 /// The degrees of freedom of masses that something can excite.
 fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 6]> {
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let mut moved = resisted.to_vec();
-    for load in &model.loading.nodal {
-        if let Some(along) = load.coordinate() {
-            let reach = along.lock.reach()[along.end];
-            (0..6).for_each(|dof| moved[load.node][dof] |= reach[dof]);
-            continue;
-        }
-        for i in 0..3 {
-            moved[load.node][i] |= load.follower || load.force[i] != 0.0;
-            moved[load.node][3 + i] |= load.follower || load.moment[i] != 0.0;
-        }
-    }
+    moved_by_loads(model, &mut moved);
     for node in model.loading.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()) {
         moved[*node][..3].fill(true);
     }

@@ -2,11 +2,11 @@
 
 use super::contacts;
 use super::context::Context;
-use super::large_strains;
 use super::node_chunks::{NodeChunk, Nothing};
 use super::projection::ConstraintProjection;
 use super::work::WorkQuadrature;
 use super::workspace::Workspace;
+use super::{drifting_rotations, large_strains};
 use crate::integrators::Coefficients;
 use crate::materials::Dissipation;
 use crate::math::rotation::rates;
@@ -80,6 +80,7 @@ pub fn commit(
     cx.system.remember_joint_loads(state, dt);
     contacts::note_depth(cx, ws, state);
     large_strains::note(cx, ws, state, to - dt);
+    drifting_rotations::note(cx, ws, state, to - dt);
 }
 
 /// Updates the algorithmic accelerations of schemes that have them.
@@ -119,7 +120,7 @@ fn update_reactions_and_work(
         let old = state.reactions[i];
         let at_instant = -ws.forces.on_nodes[restraint.node][restraint.dof];
         let new = extrapolate(old, at_instant) + reaction_changes.get(i).unwrap_or(&0.0);
-        let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
+        let moved = ws.prescribed.moved[i].u;
         let work = 0.5 * (old + new) * moved;
         state.work.external += work;
         driven += work;

@@ -109,7 +109,9 @@ fn driving(model: &Model, system: &System) -> Vec<usize> {
     for dependent in system.rigid_links.iter().rev() {
         leads[dependent.master] |= leads[dependent.node];
     }
-    let moves = |(_, restraint): &(usize, &Restraint)| restraint.motion.is_some() && leads[restraint.node];
+    let is_turned = |i: usize| model.constraints.turns.iter().any(|turn| turn.restraints.contains(&i));
+    let moves =
+        |(i, restraint): &(usize, &Restraint)| leads[restraint.node] && (restraint.motion.is_some() || is_turned(*i));
     model.constraints.restraints.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
 }
 

@@ -104,6 +104,11 @@ pub enum Failure {
         /// The length of the step.
         dt: f64,
     },
+    /// A rotation that a support gives beside a free one is no longer known.
+    GivenRotationLost {
+        /// The name of the node.
+        label: String,
+    },
     /// A step of central differences is longer than the critical time step.
     Unstable {
         /// The length of the step.
@@ -201,6 +206,7 @@ keep_either!(Failure {
     22 => NodeTurns { label, angle },
     23 => UnstableStep,
     24 => Buckles(instability),
+    25 => GivenRotationLost { label },
 });
 
 /// A residual force, or a gap, with its name.
@@ -386,6 +392,11 @@ impl Failure {
             Failure::BushingTurnedOver { name } => format!(
                 "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \
                  defined; about an axis whose stiffness differs from the other two they may turn on without limit"
+            ),
+            Failure::GivenRotationLost { label } => format!(
+                "`{label}` has turned where the rotations that its support gives beside a free one are no longer known: a rotation vector near \
+                 half a turn, or the middle angle of a sequence near 90 degrees; give the support a `rotation` that begins or ends with the \
+                 free axis, such as \"zyx\" where rz is free"
             ),
             Failure::BushingTurnsTooFar { name, dt } => format!(
                 "in a step of {dt:.3e} the ends of bushing `{name}` turn against each other by more than 2 radians, and full turns \

@@ -6,6 +6,7 @@ use super::start::{add_accelerations, factor_mass, project_velocities, update_ra
 use super::workspace::Workspace;
 use crate::elements::Force;
 use crate::math::Vec3;
+use crate::model::Restraint;
 use crate::state::{Configuration, Node, State};
 use crate::system::Side;
 use crate::system::energy::kinetic_energy;
@@ -59,8 +60,9 @@ pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> R
         return Ok(());
     }
     let (nodes, energy) = (state.nodes.clone(), kinetic_energy(cx.system, &state.nodes));
-    let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.start);
-    for (restraint, given) in restraints.filter(|(restraint, _)| restraint.motion.is_some()) {
+    let restraints = cx.model.constraints.restraints.iter().enumerate().zip(&ws.prescribed.start);
+    let moves = |(i, restraint): (usize, &Restraint)| restraint.motion.is_some() || cx.excitation.is_turned(i);
+    for ((_, restraint), given) in restraints.filter(|(of, _)| moves(*of)) {
         let node = &mut state.nodes[restraint.node];
         let (v, a) = if restraint.dof < 3 { (&mut node.v, &mut node.a) } else { (&mut node.omega, &mut node.alpha) };
         (v[restraint.dof % 3], a[restraint.dof % 3]) = (given.v, given.a);

@@ -10,6 +10,7 @@ mod contacts;
 mod context;
 mod control;
 mod derived;
+mod drifting_rotations;
 mod effort;
 mod energy_growth;
 mod events;

@@ -62,9 +62,10 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     let prescribed = &mut ws.prescribed;
     cx.excitation.prescribed(from, Side::After, &mut prescribed.start);
     cx.excitation.prescribed(to, Side::Before, &mut prescribed.end);
+    cx.excitation.moved(&prescribed.start, &prescribed.end, &mut prescribed.moved);
     prescribed.instant.clear();
-    prescribed.instant.extend(prescribed.start.iter().zip(&prescribed.end).map(|(a, b)| Prescribed {
-        u: instant * (b.u - a.u),
+    prescribed.instant.extend(prescribed.start.iter().zip(&prescribed.moved).map(|(a, b)| Prescribed {
+        u: instant * b.u,
         v: a.v + instant * (b.v - a.v),
         a: a.a + instant * (b.a - a.a),
     }));
@@ -166,9 +167,8 @@ pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage
 /// Writes the trial motion at the end of the step from the increments, with prescribed degrees of freedom and dependent
 /// nodes.
 pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
-    for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
-        let (from, to) = (&ws.prescribed.start[i], &ws.prescribed.end[i]);
-        prescribe(&mut ws.increments[restraint.node], restraint.dof, &Prescribed { u: to.u - from.u, ..*to });
+    for (restraint, moved) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.moved) {
+        prescribe(&mut ws.increments[restraint.node], restraint.dof, moved);
     }
     for &node in &cx.independent_nodes {
         ws.trial[node].advance(&state.nodes[node], &ws.increments[node], scheme.rotation);

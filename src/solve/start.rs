@@ -15,6 +15,9 @@ use crate::system::TangentWeights;
 /// its numbers with some digits only.
 pub const DIGITS: f64 = 1e-5;
 
+/// The part of the size of the scene that counts as no way over a whole run.
+const NOWHERE: f64 = 1e-9;
+
 /// Finds the state at t = 0; warns where initial velocities do not agree with the joints.
 ///
 /// # Errors
@@ -87,7 +90,7 @@ fn given_state(cx: &Context) -> State {
 
 /// Adds the prescribed motion at t = 0.
 fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
-    for (restraint, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.start) {
+    for (i, (restraint, given)) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.start).enumerate() {
         let node = &mut state.nodes[restraint.node];
         if restraint.dof < 3 {
             node.x[restraint.dof] += given.u;
@@ -95,11 +98,16 @@ fn prescribe(cx: &Context, ws: &Workspace, state: &mut State) {
             node.a[restraint.dof] = given.a;
         } else {
             let mut turn = Vec3::zeros();
-            turn[restraint.dof - 3] = given.u;
+            turn[restraint.dof - 3] = if cx.excitation.is_turned(i) { 0.0 } else { given.u };
             node.rotation = rotation::exp(&turn) * node.rotation;
             node.omega[restraint.dof - 3] = given.v;
             node.alpha[restraint.dof - 3] = given.a;
         }
+    }
+    for turn in cx.excitation.turns() {
+        let u = Vec3::from(turn.restraints.map(|i| ws.prescribed.start[i].u));
+        let node = &mut state.nodes[cx.model.constraints.restraints[turn.restraints[0]].node];
+        node.rotation = turn.angles.rotation(&u) * node.rotation;
     }
     // A prescribed motion may start rotated; dependent nodes then start with the components of the rotation that follow
     // the master.
@@ -156,7 +164,9 @@ pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], 
         }
         update_rates_of_dependent_nodes(cx, ws, nodes);
     }
-    if change > 0.0 { change / largest } else { 0.0 }
+    // What moves by less than rounding over the whole run is at rest.
+    let nowhere = NOWHERE * cx.length / (cx.model.analysis.end_time - cx.model.analysis.begin);
+    if change > nowhere { change / largest } else { 0.0 }
 }
 
 /// True where joints have changed velocities that the deck gives, from `trial` to `nodes`. A drive that starts at once takes along

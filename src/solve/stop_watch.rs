@@ -37,12 +37,14 @@ keep!(StopWatch { side, size, work, reached, before, load_steps, buffers } witho
 struct Buffers {
     loads: [Loading; 2],
     motions: [Vec<Prescribed>; 2],
+    /// What prescribed motions move by in the step.
+    moved: Vec<Prescribed>,
     forces: Vec<Force>,
     /// What is held back of the loads at the beginning of the stage; empty where nothing is.
     held: Loading,
 }
 
-keep!(Buffers { loads, motions, forces, held });
+keep!(Buffers { loads, motions, moved, forces, held });
 
 impl Buffers {
     /// Finds what a static stage that follows another one holds back of loads that come with it, or that jump where it begins.
@@ -190,7 +192,7 @@ impl StopWatch {
                 if *dof < 3 { now.moved(start)[*dof] } else { rotation::log(&now.rotation)[*dof - 3] }
             }
             StopQuantity::Work(actors) => {
-                let Buffers { loads: [l0, l1], motions: [m0, m1], held, .. } = buffers;
+                let Buffers { loads: [l0, l1], motions: [m0, m1], moved: by, held, .. } = buffers;
                 for (time, side, loads, motions) in
                     [(before.time, Side::After, &mut *l0, &mut *m0), (state.time, Side::Before, &mut *l1, &mut *m1)]
                 {
@@ -201,7 +203,8 @@ impl StopWatch {
                 let mut sum = *work;
                 let which = (actors.nodal.clone(), actors.pressures.clone());
                 cx.system.add_load_work(which, (&before.nodes, l0), (&state.nodes, l1), &mut sum);
-                let of_motion = |&i: &usize| 0.5 * (before.reactions[i] + state.reactions[i]) * (m1[i].u - m0[i].u);
+                cx.excitation.moved(m0, m1, by);
+                let of_motion = |&i: &usize| 0.5 * (before.reactions[i] + state.reactions[i]) * by[i].u;
                 sum + moved.iter().map(of_motion).sum::<f64>()
             }
             StopQuantity::Force(actors) => {

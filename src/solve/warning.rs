@@ -75,6 +75,15 @@ pub enum Warning {
         /// True where the shell yields by logarithmic strain.
         logarithmic: bool,
     },
+    /// A rotation that is fixed alone has drifted.
+    RotationDrifts {
+        /// The name of the node.
+        label: String,
+        /// The direction that is fixed.
+        direction: &'static str,
+        /// The largest drift in radians.
+        drift: f64,
+    },
     /// The critical time step is below that for which mass scaling has raised the masses of elements.
     ScaledStep {
         /// The critical time step that elements were given.
@@ -102,6 +111,7 @@ keep_either!(Warning {
     10 => LargeStrain { name, strain, logarithmic },
     11 => Crowded { name },
     12 => ScaledStep { wanted, longest, label, cause },
+    13 => RotationDrifts { label, direction, drift },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -158,6 +168,15 @@ fn large_strain(shell: &str, strain: f64, logarithmic: bool) -> String {
         to_digits(square.sqrt(), 3),
         if strain > 0.0 { "large" } else { "small" },
         to_digits(wrong, 2)
+    )
+}
+
+/// What is wrong where a rotation that is fixed alone has drifted.
+fn drifted(node: &str, direction: &str, drift: f64) -> String {
+    format!(
+        "{direction} of `{node}` is fixed alone and has drifted to {} radians: such a rotation is a component of each step's rotation vector, and \
+         `{node}` turns about other axes too. Give its support `rotation = \"vector\"`, which keeps the total at zero",
+        to_digits(drift, 2)
     )
 }
 
@@ -256,6 +275,7 @@ impl fmt::Display for Warning {
                 to_digits(*rate, 4)
             ),
             Warning::Modes(doubts) => f.write_str(doubts),
+            Warning::RotationDrifts { label, direction, drift } => f.write_str(&drifted(label, direction, *drift)),
             Warning::LargeStrain { name, strain, logarithmic } => {
                 f.write_str(&large_strain(name, *strain, *logarithmic))
             }
@@ -322,6 +342,25 @@ impl Warnings {
             Some((name, old, of)) if strain.abs() > old.abs() => {
                 shell.clone_into(name);
                 (*old, *of) = (strain, logarithmic);
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// Adds the drift of a rotation, or keeps it where it is larger than the one known.
+    pub fn drift(&mut self, node: &str, fixed: &'static str, size: f64) {
+        let known = self.warnings.iter_mut().find_map(|known| match known {
+            Warning::RotationDrifts { label, direction, drift } => Some((label, direction, drift)),
+            _ => None,
+        });
+        match known {
+            None => {
+                let (label, direction, drift) = (node.to_owned(), fixed, size);
+                self.warnings.push(Warning::RotationDrifts { label, direction, drift });
+            }
+            Some((label, direction, drift)) if size > *drift => {
+                node.clone_into(label);
+                (*direction, *drift) = (fixed, size);
             }
             Some(_) => {}
         }

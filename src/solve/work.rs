@@ -1,6 +1,7 @@
 //! The work of loads and dampers over a step, by quadrature with the weights of a Runge-Kutta scheme.
 
 use crate::integrators::tableau::StageWeights;
+use crate::model::Restraint;
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::workspace::Workspace;
@@ -33,9 +34,14 @@ impl Power {
     pub fn of_trial(cx: &Context, ws: &mut Workspace, state: &State, ahead: f64, driven: bool) -> Power {
         let mut external = 0.0;
         if driven {
-            let restraints = cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant);
-            let on_nodes = &ws.forces.on_nodes;
-            external = restraints.map(|(restraint, given)| -on_nodes[restraint.node][restraint.dof] * given.v).sum();
+            let restraints = cx.model.constraints.restraints.iter().enumerate().zip(&ws.prescribed.instant);
+            let power = |((i, restraint), given): ((usize, &Restraint), &Prescribed)| {
+                let &Restraint { node, dof, .. } = restraint;
+                // A moment does its power at the angular velocity, and the rates of increments are those of a rotation vector.
+                let rate = if cx.excitation.is_turned(i) { ws.trial[node].omega[dof - 3] } else { given.v };
+                -ws.forces.on_nodes[node][dof] * rate
+            };
+            external = restraints.map(power).sum();
         }
         let damping =
             damping_power(cx, &Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None });

@@ -28,7 +28,7 @@ pub struct Workspace {
     pub loads: AtTimes<Loading>,
     /// Prescribed motion, in the order of the model's restraints; at the instant of equilibrium displacements count
     /// from the start of the step.
-    pub prescribed: AtTimes<Vec<Prescribed>>,
+    pub prescribed: PrescribedStep,
     /// Largest coordinate of a node at the start of the step, counted from the first node at t = 0. The rounding of
     /// distances is measured by it.
     pub reach: f64,
@@ -80,6 +80,21 @@ pub struct AtTimes<T> {
     pub instant: T,
 }
 
+/// The prescribed motion of a step.
+#[derive(Default)]
+pub struct PrescribedStep {
+    /// At the start of the step.
+    pub start: Vec<Prescribed>,
+    /// At the end of the step.
+    pub end: Vec<Prescribed>,
+    /// At the instant where equilibrium is written, displacements counted from the start of the step.
+    pub instant: Vec<Prescribed>,
+    /// The increments over the step, with the rates that increments have at its end.
+    pub moved: Vec<Prescribed>,
+}
+
+keep!(PrescribedStep { start, end, instant, moved });
+
 impl<T: Keep> Keep for AtTimes<T> {
     fn keep(&mut self, snapshot: &mut Snapshot) {
         let AtTimes { start, end, instant } = self;
@@ -102,7 +117,7 @@ impl Workspace {
             forces: Forces::new(cx.system, n).on_threads(cx.plan.threads),
             r: vec![0.0; cx.plan.dofs.unknowns()],
             loads: AtTimes::default(),
-            prescribed: AtTimes::default(),
+            prescribed: PrescribedStep::default(),
             reach: cx.length,
             load_steps: LoadSteps::default(),
             matrix: LinearSystem::new(solver, assembly),
@@ -126,7 +141,7 @@ impl Workspace {
         history.fill(0.0);
         *forces = Forces::new(cx.system, trial.len()).on_threads(cx.plan.threads);
         r.fill(0.0);
-        (*loads, *prescribed) = (AtTimes::default(), AtTimes::default());
+        (*loads, *prescribed) = (AtTimes::default(), PrescribedStep::default());
         (*reach, *load_steps) = (cx.length, LoadSteps::default());
         (self.rotation_drift, self.joint_violation) = (0.0, 0.0);
         self.warnings = warnings_of(&self.matrix.solver);

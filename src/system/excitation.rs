@@ -3,11 +3,13 @@
 
 use super::loads::Loading;
 use crate::amplitude::{Amplitude, Jump, Side};
-use crate::math::Vec3;
-use crate::model::{AnalysisKind, History, Model, PrescribedMotion, Restraint};
+use crate::math::turn::Turn;
+use crate::math::{Vec3, rotation};
+use crate::model::{AnalysisKind, GivenTurn, History, Model, PrescribedMotion, Restraint};
 use crate::snapshot::keep;
 
-/// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians.
+/// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians. Of three rotations that are given together
+/// `u` is what the deck gives; `v` and `a` are components of the angular velocity and acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Prescribed {
     /// Displacement or rotation.
@@ -16,6 +18,17 @@ pub struct Prescribed {
     pub v: f64,
     /// Its second derivative in time.
     pub a: f64,
+}
+
+/// What the three rotations of a turn and their first and second derivatives are.
+fn angles(turn: &GivenTurn, of: &[Prescribed]) -> [Vec3; 3] {
+    let each = |value: fn(&Prescribed) -> f64| Vec3::from(turn.restraints.map(|i| value(&of[i])));
+    [each(|of| of.u), each(|of| of.v), each(|of| of.a)]
+}
+
+/// Writes components of three rotations that are given together.
+fn set(turn: &GivenTurn, value: impl Fn(usize) -> Prescribed, out: &mut [Prescribed]) {
+    turn.restraints.into_iter().enumerate().for_each(|(k, i)| out[i] = value(k));
 }
 
 keep!(Prescribed: Default { u, v, a });
@@ -188,6 +201,35 @@ impl<'a> Excitation<'a> {
                 }
             },
         ));
+        for turn in self.turns() {
+            let given = angles(turn, out);
+            let Turn { omega, alpha, .. } = turn.angles.turn(&given);
+            set(turn, |k| Prescribed { u: given[0][k], v: omega[k], a: alpha[k] }, out);
+        }
+    }
+
+    /// The rotations that are given by three numbers together.
+    pub fn turns(&self) -> &[GivenTurn] {
+        &self.model.constraints.turns
+    }
+
+    /// True for a restraint of a rotation that is given together with two others.
+    pub fn is_turned(&self, restraint: usize) -> bool {
+        self.turns().iter().any(|turn| turn.restraints.contains(&restraint))
+    }
+
+    /// Writes the increments of the prescribed motion from one time to another into `out`, with the rates at the latter as increments have
+    /// them: of rotations that are given together the rotation vector of the step.
+    pub fn moved(&self, from: &[Prescribed], to: &[Prescribed], out: &mut Vec<Prescribed>) {
+        out.clear();
+        out.extend(from.iter().zip(to).map(|(from, to)| Prescribed { u: to.u - from.u, ..*to }));
+        for turn in self.turns() {
+            let ([before, ..], [after, omega, alpha]) = (angles(turn, from), angles(turn, to));
+            let [before, after] = [before, after].map(|u| turn.angles.rotation(&u));
+            let q = rotation::log(&(after * before.conjugate()));
+            let (d, dd) = rotation::vector_rates(&q, &omega, &alpha);
+            set(turn, |k| Prescribed { u: q[k], v: d[k], a: dd[k] }, out);
+        }
     }
 
     /// A prescribed motion at a time within the run.

@@ -182,15 +182,7 @@ impl Lumped {
         let entry = |(node, (mass, J0)): (usize, (f64, Mat3))| {
             let rotary = J0 != Mat3::zeros();
             let drag = || self.drags.get(node).cloned().map(Box::new);
-            (mass > 0.0 || rotary).then(|| Inertia {
-                node,
-                mass,
-                weighing: mass,
-                J0,
-                rotary,
-                free: None,
-                drag: drag(),
-            })
+            (mass > 0.0 || rotary).then(|| Inertia { node, mass, weighing: mass, J0, rotary, free: None, drag: drag() })
         };
         self.sums.into_iter().enumerate().filter_map(entry).collect()
     }

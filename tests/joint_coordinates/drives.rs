@@ -181,3 +181,27 @@ fn a_driven_joint_is_locked_in_modes() {
     let exact = [((84.0 - root) / 12.0).sqrt(), ((84.0 + root) / 12.0).sqrt()];
     assert!((sprung[0] - exact[0]).abs() < 1e-9 && (sprung[1] - exact[1]).abs() < 1e-9, "{sprung:?} for {exact:?}");
 }
+
+/// Velocities that lead nowhere over the run are rest: a drive that begins slowly does not contradict them. Others do.
+#[test]
+fn a_drive_begins_beside_bodies_at_rest_but_for_rounding() {
+    let text = |kind: &str, omega: f64, v: f64| {
+        opening("newmark", 0.01, 1.0, 0.5)
+            + &format!(
+                "[amplitudes.r]\nkind = \"sine-squared\"\nangular_frequency = 1.0\n\
+                 [[bodies]]\nname = \"a\"\ncenter = [0.0, 0.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+                 angular_velocity = [0.0, 0.0, {omega:?}]\nvelocity = [0.0, 0.0, {v:?}]\n\
+                 [[bodies]]\nname = \"b\"\ncenter = [1.0, 0.0, 0.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n\
+                 angular_velocity = [0.0, 0.0, -1e-15]\nvelocity = [0.0, 0.0, 1e-16]\n\
+                 [[joints]]\nname = \"pin\"\nkind = \"{kind}\"\naxis = [0.0, 0.0, 1.0]\nfrom = {{ body = \"a\" }}\nto = {{ body = \"b\" }}\n\
+                 motion = {{ position = 1.0, amplitude = \"r\" }}\n"
+            )
+    };
+    for (kind, omega, v) in [("revolute", 4e-14, 0.0), ("prismatic", 0.0, -3e-13), ("cylindrical", 2e-12, 1e-13)] {
+        let done = run_to_the_end(&read_deck(&text(kind, omega, v)), &mut |_: &Frame| Vec::new());
+        assert!(done.doubts.is_empty(), "{kind}: {:?}", done.doubts);
+    }
+    let source = rdsolve::diagnostic::Source::new("deck.toml", &text("revolute", 4e-6, 0.0), &[]);
+    let problems = rdsolve::model::read(&source).1;
+    assert!(problems.iter().any(|problem| problem.message.contains("begins at the rate 0")), "{problems:?}");
+}

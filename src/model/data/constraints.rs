@@ -3,6 +3,7 @@
 use crate::constraints::joint::{ConstraintEquation, Drive};
 use crate::deck::supports::History;
 use crate::math::Vec3;
+use crate::math::turn::RotationAngles;
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]
@@ -13,6 +14,17 @@ pub struct Constraints {
     pub joints: Vec<Joint>,
     /// The restraints, at most one for each degree of freedom, sorted by node and degree of freedom.
     pub restraints: Vec<Restraint>,
+    /// The nodes of which all three rotations are given and more than one moves.
+    pub turns: Vec<GivenTurn>,
+}
+
+/// A node whose rotation is given by three numbers together.
+#[derive(Debug, Clone, Copy)]
+pub struct GivenTurn {
+    /// The restraints of rx, ry and rz, by index in [`Constraints::restraints`].
+    pub restraints: [usize; 3],
+    /// What the three numbers mean.
+    pub angles: RotationAngles,
 }
 
 /// A node rigidly attached to another in some of its degrees of freedom (45)-(48).
@@ -41,8 +53,21 @@ pub struct Joint {
     pub of_deck: Vec<ConstraintEquation>,
     /// True where it holds a dependent node to its support; the support's reactions are then the joint's forces.
     pub supports: bool,
+    /// What of the deck it comes from.
+    pub origin: JointOrigin,
     /// Its coordinate; `None` where it has none, or it holds a support or an attachment.
     pub coordinate: Option<JointCoordinate>,
+}
+
+/// What of the deck a joint comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum JointOrigin {
+    /// An entry of `[[joints]]`.
+    Deck,
+    /// A support of a node that depends on another, or that has a free rotation beside those that are given.
+    Support,
+    /// An attachment that elimination cannot do.
+    Attachment,
 }
 
 /// The coordinate of a joint, and what acts along it.
@@ -90,7 +115,13 @@ pub struct JointEffort {
 impl Joint {
     /// A joint as the deck has it.
     pub fn new(name: String, ends: [usize; 2], equations: Vec<ConstraintEquation>, supports: bool) -> Joint {
-        Joint { name, ends, of_deck: equations.clone(), equations, supports, coordinate: None }
+        let origin = if supports { JointOrigin::Support } else { JointOrigin::Deck };
+        Joint { name, ends, of_deck: equations.clone(), equations, supports, origin, coordinate: None }
+    }
+
+    /// The same as what holds an attachment.
+    pub fn of_attachment(self) -> Joint {
+        Joint { origin: JointOrigin::Attachment, ..self }
     }
 
     /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate stays as it is.

@@ -34,7 +34,8 @@ pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
 pub use constraints::{
-    Constraints, DependentNode, Joint, JointCoordinate, JointDrive, JointEffort, PrescribedMotion, Restraint,
+    Constraints, DependentNode, GivenTurn, Joint, JointCoordinate, JointDrive, JointEffort, JointOrigin,
+    PrescribedMotion, Restraint,
 };
 pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 pub use displacement_target::DisplacementTarget;
@@ -42,7 +43,9 @@ pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
 pub use link::{Link, LinkKind, count_along};
-pub use loading::{BaseAcceleration, Damping, Load, LoadAlong, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure};
+pub use loading::{
+    BaseAcceleration, Damping, Load, LoadAlong, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure,
+};
 pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use modes::{ModeExtent, ModeKind, ModesAsked};
 pub use moving_frame::{MovingFrame, MovingFrames};

@@ -26,7 +26,7 @@ pub fn hold_long_chains(nodes: &mut Nodes, open: &HashSet<usize>, joints: &mut V
         let there = nodes.add_dependent(name.clone(), nodes.x(link.node), link.master, &place);
         nodes.connect(there, true);
         nodes.connect(link.node, link.dofs[3..].contains(&true));
-        joints.push(Joint::new(name, [link.node, there], equations(link.dofs), false));
+        joints.push(Joint::new(name, [link.node, there], equations(link.dofs), false).of_attachment());
     }
 }
 

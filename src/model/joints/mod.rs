@@ -6,7 +6,6 @@ pub mod gears;
 use crate::amplitude::{Amplitude, Side};
 use crate::constraints::joint::{ConstraintEquation, rotations, translations};
 use crate::constraints::joints::JointKind;
-use crate::deck::Deck;
 use crate::diagnostic::Diagnostic;
 use crate::math::{Mat3, Vec3};
 use crate::model::data::{History, Joint, Node, PrescribedMotion};
@@ -114,10 +113,11 @@ fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &
 }
 
 /// Reports joints of the deck between things that cannot move against each other. The deck is sound otherwise.
-pub fn check_joints(deck: &Deck, joints: &[Joint], amplitudes: &[Amplitude], nodes: &Nodes, report: &mut Report) {
+pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], nodes: &Nodes, report: &mut Report) {
     let is_fixed =
         |node: usize| (0..6).all(|dof| nodes.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none()));
-    for joint in &deck.joints {
+    let duration = scene.analysis.end_time - scene.analysis.begin;
+    for joint in &scene.deck.joints {
         // A joint is found by name: one may have been left out for what is wrong elsewhere, as in a mesh that could not be read.
         let named = |made: &&Joint| joint.name.as_ref().is_some_and(|name| name.value == made.name);
         let Some(made) = joints.iter().find(named) else { continue };
@@ -128,7 +128,8 @@ pub fn check_joints(deck: &Deck, joints: &[Joint], amplitudes: &[Amplitude], nod
             report.error::<()>(&joint.span, message);
         } else if ends.iter().all(|&end| is_fixed(end)) {
             report.error::<()>(&joint.span, format!("both ends of joint `{name}` are fixed, so it holds nothing"));
-        } else if let Some((given, driven)) = initial_rates(made, ends.map(is_fixed), amplitudes, nodes)
+        } else if let Some((given, driven)) =
+            initial_rates(made, ends.map(is_fixed), (amplitudes, duration, along::size(scene, nodes, name)), nodes)
             && let Some(motion) = &joint.motion
         {
             let (given, driven) = (short(given), short(driven));
@@ -139,9 +140,18 @@ pub fn check_joints(deck: &Deck, joints: &[Joint], amplitudes: &[Amplitude], nod
     }
 }
 
+/// The angle, or the part of the size of the scene, that counts as none over a whole run.
+const NOWHERE: f64 = 1e-9;
+
 /// The rate of a driven coordinate by the velocities that the deck gives both of its ends, and by its motion, where they differ. An
-/// end at rest may be taken along, unless it is fixed.
-fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], nodes: &Nodes) -> Option<(f64, f64)> {
+/// end at rest may be taken along, unless it is fixed. A velocity that leads nowhere in the `duration` is rest, measured by the `extent` of
+/// the scene.
+fn initial_rates(
+    joint: &Joint,
+    fixed: [bool; 2],
+    (amplitudes, duration, extent): (&[Amplitude], f64, f64),
+    nodes: &Nodes,
+) -> Option<(f64, f64)> {
     /// Velocities are written with six digits.
     const DIGITS: f64 = 1e-5;
     let coordinate = joint.coordinate.as_ref()?;
@@ -159,7 +169,9 @@ fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], node
         let node = &nodes.list[end];
         state::Node { v: node.v, omega: node.omega, ..state::Node::at_rest(node.x) }
     });
-    let moves = |node: &state::Node| node.v.amax() > 0.0 || node.omega.amax() > 0.0;
+    // A way or an angle of rounding is that of a body at rest.
+    let nowhere = if duration > 0.0 { NOWHERE / duration } else { 0.0 };
+    let moves = |node: &state::Node| node.v.amax() > nowhere * extent || node.omega.amax() > nowhere;
     let [_, given, _] = coordinate.lock.gap(&from, &to);
     let known = (moves(&from) || fixed[0]) && (moves(&to) || fixed[1]);
     // The rate is the difference of what both ends have, which rounds.
@@ -168,7 +180,8 @@ fn initial_rates(joint: &Joint, fixed: [bool; 2], amplitudes: &[Amplitude], node
         false => node.v.amax() + node.omega.amax() * node.x.amax(),
     };
     let size = size(&from).max(size(&to)).max(driven.abs());
-    (known && (given - driven).abs() > DIGITS * size).then_some((given, driven))
+    let rest = nowhere * if coordinate.lock.is_rotational() { 1.0 } else { extent };
+    (known && (given - driven).abs() > rest.max(DIGITS * size)).then_some((given, driven))
 }
 
 /// Rows between nodes at one place, about global axes at t = 0.

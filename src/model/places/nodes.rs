@@ -98,6 +98,11 @@ impl Nodes {
         self.restraints.insert((node, dof), Restraint { node, dof, motion });
     }
 
+    /// Frees a node in a direction again; returns its motion, where it was restrained.
+    pub fn release(&mut self, node: usize, dof: usize) -> Option<Restraint> {
+        self.restraints.remove(&(node, dof))
+    }
+
     /// The initial position of a node.
     pub fn x(&self, node: usize) -> Vec3 {
         self.list[node].x

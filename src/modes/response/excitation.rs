@@ -6,10 +6,10 @@ use super::super::linearized::Linearized;
 use super::super::pencil::Pencil;
 use super::matrices::Matrices;
 use crate::linear::{Factorization, Solver};
-use crate::math::{Vec3, Vec6};
+use crate::math::{Vec3, Vec6, angular, linear, stack};
 use crate::model::{History, Model};
 use crate::system::assembly::Assembly;
-use crate::system::{Forces, Loading};
+use crate::system::{Excitation, Forces, Loading, Side};
 use nalgebra::Complex;
 
 /// A complex number.
@@ -118,6 +118,7 @@ fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, Mod
     if all.is_empty() {
         return Ok(all);
     }
+    turn_together(at, &mut all, &mut prescribed);
     let plan = at.plan.with_prescribed(at.system, &prescribed);
     let at = Linearized { plan: &plan, ..*at };
     let kind = if unsymmetric { Factorization::BlockLu } else { Factorization::Cholesky };
@@ -148,4 +149,21 @@ fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, Mod
         at.system.gaps_of_motion(nodes, &motion.moved, &mut motion.gaps);
     }
     Ok(all)
+}
+
+/// Replaces changes of rotations that are given together by the spin that they are at the rotation of the state.
+fn turn_together(at: &Linearized, all: &mut [SupportMotion], prescribed: &mut Vec<(usize, usize)>) {
+    let constraints = &at.model.constraints;
+    let mut given = Vec::new();
+    Excitation::new(at.model).prescribed(at.state.time, Side::Before, &mut given);
+    for turn in &constraints.turns {
+        let node = constraints.restraints[turn.restraints[0]].node;
+        let u = Vec3::from(turn.restraints.map(|i| given[i].u));
+        for motion in all.iter_mut().filter(|motion| angular(&motion.moved[node]) != Vec3::zeros()) {
+            let change = &motion.moved[node];
+            let spin = turn.angles.turn(&[u, angular(change), Vec3::zeros()]).omega;
+            motion.moved[node] = stack(&linear(change), &spin);
+            prescribed.extend((3..6).map(|dof| (node, dof)));
+        }
+    }
 }

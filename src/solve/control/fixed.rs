@@ -124,12 +124,7 @@ impl<'a> FixedController<'a> {
     ///
     /// # Errors
     /// As for [`TimeStepper::step`].
-    fn step_or_stop(
-        &mut self,
-        march: &mut March,
-        target: f64,
-        dt: f64,
-    ) -> Result<(StepReport, Option<f64>), Failure> {
+    fn step_or_stop(&mut self, march: &mut March, target: f64, dt: f64) -> Result<(StepReport, Option<f64>), Failure> {
         let stepper = &mut self.stepper;
         let report = stepper.step(march.cx, march.ws, march.state, target)?;
         let again = &mut |cx: &Context, ws: &mut Workspace, state: &mut State, time| {

@@ -10,7 +10,6 @@ use crate::solve::motion::{prescribe, rates_of, update_dependent_nodes};
 use crate::solve::node_chunks::{Largest, NodeChunk, Nothing};
 use crate::solve::workspace::Workspace;
 use crate::state::{Increment, Node, State};
-use crate::system::Prescribed;
 use crate::system::masses::{Masses, NodeRates};
 
 /// Moves the trial motion to the end of the step of length `dt`, with predicted velocities; bodies that turn freely by their angular
@@ -79,7 +78,7 @@ pub fn accelerate(
 /// Writes the motion of such nodes at the end of the step, with its rates by the increments, and the residual on prescribed degrees of
 /// freedom where forces are wanted.
 pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State, dt: f64) {
-    let given = &ws.prescribed;
+    let given = &ws.prescribed.moved;
     let restraints = &cx.model.constraints.restraints;
     let data = ((&mut ws.trial[..], &mut ws.increments[..]), &mut ws.forces.on_nodes[..]);
     cx.chunks.run(data, &|chunk: &NodeChunk, ((trial, increments), F): (Moving, &mut [[f64; 6]])| {
@@ -104,7 +103,7 @@ pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &
             // Positions and rotations are those of the trial motion, as prescribed ones are.
             while let Some(&i) = held.next_if(|&&i| restraints[i].node <= node) {
                 if restraints[i].node == node {
-                    prescribe(increment, restraints[i].dof, &moved(&given.start[i], &given.end[i]));
+                    prescribe(increment, restraints[i].dof, &given[i]);
                 }
             }
             (now.v, now.a) = (linear(&increment.d), linear(&increment.dd));
@@ -113,9 +112,4 @@ pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &
         Nothing
     });
     update_dependent_nodes(cx, ws, &state.nodes);
-}
-
-/// The prescribed motion over the step.
-fn moved(from: &Prescribed, to: &Prescribed) -> Prescribed {
-    Prescribed { u: to.u - from.u, ..*to }
 }

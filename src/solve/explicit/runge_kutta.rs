@@ -6,6 +6,7 @@ use crate::integrators::tableau::{StageWeights, Tableau};
 use crate::linear::TooLarge;
 use crate::math::rotation::{exp, inverse_tangent, renormalise};
 use crate::math::{Vec6, angular, linear, stack};
+use crate::model::Restraint;
 use crate::snapshot::keep;
 use crate::solve::commit::{Account, commit};
 use crate::solve::context::Context;
@@ -268,15 +269,16 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     } else {
         ws.prescribed.instant.copy_from_slice(&ws.prescribed.end);
     }
-    for (i, restraint) in
-        cx.model.constraints.restraints.iter().enumerate().filter(|(_, restraint)| restraint.motion.is_some())
-    {
-        let (from, now) = (&ws.prescribed.start[i], &ws.prescribed.instant[i]);
+    let given = &mut ws.prescribed;
+    cx.excitation.moved(&given.start, &given.instant, &mut given.moved);
+    let moves = |(i, restraint): &(usize, &Restraint)| restraint.motion.is_some() || cx.excitation.is_turned(*i);
+    for (i, restraint) in cx.model.constraints.restraints.iter().enumerate().filter(moves) {
+        let (moved, now) = (&ws.prescribed.moved[i], &ws.prescribed.instant[i]);
         let increment = &mut ws.increments[restraint.node];
         // A prescribed rotation beside free ones is integrated from its rate alone.
         let alone = restraint.dof < 3 || (3..6).all(|dof| !cx.plan.is_unknown(restraint.node, dof));
         if alone {
-            increment.q[restraint.dof] = now.u - from.u;
+            increment.q[restraint.dof] = moved.u;
         }
         increment.d[restraint.dof] = now.v;
         increment.dd[restraint.dof] = now.a;

@@ -157,7 +157,7 @@ fn work_of_step(
     let mut of_supports = 0.0;
     for (i, restraint) in cx.model.constraints.restraints.iter().enumerate() {
         let (old, new) = (state.reactions[i], -ws.forces.on_nodes[restraint.node][restraint.dof]);
-        let moved = ws.prescribed.end[i].u - ws.prescribed.start[i].u;
+        let moved = ws.prescribed.moved[i].u;
         of_supports += 0.5 * (old + new) * moved;
         gross += 0.5 * (old.abs() + new.abs()) * moved.abs();
         spread += 0.5 * (new - old).abs() * moved.abs();

@@ -1,0 +1,150 @@
+//! What several rotations of a node mean that supports give together.
+
+use crate::amplitude::Amplitude;
+use crate::constraints::given_angle::GivenAngle;
+use crate::constraints::joint::ConstraintEquation;
+use crate::deck::supports::Rotation;
+use crate::diagnostic::{At, Span};
+use crate::math::Vec3;
+use crate::math::turn::RotationAngles;
+use crate::model::data::{
+    AnalysisKind, DIRECTIONS, GivenTurn, History, Joint, JointCoordinate, JointDrive, PrescribedMotion, Restraint,
+};
+use crate::model::places::nodes::Topology;
+use crate::model::places::spot::Spot;
+use crate::model::procedure::stops::NamedActors;
+use crate::model::report::Report;
+use crate::model::scene::Scene;
+use std::collections::{BTreeMap, HashMap};
+
+/// What the deck says about the rotations of a node.
+struct NodeRotations<'d> {
+    /// The node's name in the deck, and where it stands.
+    name: String,
+    span: &'d Span,
+    rotation: Option<&'d At<Rotation>>,
+}
+
+/// A node whose three rotations are given together.
+#[derive(Debug, Clone, Copy)]
+pub struct TurnedNode {
+    node: usize,
+    angles: RotationAngles,
+}
+
+/// The rotations that are given together, by the restraints of the model.
+pub fn given_turns(turned: &[TurnedNode], restraints: &[Restraint]) -> Vec<GivenTurn> {
+    let of = |turned: &TurnedNode| {
+        let place =
+            |dof: usize| restraints.binary_search_by_key(&(turned.node, dof), |held| (held.node, held.dof)).ok();
+        Some(GivenTurn { restraints: [place(3)?, place(4)?, place(5)?], angles: turned.angles })
+    };
+    turned.iter().filter_map(of).collect()
+}
+
+/// The nodes whose rotations supports give, with what the deck says about them.
+#[derive(Default)]
+pub struct GivenRotations<'d>(BTreeMap<usize, NodeRotations<'d>>);
+
+/// Where rotations get their meaning.
+pub struct TurnSetting<'a, 'd> {
+    pub scene: &'a Scene<'d>,
+    pub amplitudes: &'a [Amplitude],
+    pub topology: &'a mut Topology,
+    pub joints: &'a mut Vec<Joint>,
+    /// The node that is restrained in place of each dependent node that is supported.
+    pub support_points: HashMap<usize, usize>,
+    pub report: &'a mut Report<'d>,
+}
+
+impl<'d> GivenRotations<'d> {
+    /// Notes what a support says about the rotations of a node.
+    pub fn note(&mut self, spot: &Spot<'d>, rotation: Option<&'d At<Rotation>>, report: &mut Report<'d>) {
+        let new = NodeRotations { name: spot.name.to_string(), span: spot.span, rotation };
+        let known = self.0.entry(spot.node).or_insert(new);
+        match (known.rotation, rotation) {
+            (Some(one), Some(other)) if one.value != other.value => {
+                let message = format!("two supports give the rotations of `{}` different meanings", spot.name);
+                report.error_with::<()>(&other.span, message, "one `rotation` is for all rotations of a node");
+            }
+            (None, Some(_)) => known.rotation = rotation,
+            _ => {}
+        }
+    }
+
+    /// Gives rotations of one node that move together their meaning: all three are prescribed at once; where one is free the others are
+    /// equations. What is at rest, or turns about one axis while the others are held, needs no more. Returns the nodes of the first sort.
+    pub fn take(self, mut setting: TurnSetting<'_, 'd>, named: &mut NamedActors) -> Vec<TurnedNode> {
+        let mut together = Vec::new();
+        for (node, of) in self.0 {
+            let held = setting.support_points.get(&node).copied().unwrap_or(node);
+            let given: Vec<&Restraint> = (3..6).filter_map(|dof| setting.topology.restraint(held, dof)).collect();
+            let moving = given.iter().filter(|restraint| restraint.motion.is_some()).count();
+            let angles = of.rotation.map_or(RotationAngles::Vector, |word| word.value.angles());
+            match given.len() {
+                3 if moving > 1 => together.push(TurnedNode { node: held, angles }),
+                2 if moving > 0 => setting.hold_apart(node, &of, angles, named),
+                1 if of.rotation.is_some() => setting.hold_apart(node, &of, angles, named),
+                _ => {}
+            }
+        }
+        together
+    }
+}
+
+impl<'d> TurnSetting<'_, 'd> {
+    /// Replaces the restraints of some rotations of a node by equations, since another one is free.
+    fn hold_apart(
+        &mut self,
+        node: usize,
+        turning: &NodeRotations<'d>,
+        angles: RotationAngles,
+        named: &mut NamedActors,
+    ) {
+        let (label, x) = (self.topology.label(node).to_owned(), self.topology.x(node));
+        let known = self.support_points.get(&node).copied();
+        let support = known.unwrap_or_else(|| self.topology.add(label.clone(), false, x));
+        for joint in self.joints.iter_mut().filter(|joint| joint.supports && joint.ends == [node, support]) {
+            joint.equations.retain(|row| !row.is_rotational());
+            joint.of_deck.retain(|row| !row.is_rotational());
+        }
+        self.joints.retain(|joint| !joint.supports || !joint.equations.is_empty());
+        let held = known.unwrap_or(node);
+        let given: Vec<Restraint> = (3..6).filter_map(|dof| self.topology.release(held, dof)).collect();
+        (3..6).for_each(|dof| self.topology.restrain(support, dof, None));
+        for Restraint { dof, motion, .. } in given {
+            let lock = ConstraintEquation::Given(GivenAngle::new(dof - 3, angles));
+            let name = format!("{label} on its support, {}", DIRECTIONS[dof]);
+            let Some(motion) = motion else {
+                self.joints.push(Joint::new(name, [node, support], vec![lock], true));
+                continue;
+            };
+            self.check_begin(turning, dof, &motion);
+            let number = self.topology.add_number(format!("{label}.{}", DIRECTIONS[dof]), node);
+            self.topology.restrain(number, 0, Some(motion));
+            let motions = named.iter_mut().flat_map(|(_, actors)| &mut actors.motions);
+            motions.filter(|moved| **moved == [held, dof]).for_each(|moved| *moved = [number, 0]);
+            let mut joint = Joint::new(name, [node, support], Vec::new(), true);
+            let axis = Vec3::ith(dof - 3, 1.0);
+            joint.coordinate = Some(JointCoordinate { lock, axis, drive: None, effort: None, spring: None });
+            joint.lead(JointDrive { node: number, ratio: 1.0, is_free: false });
+            self.joints.push(joint);
+        }
+    }
+
+    /// Reports a rotation beside a free one that does not begin at zero: what the node carries starts undisplaced.
+    fn check_begin(&mut self, turning: &NodeRotations<'d>, dof: usize, motion: &PrescribedMotion) {
+        let analysis = &self.scene.analysis;
+        let begins = analysis.kind == AnalysisKind::Dynamic && analysis.begin == 0.0;
+        let displaced = motion.history == History::Displacement
+            && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0;
+        if begins && displaced {
+            let message = format!(
+                "the motion of `{}` in {} does not begin at zero, but another rotation is free",
+                turning.name, DIRECTIONS[dof]
+            );
+            let hint = "let the amplitude begin at zero, or give all three rotations";
+            self.report.error_with::<()>(turning.span, message, hint);
+        }
+    }
+}
