@@ -4,31 +4,29 @@
 //! flat all are equally deep, and nodes lie under it as the mesh happens to be: if they pressed too, they would turn it. A node therefore
 //! presses once it is deeper than any corner that is pushed back in its own direction, and then by what it is deeper from there on.
 
-use super::facets::FacetContacts;
 use super::history::{PointHistory, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
+use super::nearest_corner::NearestCorner;
 use crate::state::{Configuration, Node};
-use std::sync::Arc;
 
 /// Cosine of the angle between the directions of a corner and a node up to which they press as one.
 const ONE_DIRECTION: f64 = 0.7;
 /// The part of a facet by which rounding may tell depths apart.
 const ROUNDING: f64 = 1e-9;
 
-/// The corners of a solid against the faces of a mesh.
-#[derive(Clone)]
-pub struct Corners {
-    of: Arc<FacetContacts>,
-}
-
-impl Corners {
-    /// The corners and the faces are those of a block of contacts.
-    pub fn new(of: FacetContacts) -> Self {
-        Corners { of: Arc::new(of) }
-    }
-}
-
 impl Contacts {
+    /// The depth at which the spring of a point begins.
+    #[inline]
+    pub(super) fn inset(&self, old: PointHistory) -> f64 {
+        old.inset(self.keeps_inset()).max(0.0)
+    }
+
+    /// True for a node that does not press, because a corner is deeper.
+    #[inline]
+    pub(super) fn is_idle(&self, old: PointHistory) -> bool {
+        self.corners.is_some() && (!old.is_known() || old.inset(true) < 0.0)
+    }
+
     /// Writes the depth at which the spring of a point begins, `inset` by its own motion; the gap of one that is idle is that to the surface.
     pub(super) fn remember_inset(
         &self,
@@ -46,7 +44,7 @@ impl Contacts {
         let gap = at.gap - self.inset(old);
         // What cannot come to touch in the next steps is not asked for.
         let is_far = self.law.dynamic && gap > 4.0 * now.dt * at.w.norm() && gap > 0.0;
-        if is_far || !self.leads(corners, at, gap, now.nodes) {
+        if is_far || !self.leads(&**corners, at, gap, now.nodes) {
             new.set_inset(true, -1.0);
             new.set_gap(gap);
             return;
@@ -58,9 +56,9 @@ impl Contacts {
     }
 
     /// True where a node is nearer to the solid than any of its corners, in about the same direction, to the faces.
-    fn leads(&self, corners: &Corners, at: &ContactKinematics, gap: f64, nodes: &[Node]) -> bool {
+    fn leads(&self, corners: &dyn NearestCorner, at: &ContactKinematics, gap: f64, nodes: &[Node]) -> bool {
         let outward = at.R * at.closest.n;
-        let least = corners.of.least_gap_toward(&-outward, ONE_DIRECTION, nodes);
-        gap < least - ROUNDING * corners.of.margin()
+        let least = corners.least_gap_toward(&-outward, ONE_DIRECTION, nodes);
+        gap < least - ROUNDING * corners.margin()
     }
 }

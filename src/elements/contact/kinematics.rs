@@ -1,14 +1,14 @@
 //! The position and motion of points relative to a surface.
 
-use super::corners::Corners;
-use super::history::PointHistory;
 use super::law::ContactLaw;
+use super::nearest_corner::NearestCorner;
 use super::point::{ContactPoint, MOST_NODES};
 use super::surface::Surface;
 use super::surfaces::kind::ClosestPoint;
 use crate::math::{Mat3, Vec3};
 use crate::state::Node;
 use nalgebra::Quaternion;
+use std::sync::Arc;
 
 /// Points with equally many nodes against one surface.
 pub struct Contacts {
@@ -27,7 +27,7 @@ pub struct Contacts {
     /// Friction turns nodes: their rotations belong to the history.
     pub(super) rolls: bool,
     /// The corners of the carrier that touch what the points are nodes of.
-    pub(super) corners: Option<Corners>,
+    pub(super) corners: Option<Arc<dyn NearestCorner>>,
 }
 
 /// A point against the surface at an instant.
@@ -75,25 +75,13 @@ impl Contacts {
     }
 
     /// The same of nodes that press only where they are deeper in the carrier than its corners are in the faces of those nodes.
-    pub fn beside(self, corners: Corners) -> Self {
+    pub fn beside(self, corners: Arc<dyn NearestCorner>) -> Self {
         Contacts { corners: Some(corners), ..self }
     }
 
     /// True where the depth at which a spring begins is remembered.
     pub(super) fn keeps_inset(&self) -> bool {
         self.law.keeps_inset() || self.corners.is_some()
-    }
-
-    /// The depth at which the spring of a point begins.
-    #[inline]
-    pub(super) fn inset(&self, old: PointHistory) -> f64 {
-        old.inset(self.keeps_inset()).max(0.0)
-    }
-
-    /// True for a node that does not press, because a corner is deeper.
-    #[inline]
-    pub(super) fn is_idle(&self, old: PointHistory) -> bool {
-        self.corners.is_some() && (!old.is_known() || old.inset(true) < 0.0)
     }
 
     /// Position and velocity relative to the carrier, global components.

@@ -30,6 +30,7 @@ mod history;
 mod kinematics;
 mod law;
 mod multipliers;
+mod nearest_corner;
 mod normal_motion;
 mod point;
 pub mod restitution;
@@ -41,7 +42,6 @@ mod tangent;
 mod update;
 
 pub use convex::{ConvexBody, ConvexHeap, ConvexPairs};
-pub use corners::Corners;
 pub use facets::{Facet, FacetContacts, FacetTouchers};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;

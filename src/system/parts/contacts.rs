@@ -2,12 +2,12 @@
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use crate::elements::contact::{
-    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, Corners, FacetContacts, MOST_NODES, SurfaceShape,
-    TouchKind,
+    ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, FacetContacts, MOST_NODES, SurfaceShape, TouchKind,
 };
 use crate::model::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::sections::Stiffness;
 use crate::system::plane::{MotionPlane, SMALL};
+use std::sync::Arc;
 
 impl Assembled for Contact {
     /// The blocks of points with equally many nodes, with the number of the first point among those; none for a clearance
@@ -83,7 +83,7 @@ fn facet_blocks(
     for (k, carried) in faces.solids.iter().enumerate() {
         let corners = faces.corners.get(k).filter(|corners| !corners.is_empty()).map(|corners| {
             let corners = corners.iter().map(|&e| points[e].clone()).collect();
-            Corners::new(FacetContacts::new(law, faces.touchers, corners, faces.facets.clone(), setting.x))
+            Arc::new(FacetContacts::new(law, faces.touchers, corners, faces.facets.clone(), setting.x))
         });
         for piece in pieces(faces.back.len()) {
             let points = faces.back[piece.clone()].to_vec();

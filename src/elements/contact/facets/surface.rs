@@ -9,6 +9,7 @@ use super::pair::FacetPair;
 use super::scene::{FacetScene, FacetTouchers};
 use super::touch;
 use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::nearest_corner::NearestCorner;
 use crate::elements::contact::point::ContactPoint;
 use crate::math::Vec3;
 use crate::state::{Configuration, Node};
@@ -108,25 +109,6 @@ impl FacetContacts {
         found
     }
 
-    /// A part of the size of a facet, by which gaps are told that are next to each other.
-    pub fn margin(&self) -> f64 {
-        self.scene.margin
-    }
-
-    /// The least gap of the points from facets that push them in a direction, within a cosine; infinite where none is near.
-    pub fn least_gap_toward(&self, direction: &Vec3, cosine: f64, nodes: &[Node]) -> f64 {
-        let mut nearby = self.nearby(nodes);
-        let (mut found, mut least) = (std::mem::take(&mut nearby.touches), f64::INFINITY);
-        for e in 0..self.points.len() {
-            let query = TouchQuery { e, limit: self.scene.margin, stays: false };
-            touch::find_within(self, nearby.of(e), query, nodes, &mut found);
-            let along = found.iter().filter(|touch| touch.toward.dot(direction) > cosine);
-            least = along.map(|touch| touch.gap).fold(least, f64::min);
-        }
-        nearby.touches = found;
-        least
-    }
-
     /// Calls with each pair that touches, `history` being that of the block.
     pub(super) fn each_touch<'a>(
         &'a self,
@@ -152,5 +134,24 @@ impl FacetContacts {
             }
         }
         nearby.touches = found;
+    }
+}
+
+impl NearestCorner for FacetContacts {
+    fn margin(&self) -> f64 {
+        self.scene.margin
+    }
+
+    fn least_gap_toward(&self, direction: &Vec3, cosine: f64, nodes: &[Node]) -> f64 {
+        let mut nearby = self.nearby(nodes);
+        let (mut found, mut least) = (std::mem::take(&mut nearby.touches), f64::INFINITY);
+        for e in 0..self.points.len() {
+            let query = TouchQuery { e, limit: self.scene.margin, stays: false };
+            touch::find_within(self, nearby.of(e), query, nodes, &mut found);
+            let along = found.iter().filter(|touch| touch.toward.dot(direction) > cosine);
+            least = along.map(|touch| touch.gap).fold(least, f64::min);
+        }
+        nearby.touches = found;
+        least
     }
 }
