@@ -1,8 +1,5 @@
 //! What the user may have meant.
 
-use std::borrow::Cow;
-use unicode_normalization::{IsNormalized, UnicodeNormalization, is_nfc_quick};
-
 /// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters, or in two
 /// if there are no more.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
@@ -36,14 +33,6 @@ pub fn joined(words: &[&str]) -> String {
         Some((last, [])) => (*last).to_owned(),
         Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
         None => String::new(),
-    }
-}
-
-/// A text with every accent in the same letter as its character, Unicode's form NFC: `é` may be one character or two, and looks the same.
-pub fn composed(text: &str) -> Cow<'_, str> {
-    match is_nfc_quick(text.chars()) {
-        IsNormalized::Yes => Cow::Borrowed(text),
-        _ => Cow::Owned(text.nfc().collect()),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The file of a sweep: the deck, what varies in it, and what is collected.
 
-use super::folder::CaseState;
+use super::case_state::CaseState;
 use crate::deck::number_slips;
 use crate::diagnostic::{Diagnostic, Source, Span};
 use crate::names::{nearest, quoted};
@@ -22,12 +22,12 @@ pub struct SweepFile {
     /// The numbers that are read from each result.
     pub collect: Vec<Collected>,
     /// The cases whose folders are kept.
-    pub keep: Keep,
+    pub keep: KeptFolders,
 }
 
 /// The cases whose folders are kept.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Keep {
+pub enum KeptFolders {
     /// All.
     #[default]
     All,
@@ -37,16 +37,17 @@ pub enum Keep {
     Summary,
 }
 
-impl Keep {
+impl KeptFolders {
     /// All of them with the words of the file.
-    const WORDS: [(&str, Keep); 3] = [("all", Keep::All), ("failed", Keep::Failed), ("summary", Keep::Summary)];
+    const WORDS: [(&str, KeptFolders); 3] =
+        [("all", KeptFolders::All), ("failed", KeptFolders::Failed), ("summary", KeptFolders::Summary)];
 
     /// Whether the folder of a case in this state stays.
     pub fn keeps(self, state: &CaseState) -> bool {
         match self {
-            Keep::All => true,
-            Keep::Failed => *state != CaseState::Done,
-            Keep::Summary => *state == CaseState::Pending,
+            KeptFolders::All => true,
+            KeptFolders::Failed => *state != CaseState::Done,
+            KeptFolders::Summary => *state == CaseState::Pending,
         }
     }
 }
@@ -196,8 +197,11 @@ impl Reader<'_> {
             match (key, value.get_ref()) {
                 ("deck", DeValue::String(path)) => file.deck = path.to_string(),
                 ("deck", _) => self.error(&value.span(), "`deck` must be the path of a deck, in quotes"),
-                ("keep", DeValue::String(word)) if Keep::WORDS.iter().any(|(name, _)| name == word) => {
-                    file.keep = Keep::WORDS.iter().find(|(name, _)| name == word).map_or(Keep::All, |(_, keep)| *keep);
+                ("keep", DeValue::String(word)) if KeptFolders::WORDS.iter().any(|(name, _)| name == word) => {
+                    file.keep = KeptFolders::WORDS
+                        .iter()
+                        .find(|(name, _)| name == word)
+                        .map_or(KeptFolders::All, |(_, keep)| *keep);
                 }
                 ("keep", _) => self.error(&value.span(), "`keep` can be \"all\", \"failed\" or \"summary\""),
                 ("vary", DeValue::Table(table)) => self.vary(table, &value.span(), &mut file),
@@ -411,7 +415,7 @@ mod tests {
         let words = schema["properties"]["keep"]["enum"].as_array().unwrap();
         assert_eq!(
             words.iter().map(|word| word.as_str().unwrap()).collect::<Vec<_>>(),
-            Keep::WORDS.map(|(word, _)| word)
+            KeptFolders::WORDS.map(|(word, _)| word)
         );
         let least = of("Range")["properties"]["steps"]["maximum"].as_u64();
         assert_eq!(least, Some(MOST_CASES as u64));

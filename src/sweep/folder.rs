@@ -3,9 +3,10 @@
 //! Any number of processes may fill one folder at once, on any number of machines: a case belongs to who locks its folder, and stands
 //! once its `result.json` does. Files that all of them write are moved in whole, and are the same bytes whoever writes them.
 
+use super::case_state::{CaseState, one_line};
 use super::cases::Cases;
 use super::collect::collect;
-use super::file::{Collected, Keep, SweepFile};
+use super::file::{Collected, KeptFolders, SweepFile};
 use super::page::page;
 use super::records::{Records, remove_folder};
 use crate::deck::Deck;
@@ -23,39 +24,6 @@ use std::path::{Path, PathBuf};
 /// The name of the file in the folder of a case that says why it could not be run.
 pub const FAILURE: &str = "failure.txt";
 
-/// What has become of a case.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum CaseState {
-    /// It is still to be run, or under way elsewhere.
-    Pending,
-    /// Its result stands.
-    Done,
-    /// Its result stands, but expected values were missed: why.
-    Missed(String),
-    /// It ended early, or its deck has errors: why.
-    Failed(String),
-}
-
-impl CaseState {
-    /// The word for it in summary.csv.
-    pub fn word(&self) -> &'static str {
-        match self {
-            CaseState::Pending => "pending",
-            CaseState::Done => "done",
-            CaseState::Missed(_) => "expectation-missed",
-            CaseState::Failed(_) => "failed",
-        }
-    }
-
-    /// The reason, in one line.
-    pub fn reason(&self) -> &str {
-        match self {
-            CaseState::Pending | CaseState::Done => "",
-            CaseState::Missed(reason) | CaseState::Failed(reason) => reason,
-        }
-    }
-}
-
 /// The folder of a sweep and those of its cases.
 pub struct SweepFolder {
     /// Its path.
@@ -65,7 +33,7 @@ pub struct SweepFolder {
     /// The digests of the files that decks name, by which the folders are named.
     pub files: HashMap<PathBuf, Vec<u8>>,
     /// The cases whose folders are kept.
-    pub keep: Keep,
+    pub keep: KeptFolders,
     /// The numbers that are read from each result.
     pub collect: Vec<Collected>,
     /// What is known of the others.
@@ -101,7 +69,7 @@ impl SweepFolder {
     /// # Errors
     /// A table cannot be read, a record cannot be written, or a folder cannot be removed; the error names it.
     pub fn let_go(&self, cases: Vec<PathBuf>) -> io::Result<Vec<PathBuf>> {
-        if self.keep == Keep::All {
+        if self.keep == KeptFolders::All {
             return Ok(cases);
         }
         let with_state = cases.into_iter().map(|case| {
@@ -174,7 +142,7 @@ impl SweepFolder {
         };
         let all = cases.values.par_iter().enumerate().map(row).collect::<io::Result<Vec<_>>>()?;
         let (rows, states): (Vec<Vec<String>>, Vec<CaseState>) = all.into_iter().unzip();
-        let has_folder = |name: &&String| self.keep == Keep::All || self.path.join(name).exists();
+        let has_folder = |name: &&String| self.keep == KeptFolders::All || self.path.join(name).exists();
         let folders: Vec<&str> =
             self.names.iter().map(|name| Some(name).filter(has_folder).map_or("", String::as_str)).collect();
         let page = page(&header, &rows, &folders, [cases.keys.len(), wanted.len()]);
@@ -231,11 +199,6 @@ fn numbers(folder: &Path, state: &CaseState, wanted: &[Collected]) -> io::Result
     let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
     let numbers = if stands { collect(folder, wanted)? } else { vec![None; wanted.len()] };
     Ok(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect())
-}
-
-/// The first lines of a reason as one.
-pub(super) fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// What makes the names of cases: 16 hexadecimal digits of a SHA-256 each.

@@ -3,8 +3,8 @@
 //! Each process appends to a file of its own in the folder `records`, and reads those of all: any number of processes, on any number of
 //! machines, may fill one sweep. A line without its end is that of a process which was killed, and counts for nothing.
 
+use super::case_state::{CaseState, one_line};
 use super::file::Collected;
-use super::folder::{CaseState, one_line};
 use crate::output::at;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
@@ -19,7 +19,7 @@ const NAME: &str = "records";
 
 /// What is known of a case whose folder is gone.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Record {
+pub struct CaseRecord {
     /// The name of the folder that the case had.
     folder: String,
     /// The digest of what was collected: other numbers need another run.
@@ -34,7 +34,7 @@ pub struct Record {
     pub numbers: Vec<String>,
 }
 
-impl Record {
+impl CaseRecord {
     /// What became of the case.
     pub fn state(&self) -> CaseState {
         match self.status.as_str() {
@@ -58,7 +58,7 @@ struct Known {
     /// The bytes of each file that have been read.
     read: HashMap<PathBuf, u64>,
     /// The last record of each case, by the name of its folder.
-    records: HashMap<String, Record>,
+    records: HashMap<String, CaseRecord>,
     own: Option<File>,
 }
 
@@ -70,7 +70,7 @@ impl Records {
     }
 
     /// The record of a case, by the name of its folder; what other processes have added meanwhile is read first.
-    pub fn find(&self, folder: &str) -> Option<Record> {
+    pub fn find(&self, folder: &str) -> Option<CaseRecord> {
         let mut known = self.known.lock().ok()?;
         known.refresh(&self.dir);
         known.records.get(folder).filter(|record| record.collect == self.collect).cloned()
@@ -88,7 +88,7 @@ impl Records {
             let run = known.records.get(folder).map_or(0, |before| before.run) + 1;
             let (folder, collect, numbers) = (folder.clone(), self.collect.clone(), numbers.clone());
             let (status, reason) = (state.word().to_owned(), state.reason().to_owned());
-            let record = Record { folder, collect, run, status, reason, numbers };
+            let record = CaseRecord { folder, collect, run, status, reason, numbers };
             lines += &serde_json::to_string(&record)?;
             lines.push('\n');
         }
@@ -127,10 +127,10 @@ impl Known {
     }
 
     fn learn(&mut self, line: &str) {
-        let Ok(record) = serde_json::from_str::<Record>(line) else { return };
+        let Ok(record) = serde_json::from_str::<CaseRecord>(line) else { return };
         let is_newer = self.records.get(&record.folder).is_none_or(|before| before.run <= record.run);
         if is_newer {
-            self.records.insert(record.folder.clone(), Record { reason: one_line(&record.reason), ..record });
+            self.records.insert(record.folder.clone(), CaseRecord { reason: one_line(&record.reason), ..record });
         }
     }
 }

@@ -18,12 +18,13 @@ const LINES: usize = 60;
 const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 18),
     ("deck/analysis.rs: Analysis", 16),
-    ("deck/beams.rs: Beam", 18),
+    ("deck/beams.rs: Beam", 19),
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 17),
     ("deck/mod.rs: Deck", 30),
     ("solve/derived.rs: Derived", 16),
-    ("solve/workspace.rs: Workspace", 16),
+    ("solve/frame.rs: Frame", 16),
+    ("solve/workspace.rs: Workspace", 17),
     ("system/energy.rs: Energy", 16),
 ];
 

@@ -72,17 +72,7 @@ pub fn response(
     let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
     let mut direct = Direct { pencil, excitation, stiffness, so_far: &mut *search.so_far, natural };
     let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
-    let mut solved = Ok(());
-    let known = response.rows.len().min(all.len());
-    for frequency in &all[known..] {
-        solved = look_up(at, response.rows.len() > known, &mut *search.pauses);
-        if solved.is_err() {
-            break;
-        }
-        direct.solve(*frequency, &mut response);
-    }
-    let whole = solved.and_then(|()| direct.find_resonances(&mut response));
-    if let Err(stopped) = whole {
+    if let Err(stopped) = direct.find(at, &all, &mut *search.pauses, &mut response) {
         direct.so_far.rows = response.rows;
         return Err(stopped);
     }
@@ -136,6 +126,25 @@ struct Direct<'a> {
 }
 
 impl Direct<'_> {
+    /// Solves the equations at the frequencies that are not known yet, and finds the resonances.
+    ///
+    /// # Errors
+    /// [`ModesFault::Stopped`] where a signal or a checkpoint is due; the rows so far are in `response`.
+    fn find(
+        &mut self,
+        at: &Linearized,
+        all: &[f64],
+        pauses: &mut dyn FnMut() -> bool,
+        response: &mut Response,
+    ) -> Result<(), ModesFault> {
+        let known = response.rows.len().min(all.len());
+        for frequency in &all[known..] {
+            look_up(at, response.rows.len() > known, pauses)?;
+            self.solve(*frequency, response);
+        }
+        self.find_resonances(response)
+    }
+
     /// Adds the motion at a frequency.
     fn solve(&mut self, frequency: f64, response: &mut Response) {
         /// Part of a frequency by which it is left on either side where its own equations cannot be solved.

@@ -1,7 +1,8 @@
 //! The outcome of the run as tables that need no script: status, plan, counts, expectations, the deck.
 
 use super::html::{escaped, table};
-use crate::names::{composed, short};
+use crate::diagnostic::composed;
+use crate::names::short;
 use crate::output::log;
 use crate::text_file::read_text;
 use serde_json::Value;

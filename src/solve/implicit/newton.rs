@@ -209,16 +209,7 @@ impl Newton {
             if ws.matrix.is_given_up(cx) {
                 return Err(Failure::Stopped);
             }
-            let to = progress.report.to;
-            progress.report.residual = match std::mem::take(&mut progress.predicted) {
-                true if constraint.is_none() => {
-                    let (size, linearized) = self.residual_of_prediction(cx, ws, state, stage, to);
-                    // It does not tell whether multipliers balance the forces at the end of the step.
-                    progress.unjudged = linearized && cx.system.multipliers() > 0;
-                    size
-                }
-                _ => evaluate_residual(cx, ws, state, stage, to),
-            };
+            progress.report.residual = self.residual(cx, ws, state, stage, (&mut progress, constraint.is_none()));
             if !progress.report.residual.is_finite() {
                 if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
                     return Err(residual::not_finite(cx, ws));
@@ -252,6 +243,25 @@ impl Newton {
                 }
             }
         }
+    }
+
+    /// The size of the residual forces of the iterate; of a prediction, which only steps to a `given` time have, it may be linearized.
+    fn residual(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        (progress, given): (&mut StepProgress, bool),
+    ) -> f64 {
+        let to = progress.report.to;
+        if !std::mem::take(&mut progress.predicted) || !given {
+            return evaluate_residual(cx, ws, state, stage, to);
+        }
+        let (size, linearized) = self.residual_of_prediction(cx, ws, state, stage, to);
+        // It does not tell whether multipliers balance the forces at the end of the step.
+        progress.unjudged = linearized && cx.system.multipliers() > 0;
+        size
     }
 
     /// Counts the negative eigenvalues of a new tangent of a load step. The first is left out: prescribed motion strains the elements beside it

@@ -1,0 +1,39 @@
+//! What has become of a case of a sweep.
+
+/// What has become of a case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CaseState {
+    /// It is still to be run, or under way elsewhere.
+    Pending,
+    /// Its result stands.
+    Done,
+    /// Its result stands, but expected values were missed: why.
+    Missed(String),
+    /// It ended early, or its deck has errors: why.
+    Failed(String),
+}
+
+impl CaseState {
+    /// The word for it in summary.csv.
+    pub fn word(&self) -> &'static str {
+        match self {
+            CaseState::Pending => "pending",
+            CaseState::Done => "done",
+            CaseState::Missed(_) => "expectation-missed",
+            CaseState::Failed(_) => "failed",
+        }
+    }
+
+    /// The reason, in one line.
+    pub fn reason(&self) -> &str {
+        match self {
+            CaseState::Pending | CaseState::Done => "",
+            CaseState::Missed(reason) | CaseState::Failed(reason) => reason,
+        }
+    }
+}
+
+/// The first lines of a reason as one.
+pub fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
