@@ -9,8 +9,11 @@ use crate::mesh::{GroupKind, Mesh, MeshGroup};
 use crate::names::joined;
 use std::collections::HashSet;
 
+/// Whether a group of a mesh is of a kind.
+type IsOfKind = fn(&Mesh, &MeshGroup) -> bool;
+
 /// Words before a name that say which kind of group it is.
-const KINDS: [(&str, fn(&Mesh, &MeshGroup) -> bool); 4] = [
+const KINDS: [(&str, IsOfKind); 4] = [
     ("node-set", |_, group| is_of_nodes(group)),
     ("element-set", |_, group| !is_of_nodes(group)),
     ("line-set", |mesh, group| !is_of_nodes(group) && all(mesh, group, false)),

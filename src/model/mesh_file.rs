@@ -50,7 +50,7 @@ impl Input {
 fn read(path: &str, bytes: Vec<u8>) -> Result<(Input, Vec<Diagnostic>), Vec<Diagnostic>> {
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
     let whole = match mesh::may_include(path) {
-        true => Included::new(path, bytes, &mut |name: &str| read_regular(&folder.join(name)))
+        true => Included::new(path, bytes, &mut |name: &str| read_regular(folder.join(name)))
             .map_err(|fault| vec![*fault])?,
         false => Included::alone(bytes),
     };
