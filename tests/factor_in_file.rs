@@ -78,7 +78,7 @@ fn a_factor_that_memory_does_not_hold_lies_in_a_file() {
             continue;
         }
         let (code, said) = run(folder, "refused", "200000", &scratch);
-        assert!(code == 1 && said.contains(reason) && said.contains("TMPDIR may name a folder"), "{code} {said}");
+        assert!(code == 7 && said.contains(reason) && said.contains("TMPDIR may name a folder"), "{code} {said}");
         assert!(!folder.join("refused").exists());
     }
     // Neither the matrix nor its update matrices have room.

@@ -118,7 +118,7 @@ fn a_resumed_run_leaves_the_same_files() {
     files.finish().unwrap();
     let mut names: Vec<_> = fs::read_dir(whole.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
     names.sort();
-    assert_eq!(names.len(), 9 + 3 + 5, "nine tables, names, the list, that of files, grids of steps 0 3 6 9 10");
+    assert_eq!(names.len(), 10 + 3 + 5, "ten tables, names, the list, that of files, grids of steps 0 3 6 9 10");
     for name in names {
         let [a, b] = [&whole, &resumed].map(|dir| fs::read(dir.path().join(&name)).unwrap());
         assert!(a == b, "{name:?}");

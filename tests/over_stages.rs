@@ -284,7 +284,7 @@ fn compare(scenes: std::ops::Range<usize>) {
                 let off = apart(&one, &motion(&deck(scheme, scene, Some(&more))));
                 let begins_anew = scheme.ends_with("alpha") && COMING[turn % COMING.len()].starts_with("[[loads]]");
                 let most = match scheme {
-                    _ if begins_anew => 3e-4,
+                    _ if begins_anew => 1e-3,
                     "central-difference" => 1e-5,
                     _ => 1e-7,
                 };

@@ -78,6 +78,9 @@ fn add(found: &mut Vec<Vec<f64>>, mut motion: Vec<f64>, size: f64, shifted: &Spa
 
 /// Motions that are uncoupled by mass too.
 fn uncoupled(found: Vec<Vec<f64>>, shifted: &Sparse, M: &Sparse, shift: f64) -> Vec<RestMotion> {
+    if found.is_empty() {
+        return Vec::new();
+    }
     let products: Vec<Vec<f64>> = found.iter().map(|motion| times(M, motion)).collect();
     let masses = DMatrix::from_fn(found.len(), found.len(), |i, j| dot(&found[i], &products[j]));
     let turned = masses.symmetric_eigen().eigenvectors;
