@@ -1,7 +1,6 @@
 //! Inertia of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: a mass m and a tensor
 //! J₀ at a node with the Newton-Euler equations (33). All that falls on one node is summed once, before the run.
 
-use super::free_motion::FreeMotion;
 use super::scale::Scale;
 use super::tangent_weights::TangentWeights;
 use crate::elements::Force;
@@ -21,8 +20,8 @@ pub struct Inertia {
     pub J0: Mat3,
     /// True where J₀ ≠ 0.
     pub rotary: bool,
-    /// The free rotation of the node where it is a [`super::TurningBody`].
-    pub free: Option<Box<FreeMotion>>,
+    /// True where the node turns by its angular momentum: one of [`super::TurningBody`].
+    pub turns: bool,
     /// What damps its motion where its shares have factors α of their own; `None` where that of all masses holds.
     pub drag: Option<Box<OwnDrag>>,
 }
@@ -96,20 +95,21 @@ impl Inertia {
     /// without, it is M and α M alone.
     pub fn tangent(&self, node: &Node, weights: &TangentWeights, damping: f64, gyroscopic: bool) -> Mat6 {
         let TangentWeights { rate, acceleration, turning, .. } = *weights;
-        let free = self.free.as_deref().zip(turning);
         let mut K = Mat6::zeros();
         let w = acceleration + damping * rate;
         K.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
         K *= self.drag.as_ref().map_or(w * self.mass, |own| acceleration * self.mass + rate * own.mass);
         if self.rotary {
             let J = self.J(node);
-            let damped = match &self.drag {
-                None => damping * rate * J,
-                Some(own) => rate * (node.R() * own.J0 * node.R().transpose()),
+            let mut k = match &self.drag {
+                None => w * J,
+                Some(own) => {
+                    let R = node.R();
+                    acceleration * J + rate * (R * own.J0 * R.transpose())
+                }
             };
-            let mut k = acceleration * J + damped;
-            if let (true, Some((free, ahead))) = (gyroscopic, free) {
-                k = turning_tangent(node, &J, (free, ahead), [rate, acceleration]) + damped;
+            if let (true, true, Some(kappa)) = (gyroscopic, self.turns, turning) {
+                k += self.momentum_tangent(node, &J, rate, acceleration / rate, kappa);
             } else if gyroscopic {
                 let (omega, alpha) = (skew(&node.omega), skew(&node.alpha));
                 let L = skew(&(J * node.omega));
@@ -122,24 +122,14 @@ impl Inertia {
         }
         K
     }
-}
 
-/// The derivative of J α + ω×J ω for a small turn δθ of a body whose coordinates turn back by κ = K ω₀, a time `ahead` of the start of
-/// the step. With ω_f of free rotation δω = (rate + ω_f~ − κ~) δθ and
-/// δα = (acceleration + rate (ω_f~ − 2 κ~) + (κ~ − ω_f~) κ~ + ½ (α + g)~) δθ in axes of the body. It turns the whole moment too, which is
-/// not small about an axis with hardly any inertia.
-fn turning_tangent(node: &Node, J: &Mat3, (free, ahead): (&FreeMotion, f64), [rate, acceleration]: [f64; 2]) -> Mat3 {
-    let (R, identity) = (node.R(), Mat3::identity());
-    let (own, alpha) = (R.tr_mul(&node.omega), R.tr_mul(&node.alpha));
-    let g = free.acceleration(&own);
-    let kappa = skew(&(R * (free.unwinding() * (own - ahead * alpha))));
-    let of_free = skew(&(R * (own - ahead * (alpha - g))));
-    let mean = skew(&(R * (0.5 * (alpha + g))));
-    let (omega, L) = (skew(&node.omega), J * node.omega);
-    let moment = J * node.alpha + node.omega.cross(&L);
-    let of_omega = rate * identity + of_free - kappa;
-    let of_alpha = acceleration * identity + rate * (of_free - 2.0 * kappa) + (kappa - of_free) * kappa + mean;
-    J * of_alpha + (omega * J - skew(&L)) * of_omega - skew(&moment)
+    /// The derivative of the rate of angular momentum e J ω + …, less e `rate` J, for a small turn δθ. The momentum changes by
+    /// δθ×π + J δΩ, the angular velocity in body axes by δΩ = (rate + ½ ω~ + κ rate J⁻¹ (π~ − ω~J)) δθ; what a finite rotation vector
+    /// adds is of second order in the step.
+    fn momentum_tangent(&self, node: &Node, J: &Mat3, rate: f64, e: f64, kappa: f64) -> Mat3 {
+        let (omega, L) = (skew(&node.omega), skew(&(J * node.omega)));
+        e * (0.5 * J * omega - L + kappa * rate * (L - omega * J))
+    }
 }
 
 /// Sums mass and inertia on each node.
@@ -182,7 +172,15 @@ impl Lumped {
         let entry = |(node, (mass, J0)): (usize, (f64, Mat3))| {
             let rotary = J0 != Mat3::zeros();
             let drag = || self.drags.get(node).cloned().map(Box::new);
-            (mass > 0.0 || rotary).then(|| Inertia { node, mass, weighing: mass, J0, rotary, free: None, drag: drag() })
+            (mass > 0.0 || rotary).then(|| Inertia {
+                node,
+                mass,
+                weighing: mass,
+                J0,
+                rotary,
+                turns: false,
+                drag: drag(),
+            })
         };
         self.sums.into_iter().enumerate().filter_map(entry).collect()
     }

@@ -11,8 +11,8 @@ pub struct TangentWeights {
     pub rate: f64,
     /// Factor ∂q̈/∂q of the mass.
     pub acceleration: f64,
-    /// The time since the start of the step, where rotations of bodies are counted from their free rotation.
-    pub turning: Option<f64>,
+    /// [`crate::integrators::Coefficients::turning`].
+    pub turning: bool,
     /// Moduli of the materials in K.
     pub moduli: Moduli,
 }

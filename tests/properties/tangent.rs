@@ -146,7 +146,7 @@ impl Instant {
             stiffness: true,
             rate,
             acceleration,
-            turning: self.scheme.turning.then(|| self.scheme.ahead()),
+            turning: self.scheme.turning,
             moduli: Moduli::Algorithmic,
         };
         assembly.tangent(&self.system, &self.configuration(&nodes), &self.loading, &mut forces, weights, &mut solver);
@@ -316,8 +316,6 @@ fn of_turning_bodies_lacks_no_gyroscopic_term() {
             scene.analysis.step_length = StepLength::Fixed { step: dt };
             let mut at = Instant::random(&scene, &mut StdRng::seed_from_u64(8), 1.0, None);
             at.scheme = scheme(dt);
-            let predict = |n: &Node| at.scheme.predict(&stack(&n.v, &n.omega), &stack(&n.a, &n.alpha), &Vec6::zeros());
-            at.q = at.start.iter().map(predict).collect();
             let exact = at.differences();
             let K = at.tangent(linear::Factorization::BlockLu);
             whole.push(difference(&K, &exact));

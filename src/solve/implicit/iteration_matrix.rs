@@ -99,8 +99,7 @@ impl IterationMatrix {
         let mut moduli = self.refresh.moduli();
         self.is_stabilized = false;
         loop {
-            let turning = scheme.turning.then(|| scheme.ahead());
-            let weights = TangentWeights { stiffness: true, rate, acceleration, turning, moduli };
+            let weights = TangentWeights { stiffness: true, rate, acceleration, turning: scheme.turning, moduli };
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
             matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
             if let Some(unheld) = self.unheld.as_ref().filter(|_| self.is_stabilized) {
