@@ -115,7 +115,7 @@ fn measure(name: &str, mut model: Model) {
     let mut forces = Forces::new(&system, model.nodes.len());
     let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
-    let weights = TangentWeights { stiffness: true, rate, acceleration, turning: false, moduli: Moduli::Algorithmic };
+    let weights = TangentWeights { stiffness: true, rate, acceleration, turning: None, moduli: Moduli::Algorithmic };
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&state.configuration(), &loading, f)));
     let tangent = least(

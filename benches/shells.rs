@@ -155,7 +155,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);
     let scheme = &model.solution.scheme;
     let (rate, acceleration) = scheme.coefficients(model.analysis.nominal_step()).weights();
-    let weights = TangentWeights { stiffness: true, rate, acceleration, turning: false, moduli: Moduli::Algorithmic };
+    let weights = TangentWeights { stiffness: true, rate, acceleration, turning: None, moduli: Moduli::Algorithmic };
 
     let force = least(&mut forces, |_| (), |f| _ = black_box(system.residual(&now, &loading, f)));
     let both = &mut (&mut assembly, &mut solver);

@@ -72,7 +72,6 @@ mod study;
 mod sudden_loads;
 mod sweep;
 mod table_sizes;
-mod thin_rods;
 mod turning;
 
 mod scene;

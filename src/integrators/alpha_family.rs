@@ -36,6 +36,8 @@ impl AlphaFamily {
         let (m, f) = ((1.0 - alpha_m) / (1.0 - alpha_f), 1.0 - alpha_f);
         // a₁ = q/(β Δt²) − v/(β Δt) − (1/2β − 1) a, v₁ = v + Δt ((1 − γ) a + γ a₁)
         let old = 0.5 / beta - 1.0;
+        // a runs ahead of q̈ by this part of a step.
+        let ahead = alpha_m - alpha_f;
         let rate = [gamma / (beta * dt), 1.0 - gamma / beta, dt * (1.0 - 0.5 * gamma / beta)];
         Coefficients {
             instant: 1.0,
@@ -43,7 +45,8 @@ impl AlphaFamily {
             acceleration: [m / (beta * dt * dt), -m / (beta * dt), alpha_m / f - m * old, -alpha_f / f],
             prediction: [dt, 0.5 * dt * dt, dt * dt * dt / 6.0],
             end: [[1.0, 0.0, 0.0, 0.0], [rate[0], rate[1], rate[2], 0.0], [0.0, 0.0, 0.0, 1.0]],
-            turning: true,
+            // ½ Δt² of the third derivative is due in q̇, of which q brings ⅙ Δt³ and a its own.
+            turning: Some(0.5 * dt - rate[0] * dt * dt / 6.0 - rate[2] * ahead),
             rotation,
         }
     }

@@ -81,7 +81,8 @@ impl TwoStages for Bathe {
             acceleration: [b * b, -b, 1.0, 0.0],
             prediction: [h2, 0.5 * h2 * h2, h2 * h2 * h2 / 6.0],
             end: [[1.0, 0.0, 0.0, 0.0], [b, -1.0, 0.0, 0.0], [b * b, -b, 1.0, 0.0]],
-            turning: true,
+            // The derivative of the parabola through three points errs by ⅙ Δt h₂ of the third one.
+            turning: Some(dt / 6.0),
             rotation: self.rotation,
         }
     }

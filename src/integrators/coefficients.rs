@@ -19,8 +19,9 @@ pub struct Coefficients {
     pub prediction: [f64; 3],
     /// Weights of (q, v, a, q̈ at the instant) in (q, q̇, q̈) at t + Δt.
     pub end: [[f64; 4]; 3],
-    /// True where the rotations of bodies are counted from their free rotation.
-    pub turning: bool,
+    /// The time κ by which the change of a free body's angular acceleration over the step enters its q̇, which is then exact to third
+    /// order; `None` where bodies are integrated like all other nodes.
+    pub turning: Option<f64>,
     /// The update of rotations.
     pub rotation: RotationUpdate,
 }
@@ -34,7 +35,7 @@ impl Coefficients {
             acceleration: [0.0; 4],
             prediction: [dt, 0.5 * dt * dt, 0.0],
             end: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.5 * dt, 0.5 * dt], [0.0, 0.0, 0.0, 1.0]],
-            turning: false,
+            turning: None,
             rotation,
         }
     }
@@ -44,9 +45,11 @@ impl Coefficients {
         (self.rate[0], self.acceleration[0])
     }
 
-    /// The time from the start of the step to the instant of equilibrium.
-    pub fn ahead(&self) -> f64 {
-        self.prediction[0]
+    /// The weights of (q̇ there, v, a, q̈ at the start of the step, where that is not a) in q̈ there, q being eliminated.
+    pub fn of_velocities(&self) -> [f64; 4] {
+        let ([r1, r2, r3], [a1, a2, a3, a4]) = (self.rate, self.acceleration);
+        let of_new = a1 / r1;
+        [of_new, a2 - of_new * r2, a3 - of_new * r3, a4]
     }
 
     /// The predicted q from (v, a, ȧ).

@@ -11,7 +11,7 @@ pub fn coefficients() -> Coefficients {
         acceleration: [0.0; 4],
         prediction: [0.0; 3],
         end: [[1.0, 0.0, 0.0, 0.0], [0.0; 4], [0.0; 4]],
-        turning: false,
+        turning: None,
         rotation: RotationUpdate::Exponential,
     }
 }

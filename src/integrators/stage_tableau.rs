@@ -70,7 +70,7 @@ impl StageTableau {
             acceleration: of_acceleration,
             prediction: [dt, 0.5 * dt * dt, dt * dt * dt / 6.0],
             end: [[1.0, 0.0, 0.0, 0.0], of_rate, of_acceleration],
-            turning: false,
+            turning: None,
             rotation,
         }
     }

@@ -81,7 +81,8 @@ impl Scheme for WilsonTheta {
                 [0.0, 1.0, 0.5 * dt * (1.0 + old), 0.5 * dt * new],
                 [0.0, 0.0, old, new],
             ],
-            turning: true,
+            // The linear acceleration is exact to third order.
+            turning: Some(0.0),
             rotation: self.rotation,
         }
     }

@@ -16,7 +16,7 @@ const FORBIDDEN: f64 = 1e-6;
 
 /// The weights K + rate·C + acceleration·M.
 pub fn weights(rate: f64, acceleration: f64) -> TangentWeights {
-    TangentWeights { stiffness: true, rate, acceleration, turning: false, moduli: Moduli::Elastic }
+    TangentWeights { stiffness: true, rate, acceleration, turning: None, moduli: Moduli::Elastic }
 }
 
 /// K − σ M with its factors, and M.

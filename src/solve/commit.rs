@@ -86,17 +86,20 @@ pub fn commit(
 /// Updates the algorithmic accelerations of schemes that have them.
 fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut State) {
     let Some([of_a, of_start, of_end]) = cx.algorithmic_acceleration else { return };
-    let mut bodies = cx.system.turning_bodies().iter().zip(&ws.turning).peekable();
+    let mut bodies = cx.system.turning_bodies().iter().peekable();
     for &node in &cx.independent_nodes {
         let (start, end, increment) = (&state.nodes[node], &ws.trial[node], &ws.increments[node]);
         let before = stack(&start.a, &start.alpha);
-        // The combination holds for the second derivative of the rotation vector of the step, or for that of a body's coordinates; it is
-        // stored as a spatial vector like every other acceleration.
+        // The combination holds for the second derivative of the rotation vector of the step, or for the rates of a body's angular
+        // momentum; it is stored as a spatial vector like every other acceleration.
         let old = state.algorithmic_accelerations[node];
         let a = old * of_a + before * of_start + increment.dd * of_end;
         let turn = match TurningBody::next_at(&mut bodies, node) {
-            Some((body, turning)) => {
-                body.algorithmic_acceleration(turning, (start, end), &angular(&old), [of_a, of_start, of_end])
+            Some(body) => {
+                let rate = body.momentum_rate(start, &angular(&old)) * of_a
+                    + body.momentum_rate(start, &start.alpha) * of_start
+                    + body.momentum_rate(end, &end.alpha) * of_end;
+                body.acceleration(end, &rate)
             }
             None => rates(&angular(&increment.q), &angular(&increment.d), &angular(&a)).1,
         };

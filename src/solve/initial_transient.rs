@@ -84,7 +84,7 @@ fn solve(cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Option<f64
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     let (rate, acceleration) = cx.model.solution.scheme.coefficients(dt).weights();
-    let weights = TangentWeights { stiffness: true, rate, acceleration, turning: false, moduli: Moduli::Elastic };
+    let weights = TangentWeights { stiffness: true, rate, acceleration, turning: None, moduli: Moduli::Elastic };
     ws.matrix.make_room(cx, &now);
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);

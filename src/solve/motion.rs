@@ -111,7 +111,7 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
         let [v, a] = stage.start_rates(cx, state, node, [own_v, own_a]);
         stage.scheme.differentiate(&mut ws.increments[node], &v, &a, &own_a);
     }
-    if stage.scheme.turning {
+    if stage.scheme.turning.is_some() {
         for (body, start) in cx.system.turning_bodies().iter().zip(&ws.turning) {
             body.differentiate(start, &mut ws.increments[body.node], stage.scheme);
         }
@@ -120,23 +120,23 @@ pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
 
 /// Writes the increments at the end of the step in place of those at the instant of equilibrium.
 pub fn finish(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    let bodies: &[TurningBody] = if stage.scheme.turning { cx.system.turning_bodies() } else { &[] };
-    let mut bodies = bodies.iter().zip(&ws.turning).peekable();
+    let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { cx.system.turning_bodies() } else { &[] };
+    let mut bodies = bodies.iter().peekable();
     for &node in &cx.independent_nodes {
         let start = &state.nodes[node];
         let [v, a] = stage.start_rates(cx, state, node, rates_of(start));
         let at_instant = ws.increments[node];
         let end = &mut ws.increments[node];
         *end = stage.scheme.finish(&at_instant, &v, &a);
-        if let Some((body, turning)) = TurningBody::next_at(&mut bodies, node) {
-            body.finish((start, turning), &at_instant, end, stage.scheme);
+        if let Some(body) = TurningBody::next_at(&mut bodies, node) {
+            body.finish(start, &at_instant, end, stage.scheme);
         }
     }
 }
 
 /// Writes what the rotations of bodies start from in a stage, as the scheme uses it.
 fn start_turning(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    if !stage.scheme.turning {
+    if stage.scheme.turning.is_none() {
         return;
     }
     ws.turning.clear();

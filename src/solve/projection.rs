@@ -123,7 +123,7 @@ impl ConstraintProjection {
     /// cannot be closed.
     fn factor(&mut self, nodes: &[Node]) -> bool {
         let weights =
-            TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: false, moduli: Moduli::Elastic };
+            TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
         let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly, .. }, forces, loading, .. } = self;
         assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
         let values = solver.values();

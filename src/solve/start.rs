@@ -244,7 +244,7 @@ pub fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Res
     let mut oblique: Vec<usize> = Vec::new();
     loop {
         let weights =
-            TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: false, moduli: Moduli::Elastic };
+            TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
         let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
         matrix.assembly.tangent(cx.system, now, loads, &mut ws.forces, weights, &mut matrix.solver);
         let mut massless = oblique.clone();

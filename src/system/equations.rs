@@ -32,7 +32,7 @@ pub struct System {
     pub history: usize,
     /// Lumped inertia, at most one entry for each node, in ascending order of nodes.
     pub inertias: Vec<Inertia>,
-    /// The bodies whose rotation is counted from their free one in implicit schemes.
+    /// The bodies that turn by their angular momentum in implicit schemes.
     turning_bodies: Vec<TurningBody>,
     /// The consistent mass matrices, element by element.
     pub(super) consistent: Vec<ConsistentMass>,
@@ -134,7 +134,7 @@ impl System {
         plane_motion::that_holds(model, &self.inertias, &self.rigid_links)
     }
 
-    /// The bodies whose rotation is counted from their free one in implicit schemes, in ascending order of nodes.
+    /// The bodies that turn by their angular momentum in implicit schemes, in ascending order of nodes.
     pub fn turning_bodies(&self) -> &[TurningBody] {
         &self.turning_bodies
     }

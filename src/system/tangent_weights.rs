@@ -12,7 +12,7 @@ pub struct TangentWeights {
     /// Factor ∂q̈/∂q of the mass.
     pub acceleration: f64,
     /// [`crate::integrators::Coefficients::turning`].
-    pub turning: bool,
+    pub turning: Option<f64>,
     /// Moduli of the materials in K.
     pub moduli: Moduli,
 }

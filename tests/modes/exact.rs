@@ -24,7 +24,7 @@ fn matrices(model: &Model) -> [Sparse; 2] {
     let mut solver = Solver::new(&plan.structure, Factorization::Cholesky, 1).unwrap();
     let mut assembly = Assembly::new(&system, &plan.dofs, &solver, 1);
     [(true, 0.0), (false, 1.0)].map(|(stiffness, acceleration)| {
-        let weights = TangentWeights { stiffness, rate: 0.0, acceleration, turning: false, moduli: Moduli::Elastic };
+        let weights = TangentWeights { stiffness, rate: 0.0, acceleration, turning: None, moduli: Moduli::Elastic };
         assembly.unconstrained(&system, &now, &loading, &mut forces, weights, &mut solver);
         solver.matrix(plan.dofs.nodal_dofs().len())
     })

@@ -34,7 +34,7 @@ fn matrix(model: &Model, stiffness: bool) -> DMatrix<f64> {
     system.residual(&Configuration::of(&nodes), &loading, &mut forces);
     let (mut solver, mut assembly) = plan.build(&system).unwrap();
     let acceleration = if stiffness { 0.0 } else { 1.0 };
-    let weights = TangentWeights { stiffness, rate: 0.0, acceleration, turning: false, moduli: Moduli::Algorithmic };
+    let weights = TangentWeights { stiffness, rate: 0.0, acceleration, turning: None, moduli: Moduli::Algorithmic };
     assembly.tangent(&system, &Configuration::of(&nodes), &loading, &mut forces, weights, &mut solver);
     let n = plan.dofs.unknowns();
     // A symmetric solver stores one triangle under either name.

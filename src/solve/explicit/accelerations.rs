@@ -209,7 +209,7 @@ impl Accelerations {
 /// Forms and factorizes the matrix of masses and joints in the trial motion.
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
     let weights =
-        TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: false, moduli: Moduli::Elastic };
+        TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
     let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);

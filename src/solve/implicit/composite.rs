@@ -85,11 +85,10 @@ impl<'a> Composite<'a> {
             self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];
         }
         for body in cx.system.turning_bodies() {
-            let (start, between) = (&self.start.nodes[body.node], &between.nodes[body.node]);
-            let back = body.look_back(between, (start, self.scheme.split() * dt), &b);
-            for (rates, back) in self.start_rates[body.node].iter_mut().zip(back) {
-                *rates = stack(&linear(rates), &back);
-            }
+            let nodes = [&self.start.nodes[body.node], &between.nodes[body.node]];
+            let [start, between] = nodes.map(|node| body.momentum(node));
+            let [_, second] = &mut self.start_rates[body.node];
+            *second = stack(&linear(second), &(start * b.start + between * b.between));
         }
     }
 }

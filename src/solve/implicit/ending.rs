@@ -14,9 +14,6 @@ use crate::solve::context::Context;
 
 /// Contraction assumed where none was seen.
 const UNKNOWN: f64 = 0.5;
-/// The tolerances of scenes with bodies that count their rotation from a free one, over those of others: what is left of their large spin
-/// in each step has one sign and adds up, while moments change the spin little in a step.
-const OF_TURNING_BODIES: f64 = 1e-3;
 /// A contraction that was not seen again is trusted less by this factor with every step.
 const TRUST: f64 = 1.5;
 
@@ -29,8 +26,6 @@ pub struct Ending {
     pub residual: f64,
     /// The tolerance of the deck, below which none goes.
     least: f64,
-    /// The tolerances over those of other scenes.
-    share: f64,
     /// The contraction seen last; none is carried from step to step where every step is iterated to the digits of the deck.
     contraction: Option<f64>,
     /// True where steps are iterated to a part of the error that they may leave.
@@ -39,24 +34,14 @@ pub struct Ending {
     of_own_error: bool,
 }
 
-keep!(Ending { tolerance, residual, least, contraction, carries } without { of_own_error, share });
+keep!(Ending { tolerance, residual, least, contraction, carries } without { of_own_error });
 
 impl Ending {
     /// The end of the iteration of a scene.
     pub fn new(cx: &Context) -> Ending {
-        let iteration = &cx.model.solution.iteration;
-        let share = if cx.system.turning_bodies().is_empty() { 1.0 } else { OF_TURNING_BODIES };
-        let tolerance = iteration.tolerance * if iteration.follows_step { share } else { 1.0 };
+        let tolerance = cx.model.solution.iteration.tolerance;
         let of_own_error = follows_own_error(cx);
-        Ending {
-            tolerance,
-            residual: tolerance,
-            least: tolerance,
-            share,
-            contraction: None,
-            carries: false,
-            of_own_error,
-        }
+        Ending { tolerance, residual: tolerance, least: tolerance, contraction: None, carries: false, of_own_error }
     }
 
     /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.
@@ -65,8 +50,8 @@ impl Ending {
         const PART: f64 = 0.01;
         /// Forces follow the motion: those of stiff parts are far from it long before the motion is, and no step builds on them.
         const PART_OF_FORCES: f64 = 0.1;
-        (self.tolerance, self.carries) = (self.least.max(PART * self.share * error), true);
-        self.residual = self.least.max(PART_OF_FORCES * self.share * error);
+        (self.tolerance, self.carries) = (self.least.max(PART * error), true);
+        self.residual = self.least.max(PART_OF_FORCES * error);
         self.contraction = None;
     }
 

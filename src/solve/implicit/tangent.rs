@@ -24,7 +24,7 @@ const ROUNDING: f64 = 1e-14;
 
 /// Statics: no rates, no masses.
 pub const WEIGHTS: TangentWeights =
-    TangentWeights { stiffness: true, rate: 0.0, acceleration: 0.0, turning: false, moduli: Moduli::Algorithmic };
+    TangentWeights { stiffness: true, rate: 0.0, acceleration: 0.0, turning: None, moduli: Moduli::Algorithmic };
 
 /// What of a tangent tells of stability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

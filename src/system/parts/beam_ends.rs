@@ -73,7 +73,7 @@ impl BeamEnds {
                             weighing: share.mass,
                             J0,
                             rotary: J0 != Mat3::zeros(),
-                            free: None,
+                            turns: false,
                             drag: Some(Box::new(OwnDrag { mass: alpha * mass, J0: alpha * J0 })),
                         },
                         row: row.map(|(_, column, m)| (column, m)).collect(),
