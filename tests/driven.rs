@@ -222,7 +222,7 @@ fn corners_are_said() {
         let (code, found) = run(folder, &pin("0.0125", newmark, &amplitude));
         assert_eq!((code, found.as_str()), (0, ""), "{amplitude}");
     }
-    let overshoot = table("[0.0, 0.0], [0.3, 0.1], [0.6, 0.11], [1.0, 0.12]", "interpolation = \"cubic\"");
+    let overshoot = table("[0.0, 0.0], [0.4, 0.0], [0.5, 0.1], [0.6, 0.1], [1.0, 0.12]", "interpolation = \"cubic\"");
     let (code, found) = run(folder, &pin("0.0125", newmark, &overshoot));
     assert!(code == 0 && found.contains("goes beyond its points"), "{found}");
 }
