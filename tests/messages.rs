@@ -1081,6 +1081,19 @@ fn contacts() {
     assert_eq!(contact(plane, "with = \"portal\"\nradius = 0.0\nstiffness = 1e5"), "");
     let numbers = "with = [\"portel\", \"bumper\"]\nstiffness = -1.0\nfriction = -0.1\nrestitution = 1.5\ndamping = 1.0\nradius = -1.0";
     assert_snapshot!("contact_numbers", contact(plane, numbers));
+    let two = "with = \"portal\"\nstiffness = 1e5\nfriction = { static = 0.2, kinetic = 0.3, decay = 0.0 }";
+    assert_snapshot!("contact_two_coefficients", contact(plane, two));
+    let half = "with = \"portal\"\nstiffness = 1e5\nfriction = { static = -0.2 }";
+    assert_snapshot!("contact_half_of_two_coefficients", contact(plane, half));
+    let both = "with = \"portal\"\nstiffness = 1e5\nradius = 0.0\nfriction = { static = 0.3, kinetic = 0.2 }";
+    assert_eq!(contact(plane, both), "");
+    let statics = format!(
+        "{}\n[[contacts]]\nname = \"touch\"\nsurface = {{ {plane} }}\n{both}",
+        PORTAL.replace("\"dynamic\"", "\"static\"")
+    );
+    let told = said(&statics, &[]);
+    assert!(told.contains("has two coefficients of friction, and a static analysis has no slip speed"), "{told}");
+    assert!(told.contains("give one coefficient, 0.3 while nothing slips"), "{told}");
     let box_on = r#"shape = "box", body = "block", size = [1.0, 0.0, 1.0], radius = 1.0, normal = [1.0, 0.0, 0.0]"#;
     assert_snapshot!("contact_box", contact(box_on, "with = \"block\""));
     let axes = r#"shape = "box", size = [1.0, 1.0, 1.0], axes = [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]"#;

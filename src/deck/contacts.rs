@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::part_table::{PartTable, names};
 use super::words::kinds::{Kinds, OneOf};
-use super::words::{Maybe, Names};
+use super::words::{Maybe, Names, NumberOrTable};
 use crate::diagnostic::At;
 use crate::elements::contact::SurfaceShape;
 use crate::elements::contact::surfaces::SURFACES;
@@ -46,11 +46,55 @@ pub struct Contact {
     pub restitution: Maybe<f64>,
     /// Force per normal velocity, 0 or more, instead of a restitution. The contact never pulls.
     pub damping: Maybe<f64>,
-    /// Coulomb's coefficient of friction, 0 or more. Default: 0.
-    pub friction: Maybe<f64>,
+    /// Coulomb's coefficient of friction, 0 or more; in dynamics also { static, kinetic, decay }. Default: 0.
+    pub friction: Maybe<NumberOrTable<ContactFriction>>,
     /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
     /// boxes, ends of capsules and rims of cylinders where these touch by points, at most 100. Default: 0.
     pub points: Maybe<u64>,
+}
+
+/// Two coefficients of friction.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactFriction {
+    /// Coulomb's coefficient while the contact sticks, above 0.
+    #[schemars(required)]
+    #[serde(rename = "static")]
+    pub sticking: Maybe<f64>,
+    /// Coulomb's coefficient of a contact that slips fast, 0 to `static`.
+    #[schemars(required)]
+    pub kinetic: Maybe<f64>,
+    /// Time per length, above 0: at a slip speed v the coefficient is kinetic + (static − kinetic) exp(−decay v). Default: `kinetic` as soon
+    /// as the contact slips.
+    pub decay: Maybe<f64>,
+}
+
+/// The coefficients of friction of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients {
+    /// The coefficient while the contact sticks.
+    pub sticking: f64,
+    /// The coefficient at a high slip speed.
+    pub kinetic: f64,
+    /// Time per length, the rate at which the coefficient falls with the slip speed; infinite without `decay`.
+    pub decay: f64,
+}
+
+impl Contact {
+    /// The coefficients of friction; zero where the deck gives none.
+    pub fn coefficients(&self) -> Coefficients {
+        let value = |at: &Maybe<f64>| at.as_ref().map_or(0.0, |at| at.value);
+        let one = |mu: f64| Coefficients { sticking: mu, kinetic: mu, decay: f64::INFINITY };
+        match self.friction.as_ref().map(|at| &at.value) {
+            Some(NumberOrTable::Table(table)) => Coefficients {
+                sticking: value(&table.sticking),
+                kinetic: value(&table.kinetic),
+                decay: table.decay.as_ref().map_or(f64::INFINITY, |at| at.value),
+            },
+            Some(NumberOrTable::Number(mu)) => one(*mu),
+            None => one(0.0),
+        }
+    }
 }
 
 /// What keeps things apart that touch.

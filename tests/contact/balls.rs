@@ -66,6 +66,8 @@ fn heap(count: usize) -> (FacetContacts, Vec<Node>) {
         stiffness: 1e3,
         loss: Loss::None,
         friction: 0.0,
+        kinetic: 0.0,
+        decay: f64::INFINITY,
         floor: 0.0,
         resolution: f64::INFINITY,
         duration: 0.0,

@@ -39,6 +39,8 @@ fn touch(
         stiffness: 1e3,
         loss: Loss::Restitution { number: number(0.5), floor: 0.1 },
         friction,
+        kinetic: friction,
+        decay: f64::INFINITY,
         floor: 0.1,
         resolution: f64::INFINITY,
         duration: 0.0,

@@ -19,6 +19,8 @@ pub fn law(friction: f64, loss: Loss) -> ContactLaw {
         stiffness: STIFFNESS,
         loss,
         friction,
+        kinetic: friction,
+        decay: f64::INFINITY,
         floor: 0.1,
         resolution: f64::INFINITY,
         duration: 0.0,

@@ -28,6 +28,7 @@ mod sliding_far;
 mod stages;
 mod stiffness;
 mod touch;
+mod two_coefficients;
 
 use crate::support::{Done, read_deck, run_to_the_end};
 use rdsolve::solve::Frame;

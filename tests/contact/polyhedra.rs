@@ -175,6 +175,8 @@ fn law(friction: f64, loss: Loss) -> ContactLaw {
         stiffness: 250.0,
         loss,
         friction,
+        kinetic: friction,
+        decay: f64::INFINITY,
         floor: 0.1,
         resolution: f64::INFINITY,
         duration: 0.0,

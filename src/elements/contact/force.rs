@@ -51,7 +51,7 @@ pub(super) fn contact_force(
     let from_anchor = at.p - old.anchor();
     let friction = friction_force(
         law.stiffness,
-        law.friction,
+        law.friction_at(old.slip_speed()),
         normal.force,
         &at.closest,
         &from_anchor,

@@ -20,8 +20,9 @@ const DAMPING_POWER: usize = 6;
 /// Here friction begins.
 pub(super) const FRICTION_FORCE: usize = 7;
 const ANCHOR: usize = 8;
+const SLIP_SPEED: usize = 11;
 /// Here the rotations of nodes begin, four numbers each.
-const ROTATIONS: usize = 11;
+const ROTATIONS: usize = 12;
 
 /// The history of one point.
 #[derive(Clone, Copy)]
@@ -89,7 +90,13 @@ impl<'a> PointHistory<'a> {
     /// Position of the anchor of the friction spring, in the frame of the surface; with friction alone.
     #[inline]
     pub fn anchor(self) -> Vec3 {
-        Vec3::from_column_slice(&self.0[ANCHOR..ROTATIONS])
+        Vec3::from_column_slice(&self.0[ANCHOR..SLIP_SPEED])
+    }
+
+    /// The slip speed of the step before the last state; with friction alone.
+    #[inline]
+    pub fn slip_speed(self) -> f64 {
+        self.0[SLIP_SPEED]
     }
 
     /// Depth by which the spring of the normal force is pressed in at zero gap: its multiplier over the stiffness. 0 under springs alone.
@@ -185,7 +192,12 @@ impl<'a> PointHistoryMut<'a> {
 
     /// Sets the anchor, in the frame of the surface.
     pub fn set_anchor(&mut self, anchor: &Vec3) {
-        self.0[ANCHOR..ROTATIONS].copy_from_slice(anchor.as_slice());
+        self.0[ANCHOR..SLIP_SPEED].copy_from_slice(anchor.as_slice());
+    }
+
+    /// Sets the slip speed.
+    pub fn set_slip_speed(&mut self, slip_speed: f64) {
+        self.0[SLIP_SPEED] = slip_speed;
     }
 
     /// Sets the rotation of the k-th node relative to the surface.

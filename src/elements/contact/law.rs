@@ -9,8 +9,12 @@ pub struct ContactLaw {
     pub stiffness: f64,
     /// Energy loss in impacts.
     pub loss: Loss,
-    /// Coulomb's coefficient.
+    /// Coulomb's coefficient while the contact sticks.
     pub friction: f64,
+    /// Coulomb's coefficient at a high slip speed.
+    pub kinetic: f64,
+    /// Time per length, the rate at which the coefficient falls with the slip speed; infinite where it falls at once.
+    pub decay: f64,
     /// Approach speed from which a landing counts as an impact that the steps resolve.
     pub floor: f64,
     /// Longest time ahead at which equilibrium may be written in an impact.
@@ -29,6 +33,15 @@ pub struct ContactLaw {
 }
 
 impl ContactLaw {
+    /// Coulomb's coefficient at a slip speed, 0 of a contact that sticks.
+    #[inline]
+    pub fn friction_at(&self, slip_speed: f64) -> f64 {
+        if slip_speed <= 0.0 || self.kinetic == self.friction {
+            return self.friction;
+        }
+        self.kinetic + (self.friction - self.kinetic) * (-self.decay * slip_speed).exp()
+    }
+
     /// True where the spring of the normal force may begin at a depth of its own, which is remembered.
     pub fn keeps_inset(&self) -> bool {
         self.dynamic && matches!(self.loss, Loss::Whole { .. })

@@ -55,13 +55,14 @@ pub(super) fn way(old: PointHistory, part: f64) -> f64 {
 }
 
 /// The friction force at which a pair would have slipped at the last state: what begins to slip in a step has been pulled so far before.
-pub(super) fn slip_limit(law: &ContactLaw, old: PointHistory, inset: f64) -> f64 {
+pub(super) fn slip_limit(law: &ContactLaw, (old, slip_speed): (PointHistory, f64), inset: f64) -> f64 {
     let depth = old.lift(law) - old.gap();
     // Damping alone would press what is still apart.
     if depth <= 0.0 {
         return 0.0;
     }
-    law.friction * normal_force(law.stiffness, &law.loss, depth, inset, old.rate(), old.impact_speed()).force
+    let pressed = normal_force(law.stiffness, &law.loss, depth, inset, old.rate(), old.impact_speed()).force;
+    law.friction_at(slip_speed) * pressed
 }
 
 /// Writes the motion along the normal, the impact and the power of its damping after `part` of the way from the last state to

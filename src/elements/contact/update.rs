@@ -59,20 +59,20 @@ fn update_friction(
     let (pull, held) = (old.friction_force(), old.anchor());
     // A point that slides at t = 0 has been sliding: its spring is stretched.
     let starts = !old.is_known() && now.dt <= 0.0 && force != 0.0;
-    let begun = if starts { sliding_direction(contacts, point, at, now) } else { Vec3::zeros() };
-    let stretch = law.friction * force;
+    let (begun, speed) = if starts { sliding(contacts, point, at, now) } else { (Vec3::zeros(), 0.0) };
+    let stretch = law.friction_at(speed) * force;
     let (shift, spent) = match friction {
         Some(friction) => {
             let end = pull + part * (friction.T.norm() - pull);
+            let (slip, before) = (friction.slip.norm(), old.slip_speed());
             new.set_friction_force(end);
-            (
-                friction.slip,
-                0.5 * part * friction.slip.norm() * (pull.max(slip_limit(law, old, contacts.inset(old))) + end),
-            )
+            new.set_slip_speed(if now.dt > 0.0 { slip / now.dt } else { before });
+            (friction.slip, 0.5 * part * slip * (pull.max(slip_limit(law, (old, before), contacts.inset(old))) + end))
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {
             new.set_friction_force(stretch * begun.norm());
+            new.set_slip_speed(speed);
             let stored = if law.tolerance.is_some() { 0.0 } else { 0.5 * pull * (pull / law.stiffness) };
             (p - held, stored)
         }
@@ -114,13 +114,13 @@ fn update_rotations(
     }
 }
 
-/// Unit vector along the slip, in the frame of the surface; zero for what does not slip faster than its weight makes it.
-fn sliding_direction(contacts: &Contacts, point: &ContactPoint, at: &ContactKinematics, now: &Configuration) -> Vec3 {
+/// Unit vector along the slip, in the frame of the surface, and the slip speed; zero for what does not slip faster than its weight makes it.
+fn sliding(contacts: &Contacts, point: &ContactPoint, at: &ContactKinematics, now: &Configuration) -> (Vec3, f64) {
     let n = &at.closest.n;
     let spin: Vec3 = point.parts().map(|(node, weight)| weight * now.nodes[node].omega).sum();
     let spin = at.R.tr_mul(&(spin - now.nodes[contacts.carrier].omega));
     let w = at.R.tr_mul(&at.w);
     let slip = w - n.dot(&w) * n - point.rolling_radius * spin.cross(n);
     let speed = slip.norm();
-    if speed > contacts.law.floor { slip / speed } else { Vec3::zeros() }
+    if speed > contacts.law.floor { (slip / speed, speed) } else { (Vec3::zeros(), 0.0) }
 }

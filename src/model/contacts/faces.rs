@@ -176,7 +176,7 @@ fn sides<'d>(
         };
         return finder.report.error_with(radius_place.unwrap_or(&part.span), message, hint);
     }
-    let friction = contact.friction.as_ref().filter(|at| at.value > 0.0);
+    let friction = contact.friction.as_ref().filter(|_| contact.coefficients().sticking > 0.0);
     if let Some(friction) = friction.filter(|_| line.is_some() && !surface.kind.has_sections()) {
         let hint = "make it a beam, or let a beam be the surface and name the bar in `with`";
         let message = "nothing rubs on a bar, which has no rotations to take a moment";

@@ -116,13 +116,16 @@ impl LawReader<'_, '_> {
             (_, Some(at)) if at.value > 0.0 => Loss::Damping(at.value),
             _ => Loss::None,
         };
+        let words::Coefficients { sticking, kinetic, decay } = contact.coefficients();
         let resolved = dynamic && meeting.rigid && frequency.is_finite();
         // What gives nothing back is stopped in half of the time.
         let resolution = if matches!(loss, Loss::Whole { .. }) { 0.5 * RESOLUTION } else { RESOLUTION };
         ContactLaw {
             stiffness,
             loss,
-            friction: contact.friction.as_ref().map_or(0.0, |at| at.value),
+            friction: sticking,
+            kinetic,
+            decay,
             floor,
             resolution: if resolved { resolution / frequency } else { f64::INFINITY },
             duration: TAU / frequency,

@@ -2,6 +2,7 @@
 
 pub mod coarse_faces;
 pub mod faces;
+pub mod friction;
 pub mod law;
 pub mod lines;
 pub mod method;
@@ -90,7 +91,7 @@ fn of_shape<'d>(
         matches!(surface.shape, SurfaceShape::Cylinder(_)) && is_carried_by_tube(*node)
     };
     sight.touchers.extend(surface.as_ref().is_some_and(is_tube).then_some(Toucher::Tube));
-    let is_zone = is_zone(owner, contact, report);
+    let is_zone = is_zone(owner, contact, setting.scene.analysis.has_inertia(), report);
     let (Some((node, surface)), Some(points), Some(is_zone)) = (surface, points, is_zone) else { return None };
     let between = contact.points.as_ref().map(|at| at.value);
     sight.check(owner, (between, by_points), &surface, report);
@@ -143,7 +144,7 @@ fn of_facets<'d>(
     let &LawSetting { scene, masses, joints, at_nodes, gravity } = setting;
     let mut finder = Finder::new(scene, topology, report);
     let found = read_facets(&mut finder, owner, name, contact);
-    let is_zone = is_zone(owner, contact, report);
+    let is_zone = is_zone(owner, contact, scene.analysis.has_inertia(), report);
     let (mut found, is_zone) = (found?, is_zone?);
     found.joined = joined(&found.convex, joints, topology);
     let TouchedSurface::Facets(faces) = &found.surface else { return None };
@@ -215,11 +216,16 @@ fn masses_at_nodes(scene: &Scene, masses: &[Mass], topology: &Topology) -> Vec<f
 }
 
 /// Checks the keys of the force; returns true for a clearance monitor, which exerts none.
-fn is_zone(owner: &Owner, contact: &words::Contact, report: &mut Report) -> Option<bool> {
+fn is_zone<'d>(
+    owner: &Owner<'d>,
+    contact: &'d words::Contact,
+    has_inertia: bool,
+    report: &mut Report<'d>,
+) -> Option<bool> {
     let mark = report.mark();
     report.not_negative("stiffness", &contact.stiffness, 1.0);
     report.not_negative("damping", &contact.damping, 0.0);
-    report.not_negative("friction", &contact.friction, 0.0);
+    friction::check(owner, contact, has_inertia, report);
     let is_zone = contact.stiffness.as_ref().is_some_and(|at| at.value == 0.0);
     if is_zone {
         let keys = [

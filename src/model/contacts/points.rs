@@ -178,7 +178,7 @@ impl<'a, 'd> Finder<'a, 'd> {
             return None;
         }
         self.inflate(given.unwrap_or(0.0), contact)?;
-        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        let friction = contact.coefficients().sticking > 0.0;
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
     }
 
@@ -353,13 +353,13 @@ impl<'a, 'd> Finder<'a, 'd> {
 
     /// Nodes as points of this radius.
     pub fn points_at(&self, nodes: &[usize], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
-        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        let friction = contact.coefficients().sticking > 0.0;
         nodes.iter().map(|&node| self.contact_point(Touch::node(node, radius), Some(radius), friction)).collect()
     }
 
     /// The lines of elements, by the nodes of each, as what touches.
     pub fn lines_at(&self, elements: &[Vec<usize>], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
-        let friction = contact.friction.as_ref().is_some_and(|at| at.value > 0.0);
+        let friction = contact.coefficients().sticking > 0.0;
         let lines = elements.iter().flat_map(|nodes| lines_of(nodes, radius));
         lines.map(|line| self.contact_point(line, Some(radius), friction)).collect()
     }

@@ -8,8 +8,9 @@ const STRETCH: usize = FRICTION_FORCE + 1;
 const TWIST: usize = STRETCH + 3;
 const PLACE: usize = TWIST + 1;
 const AXES: usize = PLACE + 3;
+const SLIP_SPEED: usize = AXES + 9;
 /// Number of history variables of a pair with friction.
-pub const WIDTH: usize = AXES + 9;
+pub const WIDTH: usize = SLIP_SPEED + 1;
 
 /// The memory of friction, in the frame of the one that is touched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +19,8 @@ pub struct Memory {
     pub stretch: Vec3,
     /// Angle of the spring about their normal.
     pub twist: f64,
+    /// The slip speed of the step before the last state.
+    pub slip_speed: f64,
     /// Centre of the one.
     pub y: Vec3,
     /// Axes of the one.
@@ -39,8 +42,9 @@ impl Memory {
         Memory {
             stretch: Vec3::from_column_slice(&numbers[STRETCH..TWIST]),
             twist: numbers[TWIST],
+            slip_speed: numbers[SLIP_SPEED],
             y: Vec3::from_column_slice(&numbers[PLACE..AXES]),
-            Q: Mat3::from_column_slice(&numbers[AXES..WIDTH]),
+            Q: Mat3::from_column_slice(&numbers[AXES..SLIP_SPEED]),
         }
     }
 
@@ -49,6 +53,7 @@ impl Memory {
         numbers[STRETCH..TWIST].copy_from_slice(self.stretch.as_slice());
         numbers[TWIST] = self.twist;
         numbers[PLACE..AXES].copy_from_slice(self.y.as_slice());
-        numbers[AXES..WIDTH].copy_from_slice(self.Q.as_slice());
+        numbers[AXES..SLIP_SPEED].copy_from_slice(self.Q.as_slice());
+        numbers[SLIP_SPEED] = self.slip_speed;
     }
 }

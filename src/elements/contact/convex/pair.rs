@@ -156,7 +156,9 @@ impl<'a> ConvexPair<'a> {
         let rubs = law.friction > 0.0 && old.is_known();
         let rubbing = rubs
             .then(|| {
-                rubbing((self.tangential_stiffness(), law.friction), &at.pose, &depth, normal.force, &Memory::read(old))
+                let memory = Memory::read(old);
+                let mu = law.friction_at(memory.slip_speed);
+                rubbing((self.tangential_stiffness(), mu), &at.pose, &depth, normal.force, &memory)
             })
             .flatten();
         if let Some(rubbing) = &rubbing {

@@ -35,7 +35,8 @@ pub(super) fn update_pair(
     let mut spent = Dissipation { impact, ..Dissipation::default() };
     new.set_inset(law.keeps_inset(), inset);
     if law.friction > 0.0 {
-        spent.friction = update_friction((&at, acting.as_ref()), law.stiffness, way(old, part), old, &mut new);
+        spent.friction =
+            update_friction((&at, acting.as_ref()), (law.stiffness, now.dt), way(old, part), old, &mut new);
     }
     spent
 }
@@ -50,7 +51,7 @@ fn approach(at: &PairKinematics) -> (f64, f64) {
 /// Writes what friction remembers; returns what slip dissipated.
 fn update_friction(
     (at, acting): (&PairKinematics, Option<&PairForce>),
-    stiffness: f64,
+    (stiffness, dt): (f64, f64),
     part: f64,
     old: PointHistory,
     new: &mut PointHistoryMut,
@@ -58,10 +59,12 @@ fn update_friction(
     let last = Memory::read(old);
     let pull = old.friction_force();
     let rubbing = acting.and_then(|acting| acting.rubbing.as_ref());
+    let mut slip_speed = 0.0;
     let (stretch, twist, spent) = match rubbing {
         Some(rubbing) => {
             let end = pull + part * (rubbing.pull - pull);
             new.set_friction_force(end);
+            slip_speed = if dt > 0.0 { rubbing.slip / dt } else { last.slip_speed };
             (rubbing.stretch, rubbing.twist, 0.5 * part * rubbing.slip * (pull + end))
         }
         // The two are apart: what was stretched lets go.
@@ -70,7 +73,7 @@ fn update_friction(
             (Vec3::zeros(), 0.0, 0.5 * pull * pull / stiffness)
         }
     };
-    let mut kept = Memory { stretch, twist, y: at.pose.y, Q: at.pose.Q };
+    let mut kept = Memory { stretch, twist, slip_speed, y: at.pose.y, Q: at.pose.Q };
     if old.is_known() && rubbing.is_some() {
         kept.stretch = last.stretch + part * (stretch - last.stretch);
         kept.twist = last.twist + part * (twist - last.twist);

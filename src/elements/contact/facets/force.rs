@@ -47,7 +47,8 @@ impl FacetPair<'_> {
         }
         let from_anchor = self.seen_from(self.kept, &place.x, nodes) - self.kept.base(nodes) * memory.anchor();
         let closest = ClosestPoint { distance: place.gap(), n: *n, H: Mat3::zeros() };
-        let friction = friction_force(law.stiffness, law.friction, pressed, &closest, &from_anchor, r, &phi);
+        let mu = law.friction_at(memory.slip_speed());
+        let friction = friction_force(law.stiffness, mu, pressed, &closest, &from_anchor, r, &phi);
         let M = r * n.cross(&friction.T);
         PairForceOnPoint {
             F: normal.force * n - friction.T,

@@ -41,7 +41,7 @@ pub(super) fn rub(pair: &FacetPair, place: &PairPlace, memory: LineMemory, N: f6
     let way = way(pair, place, &ways(pair, memory, nodes));
     let [p, q] = memory.stretch();
     let stretch = p * along + q * across + way - n.dot(&way) * n;
-    let (length, limit) = (stretch.norm(), pair.law.friction * N / pair.law.stiffness);
+    let (length, limit) = (stretch.norm(), pair.law.friction_at(memory.slip_speed()) * N / pair.law.stiffness);
     let kept = if length > limit { limit / length * stretch } else { stretch };
     Rub { T: pair.law.stiffness * kept, slip: stretch - kept }
 }

@@ -9,7 +9,8 @@ const FACET: usize = FRICTION_FORCE + 1;
 const SIDE: usize = FACET + 1;
 const INSET: usize = SIDE + 1;
 const ANCHOR: usize = INSET + 1;
-const ROTATIONS: usize = ANCHOR + 3;
+const SLIP_SPEED: usize = ANCHOR + 3;
+const ROTATIONS: usize = SLIP_SPEED + 1;
 
 /// Number of history variables of a pair, `rotations` being those kept of the point's nodes.
 pub(super) const fn width(has_friction: bool, rotations: usize) -> usize {
@@ -22,7 +23,8 @@ pub(super) const fn width_of_lines(has_friction: bool) -> usize {
 }
 
 /// Of a pair of lines the stretch of friction stands where others have their anchor, then where their ends stood.
-const POSITIONS: usize = ANCHOR + 2;
+const SLIP_SPEED_OF_LINES: usize = ANCHOR + 2;
+const POSITIONS: usize = SLIP_SPEED_OF_LINES + 1;
 /// Ends that are stored: all but the first of the line that is touched, from which they are seen.
 const STORED: usize = 3;
 const TURNS: usize = POSITIONS + 3 * STORED;
@@ -40,6 +42,11 @@ impl LineMemory<'_> {
     /// The stretch along the line that is touched, and across it.
     pub fn stretch(self) -> [f64; 2] {
         [self.0[ANCHOR], self.0[ANCHOR + 1]]
+    }
+
+    /// The slip speed of the step before the last state.
+    pub fn slip_speed(self) -> f64 {
+        self.0[SLIP_SPEED_OF_LINES]
     }
 
     /// A stored end in the axes of the node from which it is seen.
@@ -61,6 +68,11 @@ impl LineMemoryMut<'_> {
     /// Sets the stretch.
     pub fn set_stretch(&mut self, stretch: [f64; 2]) {
         self.0[ANCHOR..ANCHOR + 2].copy_from_slice(&stretch);
+    }
+
+    /// Sets the slip speed.
+    pub fn set_slip_speed(&mut self, slip_speed: f64) {
+        self.0[SLIP_SPEED_OF_LINES] = slip_speed;
     }
 
     /// Sets where a stored end stands, and how it is turned.
@@ -102,7 +114,13 @@ impl<'a> PairMemory<'a> {
     /// The anchor of the spring of friction in the base vectors of the facet, from its first node.
     #[inline]
     pub fn anchor(self) -> Vec3 {
-        Vec3::from_column_slice(&self.0[ANCHOR..ROTATIONS])
+        Vec3::from_column_slice(&self.0[ANCHOR..SLIP_SPEED])
+    }
+
+    /// The slip speed of the step before the last state.
+    #[inline]
+    pub fn slip_speed(self) -> f64 {
+        self.0[SLIP_SPEED]
     }
 
     /// Rotation of the point's k-th node relative to the frame of the facet.
@@ -134,7 +152,12 @@ impl PairMemoryMut<'_> {
 
     /// Sets the anchor.
     pub fn set_anchor(&mut self, anchor: &Vec3) {
-        self.0[ANCHOR..ROTATIONS].copy_from_slice(anchor.as_slice());
+        self.0[ANCHOR..SLIP_SPEED].copy_from_slice(anchor.as_slice());
+    }
+
+    /// Sets the slip speed.
+    pub fn set_slip_speed(&mut self, slip_speed: f64) {
+        self.0[SLIP_SPEED] = slip_speed;
     }
 
     /// Sets the rotation of the point's k-th node.

@@ -3,8 +3,8 @@
 use super::balls;
 use super::found::{FacetTouch, TouchQuery};
 use super::line_friction;
-use super::memory::{self, LineMemoryMut, PairMemory, PairMemoryMut};
-use super::pair::{FacetPair, PairForceOnPoint, PairPlace, rotation_of};
+use super::memory::{self, LineMemory, LineMemoryMut, PairMemory, PairMemoryMut};
+use super::pair::{FacetPair, PairForceOnPoint, PairPlace, Rub, rotation_of};
 use super::surface::FacetContacts;
 use super::touch;
 use crate::elements::contact::history::PointHistory;
@@ -146,8 +146,9 @@ fn update_friction(
     let x = pair.seen_from(pair.facet, &place.x, now.nodes);
     let k = of.law.stiffness;
     let Some(memory) = pair.memory else {
-        let pull = begun(of, pair, place, acting, now);
+        let (pull, slip_speed) = begun(of, pair, place, acting, now);
         new.motion().set_friction_force(pull.norm());
+        new.set_slip_speed(slip_speed);
         new.set_anchor(&pair.facet.components(&(x - pull / k), now.nodes));
         for i in 0..rotations(of, pair) {
             new.set_rotation(i, &(q.conjugate() * now.nodes[pair.point.nodes[i]].rotation));
@@ -163,10 +164,11 @@ fn update_friction(
     let mut anchor = moved + pair.kept.base(now.nodes) * memory.anchor();
     let spent = match friction {
         Some(friction) => {
-            let end = pull + part * (friction.T.norm() - pull);
-            new.motion().set_friction_force(end);
+            let rubbed = rubbed(of, friction, (memory, memory.slip_speed()), part, now.dt);
+            new.motion().set_friction_force(rubbed.pull);
+            new.set_slip_speed(rubbed.slip_speed);
             anchor += part * (friction.slip + n.dot(&(x - anchor)) * n);
-            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion(), memory.inset())) + end)
+            rubbed.spent
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {
@@ -186,6 +188,24 @@ fn update_friction(
     spent
 }
 
+/// The friction of a pair at the end of a step.
+struct Rubbed {
+    /// The size of the friction force.
+    pull: f64,
+    /// The slip speed of the step.
+    slip_speed: f64,
+    /// The energy that slip dissipated.
+    spent: f64,
+}
+
+/// The friction after `part` of the way from the last state; `before` is the slip speed that the pair remembers.
+fn rubbed(of: &FacetContacts, friction: &Rub, (memory, before): (PairMemory, f64), part: f64, dt: f64) -> Rubbed {
+    let (old, slip) = (memory.motion().friction_force(), friction.slip.norm());
+    let pull = old + part * (friction.T.norm() - old);
+    let begin = old.max(slip_limit(&of.law, (memory.motion(), before), memory.inset()));
+    Rubbed { pull, slip_speed: if dt > 0.0 { slip / dt } else { before }, spent: 0.5 * part * slip * (begin + pull) }
+}
+
 /// The same for two lines.
 fn update_friction_of_lines(
     of: &FacetContacts,
@@ -201,18 +221,20 @@ fn update_friction_of_lines(
         line_friction::remember_stretch(pair, place, (&stretch, part), now.nodes, &mut LineMemoryMut(&mut *new.0));
     };
     let Some(memory) = pair.memory else {
-        let pull = begun(of, pair, place, acting, now);
+        let (pull, slip_speed) = begun(of, pair, place, acting, now);
         stretch(pull / k, 1.0);
         new.motion().set_friction_force(pull.norm());
+        LineMemoryMut(&mut *new.0).set_slip_speed(slip_speed);
         return 0.0;
     };
     let pull = memory.motion().friction_force();
     match acting.and_then(|acting| acting.friction.as_ref()) {
         Some(friction) => {
-            let end = pull + part * (friction.T.norm() - pull);
+            let rubbed = rubbed(of, friction, (memory, LineMemory(memory.0).slip_speed()), part, now.dt);
             stretch(friction.T / k, part);
-            new.motion().set_friction_force(end);
-            0.5 * part * friction.slip.norm() * (pull.max(slip_limit(&of.law, memory.motion(), memory.inset())) + end)
+            new.motion().set_friction_force(rubbed.pull);
+            LineMemoryMut(&mut *new.0).set_slip_speed(rubbed.slip_speed);
+            rubbed.spent
         }
         // The two are apart: what was stretched lets go.
         None => {
@@ -222,19 +244,20 @@ fn update_friction_of_lines(
     }
 }
 
-/// The friction with which a pair begins of which nothing is known: what slides at t = 0 has been sliding, and its spring is stretched.
+/// The friction and the slip speed with which a pair begins of which nothing is known: what slides at t = 0 has been sliding, and its spring is stretched.
 fn begun(
     of: &FacetContacts,
     pair: &FacetPair,
     place: &PairPlace,
     acting: Option<&PairForceOnPoint>,
     now: &Configuration,
-) -> Vec3 {
+) -> (Vec3, f64) {
     let force = acting.map_or(0.0, PairForceOnPoint::pressed);
     if now.dt > 0.0 || force <= 0.0 {
-        return Vec3::zeros();
+        return (Vec3::zeros(), 0.0);
     }
-    of.law.friction * force * sliding_direction(pair, place, of.law.floor, now)
+    let (direction, speed) = sliding(pair, place, of.law.floor, now);
+    (of.law.friction_at(speed) * force * direction, speed)
 }
 
 /// Number of rotations that are kept.
@@ -253,8 +276,8 @@ fn kept_rotation(
     renormalise(&(q.conjugate() * old_q * on))
 }
 
-/// Unit vector along the slip; zero for what does not slip faster than its weight makes it.
-fn sliding_direction(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration) -> Vec3 {
+/// Unit vector along the slip, and the slip speed; zero for what does not slip faster than its weight makes it.
+fn sliding(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration) -> (Vec3, f64) {
     let (n, r) = (&place.n, pair.point.rolling_radius);
     let spin: Vec3 = pair.point.parts().map(|(node, w)| w * now.nodes[node].omega).sum();
     let of_facet = match pair.facet.has_sides() {
@@ -264,5 +287,5 @@ fn sliding_direction(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Conf
     let w = place.w - of_facet.cross(&(place.d * n));
     let slip = w - n.dot(&w) * n - r * (spin - of_facet).cross(n);
     let speed = slip.norm();
-    if speed > floor { slip / speed } else { Vec3::zeros() }
+    if speed > floor { (slip / speed, speed) } else { (Vec3::zeros(), 0.0) }
 }
