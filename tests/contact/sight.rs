@@ -144,3 +144,22 @@ fn capsules_on_coarse_faces_are_said_until_there_are_points() {
     assert!(hint.contains("`points` = 7 or more"), "{hint}");
     assert!(sinks(Some(6)).is_some() && sinks(Some(7)).is_none());
 }
+
+/// A capsule in the middle of a flat sheet finds no edge that it could lie across; at the border, or where something may move it there, it does.
+#[test]
+fn capsules_that_come_to_no_edge_are_not_warned_of() {
+    let plate = "[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [2, 2]\n\
+                 material = \"steel\"\nthickness = 0.01\n";
+    let warned = |y: f64, more: &str| {
+        let log = format!(
+            "[[bodies]]\nname = \"log\"\nmass = 1.0\n{more}\n[bodies.shape]\nkind = \"capsule\"\nradius = 0.02\n\
+             ends = [[0.3, {y:?}, 0.6], [0.7, {y:?}, 0.6]]\n"
+        );
+        let said = said(&(plate.to_owned() + &log), &contact("part = \"plate\"", "log", None));
+        said.into_iter().any(|[said, _]| said.contains("sees the side of capsule `log`"))
+    };
+    // Half of its length and its radius are 0.22; the run lasts 1.
+    assert!(!warned(0.5, "") && !warned(0.75, "") && !warned(0.23, ""));
+    assert!(warned(0.21, "") && warned(0.0, ""));
+    assert!(warned(0.5, "velocity = [0.0, 0.3, 0.0]") && !warned(0.5, "velocity = [0.0, 0.2, -5.0]"));
+}

@@ -1,6 +1,7 @@
 //! Capsules and cylinders on faces of a shell, which they meet by their ends or rims, and by their surface the nodes of the faces: whether an edge of the mesh
 //! may pass between all of these.
 
+use super::mesh_edges::{MeshEdge, mesh_edges};
 use super::points::Finder;
 use crate::deck::contacts as words;
 use crate::diagnostic::At;
@@ -8,10 +9,16 @@ use crate::math::Vec3;
 use crate::math::convex::{ConvexShape, Spherocylinder};
 use crate::model::places::place::Place;
 use crate::model::report::Owner;
+use crate::model::values::vec3_or_zero;
 use crate::names::short;
 
-/// Warns of each capsule and cylinder in `with` that is narrower than its own openings and those of the mesh of `part`, whose faces are these, half as
-/// thick as given. On a flat sheet nothing passes where a contact of its free edges sees to its border.
+/// Decks have some digits only.
+const DIGITS: f64 = 1e-6;
+/// The part of its radius by which a solid may sink into a fold unseen: a mesh of a curved surface is no closer to that.
+const SHALLOW: f64 = 0.05;
+
+/// Warns of each capsule and cylinder in `with` that may lie across an edge of the mesh of `part` which it does not see: one that is longer than
+/// the solid is wide, belongs to the border or to a fold, and lies where the solid may come to. The faces are these, half as thick as given.
 pub fn warn_of_long_solids<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
@@ -19,34 +26,40 @@ pub fn warn_of_long_solids<'d>(
     part: &At<String>,
     (elements, half): (&[Vec<usize>], f64),
 ) {
-    /// Decks have some digits only.
-    const DIGITS: f64 = 1e-6;
-    let x = |node: usize| finder.topology.x(node);
-    let sides = |nodes: &Vec<usize>| -> f64 {
-        let corners = if matches!(nodes.len(), 3 | 6) { 3 } else { 4 };
-        let corners = corners.min(nodes.len());
-        (0..corners).map(|k| (x(nodes[k]) - x(nodes[(k + 1) % corners])).norm()).fold(0.0, f64::max)
+    let corners = |nodes: &Vec<usize>| {
+        let count = if matches!(nodes.len(), 3 | 6) { 3 } else { 4 };
+        nodes[..count.min(nodes.len())].to_vec()
     };
-    let longest = elements.iter().map(sides).fold(0.0, f64::max);
-    let places: Vec<Vec3> = elements.iter().flatten().map(|&node| x(node)).collect();
-    if has_contact_of_edges(finder, &part.value) && is_flat(&places) {
-        return;
+    let faces: Vec<Vec<usize>> = elements.iter().map(corners).collect();
+    let mut edges = mesh_edges(&faces, |node| finder.topology.x(node));
+    if has_contact_of_edges(finder, &part.value) {
+        edges.retain(|edge| !edge.is_border);
     }
     let names = contact.with.iter().flat_map(|list| &list.values);
     let leaves = names.filter_map(|at| finder.scene.names.place(at)).flat_map(|place| finder.scene.names.leaves(place));
     let bodies: Vec<usize> =
         leaves.filter_map(|leaf| if let Place::Body(body) = leaf { Some(body) } else { None }).collect();
     let between = contact.points.as_ref().map_or(0, |at| at.value);
-    for body in bodies {
-        let is_drawn = finder.scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
-        let body = &finder.scene.bodies[body];
+    for index in bodies {
+        let is_drawn = finder.scene.deck.bodies.get(index).is_some_and(|body| body.shape.is_some());
+        let body = &finder.scene.bodies[index];
         let given = contact.radius.as_ref().map(|at| at.value);
         let Some((kind, length, radius)) = body.shape.as_convex().and_then(|shape| long_solid(&shape, given)) else {
             continue;
         };
         let width = 2.0 * (radius + half);
         let opening = length / (between + 1) as f64;
-        if !is_drawn || opening.min(longest) <= width * (1.0 + DIGITS) || width <= 0.0 {
+        if !is_drawn || opening <= width * (1.0 + DIGITS) || width <= 0.0 {
+            continue;
+        }
+        let center = finder.topology.x(body.node);
+        let may_cross = |edge: &&MeshEdge| {
+            edge.length() > width * (1.0 + DIGITS)
+                && edge.sink(&center, opening) > SHALLOW * radius
+                && edge.distance(&center) <= 0.5 * length + radius + way_of(finder, index, &edge.normal)
+        };
+        let longest = edges.iter().filter(may_cross).map(MeshEdge::length).fold(0.0, f64::max);
+        if longest == 0.0 {
             continue;
         }
         let message = format!(
@@ -67,6 +80,25 @@ pub fn warn_of_long_solids<'d>(
     }
 }
 
+/// The way that a body goes normal to `normal` by its velocity and its weight alone; infinite where anything else may move it.
+fn way_of(finder: &Finder, index: usize, normal: &Vec3) -> f64 {
+    let (scene, deck) = (finder.scene, finder.scene.deck);
+    let Some(body) = deck.bodies.get(index) else { return f64::INFINITY };
+    let name = &scene.bodies[index].name;
+    let supports = deck.supports.iter().filter_map(|support| support.at.as_ref());
+    let loads = deck.loads.iter().filter_map(|load| load.at.as_ref());
+    let is_named = supports.chain(loads).flat_map(|list| &list.values).any(|at| at.value == *name);
+    let is_shaken = deck.environment.as_ref().is_some_and(|at| !at.value.base_acceleration.is_empty());
+    let is_held = !deck.joints.is_empty() || !deck.links.is_empty();
+    if is_named || is_shaken || is_held || scene.stage.is_some() || !scene.analysis.has_inertia() {
+        return f64::INFINITY;
+    }
+    let along = |v: Vec3| (v - normal.dot(&v) * normal).norm();
+    let gravity = deck.environment.as_ref().map_or(Vec3::zeros(), |at| vec3_or_zero(&at.value.gravity));
+    let time = scene.analysis.end_time - scene.analysis.begin;
+    along(vec3_or_zero(&body.velocity)) * time + 0.5 * along(gravity) * time * time
+}
+
 /// What a solid is called, its length and its radius, where it has such; a radius that the contact gives is that of the ends of a capsule, and of points of
 /// rims.
 fn long_solid(shape: &ConvexShape, given: Option<f64>) -> Option<(&'static str, f64, f64)> {
@@ -85,14 +117,4 @@ fn has_contact_of_edges(finder: &Finder, part: &str) -> bool {
     surfaces.any(|table| {
         table.edges.as_ref().is_some_and(|at| at.value) && table.part.as_ref().is_some_and(|at| at.value == part)
     })
-}
-
-/// True for places of one plane.
-fn is_flat(places: &[Vec3]) -> bool {
-    let Some(first) = places.first() else { return true };
-    let farthest = |measure: &dyn Fn(&Vec3) -> f64| places.iter().max_by(|a, b| measure(a).total_cmp(&measure(b)));
-    let Some(u) = farthest(&|x| (x - first).norm()).map(|x| x - first) else { return true };
-    let Some(v) = farthest(&|x| (x - first).cross(&u).norm()).map(|x| x - first) else { return true };
-    let Some(n) = u.cross(&v).try_normalize(0.0) else { return true };
-    places.iter().all(|x| (x - first).dot(&n).abs() <= 1e-6 * u.norm())
 }

@@ -5,6 +5,7 @@ pub mod faces;
 pub mod friction;
 pub mod law;
 pub mod lines;
+pub mod mesh_edges;
 pub mod method;
 pub mod opposite;
 pub mod points;
