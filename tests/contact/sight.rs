@@ -2,6 +2,9 @@
 
 use rdsolve::diagnostic::Source;
 use rdsolve::model;
+use rdsolve::plan::Plan;
+use rdsolve::plan::explain::explain;
+use rdsolve::system::System;
 
 const OPENING: &str = r#"
 [analysis]
@@ -162,4 +165,22 @@ fn capsules_that_come_to_no_edge_are_not_warned_of() {
     assert!(!warned(0.5, "") && !warned(0.75, "") && !warned(0.23, ""));
     assert!(warned(0.21, "") && warned(0.0, ""));
     assert!(warned(0.5, "velocity = [0.0, 0.3, 0.0]") && !warned(0.5, "velocity = [0.0, 0.2, -5.0]"));
+}
+
+/// Nothing passes a monitor, whose gaps are those of its points: it is no warning, and its line says so where there is more than points.
+#[test]
+fn a_monitor_says_where_its_gaps_are_taken() {
+    let explained = |thing: &str, with: &str, stiffness: &str| {
+        let contact = contact(SPHERE, with, None).replace("stiffness = 1e6", stiffness);
+        let model =
+            model::read(&Source::new("deck.toml", format!("{OPENING}{thing}{contact}"), &[])).0.expect("a model");
+        let system = System::new(&model).unwrap();
+        explain(&Plan::new(&model, &system, 1), &model, &system).to_string()
+    };
+    let (unseen, by_points) = ("contact `hit` does not see what lies between nodes", "gaps are those of the points");
+    let says = |text: &str| [text.contains(unseen), text.contains(by_points)];
+    assert_eq!(says(&explained(&beam(4), "beam", "stiffness = 1e6")), [true, false]);
+    assert_eq!(says(&explained(&beam(4), "beam", "stiffness = 0.0")), [false, true]);
+    let brick = body("kind = \"box\", size = [0.4, 0.3, 0.1]");
+    assert_eq!(says(&explained(&brick, "body", "stiffness = 0.0")), [false, false]);
 }

@@ -7,26 +7,33 @@ use crate::model::{CarriedSurface, Contact, Model, TouchedSurface};
 use crate::names::short;
 use crate::system::System;
 
-/// Adds lines about contacts.
+/// Adds lines about contacts. What a monitor does not see may not pass: its gaps are those of its points, and its line says so.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for contact in model.each::<Contact>() {
         text.add("contact", contact_in_words(model, contact));
-        let unseen = contact.touchers.iter().filter_map(|toucher| match &contact.surface {
-            TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape, contact.has_multipliers()),
-            TouchedSurface::Facets(faces) if faces.touchers == FacetTouchers::Among => toucher.unseen_among(),
-            TouchedSurface::Facets(faces) if faces.facets.iter().any(Facet::is_line) => toucher.unseen_by_lines(),
-            TouchedSurface::Facets(_) => toucher.unseen_by_faces(),
-        });
-        for what in unseen {
-            text.notes.push(format!("contact `{}` does not see {what}", contact.name));
+        if contact.law.is_some() {
+            text.notes.extend(unseen(contact).map(|what| format!("contact `{}` does not see {what}", contact.name)));
         }
     }
+}
+
+/// What a contact does not see, for each kind of what touches.
+fn unseen(contact: &Contact) -> impl Iterator<Item = &'static str> {
+    contact.touchers.iter().filter_map(|toucher| match &contact.surface {
+        TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape, contact.has_multipliers()),
+        TouchedSurface::Facets(faces) if faces.touchers == FacetTouchers::Among => toucher.unseen_among(),
+        TouchedSurface::Facets(faces) if faces.facets.iter().any(Facet::is_line) => toucher.unseen_by_lines(),
+        TouchedSurface::Facets(_) => toucher.unseen_by_faces(),
+    })
 }
 
 /// The two sides of a contact and its law.
 fn contact_in_words(model: &Model, contact: &Contact) -> String {
     let pair = format!("`{}`: {}", contact.name, sides_in_words(model, contact));
-    let Some(law) = &contact.law else { return format!("{pair}; clearance monitor, no force acts") };
+    let Some(law) = &contact.law else {
+        let by_points = if unseen(contact).next().is_some() { "; gaps are those of the points" } else { "" };
+        return format!("{pair}; clearance monitor, no force acts{by_points}");
+    };
     let chosen = contact.chosen.as_ref().map_or(String::new(), |reason| format!(" (chosen: {reason})"));
     let left = law.tolerance.map_or(String::new(), |left| format!("; multipliers leave a depth of {}", short(left)));
     let stiffness = format!("penalty stiffness {}{chosen}{left}", short(law.stiffness));
