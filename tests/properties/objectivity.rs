@@ -74,8 +74,8 @@ fn answers_of_yielding_scenes_turn_with_the_scene() {
         let e = differences(&m, &turn(&mut rng), &Vec3::zeros());
         eprintln!("turned while it yields: {e:?}, {yields}");
         assert!(yields > 1.0, "{yields}");
-        // As above; what yields contracts more slowly, and the last correction leaves ten times as much.
-        assert!(e[..3].iter().all(|&e| e < 1e-10) && e[3] < 1e-9, "{e:?}");
+        // As above; what yields contracts more slowly, and the last correction leaves thirty times as much.
+        assert!(e[..3].iter().all(|&e| e < 3e-10) && e[3] < 3e-9, "{e:?}");
     }
 }
 
