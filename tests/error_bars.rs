@@ -67,8 +67,8 @@ fn median(mut values: Vec<f64>) -> f64 {
     values[values.len() / 2]
 }
 
-/// What shorter steps change is within the bars in 9 columns of 10 (94 % of 1240 columns of 19 decks), and these are no more than 30 times
-/// too wide in the median (7 of all these decks); so are the bars of expected values.
+/// What shorter steps change is within the bars in 9 columns of 10 (94 % of 1240 columns of 19 decks), and these are no more than 60 times
+/// too wide in the median: where runs meet events, bars count that these leave errors of first order. So are the bars of expected values.
 #[test]
 fn bars_of_steps_hold_the_errors_of_steps() {
     let [folder, better] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
@@ -84,7 +84,9 @@ fn bars_of_steps_hold_the_errors_of_steps() {
     }
     let within = all.iter().filter(|width| **width >= 1.0).count() as f64 / all.len() as f64;
     assert!(within > 0.9, "{within} of {} columns", all.len());
-    assert!(median(all) < 30.0);
+    let middle = median(all);
+    println!("{within} of the columns, {middle} times too wide in the median");
+    assert!(middle < 60.0, "{middle}");
 }
 
 /// What a finer mesh changes is within the bars in 9 columns of 10 (95 % of 440 columns of 16 runs), and these are no more than 30 times
