@@ -110,8 +110,12 @@ fn columns_above_their_buckling_load_are_warned_of() {
         ("[1.0, 0.0, 0.0]", 0.02, "control = \"arc-length\""),
     ] {
         let (_, outcome, _, warnings) = run(&column(1000.0, step, axis, control));
-        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-        let [text] = &warnings[..] else { panic!("{axis} {step} {control}: {warnings:?}") };
+        // A run that stays on the unstable branch ends there; where no load step can leave it, a warning tells.
+        let text = &match (&outcome, &warnings[..]) {
+            (Outcome::Failed { failure: failure @ Failure::Buckles(_), .. }, []) => failure.to_string(),
+            (Outcome::Done, [text]) => text.clone(),
+            _ => panic!("{axis} {step} {control}: {outcome:?} {warnings:?}"),
+        };
         let time: f64 =
             text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap();
         assert!((1000.0 * time / weak - 1.0).abs() < 2e-3, "{text}");
@@ -250,7 +254,11 @@ fn beams_are_not_compressed_through_zero_length() {
     let held = "[[supports]]\nat = \"b\"\nfix = [\"ux\", \"uy\", \"rx\", \"ry\", \"rz\"]\n";
     let deck = column(4e7, 0.5, "[0.0, 1.0, 0.0]", "").replace("elements = 10", "elements = 1") + held;
     let failure = failure(&deck);
-    assert!(matches!(&failure, Failure::TurnedOver { name } if name == "c"), "{failure}");
+    // Between its ends it buckles long before.
+    assert!(
+        matches!(&failure, Failure::TurnedOver { name } if name == "c") || matches!(&failure, Failure::Buckles(_)),
+        "{failure}"
+    );
 }
 
 #[test]
