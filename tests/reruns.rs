@@ -50,12 +50,12 @@ bushing_damping = [1.0, 1.0, 1.0, 0.1, 0.1, 0.1]
 
 const OUTPUT: &str = "[output]\njoints = true\nreactions = true\nenergy = true\n[iteration]\ntolerance = 1e-10\n";
 
-/// The scenes with a scheme of each kind of step. Wilson-θ has none: its automatic runs end the iteration before the multipliers of joints beside
-/// bushings follow (docs/limits.md).
+/// The scenes with a scheme of each kind of step.
 fn scenes() -> Vec<(&'static str, String)> {
     vec![
         ("newmark", PENDULUM.to_owned()),
         ("generalized-alpha", PENDULUM.to_owned() + SECOND_ARM),
+        ("wilson-theta", PENDULUM.to_owned() + BUSHING),
         ("bathe", PENDULUM.to_owned() + BUSHING + SECOND_ARM),
         ("runge-kutta", PENDULUM.to_owned() + SECOND_ARM),
     ]
@@ -127,5 +127,29 @@ fn the_first_row_knows_nothing_of_runs_before() {
         let first = &tables.rows("joints.csv")[0];
         let [fx, fz] = ["fx", "fz"].map(|column| first.number(column));
         assert!(fx.abs() < 1e-9 && (fz + 3.27).abs() < 1e-9, "{scheme}: {fx} {fz}");
+    }
+}
+
+/// The hinge pulls the ground with m (g − a), a being that of the bob on its circle by the energy of its fall. Trial steps of another scheme, by
+/// which automatic steps look ahead, had left their change of the multipliers to Wilson-θ: an offset of 2 % whatever error was asked for. The
+/// error of forces is of the order of that asked for; a thousandth is the largest seen.
+#[test]
+fn trial_steps_leave_no_force_in_joints() {
+    let free = PENDULUM.to_owned() + "[output]\njoints = true\n";
+    for scheme in ["newmark", "wilson-theta", "generalized-alpha", "hht-alpha", "bathe", "esdirk3"] {
+        let head = "[analysis]\nkind = \"dynamic\"\nend_time = 0.5\ntime_step = \"auto\"\nerror_tolerance = 1e-3\n";
+        let tables = tables_of(&read_deck(&format!("{head}[integrator]\nscheme = \"{scheme}\"\n{free}")));
+        let (joints, bodies) = (tables.rows("joints.csv"), tables.rows("bodies.csv"));
+        let mut worst = 0.0_f64;
+        for (joint, body) in joints.iter().zip(&bodies) {
+            let (x, z) = (body.number("x"), body.number("z"));
+            // m = 1, l = 1, J + m l² = 1.5: ω² = 2 g (−z)/1.5, and ω̇ = g x/1.5, downwards.
+            let (omega2, alpha) = (2.0 * 9.81 * -z / 1.5, 9.81 * x / 1.5);
+            let a = [alpha * z - omega2 * x, -alpha * x - omega2 * z];
+            let force = [joint.number("fx") + a[0], joint.number("fz") + 9.81 + a[1]];
+            worst = force.iter().fold(worst, |worst, off| worst.max(off.abs()));
+        }
+        println!("{scheme}: {worst:.1e} N");
+        assert!(joints.len() > 10 && worst < 1e-3 * 9.81, "{scheme}: {worst} N off");
     }
 }

@@ -57,6 +57,14 @@ struct ForceChange {
 
 keep!(ForceChange { multipliers, reactions });
 
+impl ForceChange {
+    /// No change: what an earlier step has noted belongs to that step alone.
+    fn forget(&mut self) {
+        self.multipliers.fill(0.0);
+        self.reactions.clear();
+    }
+}
+
 /// A slot on the diagonal of the matrix.
 struct DiagonalSlot {
     slot: usize,
@@ -161,13 +169,14 @@ impl ConstraintProjection {
     /// Projects velocities, then accelerations, and notes what the joints carry in addition for the latter.
     fn close_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) {
         self.close_rate(cx, ws, state, scheme, dt, 1);
+        // Trial steps may have another scheme.
+        self.change.forget();
         if scheme.instant != 1.0 {
             self.close_rate(cx, ws, state, scheme, dt, 2);
             return;
         }
         let wants_reactions = cx.wants_forces && !cx.model.constraints.restraints.is_empty();
         self.forces.multipliers.values.fill(0.0);
-        self.change.reactions.clear();
         if wants_reactions {
             self.on_restraints(cx, &ws.trial);
         }
