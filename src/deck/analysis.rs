@@ -166,7 +166,8 @@ pub struct Iteration {
     /// Whether the gyroscopic term of bodies enters the matrix; the converged result is the same. Default: "auto".
     pub gyroscopic: Maybe<Gyroscopic>,
     /// Convergence tolerance, relative, on the residual and on the increment; between 0 and 1. Default: 1e-8, and where something deforms
-    /// in equal steps of a scheme of second order that dissipates, 1/10,000 of the first correction of the step, from 1e-8 to 1e-5.
+    /// in equal steps of a scheme of second order that dissipates, 1/10,000 of the first correction of the step, from 1e-8 to 1e-5. Equal
+    /// steps of every scheme take the smaller of what is given and of that part, automatic ones the smaller of it and of their own rule.
     pub tolerance: Maybe<f64>,
     /// Iterations after which a step is cut back, 1 or more. Default: 20; 200 with initial-load.
     pub limit: Maybe<u64>,

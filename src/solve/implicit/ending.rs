@@ -3,7 +3,8 @@
 //! Where the deck gives no tolerance, equal steps are iterated to a part of their own error (E. Hairer & G. Wanner, Solving Ordinary
 //! Differential Equations II, IV.8). Predictions let accelerations go on in a straight line, so the first correction is what the second
 //! difference of the accelerations moves, Δt² times their second derivative; schemes of second order err by a twelfth of that and more.
-//! Errors are compared as accelerations, for what is left unbalanced acts on in all steps to come.
+//! Errors are compared as accelerations, for what is left unbalanced acts on in all steps to come. A tolerance of the deck is a ceiling over
+//! that: errors of one sign add up over the steps, so a tolerance that does not know their number may not end an iteration.
 
 use super::convergence::Judgement;
 use crate::integrators::Stepping;
@@ -24,8 +25,8 @@ pub struct Ending {
     pub tolerance: f64,
     /// Relative tolerance of the residual.
     pub residual: f64,
-    /// The tolerance of the deck, below which none goes.
-    least: f64,
+    /// The least and the largest tolerance; the largest is that of the deck.
+    bounds: [f64; 2],
     /// The contraction seen last; none is carried from step to step where every step is iterated to the digits of the deck.
     contraction: Option<f64>,
     /// True where steps are iterated to a part of the error that they may leave.
@@ -34,14 +35,18 @@ pub struct Ending {
     of_own_error: bool,
 }
 
-keep!(Ending { tolerance, residual, least, contraction, carries } without { of_own_error });
+keep!(Ending { tolerance, residual, bounds, contraction, carries } without { of_own_error });
 
 impl Ending {
     /// The end of the iteration of a scene.
     pub fn new(cx: &Context) -> Ending {
-        let tolerance = cx.model.solution.iteration.tolerance;
+        /// The tolerance of steps whose own error is not known.
+        const DIGITS: f64 = 1e-8;
+        let given = &cx.model.solution.iteration;
         let of_own_error = follows_own_error(cx);
-        Ending { tolerance, residual: tolerance, least: tolerance, contraction: None, carries: false, of_own_error }
+        let bounds = [given.tolerance.min(DIGITS), if given.follows_step { f64::INFINITY } else { given.tolerance }];
+        let tolerance = if of_own_error { bounds[0] } else { given.tolerance };
+        Ending { tolerance, residual: tolerance, bounds, contraction: None, carries: false, of_own_error }
     }
 
     /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.
@@ -50,8 +55,8 @@ impl Ending {
         const PART: f64 = 0.01;
         /// Forces follow the motion: those of stiff parts are far from it long before the motion is, and no step builds on them.
         const PART_OF_FORCES: f64 = 0.1;
-        (self.tolerance, self.carries) = (self.least.max(PART * error), true);
-        self.residual = self.least.max(PART_OF_FORCES * error);
+        (self.tolerance, self.carries) = (self.bounded(PART * error), true);
+        self.residual = self.bounded(PART_OF_FORCES * error);
         self.contraction = None;
     }
 
@@ -69,8 +74,13 @@ impl Ending {
         /// Whatever the error of the step: an impact, a load that jumps, or stiff parts that turn far in steps which do not resolve them, where
         /// what is left would drive them.
         const MOST: f64 = 1e-5;
-        let part = |first: f64| (PART * first).clamp(self.least, MOST.max(self.least));
-        self.of_own_error.then(|| [size, residual].map(part))
+        self.of_own_error.then(|| [size, residual].map(|first| self.bounded((PART * first).min(MOST))))
+    }
+
+    /// This tolerance within the bounds of the scene; the deck's goes before.
+    fn bounded(&self, tolerance: f64) -> f64 {
+        let [least, most] = self.bounds;
+        tolerance.max(least).min(most)
     }
 
     /// Takes account of a correction.
@@ -86,18 +96,22 @@ impl Ending {
     }
 }
 
-/// True where the error of a step may end its iteration. Energy is then kept to the error of the steps and no better, which schemes that
-/// dissipate do not promise; bodies alone turn with an error of higher order.
+/// True where the error of a step ends its iteration, beside the tolerance of the deck.
 fn follows_own_error(cx: &Context) -> bool {
+    cx.is_dynamic()
+        && !matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. })
+        && (!cx.model.solution.iteration.follows_step || may_keep_less(cx))
+}
+
+/// True where energy need not be kept to the digits of the default. Steps that end with their own error keep it to that and no better,
+/// which schemes that dissipate do not promise; bodies alone turn with an error of higher order.
+fn may_keep_less(cx: &Context) -> bool {
     /// The step, in radians of an oscillator, for which dissipation is looked at.
     const TURN: f64 = 1.0;
     /// Above the rounding of eigenvalues.
     const NONE: f64 = 1e-9;
     let scheme = &*cx.model.solution.scheme;
-    cx.model.solution.iteration.follows_step
-        && cx.is_dynamic()
-        && !matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. })
-        && matches!(scheme.stepping(), Stepping::OneStage)
+    matches!(scheme.stepping(), Stepping::OneStage)
         && cx.system.groups.iter().any(|group| group.kind.is_deformable())
         && spectrum(scheme, TURN).damping > NONE
 }
