@@ -72,6 +72,7 @@ mod study;
 mod sudden_loads;
 mod sweep;
 mod table_sizes;
+mod thin_rods_in_loops;
 mod turning;
 
 mod scene;

@@ -3,6 +3,7 @@
 //! the least change of positions in the norm of the masses.
 
 use super::equations::System;
+use super::independent_rows::IndependentRows;
 use super::masses::Masses;
 use super::multipliers::REGULARIZATION;
 use super::schur_factor::SchurFactor;
@@ -25,8 +26,12 @@ pub struct ConstraintSchur {
     /// The translations, and the rotations, of each joint. Loads that redundant equations share would depend on the axes in which these are
     /// written, were the diagonal of each raised by a part of its own.
     alike: Vec<Range<usize>>,
-    /// By how much the diagonal is raised.
+    /// How much loads of each equation weigh where redundant ones share them.
+    weights: Vec<f64>,
+    /// By how much the diagonal of a sparse system is raised.
     raised: Vec<f64>,
+    /// The equations of a dense system that are solved for, where some may be redundant.
+    independent: Option<IndependentRows>,
     /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit multiplier causes at them.
     G: Vec<[Vec6; 2]>,
     W: Vec<[Vec6; 2]>,
@@ -40,7 +45,7 @@ pub struct ConstraintSchur {
     scratch: Vec<f64>,
 }
 
-keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, raised });
+keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, weights, raised, independent });
 
 /// What an equation moves by a unit force: of translations that of forces alone, without the turns that arms make, by which joints of one body that sit
 /// elsewhere would share otherwise.
@@ -96,11 +101,14 @@ impl ConstraintSchur {
         let x = vec![0.0; count];
         let inert = vec![false; count];
         let (alike, raised) = (alike(system), vec![0.0; count]);
+        let independent = (shares && !factor.is_sparse()).then(|| IndependentRows::new(&rows));
         Some(ConstraintSchur {
             rows,
             shares,
             alike,
+            weights: raised.clone(),
             raised,
+            independent,
             G: zeros.clone(),
             W: zeros,
             inert,
@@ -135,11 +143,11 @@ impl ConstraintSchur {
                 k += 1;
             }
         }
-        self.factor()
+        self.factor(masses)
     }
 
-    fn factor(&mut self) -> bool {
-        let ConstraintSchur { rows, G, W, inert, factor, shares, alike, raised, .. } = self;
+    fn factor(&mut self, masses: &Masses) -> bool {
+        let ConstraintSchur { rows, G, W, inert, factor, shares, alike, weights, raised, independent, .. } = self;
         let entry = |k: usize, l: usize| {
             let mut sum = 0.0;
             for (i, master) in rows[k].iter().enumerate() {
@@ -157,10 +165,18 @@ impl ConstraintSchur {
                 let count = own().count().max(1) as f64;
                 let without_arms = own().map(|k| same_kind(&G[k], &W[k])).sum::<f64>();
                 let sum = if without_arms > 0.0 { without_arms } else { own().map(|k| entry(k, k)).sum::<f64>() };
-                let mean = sum / count;
-                raised[range.clone()].fill(REGULARIZATION * mean);
+                weights[range.clone()].fill(sum / count);
             }
         }
+        if let Some(independent) = independent {
+            independent.find(rows, G, inert, masses);
+            let is_regular = factor.factor(&independent.idle, raised, entry);
+            if is_regular {
+                independent.find_shares(factor, inert, weights, entry);
+            }
+            return is_regular;
+        }
+        raised.iter_mut().zip(weights).for_each(|(raised, weight)| *raised = REGULARIZATION * *weight);
         factor.factor(inert, raised, entry)
     }
 
@@ -175,13 +191,15 @@ impl ConstraintSchur {
         if !self.shares {
             return self.factor.substitute(&mut self.x);
         }
+        if let Some(independent) = &self.independent {
+            self.x.iter_mut().zip(&independent.idle).filter(|(_, idle)| **idle).for_each(|(x, _)| *x = 0.0);
+        }
         // The regularization leaves the fraction ε of the right-hand side; one iterative refinement leaves ε².
-        std::mem::swap(&mut self.scratch, &mut self.x);
-        self.x.copy_from_slice(&self.scratch);
-        self.factor.substitute(&mut self.x);
-        self.factor.subtract_product(&self.x, &mut self.scratch);
-        self.factor.substitute(&mut self.scratch);
-        self.x.iter_mut().zip(&self.scratch).for_each(|(x, more)| *x += more);
+        self.scratch.copy_from_slice(&self.x);
+        self.factor.refine(&mut self.x, &mut self.scratch);
+        if let Some(independent) = &self.independent {
+            independent.share(&mut self.x, &self.weights);
+        }
     }
 
     /// Adds the constraint rates: x ← x + G δ, with δ by node.

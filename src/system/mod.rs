@@ -18,6 +18,7 @@ mod equations;
 mod excitation;
 mod free_rotation;
 mod group;
+mod independent_rows;
 mod inertia;
 mod joint_loads;
 mod joint_tree;

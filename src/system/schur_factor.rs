@@ -74,6 +74,14 @@ impl SchurFactor {
         }
     }
 
+    /// Solves with one iterative refinement; `x` and `scratch` hold the right-hand side on entry.
+    pub fn refine(&mut self, x: &mut [f64], scratch: &mut [f64]) {
+        self.substitute(x);
+        self.subtract_product(x, scratch);
+        self.substitute(scratch);
+        x.iter_mut().zip(&*scratch).for_each(|(x, more)| *x += more);
+    }
+
     /// Subtracts the product of the matrix and `x`.
     pub fn subtract_product(&self, x: &[f64], from: &mut [f64]) {
         match self {
