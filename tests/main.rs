@@ -73,6 +73,7 @@ mod sudden_loads;
 mod sweep;
 mod table_sizes;
 mod thin_rods_in_loops;
+mod thin_rods;
 mod turning;
 
 mod scene;

@@ -20,6 +20,9 @@ use std::sync::Arc;
 /// Round-off in a principal moment, relative to the largest.
 const ROUND_OFF: f64 = 1e-9;
 
+/// Round-off of a principal moment that is zero, relative to the largest.
+const NO_INERTIA: f64 = 1e-12;
+
 /// Bodies of the deck, then parts that are a body by themselves.
 #[derive(Default)]
 pub(super) struct Bodies<'d> {
@@ -198,8 +201,8 @@ pub(super) fn read_inertia(values: &At<Vec<f64>>, report: &mut Report) -> Option
     let inertia = Mat3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz);
     let mut moments = inertia.symmetric_eigenvalues();
     moments.as_mut_slice().sort_by(f64::total_cmp);
-    if moments[0] <= 0.0 {
-        let message = "`inertia` must have three positive principal moments";
+    if moments[0] < -NO_INERTIA * moments[2] || moments[1] <= 0.0 {
+        let message = "`inertia` must have two positive principal moments, and no negative one";
         return report.error_with(&values.span, message, format!("the smallest is {}", short(moments[0])));
     }
     if moments[2] > (moments[0] + moments[1]) * (1.0 + ROUND_OFF) {

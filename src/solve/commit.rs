@@ -96,10 +96,7 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
         let a = old * of_a + before * of_start + increment.dd * of_end;
         let turn = match TurningBody::next_at(&mut bodies, node) {
             Some(body) => {
-                let rate = body.momentum_rate(start, &angular(&old)) * of_a
-                    + body.momentum_rate(start, &start.alpha) * of_start
-                    + body.momentum_rate(end, &end.alpha) * of_end;
-                body.acceleration(end, &rate)
+                body.combine([(start, angular(&old), of_a), (start, start.alpha, of_start), (end, end.alpha, of_end)])
             }
             None => rates(&angular(&increment.q), &angular(&increment.d), &angular(&a)).1,
         };

@@ -4,7 +4,7 @@
 use super::context::Context;
 use super::workspace::Workspace;
 use crate::integrators::Coefficients;
-use crate::math::{Vec6, angular, stack};
+use crate::math::{Vec3, Vec6, angular, stack};
 use crate::state::{Increment, Node, State};
 use crate::system::{Prescribed, Side, TurningBody, between};
 
@@ -16,6 +16,8 @@ pub struct Stage<'s> {
     /// Velocities and accelerations by node that stand in place of those at the start of the step, where a second stage
     /// looks back beyond it.
     pub start_rates: Option<&'s [[Vec6; 2]]>,
+    /// What stands in place of accelerations of turning bodies there: of the angular momentum, and of the angular velocity in body axes.
+    pub turning: Option<&'s [[Vec3; 2]]>,
     /// Predicted increments by node that stand in place of those of the scheme.
     pub prediction: Option<&'s [Vec6]>,
 }
@@ -23,7 +25,7 @@ pub struct Stage<'s> {
 impl<'s> From<&'s Coefficients> for Stage<'s> {
     /// A stage with the rates of the state alone.
     fn from(scheme: &'s Coefficients) -> Stage<'s> {
-        Stage { scheme, start_rates: None, prediction: None }
+        Stage { scheme, start_rates: None, turning: None, prediction: None }
     }
 }
 
@@ -140,12 +142,12 @@ fn start_turning(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage)
         return;
     }
     ws.turning.clear();
-    ws.turning.extend(cx.system.turning_bodies().iter().map(|body| {
+    ws.turning.extend(cx.system.turning_bodies().iter().enumerate().map(|(index, body)| {
         let node = &state.nodes[body.node];
-        let of_scheme = stage.start_rates(cx, state, body.node, rates_of(node)).map(|rates| angular(&rates));
-        match stage.start_rates {
-            Some(_) => body.start_of_stage(node, of_scheme, stage.scheme),
-            None => body.start(node, &of_scheme[1], stage.scheme),
+        let [v, a] = stage.start_rates(cx, state, body.node, rates_of(node)).map(|rates| angular(&rates));
+        match stage.turning {
+            Some(rates) => body.start_of_stage(node, &v, rates[index], stage.scheme),
+            None => body.start(node, &a, stage.scheme),
         }
     }));
 }

@@ -22,6 +22,8 @@ pub struct Inertia {
     pub rotary: bool,
     /// True where the node turns by its angular momentum: one of [`super::TurningBody`].
     pub turns: bool,
+    /// The part of its angular acceleration in axes of the body, in axes of [`Inertia::J0`]; `None` where there is none.
+    pub own: Option<Box<Mat3>>,
     /// What damps its motion where its shares have factors α of their own; `None` where that of all masses holds.
     pub drag: Option<Box<OwnDrag>>,
 }
@@ -109,7 +111,15 @@ impl Inertia {
                 }
             };
             if let (true, true, Some(kappa)) = (gyroscopic, self.turns, turning) {
-                k += self.momentum_tangent(node, &J, rate, acceleration / rate, kappa);
+                let weights = [rate, acceleration / rate, kappa];
+                let more = self.momentum_tangent(node, &J, weights);
+                k += match &self.own {
+                    Some(own) => {
+                        let R = node.R();
+                        more + R * (**own * R.tr_mul(&(self.own_tangent(node, &J, weights) - more)))
+                    }
+                    None => more,
+                };
             } else if gyroscopic {
                 let (omega, alpha) = (skew(&node.omega), skew(&node.alpha));
                 let L = skew(&(J * node.omega));
@@ -126,9 +136,18 @@ impl Inertia {
     /// The derivative of the rate of angular momentum e J ω + …, less e `rate` J, for a small turn δθ. The momentum changes by
     /// δθ×π + J δΩ, the angular velocity in body axes by δΩ = (rate + ½ ω~ + κ rate J⁻¹ (π~ − ω~J)) δθ; what a finite rotation vector
     /// adds is of second order in the step.
-    fn momentum_tangent(&self, node: &Node, J: &Mat3, rate: f64, e: f64, kappa: f64) -> Mat3 {
+    fn momentum_tangent(&self, node: &Node, J: &Mat3, [rate, e, kappa]: [f64; 3]) -> Mat3 {
         let (omega, L) = (skew(&node.omega), skew(&(J * node.omega)));
         e * (0.5 * J * omega - L + kappa * rate * (L - omega * J))
+    }
+
+    /// The same where the scheme relates angular velocities in axes of the body: J Ω̇ + Ω×JΩ turns with the body, changes by e J δΩ, and by
+    /// the gyroscopic part of δΩ.
+    fn own_tangent(&self, node: &Node, J: &Mat3, [rate, e, kappa]: [f64; 3]) -> Mat3 {
+        let (omega, momentum) = (skew(&node.omega), J * node.omega);
+        let gyroscopic = omega * J - skew(&momentum);
+        let moment = J * node.alpha + node.omega.cross(&momentum);
+        e * (0.5 * J * omega - kappa * rate * gyroscopic) + rate * gyroscopic - skew(&moment)
     }
 }
 
@@ -179,6 +198,7 @@ impl Lumped {
                 J0,
                 rotary,
                 turns: false,
+                own: None,
                 drag: drag(),
             })
         };

@@ -3,7 +3,7 @@
 use super::equilibrium::EquilibriumSolver;
 use crate::integrators::TwoStages;
 use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, angular, linear, stack};
+use crate::math::{Vec3, Vec6, angular, stack};
 use crate::snapshot::keep;
 use crate::solve::context::Context;
 use crate::solve::failure::Failure;
@@ -19,14 +19,16 @@ pub struct Composite<'a> {
     start: State,
     /// Velocities and accelerations that the second stage uses at its start, by node.
     start_rates: Vec<[Vec6; 2]>,
+    /// What stands in place of accelerations of turning bodies there.
+    turning: Vec<[Vec3; 2]>,
 }
 
-keep!(Composite<'_> { start, start_rates } without { scheme });
+keep!(Composite<'_> { start, start_rates, turning } without { scheme });
 
 impl<'a> Composite<'a> {
     /// Room for the start of a step of this many nodes.
     pub fn new(scheme: &'a dyn TwoStages, nodes: usize) -> Self {
-        Composite { scheme, start: State::default(), start_rates: vec![[Vec6::zeros(); 2]; nodes] }
+        Composite { scheme, start: State::default(), start_rates: vec![[Vec6::zeros(); 2]; nodes], turning: Vec::new() }
     }
 
     /// Prepares for a run from this state.
@@ -67,7 +69,12 @@ impl<'a> Composite<'a> {
         let first = solver.stage(cx, ws, state, &Stage::from(&cx.model.solution.scheme.coefficients(dt)), between)?;
         self.look_back(cx, ws, state, dt);
         let scheme = self.scheme.second(dt);
-        let stage = Stage { scheme: &scheme, start_rates: Some(&self.start_rates), prediction: None };
+        let stage = Stage {
+            scheme: &scheme,
+            start_rates: Some(&self.start_rates),
+            turning: Some(&self.turning),
+            prediction: None,
+        };
         let second = solver.stage(cx, ws, state, &stage, to)?;
         Ok(first.then(second))
     }
@@ -84,11 +91,11 @@ impl<'a> Composite<'a> {
             let [v, _] = rates_of(&between.nodes[node]);
             self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];
         }
-        for body in cx.system.turning_bodies() {
+        self.turning.clear();
+        self.turning.extend(cx.system.turning_bodies().iter().map(|body| {
             let nodes = [&self.start.nodes[body.node], &between.nodes[body.node]];
-            let [start, between] = nodes.map(|node| body.momentum(node));
-            let [_, second] = &mut self.start_rates[body.node];
-            *second = stack(&linear(second), &(start * b.start + between * b.between));
-        }
+            let combined = |of: [Vec3; 2]| of[0] * b.start + of[1] * b.between;
+            [combined(nodes.map(|node| body.momentum(node))), combined(nodes.map(|node| node.R().tr_mul(&node.omega)))]
+        }));
     }
 }

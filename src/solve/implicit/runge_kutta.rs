@@ -124,7 +124,7 @@ impl StageStepper {
     }
 
     fn relation<'s>(&'s self, scheme: &'s Coefficients) -> Stage<'s> {
-        Stage { scheme, start_rates: Some(&self.start_rates), prediction: Some(&self.prediction) }
+        Stage { scheme, start_rates: Some(&self.start_rates), turning: None, prediction: Some(&self.prediction) }
     }
 
     /// The fourth derivative of the increments of a node, times Δt², in the step that was taken; `index` counts independent nodes.

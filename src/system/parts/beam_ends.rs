@@ -74,6 +74,7 @@ impl BeamEnds {
                             J0,
                             rotary: J0 != Mat3::zeros(),
                             turns: false,
+                            own: None,
                             drag: Some(Box::new(OwnDrag { mass: alpha * mass, J0: alpha * J0 })),
                         },
                         row: row.map(|(_, column, m)| (column, m)).collect(),
