@@ -19,7 +19,7 @@ use std::path::Path;
 /// # Errors
 /// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
 pub fn check(args: &CheckArgs) -> Result<(), Exit> {
-    let _checking = EndAtOnce::on_signals();
+    let checking = EndAtOnce::on_signals();
     let mut loaded = load(&args.deck.deck, &args.deck.sets, Vec::new())?;
     show(&loaded.warnings, &loaded.source);
     let (system, plan, warnings) = plan(&mut loaded, 1)?;
@@ -28,7 +28,7 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
     let mut text = explain_costs(&plan, &loaded.model, &system, &solver);
     text.computed.push(("output", listed(&loaded.model, &plan)));
     if let Some(folder) = &args.export_matrices {
-        text.computed.push(("matrices", export(folder, &loaded.model, &system, &plan)?));
+        text.computed.push(("matrices", export(folder, (&loaded.model, &system, &plan), &checking)?));
     }
     let path = &loaded.source.path;
     if loaded.model.analysis.stage.is_none() {
@@ -46,8 +46,13 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
 }
 
 /// Writes the matrices of the scene; says what was written.
-fn export(folder: &Path, model: &Model, system: &System, plan: &Plan) -> Result<String, Exit> {
+fn export(
+    folder: &Path,
+    (model, system, plan): (&Model, &System, &Plan),
+    checking: &EndAtOnce,
+) -> Result<String, Exit> {
     let matrices = SceneMatrices::of(model, system, plan).map_err(too_large)?;
+    checking.writes_into(folder);
     let written = matrix_market::write(folder, &matrices).map_err(|error| {
         complain(&format!("the matrices cannot be written: {error}"));
         Exit::InputOutput

@@ -3,8 +3,9 @@
 use super::console::complain;
 use super::exit::Exit;
 use std::io::{self, Read};
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Lets interrupt, termination and the loss of the terminal raise a flag: the run then ends after the step in hand, with whole
 /// files.
@@ -36,11 +37,14 @@ pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
 pub struct EndAtOnce {
     #[cfg(unix)]
     handle: Option<signal_hook::iterator::Handle>,
+    /// The folder into which files are being written.
+    written: Arc<OnceLock<PathBuf>>,
 }
 
 impl EndAtOnce {
     /// Begins to wait for signals; where the system does not let them be caught they end the process as they always do.
     pub fn on_signals() -> EndAtOnce {
+        let written = Arc::<OnceLock<PathBuf>>::default();
         #[cfg(unix)]
         {
             use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM, SIGXCPU};
@@ -48,17 +52,29 @@ impl EndAtOnce {
             let signals = signal_hook::iterator::Signals::new(caught).ok();
             let handle = signals.as_ref().map(signal_hook::iterator::Signals::handle);
             if let Some(mut signals) = signals {
+                let written = Arc::clone(&written);
                 std::thread::spawn(move || {
                     if signals.forever().next().is_some() {
-                        complain("stopped by a signal before the first step; nothing has been written");
+                        complain(&match written.get() {
+                            None => "stopped by a signal before the first step; nothing has been written".to_owned(),
+                            Some(folder) => format!(
+                                "stopped by a signal; files in `{}` may be missing or cut short: run the same command again",
+                                folder.display()
+                            ),
+                        });
                         std::process::exit(i32::from(Exit::Stopped as u8));
                     }
                 });
             }
-            EndAtOnce { handle }
+            EndAtOnce { handle, written }
         }
         #[cfg(not(unix))]
-        EndAtOnce {}
+        EndAtOnce { written }
+    }
+
+    /// Notes that files in a folder are not whole from now on.
+    pub fn writes_into(&self, folder: &Path) {
+        self.written.get_or_init(|| folder.to_owned());
     }
 }
 

@@ -20,6 +20,8 @@ const RENEWED: Duration = Duration::from_secs(30);
 const GIVEN_UP: Duration = Duration::from_secs(300);
 /// The time after which a lock that was taken over must still be ours: another host may have taken it over in the same moment.
 pub(super) const SETTLED: Duration = Duration::from_secs(1);
+/// The time after which a lock that another process is just taking or leaving is looked at again, and how often it is.
+pub(super) const TAKEN_OVER: (Duration, usize) = (Duration::from_millis(1), 200);
 
 /// The right to write into a folder. It is held until it is dropped, which removes the file.
 #[derive(Debug)]
@@ -164,45 +166,63 @@ impl FolderLock {
     /// Another process writes there ([`io::ErrorKind::ResourceBusy`]), and who it is; or the lock cannot be written.
     pub fn take(dir: &Path) -> io::Result<FolderLock> {
         let path = dir.join(NAME);
-        let this = Holder::this();
-        loop {
-            // No run makes symbolic links: the link is removed, and what it leads to stays.
-            if fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink()) {
-                fs::remove_file(&path).map_err(|error| at(&path, error))?;
+        for _ in 0..TAKEN_OVER.1 {
+            if let Some(lock) = FolderLock::take_once(dir, &path)? {
+                return Ok(lock);
             }
-            let open = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
-            let mut file = open.map_err(|error| at(&path, error))?;
-            let locked = match file.try_lock() {
-                Ok(()) => true,
-                Err(TryLockError::WouldBlock) => return Err(busy(dir, &path, holder(&mut file).as_ref())),
-                // On a file system without locks the text alone tells.
-                Err(TryLockError::Error(_)) => false,
-            };
-            // The holder before may have removed the file between opening and locking.
-            if locked && !is_same(&file, &path) {
-                continue;
-            }
-            let older = holder(&mut file);
-            let in_the_way = older.filter(|older| if locked { older.host != this.host } else { older.may_live(&this) });
-            if let Some(older) = in_the_way.as_ref().filter(|older| !is_given_up(older, &this, &file, dir)) {
-                return Err(busy(dir, &path, Some(older)));
-            }
-            let text = this.text();
-            let write = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(text.as_bytes()));
-            write.map_err(|error| at(&path, error))?;
-            if in_the_way.is_some() {
-                file.sync_data().map_err(|error| at(&path, error))?;
-                std::thread::sleep(SETTLED);
-                let now = fs::read_to_string(&path).unwrap_or_default();
-                if now != text {
-                    return Err(busy(dir, &path, Holder::read(&now).as_ref()));
-                }
-            }
-            let held = Arc::new(Held { file, text });
-            keep_alive(&held);
-            return Ok(FolderLock { path, held });
+            std::thread::sleep(TAKEN_OVER.0);
         }
+        Err(unstable(&path))
     }
+
+    /// Takes a lock; `None` where the file that was locked does not stand under its name.
+    fn take_once(dir: &Path, path: &Path) -> io::Result<Option<FolderLock>> {
+        let this = Holder::this();
+        // No run makes symbolic links: the link is removed, and what it leads to stays.
+        if fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink()) {
+            fs::remove_file(path).map_err(|error| at(path, error))?;
+        }
+        let open = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
+        let mut file = open.map_err(|error| at(path, error))?;
+        let locked = match file.try_lock() {
+            Ok(()) => true,
+            Err(TryLockError::WouldBlock) => return Err(busy(dir, path, holder(&mut file).as_ref())),
+            // On a file system without locks the text alone tells.
+            Err(TryLockError::Error(_)) => false,
+        };
+        // The holder before may have removed the file between opening and locking.
+        if locked && !is_same(&file, path) {
+            return Ok(None);
+        }
+        let older = holder(&mut file);
+        let in_the_way = older.filter(|older| if locked { older.host != this.host } else { older.may_live(&this) });
+        if let Some(older) = in_the_way.as_ref().filter(|older| !is_given_up(older, &this, &file, dir)) {
+            return Err(busy(dir, path, Some(older)));
+        }
+        let text = this.text();
+        let write = file.set_len(0).and_then(|()| file.rewind()).and_then(|()| file.write_all(text.as_bytes()));
+        write.map_err(|error| at(path, error))?;
+        if in_the_way.is_some() {
+            file.sync_data().map_err(|error| at(path, error))?;
+            std::thread::sleep(SETTLED);
+            let now = fs::read_to_string(path).unwrap_or_default();
+            if now != text {
+                return Err(busy(dir, path, Holder::read(&now).as_ref()));
+            }
+        }
+        let held = Arc::new(Held { file, text });
+        keep_alive(&held);
+        Ok(Some(FolderLock { path: path.to_owned(), held }))
+    }
+}
+
+/// A lock that is another file whenever it is looked at.
+pub(super) fn unstable(path: &Path) -> io::Error {
+    let (file, times) = (path.display(), TAKEN_OVER.1);
+    io::Error::other(format!(
+        "{file}: {times} times another file stood there once it was locked, so that the lock holds nothing\n  help: no other \
+         program may remove it; where none does, the file system keeps no locks: take a folder on another disk"
+    ))
 }
 
 /// Whether the process of another host that holds a lock has died with its host: it has not renewed it for so long. Both times are those

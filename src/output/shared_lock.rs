@@ -3,17 +3,16 @@
 //! lock for each case of a sweep would make every case slower than the one before.
 
 use super::disk::{at, is_same};
-use super::lock::{FolderLock, Held, Holder, NAME, SETTLED, busy, holder, is_given_up, keep_alive};
+use super::lock::{
+    FolderLock, Held, Holder, NAME, SETTLED, TAKEN_OVER, busy, holder, is_given_up, keep_alive, unstable,
+};
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
 
 /// The beginning and the ending of the name of the file that is linked, with host and process between.
 const NAMED: [&str; 2] = ["cases.", ".lock"];
-/// The time after which a lock that another process is just taking over is looked at again, and how often it is.
-const TAKEN_OVER: (Duration, usize) = (Duration::from_millis(1), 200);
 
 /// The right of this process to write into folders, of which it takes one after the other. It ends when this is dropped, and with it the
 /// file.
@@ -34,7 +33,7 @@ impl SharedLock {
         let this = Holder::this();
         let host: String = this.host.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
         let path = dir.join(format!("{}{host}.{}{}", NAMED[0], this.process, NAMED[1]));
-        loop {
+        for _ in 0..TAKEN_OVER.1 {
             let made = OpenOptions::new().read(true).write(true).create_new(true).open(&path);
             let mut file = match made {
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => {
@@ -46,6 +45,7 @@ impl SharedLock {
             };
             // Who takes away what is left may take a file that is not locked yet for one.
             if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) || !is_same(&file, &path) {
+                std::thread::sleep(TAKEN_OVER.0);
                 continue;
             }
             let text = this.text();
@@ -54,6 +54,7 @@ impl SharedLock {
             keep_alive(&held);
             return Ok(SharedLock { own: FolderLock { path, held }, making_room: Mutex::new(()) });
         }
+        Err(unstable(&path))
     }
 
     /// Takes the lock of a folder, which must exist.

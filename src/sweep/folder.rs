@@ -107,13 +107,16 @@ impl SweepFolder {
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
     pub fn write_summary(&self, cases: &Cases) -> io::Result<Vec<CaseState>> {
-        loop {
-            let states = self.write_what_stands(cases)?;
+        let mut states = self.write_what_stands(cases)?;
+        // Each round is for a case that has ended since the one before.
+        for _ in 0..states.len() {
             let was_pending = |&case: &usize| states[case] == CaseState::Pending;
             if !(0..states.len()).filter(was_pending).any(|case| self.state(case) != CaseState::Pending) {
-                return Ok(states);
+                break;
             }
+            states = self.write_what_stands(cases)?;
         }
+        Ok(states)
     }
 
     /// Writes the summary of the cases that stand now.
