@@ -7,6 +7,7 @@
 use super::history::{PointHistory, PointHistoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
 use super::nearest_corner::NearestCorner;
+use super::normal_motion::safe_time;
 use crate::state::{Configuration, Node};
 
 /// Cosine of the angle between the directions of a corner and a node up to which they press as one.
@@ -46,13 +47,19 @@ impl Contacts {
         let is_far = self.law.dynamic && gap > 4.0 * now.dt * at.w.norm() && gap > 0.0;
         if is_far || !self.leads(&**corners, at, gap, now.nodes) {
             new.set_inset(true, -1.0);
-            new.set_gap(gap);
+            self.set_gap(gap, at, new);
             return;
         }
         // What is inside as the motion begins is pushed out; later nothing jumps.
         let inset = if !was_idle || now.dt <= 0.0 { inset.min(-gap).max(0.0) } else { (-gap).max(0.0) };
         new.set_inset(true, inset);
-        new.set_gap(gap + inset);
+        self.set_gap(gap + inset, at, new);
+    }
+
+    /// Writes the gap to where the spring begins from now on, and the time in which that cannot close.
+    fn set_gap(&self, gap: f64, at: &ContactKinematics, new: &mut PointHistoryMut) {
+        new.set_gap(gap);
+        new.set_safe_time(safe_time(&self.law, gap, at.w.norm()));
     }
 
     /// True where a node is nearer to the solid than any of its corners, in about the same direction, to the faces.

@@ -180,6 +180,11 @@ impl<'a> PointHistoryMut<'a> {
         self.0[GAP] = gap;
     }
 
+    /// Sets the time after the last state before which the point cannot reach the surface.
+    pub fn set_safe_time(&mut self, safe_time: f64) {
+        self.0[SAFE_TIME] = safe_time;
+    }
+
     /// Sets |T|.
     pub fn set_friction_force(&mut self, force: f64) {
         self.0[FRICTION_FORCE] = force;

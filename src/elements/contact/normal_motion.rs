@@ -26,7 +26,7 @@ pub(super) fn damping_power(law: &ContactLaw, gap: f64, rate: f64, force: f64) -
 }
 
 /// A time in which a gap cannot close at twice the speed; 0 where it is not looked for, or the gap is small.
-fn safe_time(law: &ContactLaw, gap: f64, speed: f64) -> f64 {
+pub(super) fn safe_time(law: &ContactLaw, gap: f64, speed: f64) -> f64 {
     if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 }
 }
 
@@ -91,8 +91,10 @@ pub(super) fn update_normal(
     let before = if old.is_known() { -old.gap() } else { 0.0 };
     let depth = -new.read().gap();
     if depth <= 0.0 {
-        // What comes out is met where it turns round.
-        return (damped, (inset + depth).max(0.0));
+        // What comes out is met where it turns round: the way to there is shorter than that to where the spring began.
+        let left = (inset + depth).max(0.0);
+        new.set_safe_time(safe_time(law, end_gap - (inset - left), speed));
+        return (damped, left);
     }
     let kept = taken_over(&law.loss, (before, depth), inset, new.read().impact_speed(), dt);
     new.set_gap(-kept);
@@ -123,5 +125,50 @@ fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PointHistory, ne
         // The impact is over for good once the acceleration it leaves to the scheme is gone.
         (false, false) if old.age() + dt < duration => (old.impact_speed(), old.age() + dt),
         (false, false) => (0.0, 0.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elements::contact::history::FRICTION_FORCE;
+    use crate::elements::contact::restitution::Loss;
+
+    /// What leaves a surface that gives nothing back touches again where its spring begins from then on. At twice its speed it comes no
+    /// farther than there within the time in which it is not looked at.
+    #[test]
+    fn what_comes_out_is_safe_no_longer_than_on_the_way_to_where_it_turns_round() {
+        let loss = Loss::Whole { floor: 1e-3 };
+        let law = ContactLaw {
+            stiffness: 1e4,
+            loss,
+            friction: 0.0,
+            kinetic: 0.0,
+            decay: f64::INFINITY,
+            floor: 1e-3,
+            resolution: f64::INFINITY,
+            duration: 0.1,
+            near: 0.01,
+            touching: 0.0,
+            tolerance: None,
+            dynamic: true,
+        };
+        let (dt, before) = (1e-3, [0.0, 1.0, -0.02, 1.0, 1.0, 0.0, 0.0, 0.05]);
+        assert_eq!(before.len(), FRICTION_FORCE + 1);
+        // The inset before, and the gap to where the spring began: inside still, out by a trace, by the near distance, and far.
+        for (inset, gap) in [(0.05, 0.03), (0.05, 0.0505), (0.02, 0.028), (0.02, 0.045), (1e-6, 0.5), (0.0, 0.03)] {
+            let (speed, mut numbers) = (0.25, before);
+            let mut new = PointHistoryMut::new(&mut numbers);
+            let motion = NormalMotion { gap, inset, rate: -speed, power: 0.0, speed };
+            let now = Configuration { nodes: &[], history: &[], dt, lead: None };
+            let (_, left) = update_normal(&law, &motion, &now, 1.0, PointHistory::new(&before), &mut new);
+            // Outside the surface by this: the spring begins a depth `left` inside.
+            let (outside, safe) = (gap - inset, new.read().safe_time());
+            // Rounding of sums of this size alone.
+            assert!((left - (-outside).max(0.0)).abs() < 1e-15, "{inset} {gap}: {left}");
+            assert!(2.0 * speed * safe <= outside + left + 1e-15, "{inset} {gap}: {safe}");
+            // Far points are still passed over.
+            assert_eq!(safe > 0.0, outside > law.near, "{inset} {gap}: {safe}");
+        }
     }
 }
