@@ -324,9 +324,7 @@ impl Assembly {
         let add = |j: usize, K: &mut [f64], values: &mut [f64]| {
             how.add((K, joints::width(&system.joints[j])), &destinations[j], projected, values);
         };
-        if weights.acceleration == 0.0 {
-            self.diagonals.round(system, nodes, &forces.on_dependents);
-        }
+        self.diagonals.round(system, nodes, &forces.on_dependents, weights.acceleration == 0.0);
         let multipliers = &mut forces.multipliers;
         joints::tangents(system, nodes, (&mut self.diagonals, projections), multipliers, weights, values, add);
     }

@@ -14,8 +14,8 @@ pub(super) struct Diagonals {
     /// By node: the sum of [`Diagonal::moment`] over the joints that act on it, and the longest of their arms. Written where no inertia is in
     /// the matrix.
     on_nodes: Vec<[f64; 2]>,
-    /// By node: what rounding leaves of the stiffness against rotations that forces on dependent nodes have, where they cancel. Written
-    /// where no inertia is in the matrix.
+    /// By node: what rounding leaves of the stiffness against rotations that forces on dependent nodes have, where they cancel. Zero
+    /// where inertia is in the matrix.
     rounding: Vec<f64>,
     /// By constraint equation: its force, or zero where that is rounding.
     forces: Vec<f64>,
@@ -62,12 +62,12 @@ impl Diagonals {
     }
 
     /// Measures the rounding of what forces on dependent nodes add to the stiffness of their masters: under an even load on a rigid part their sum
-    /// is zero.
-    pub fn round(&mut self, system: &System, nodes: &[Node], on_dependents: &[Vec3]) {
-        if system.joints.is_empty() {
+    /// is zero. Beside inertia, where the scene is not `at_rest`, no entry counts as rounding.
+    pub fn round(&mut self, system: &System, nodes: &[Node], on_dependents: &[Vec3], at_rest: bool) {
+        self.rounding.fill(0.0);
+        if system.joints.is_empty() || !at_rest {
             return;
         }
-        self.rounding.fill(0.0);
         for (dependent, f) in system.rigid_links.iter().zip(on_dependents) {
             let arm = dependent.arm(&nodes[dependent.master]);
             self.rounding[dependent.master] += NOTHING * f.norm() * arm.norm();
