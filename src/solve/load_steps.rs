@@ -56,6 +56,19 @@ pub struct LoadSteps {
 
 keep!(LoadSteps: Default { stored, doubtful, peak, works, sudden, careful });
 
+impl LoadSteps {
+    /// Copies those of another step; nothing is allocated where both have sudden loads.
+    pub fn copy_from(&mut self, other: &LoadSteps) {
+        let LoadSteps { stored, doubtful, peak, works, sudden, careful } = other;
+        (self.stored, self.doubtful, self.peak, self.works, self.careful) =
+            (*stored, *doubtful, *peak, *works, *careful);
+        match (&mut self.sudden, sudden) {
+            (Some(own), Some(sudden)) => own.copy_from(sudden),
+            (own, sudden) => own.clone_from(sudden),
+        }
+    }
+}
+
 /// The works of loads and of supports in the load steps of a static analysis.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Works {
@@ -123,6 +136,25 @@ fn larger(a: Scale, b: Scale) -> Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The copy keeps its own memory, which is at hand before the step: a step allocates nothing.
+    #[test]
+    fn sudden_loads_are_copied_into_the_memory_at_hand() {
+        let of = |value: f64| {
+            let jump = Loading { factors: vec![value; 3], pressures: vec![value; 2], ..Loading::default() };
+            LoadSteps { sudden: Some(SuddenLoads::of_jump(value, 2.0 * value, jump)), ..LoadSteps::default() }
+        };
+        let places = |of: &LoadSteps| of.sudden.as_ref().map(|sudden| sudden.places());
+        let (mut own, other) = (of(1.0), LoadSteps { careful: true, doubtful: Some((3.0, 4.0)), ..of(5.0) });
+        let before = places(&own);
+        own.copy_from(&other);
+        assert_eq!(places(&own), before);
+        assert_eq!(format!("{own:?}"), format!("{other:?}"));
+        own.copy_from(&LoadSteps::default());
+        assert!(own.sudden.is_none() && !own.careful);
+        own.copy_from(&other);
+        assert_eq!(format!("{own:?}"), format!("{other:?}"));
+    }
 
     #[test]
     fn forces_of_the_run_count_where_nothing_acts_any_more() {

@@ -145,13 +145,13 @@ impl StopWatch {
     /// Keeps the state at the beginning of a step.
     pub fn note(&mut self, ws: &Workspace, state: &State) {
         self.before.copy_from(state);
-        self.load_steps = ws.load_steps.clone();
+        self.load_steps.copy_from(&ws.load_steps);
     }
 
     /// Returns to the beginning of the step.
     pub fn go_back(&self, ws: &mut Workspace, state: &mut State) {
         state.copy_from(&self.before);
-        ws.load_steps = self.load_steps.clone();
+        ws.load_steps.copy_from(&self.load_steps);
     }
 
     /// What is left to the value at the beginning of the step.

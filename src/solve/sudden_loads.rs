@@ -29,6 +29,26 @@ impl SuddenLoads {
         SuddenLoads { from, to, jump }
     }
 
+    /// Sudden loads of a jump.
+    #[cfg(test)]
+    pub fn of_jump(from: f64, to: f64, jump: Loading) -> SuddenLoads {
+        SuddenLoads { from, to, jump }
+    }
+
+    /// Where its numbers are kept.
+    #[cfg(test)]
+    pub fn places(&self) -> [*const f64; 2] {
+        [self.jump.factors.as_ptr(), self.jump.pressures.as_ptr()]
+    }
+
+    /// Copies those of another step of the same scene without allocating.
+    pub fn copy_from(&mut self, other: &SuddenLoads) {
+        let SuddenLoads { from, to, jump } = other;
+        (self.from, self.to, self.jump.field) = (*from, *to, jump.field);
+        self.jump.factors.clone_from(&jump.factors);
+        self.jump.pressures.clone_from(&jump.pressures);
+    }
+
     /// Takes from the loads of the deck at a time of the step what does not act yet. Those of its end stay as they are, to the last bit.
     pub fn bring_on(&self, time: f64, loads: &mut Loading) {
         if time < self.to {
