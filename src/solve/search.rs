@@ -148,10 +148,7 @@ impl Run<'_> {
         search.judged.run = run;
         search.judged.state.clone_from(state);
         match search.before.take().filter(|before| search.judged.run.is_told_by(before)) {
-            Some(before) => {
-                let apart = search.judged.run.apart(&before);
-                self.judge(search, Some((OtherRun::Before(apart), before)), observer)
-            }
+            Some(before) => self.judge(search, Some((OtherRun::Before, before)), observer),
             None => {
                 self.begin_trial(search, observer);
                 None
@@ -172,7 +169,7 @@ impl Run<'_> {
     /// As for [`Run::begin_again`].
     fn compare_until(&mut self, end: f64, search: &mut Search, observer: &mut dyn Observer) -> std::io::Result<()> {
         search.between[1] = end;
-        search.before = None;
+        (search.before, search.error.difference) = (None, None);
         let StepError { tolerance, longest, .. } = search.error;
         self.begin_again(&mut search.error, (tolerance, longest), observer)?;
         // It is no run that tells of an error.
@@ -185,7 +182,7 @@ impl Run<'_> {
     fn judge(
         &mut self,
         search: &mut Search,
-        other: Option<(OtherRun, Kept)>,
+        other: Option<(fn(f64) -> OtherRun, Kept)>,
         observer: &mut dyn Observer,
     ) -> Option<(Outcome, Option<State>)> {
         let Search { error, pieces, judged, .. } = search;
@@ -195,7 +192,7 @@ impl Run<'_> {
             None => Some(error.without_trial()),
         };
         let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
-        observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which));
+        observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which(error.apart)));
         // Jumps and kinks of loads dictate most steps: only shorter ones between them tell anything.
         *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
         let next = if dictated { Some(error.tolerance) } else { next };
@@ -279,10 +276,7 @@ impl Run<'_> {
         self.workspace.warnings = std::mem::take(&mut judged.warnings);
         [self.workspace.rotation_drift, self.workspace.joint_violation] = judged.seen;
         match outcome {
-            Outcome::Done => {
-                let apart = judged.run.apart(&trial);
-                self.judge(search, Some((OtherRun::Trial(apart), trial)), observer)
-            }
+            Outcome::Done => self.judge(search, Some((OtherRun::Trial, trial)), observer),
             Outcome::Failed { .. } => self.judge(search, None, observer),
             Outcome::Stopped { .. } => {
                 let stopped = Outcome::Stopped { time: model.analysis.end_time };

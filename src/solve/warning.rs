@@ -20,6 +20,13 @@ pub enum Warning {
         /// The estimated error; `None` where it could not be found.
         estimate: Option<f64>,
     },
+    /// Shorter steps bring runs with events no nearer to each other.
+    RunsPart {
+        /// The error asked for, relative to the largest motion.
+        asked: f64,
+        /// The difference of the last two runs, likewise.
+        difference: f64,
+    },
     /// A load step ended where rounding leaves a residual.
     Unbalanced {
         /// The residual, relative to the forces.
@@ -112,6 +119,7 @@ keep_either!(Warning {
     11 => Crowded { name },
     12 => ScaledStep { wanted, longest, label, cause },
     13 => RotationDrifts { label, direction, drift },
+    14 => RunsPart { asked, difference },
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -148,6 +156,17 @@ fn step_error(asked: f64, estimate: Option<f64>) -> String {
              to its end. Compare with a run at a smaller `error_tolerance`"
         ),
     }
+}
+
+/// What is known where runs with events do not come nearer to each other.
+fn runs_part(asked: f64, difference: f64) -> String {
+    format!(
+        "two runs differ by {} of the largest motion, and shorter steps have brought them no nearer to each other. Events such as impacts or \
+         slip magnify small errors here. No error bars are given, and the error may exceed the {} of `error_tolerance`: take the results \
+         as one motion of many, or end the run before the events (`end_time`)",
+        short(difference),
+        short(asked)
+    )
 }
 
 /// What is wrong where a shell is stretched far; stress conjugate to Green's strain makes forces wrong by the square of the stretch.
@@ -286,6 +305,7 @@ impl fmt::Display for Warning {
             }
             Warning::BeginsClosed { name, depth } => f.write_str(&begins_closed(name, *depth)),
             Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
+            Warning::RunsPart { asked, difference } => f.write_str(&runs_part(*asked, *difference)),
             Warning::InitialVelocities { change } => f.write_str(&corrected(*change)),
         }
     }

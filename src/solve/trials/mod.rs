@@ -9,6 +9,8 @@ mod trace;
 
 pub use trace::{Kept, Trace, Unseen};
 
+use trace::TELLING;
+
 use super::outcome::Counts;
 use super::warning::Warning;
 use crate::snapshot::keep;
@@ -43,15 +45,19 @@ pub struct StepError {
     pub longest: Option<f64>,
     /// Both of the run before.
     pub before: (f64, Option<f64>),
-    /// The estimated error of the run; `None` where no other run came to its end.
+    /// The estimated error of the run; `None` where no other run came to its end, or shorter steps bring runs with events no nearer to each other.
     pub estimate: Option<f64>,
+    /// The difference to the run by which it was judged, relative to the largest motion; `None` where that run tells nothing.
+    pub difference: Option<f64>,
+    /// The factor by which the error of that run is larger.
+    pub apart: f64,
     /// Number of runs besides the last.
     pub others: usize,
     /// The effort of these.
     pub effort: Counts,
 }
 
-keep!(StepError: Default { asked, tolerance, longest, before, estimate, others, effort });
+keep!(StepError: Default { asked, tolerance, longest, before, estimate, difference, apart, others, effort });
 
 impl StepError {
     /// The error of a run by this tolerance, of which nothing is known yet.
@@ -62,6 +68,8 @@ impl StepError {
             longest: None,
             before: (asked, None),
             estimate: None,
+            difference: None,
+            apart: 1.0,
             others: 0,
             effort: Counts::default(),
         }
@@ -83,8 +91,16 @@ impl StepError {
     pub fn judge(&mut self, run: &Kept, other: &Kept, extent: f64) -> Option<f64> {
         let difference = run.difference(other, extent);
         let told = run.is_told_by(other) && difference.is_finite();
-        let estimate = difference / (run.apart(other) - 1.0);
-        let before = std::mem::replace(&mut self.estimate, told.then_some(estimate));
+        let last = std::mem::replace(&mut self.difference, told.then_some(difference));
+        self.apart = run.apart(other);
+        // Three runs show how fast errors fall that events leave.
+        let last = last.filter(|_| run.meets_events(other));
+        let nears = last.is_none_or(|last| TELLING * difference <= last);
+        if let Some(last) = last.filter(|_| nears) {
+            self.apart = self.apart.min(last / difference);
+        }
+        let estimate = difference / (self.apart - 1.0);
+        let before = std::mem::replace(&mut self.estimate, (told && nears).then_some(estimate));
         if !told {
             return Some(self.without_trial());
         }
@@ -93,7 +109,7 @@ impl StepError {
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
         let [least, most] = CHANGE;
         let factor = if lost { LOST } else { (AIM * self.asked / estimate).clamp(least, most) };
-        (estimate > WITHIN * self.asked && !hopeless).then_some(self.tolerance * factor)
+        ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(self.tolerance * factor)
     }
 
     /// The tolerance of a further run where the trial did not come to its end: its steps, and maybe those of the run, do not follow the
@@ -104,7 +120,52 @@ impl StepError {
 
     /// What the run has to say where its error is not what was asked for.
     pub fn doubt(&self) -> Option<Warning> {
-        let StepError { asked, estimate, .. } = *self;
+        let StepError { asked, estimate, difference, .. } = *self;
+        if let (None, Some(difference)) = (estimate, difference) {
+            return Some(Warning::RunsPart { asked, difference });
+        }
         estimate.is_none_or(|estimate| estimate > WITHIN * asked).then_some(Warning::StepError { asked, estimate })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Judges four runs whose steps halve from run to run, with these differences between one and the next.
+    fn judged(differences: [f64; 3], met_events: bool) -> StepError {
+        let mut error = StepError::new(1e-3);
+        let mut at = 0.0;
+        let mut other = Kept::example(10, at, met_events);
+        for (k, difference) in differences.into_iter().enumerate() {
+            at += difference;
+            let run = Kept::example(20 << k, at, met_events);
+            error.judge(&run, &other, 1.0);
+            other = run;
+        }
+        error
+    }
+
+    /// Differences that fall by 1.25 from run to run leave 1/1.25 + 1/1.25² + ... = 4 times the last one.
+    #[test]
+    fn events_leave_the_error_that_three_runs_show() {
+        let [first, second] = [6e-3, 6e-3 / 1.25];
+        let error = judged([first, second, second / 1.25], true);
+        let left = 4.0 * second / 1.25;
+        assert!((error.estimate.unwrap() - left).abs() < 1e-9 * left, "{error:?}");
+        // Without events the orders of the steps hold.
+        assert!(judged([first, second, second / 1.25], false).estimate.unwrap() < 0.3 * left);
+        // Differences that fall faster than events let them tell what they told.
+        let fast = judged([8e-3, 2e-3, 5e-4], true);
+        assert!((fast.estimate.unwrap() - 5e-4).abs() < 1e-12, "{fast:?}");
+    }
+
+    #[test]
+    fn runs_that_come_no_nearer_have_no_estimate() {
+        let error = judged([6e-3, 3e-3, 2.9e-3], true);
+        assert_eq!(error.estimate, None);
+        assert!(
+            matches!(error.doubt(), Some(Warning::RunsPart { difference, .. }) if (difference - 2.9e-3).abs() < 1e-9)
+        );
     }
 }

@@ -19,7 +19,7 @@ const USUAL_STEPS: usize = 1 << 16;
 /// order.
 const EVENTFUL: f64 = 2.0;
 /// Runs of nearly the same steps tell nothing of each other.
-const TELLING: f64 = 1.1;
+pub(super) const TELLING: f64 = 1.1;
 
 /// Positions of nodes and rotations of bodies at a few times, kept while another observer receives the same steps.
 pub struct Trace<'o> {
@@ -147,7 +147,12 @@ impl Kept {
     /// which an event falls goes with its length at best.
     pub fn apart(&self, other: &Kept) -> f64 {
         let apart = self.steps_apart(other);
-        if self.met_events || other.met_events { apart.min(EVENTFUL) } else { apart }
+        if self.meets_events(other) { apart.min(EVENTFUL) } else { apart }
+    }
+
+    /// True where this run or another has met events.
+    pub fn meets_events(&self, other: &Kept) -> bool {
+        self.met_events || other.met_events
     }
 
     /// The same where no run meets an event.
@@ -245,6 +250,19 @@ impl Kept {
     fn speed(&self) -> Motion {
         let largest = |of: usize| self.velocities.iter().map(|rates| rates[of].norm()).fold(0.0, f64::max);
         Motion(largest(0), largest(1))
+    }
+
+    /// A run of so many equal steps in which one node moves by 1 and the position of another is out by `error`.
+    #[cfg(test)]
+    pub(super) fn example(steps: usize, error: f64, met_events: bool) -> Kept {
+        Kept {
+            displacements: (0..COMPARISONS).flat_map(|_| [Vec3::x(), error * Vec3::y()]).collect(),
+            times: COMPARISONS,
+            ends: (0..=steps).map(|n| n as f64 / steps as f64).collect(),
+            power: 3,
+            met_events,
+            ..Kept::default()
+        }
     }
 
     /// The largest displacement of a node and the largest rotation of a body.
