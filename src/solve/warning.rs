@@ -158,6 +158,16 @@ fn step_error(asked: f64, estimate: Option<f64>) -> String {
     }
 }
 
+/// What is lost where a load step ends with a residual of rounding.
+fn unbalanced(residual: f64) -> String {
+    format!(
+        "a load step ends with unbalanced forces of {} of the largest: displacements are so small, or \
+         stiffnesses so far apart, that rounding hides what is missing, and reactions and stresses are no better; \
+         larger loads, or stiffnesses nearer to each other, keep their digits",
+        short(residual)
+    )
+}
+
 /// What is known where runs with events do not come nearer to each other.
 fn runs_part(asked: f64, difference: f64) -> String {
     format!(
@@ -274,13 +284,7 @@ impl fmt::Display for Warning {
                     short(*seen)
                 )
             }
-            Warning::Unbalanced { residual } => write!(
-                f,
-                "a load step ends with unbalanced forces of {} of the largest: displacements are so small, or \
-                 stiffnesses so far apart, that rounding hides what is missing, and reactions and stresses are no better; \
-                 larger loads, or stiffnesses nearer to each other, keep their digits",
-                short(*residual)
-            ),
+            Warning::Unbalanced { residual } => f.write_str(&unbalanced(*residual)),
             Warning::DeepContact { name, depth, size } => write!(
                 f,
                 "contact `{name}` is pressed in by up to {}, {} % of the smallest dimension of what meets there: bodies are in each \
