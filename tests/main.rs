@@ -63,6 +63,7 @@ mod schemes;
 mod shear_rigid;
 mod shells;
 mod signals;
+mod singular_positions;
 mod small_motions;
 mod soft_starts;
 mod stability;
