@@ -73,8 +73,8 @@ mod study;
 mod sudden_loads;
 mod sweep;
 mod table_sizes;
-mod thin_rods_in_loops;
 mod thin_rods;
+mod thin_rods_in_loops;
 mod turning;
 
 mod scene;
