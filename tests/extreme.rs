@@ -426,7 +426,8 @@ fn slivers_pass_the_patch_test() {
     }
 }
 
-/// Angular momentum of the needle, of which the axis has a hundredth: the schemes turn or damp it, in second or third order.
+/// The axis of the needle has a hundredth of its angular momentum. Errors of the rotation fall with the square of the step, down to what 10,000
+/// and more steps add up of the iteration's tolerance of 1e-12.
 #[test]
 fn a_needle_spins() {
     let exact = [0.8827444972254422, 0.04418573450609401, -0.02335675531724422, 0.46718758059842375];
@@ -445,8 +446,8 @@ fn a_needle_spins() {
             last.iter().zip(exact).map(|(q, exact)| (sign * q - exact).abs()).fold(0.0, f64::max)
         });
         println!("{scheme:20} {}", short(&errors));
-        // The error falls at least with the square of the step.
-        assert!(errors[1] < 0.3 * errors[0] && errors[2] < 0.3 * errors[1], "{scheme}: {errors:?}");
+        let falls = |from: f64, to: f64| to < (0.3 * from).max(1e-8);
+        assert!(falls(errors[0], errors[1]) && falls(errors[1], errors[2]), "{scheme}: {errors:?}");
     }
 }
 
