@@ -57,8 +57,8 @@ fn tolerances_of_the_iteration_and_orders_of_beams_are_lines() {
     assert!(number(linear[0], "unknowns") < number(quadratic[0], "unknowns"));
     // Elements of order 1 fall with h², those of order 2 with h⁴.
     assert!(number(linear[2], "error") > 5.0 * number(quadratic[2], "error"), "{text}");
-    // Looser iterations are fewer.
-    assert!(number(of(1e-2, 2.0, 2.0)[0], "iterations") < number(quadratic[0], "iterations"), "{text}");
+    // Looser iterations are fewer where steps follow the motion; long ones end with their own error at either tolerance.
+    assert!(number(of(1e-2, 2.0, 2.0)[2], "iterations") < number(quadratic[2], "iterations"), "{text}");
     // The reference comes from the finest mesh, the highest order and the least tolerance.
     assert!(text.contains("reference: the finest runs of iteration 1e-8, mesh x 4, order 2"), "{text}");
     assert!(text.contains("mesh and step together") && text.contains("least squares of logarithms over"), "{text}");
