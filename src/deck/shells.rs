@@ -35,8 +35,7 @@ pub struct Shell {
     /// Degree of the sides of its elements, 1 or 2. Elements of order 2 have a node on each side, and quadrilaterals one in the middle;
     /// they follow curved surfaces. Those of a group are what the mesh has. Default: 1.
     pub order: Maybe<u64>,
-    /// Integration points through the thickness, 2 to 10, for shells whose material yields. Default: 8, which give the moment within 1 % of
-    /// the plastic moment.
+    /// Integration points through the thickness, 2 to 10, for shells whose material yields. Default: 5.
     pub layers: Maybe<u64>,
     /// Strain of the surface in shells whose material yields. Default: "green".
     pub strain: Maybe<StrainMeasure>,

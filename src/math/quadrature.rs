@@ -1,4 +1,4 @@
-//! Quadrature on [−1, 1]: the rules of Gauss and Lobatto, and those for stresses with kinks.
+//! Gauss and Lobatto quadrature on [−1, 1].
 
 /// Points and weights of the n-point Gauss rule for n = 1..=10, exact to degree 2n − 1.
 pub fn gauss(n: usize) -> (&'static [f64], &'static [f64]) {
@@ -134,112 +134,6 @@ pub fn gauss(n: usize) -> (&'static [f64], &'static [f64]) {
     }
 }
 
-/// Places and weights.
-type Rule = (&'static [f64], &'static [f64]);
-
-/// The rules of [`kinked`].
-const KINKED: [Rule; 6] = [
-    (
-        &[-0.867_54, -0.507_32, -0.15, 0.15, 0.507_32, 0.867_54],
-        &[
-            0.309_345_067_109_625_9,
-            0.361_78,
-            0.328_874_932_890_374_1,
-            0.328_874_932_890_374_1,
-            0.361_78,
-            0.309_345_067_109_625_9,
-        ],
-    ),
-    (
-        &[-0.886_84, -0.57, -0.275_81, 0.0, 0.275_81, 0.57, 0.886_84],
-        &[
-            0.268_410_338_289_885_4,
-            0.309_22,
-            0.286_14,
-            0.272_459_323_420_229_1,
-            0.286_14,
-            0.309_22,
-            0.268_410_338_289_885_4,
-        ],
-    ),
-    (
-        &[-0.902_68, -0.630_5, -0.371_29, -0.123_8, 0.123_8, 0.371_29, 0.630_5, 0.902_68],
-        &[
-            0.230_741_471_238_671_84,
-            0.267_03,
-            0.256_82,
-            0.245_408_528_761_328_15,
-            0.245_408_528_761_328_15,
-            0.256_82,
-            0.267_03,
-            0.230_741_471_238_671_84,
-        ],
-    ),
-    (
-        &[-0.912_41, -0.679_4, -0.446_08, -0.21, 0.0, 0.21, 0.446_08, 0.679_4, 0.912_41],
-        &[
-            0.202_607_990_367_139_4,
-            0.233_72,
-            0.235_17,
-            0.226_45,
-            0.204_104_019_265_721_2,
-            0.226_45,
-            0.235_17,
-            0.233_72,
-            0.202_607_990_367_139_4,
-        ],
-    ),
-    (
-        &[-0.925_5, -0.714_21, -0.501_76, -0.286_09, -0.086_11, 0.086_11, 0.286_09, 0.501_76, 0.714_21, 0.925_5],
-        &[
-            0.176_364_358_082_451_13,
-            0.215_51,
-            0.214_853_384_985_375_54,
-            0.205_95,
-            0.187_322_256_932_173_33,
-            0.187_322_256_932_173_33,
-            0.205_95,
-            0.214_853_384_985_375_54,
-            0.215_51,
-            0.176_364_358_082_451_13,
-        ],
-    ),
-    (
-        &[
-            -0.932_56, -0.753_94, -0.575_07, -0.421_48, -0.240_25, -0.069_79, 0.069_79, 0.240_25, 0.421_48, 0.575_07,
-            0.753_94, 0.932_56,
-        ],
-        &[
-            0.155_876_003_635_471_72,
-            0.179_05,
-            0.168_931_215_055_858_26,
-            0.164_27,
-            0.176_57,
-            0.155_302_781_308_67,
-            0.155_302_781_308_67,
-            0.176_57,
-            0.164_27,
-            0.168_931_215_055_858_26,
-            0.179_05,
-            0.155_876_003_635_471_72,
-        ],
-    ),
-];
-
-/// Points and weights of a rule for the bending of sections that yield, whose stress has kinks; `None` for numbers without one.
-///
-/// Sums of weights, w z² and, with 10 and 12 points, w |z| are exact: area, elastic and plastic moment. Places and weights make the
-/// largest error of M(κ) of an ideally plastic rectangle least, with axial forces from 0 to 0.6 N_p; in parts of the plastic moment:
-///
-/// | points | 6 | 7 | 8 | 9 | 10 | 12 |
-/// |---|---|---|---|---|---|---|
-/// | these | 2.0 % | 1.45 % | 1.1 % | 0.9 % | 0.8 % | 0.5 % |
-/// | these, no axial force | 1.9 % | 1.4 % | 0.97 % | 0.8 % | 0.65 % | 0.47 % |
-/// | Gauss | 3.9 % | 3.0 % | 2.3 % | 1.9 % | 1.5 % | 1.1 % |
-pub fn kinked(n: usize) -> Option<(&'static [f64], &'static [f64])> {
-    KINKED.into_iter().find(|(points, _)| points.len() == n)
-}
-
 /// Points and weights of the n-point Lobatto rule, which includes the ends, for n = 2..=5; exact to degree 2n − 3.
 pub fn lobatto(n: usize) -> (&'static [f64], &'static [f64]) {
     match n {
@@ -276,63 +170,6 @@ mod tests {
                 let sum: f64 = points.iter().zip(weights).map(|(x, w)| w * x.powi(power as i32)).sum();
                 let exact = if power % 2 == 0 { 2.0 / (power as f64 + 1.0) } else { 0.0 };
                 assert!((sum - exact).abs() < 4e-15, "{} points, power {power}: {sum} for {exact}", points.len());
-            }
-        }
-    }
-
-    /// Area, elastic moment and, where the rule says so, plastic moment are exact; the bound is a few units in the last place.
-    #[test]
-    fn rules_for_kinks_keep_elastic_and_plastic_moments() {
-        for n in [6, 7, 8, 9, 10, 12] {
-            let (points, weights) = kinked(n).unwrap();
-            let sum = |of: fn(f64) -> f64| points.iter().zip(weights).map(|(&z, w)| w * of(z)).sum::<f64>();
-            let sums = [(sum(|_| 1.0), 2.0), (sum(|z| z), 0.0), (sum(|z| z * z), 2.0 / 3.0)];
-            for (sum, exact) in sums {
-                assert!((sum - exact).abs() < 1e-15, "{n} points: {sum} for {exact}");
-            }
-            let plastic = sum(f64::abs);
-            assert!((plastic - 1.0).abs() < if n >= 10 { 1e-15 } else { 0.014 }, "{n} points: {plastic}");
-        }
-    }
-
-    /// Moment of an ideally plastic section of depth 2 at a curvature κ and the axial force N, with E = yield strain = 1.
-    fn moment((points, weights): (&[f64], &[f64]), kappa: f64, N: f64) -> f64 {
-        let at = |strain: f64, of: fn(f64) -> f64| -> f64 {
-            points.iter().zip(weights).map(|(z, w)| w * of(*z) * (strain + kappa * z).clamp(-1.0, 1.0)).sum()
-        };
-        let (mut low, mut high) = (-1.0 - kappa, 1.0 + kappa);
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if at(middle, |_| 1.0) < N { low = middle } else { high = middle }
-        }
-        at(low, |z| z)
-    }
-
-    /// M(κ) against 100 Gauss pairs, whose own error is 0.3 % (16/100)² = 8e-5: the bounds of the table.
-    #[test]
-    fn rules_for_kinks_follow_moments_of_yielding_sections() {
-        let fine: Vec<(f64, f64)> = (0..50)
-            .flat_map(|cell| {
-                [-1.0, 1.0].map(|side| (f64::from(2 * cell + 1) / 50.0 - 1.0 + side / 50.0 / 3f64.sqrt(), 0.02))
-            })
-            .collect();
-        let (places, weights): (Vec<f64>, Vec<f64>) = fine.into_iter().unzip();
-        let bounds = [
-            (6, [0.019, 0.020]),
-            (7, [0.014, 0.0145]),
-            (8, [0.0097, 0.011]),
-            (9, [0.008, 0.009]),
-            (10, [0.0065, 0.008]),
-            (12, [0.0047, 0.005]),
-        ];
-        for (n, bounds) in bounds {
-            for axial in [0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2] {
-                let bound = bounds[usize::from(axial > 0.0)];
-                for i in 1..60 {
-                    let kappa = 0.5 * 1.07f64.powi(i);
-                    let off = moment(kinked(n).unwrap(), kappa, axial) - moment((&places, &weights), kappa, axial);
-                    assert!(off.abs() < bound + 1e-4, "{n} points, N = {axial}, curvature {kappa}: {off}");
-                }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The rectangle.
 
 use super::dimensions::positive;
-use super::fibres::{Fibre, rows};
+use super::fibres::{Fibre, pairs};
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use crate::words::kinds::{Form, Given, Key};
@@ -86,9 +86,8 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
 pub(super) fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
     let parabola = |x: f64| 1.25 * (1.0 - x * x);
     let mut fibres = Vec::new();
-    let across = rows(along_z);
-    for (x, w_y) in rows(along_y) {
-        for &(x_z, w_z) in &across {
+    for (x, w_y) in pairs(along_y) {
+        for (x_z, w_z) in pairs(along_z) {
             let (y, z) = (0.5 * width * x, 0.5 * height * x_z);
             let [t_y, t_z] = rectangle_twist(width, height, y, z);
             let shear = [[parabola(x), 0.0, t_y], [0.0, parabola(x_z), t_z]];

@@ -43,7 +43,7 @@ pub trait SectionShape: fmt::Debug {
     ///
     /// | Shape | first | second | default | worst error in M(κ) |
     /// |---|---|---|---|---|
-    /// | rectangle | along y (and z, if alone) | along z | 12, 12 | 0.47 % |
+    /// | rectangle | along y (and z, if alone) | along z | 12, 12 | 0.6 % |
     /// | tube | around | through the wall | 20, 2; from t = R/2 on 4 | 0.8 % |
     /// | box | along the longest wall | through each | 8, 2 | 1.1 % |
     /// | i, l | " | " | 8, 4 | 1.2 % |

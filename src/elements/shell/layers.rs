@@ -26,8 +26,7 @@ use std::sync::Arc;
 pub struct LayerModel {
     /// The law of the layers.
     pub law: MaterialLaw,
-    /// The number of points through the thickness, at most [`super::MOST_LAYERS`]: of Gauss up to five, beyond that placed for
-    /// stresses with kinks.
+    /// The number of Gauss points through the thickness, at most [`super::MOST_LAYERS`].
     pub layers: usize,
     /// Strain of the reference surface is logarithmic, not Green's: see the file `stretch.rs`.
     pub logarithmic: bool,
@@ -36,7 +35,7 @@ pub struct LayerModel {
 impl LayerModel {
     /// The layers of a given thickness.
     pub(super) fn layers(&self, thickness: f64) -> Arc<Layers> {
-        let (points, weights) = quadrature::kinked(self.layers).unwrap_or_else(|| quadrature::gauss(self.layers));
+        let (points, weights) = quadrature::gauss(self.layers);
         let half = 0.5 * thickness;
         Arc::new(Layers {
             law: self.law.clone(),

@@ -24,7 +24,7 @@ use std::collections::HashSet;
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
 const MOST_IN_ALL: usize = 1_000_000;
-const DEFAULT_LAYERS: usize = 8;
+const DEFAULT_LAYERS: usize = 5;
 
 /// Reads `[[shells]]`: divides each patch into elements, or takes those of a group of the mesh.
 pub fn shells(cx: &mut PartContext) {
