@@ -1,10 +1,9 @@
 //! Nonlinear dynamics of structures made of rigid bodies and deformable parts.
 //!
 //! ```text
-//!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ output
+//!  text ──▶ deck ──▶ model ──▶ plan ──▶ solve ──▶ results
 //!           words     meaning    machine   motion     files
-//!  below them, used by them, knowing nothing of them:
-//!  system │ constraints  elements  integrators │ state  sections  solids  materials  amplitude  linear  mesh  record │ math  names  snapshot  text_file  diagnostic
+//!  below them, used by them, knowing nothing of them:  base  linear  mechanics
 //! ```
 //!
 //! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
@@ -32,31 +31,11 @@
 
 #![warn(missing_docs)]
 
-pub mod amplitude;
 pub mod command;
-pub mod constraints;
-pub mod deck;
-pub mod diagnostic;
-pub mod elements;
-pub mod integrators;
-pub mod linear;
-pub mod materials;
-pub mod math;
-pub mod mesh;
-pub mod model;
-pub mod modes;
-pub mod names;
-pub mod output;
-pub mod plan;
-pub mod quantities;
-pub mod record;
-pub mod sections;
-pub mod snapshot;
-pub mod solids;
-pub mod solve;
-pub mod state;
-pub mod study;
-pub mod sweep;
-pub mod system;
-pub mod text_file;
-pub mod words;
+
+pub use base::{diagnostic, math, names, quantities, snapshot, text_file, words};
+pub use mechanics::{amplitude, constraints, elements, integrators, materials, sections, solids, state};
+pub use model::{mesh, record};
+pub use results as output;
+pub use solve::{modes, plan, system};
+pub use {deck, linear, model, solve, study, sweep};

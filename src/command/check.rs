@@ -6,12 +6,12 @@ use super::exit::Exit;
 use super::load::{load, plan, too_large};
 use super::signals::EndAtOnce;
 use super::watchers::stage_begins;
-use crate::model::Model;
-use crate::modes::SceneMatrices;
-use crate::output::{listed, matrix_market, settle_cadence};
-use crate::plan::Plan;
-use crate::plan::explain::explain_costs;
-use crate::system::System;
+use model::Model;
+use results::{listed, matrix_market, settle_cadence};
+use solve::modes::SceneMatrices;
+use solve::plan::Plan;
+use solve::plan::explain::explain_costs;
+use solve::system::System;
 use std::path::Path;
 
 /// Prints the plan of a deck, with what it costs, on standard output; diagnostics go to standard error.

@@ -1,6 +1,6 @@
 //! The checkpoints of a run: when they are due, and what is written.
 
-use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
+use results::checkpoint::{Checkpoint, CheckpointOrigin};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

@@ -6,8 +6,8 @@ use clap::Args;
 
 use super::console::{complain, counted, print, say};
 use super::exit::Exit;
-use crate::names::{nearest, short};
-use crate::output::compare::{
+use base::names::{nearest, short};
+use results::compare::{
     Alone, ColumnTolerance, ComparedColumn, ComparedTable, Comparison, Matched, Selector, Settings,
     compare as compared, shown, size,
 };

@@ -1,7 +1,7 @@
 //! What is printed: results for a script on standard output, diagnostics on standard error.
 
 use super::exit::Exit;
-use crate::diagnostic::{Diagnostic, Source, plain};
+use base::diagnostic::{Diagnostic, Source, plain};
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 

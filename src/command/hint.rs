@@ -1,6 +1,6 @@
 //! Hints for a first word that is neither a command nor a deck.
 
-use crate::names::nearest;
+use base::names::nearest;
 
 /// The commands, as they are written.
 pub const COMMANDS: [&str; 11] =

@@ -6,9 +6,9 @@
 use super::console::{complain, show_json};
 use super::exit::Exit;
 use super::processor::Level;
-use crate::study::INSTRUCTIONS;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
+use study::INSTRUCTIONS;
 
 /// The option that asks for a level.
 const OPTION: &str = "--instructions";

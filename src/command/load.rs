@@ -2,15 +2,15 @@
 
 use super::console::{complain, counted, show};
 use super::exit::Exit;
-use crate::diagnostic::{Diagnostic, Source};
-use crate::linear::TooLarge;
-use crate::model::{self, Model};
-use crate::output::settle_cadence;
-use crate::plan::explain::{much_mass_added, redundant_constraints};
-use crate::plan::{Plan, unreachable_targets};
-use crate::solve::share_plane;
-use crate::system::{MassScaling, System};
+use base::diagnostic::{Diagnostic, Source};
+use linear::TooLarge;
+use model::{self, Model};
+use results::settle_cadence;
 use sha2::{Digest, Sha256};
+use solve::plan::explain::{much_mass_added, redundant_constraints};
+use solve::plan::{Plan, unreachable_targets};
+use solve::share_plane;
+use solve::system::{MassScaling, System};
 use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};

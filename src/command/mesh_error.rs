@@ -1,17 +1,17 @@
 //! `run --mesh-error`: the error that the mesh leaves, told by another run with a coarser one.
 
-use crate::diagnostic::Source;
-use crate::model::{self, Model};
-use crate::output::error_bars::ErrorBars;
-use crate::output::expect::Expectations;
-use crate::output::result_json::ReportedMesh;
-use crate::output::wanted;
-use crate::plan::Plan;
-use crate::solve::{Frame, Observer, Outcome, Run, StepError};
-use crate::study::{CoarserMesh, coarser};
-use crate::system::System;
+use base::diagnostic::Source;
+use model::{self, Model};
+use results::error_bars::ErrorBars;
+use results::expect::Expectations;
+use results::result_json::ReportedMesh;
+use results::wanted;
+use solve::plan::Plan;
+use solve::system::System;
+use solve::{Frame, Observer, Outcome, Run, StepError};
 use std::io;
 use std::sync::atomic::AtomicBool;
+use study::{CoarserMesh, coarser};
 
 /// What is to know the error of the mesh.
 pub struct Judged<'j> {
@@ -35,7 +35,7 @@ pub fn tell_mesh_error(
     if model.analysis.step_length.is_arc_length() {
         return Err(unknown("paths of given arc length have other load factors at each step with another mesh"));
     }
-    let (Some(deck), _) = crate::deck::read(source) else { return Err(unknown("the deck cannot be read again")) };
+    let (Some(deck), _) = deck::read(source) else { return Err(unknown("the deck cannot be read again")) };
     if !model.parts.iter().any(|part| part.kind().is_deformable()) {
         return Err(unknown("there is none, for nothing deforms"));
     }

@@ -1,9 +1,9 @@
 //! What `rdsolve study --recommend` goes over where neither the deck nor the command says it: the default time steps, and
 //! automatic steps around the error that is wanted, with a reference that another family confirms.
 
-use crate::model::{AnalysisKind, Model};
-use crate::study::follows_tolerance;
-use crate::words::rungs;
+use base::words::rungs;
+use model::{AnalysisKind, Model};
+use study::follows_tolerance;
 
 /// Halvings of the longest default time step.
 const HALVINGS: u64 = 6;

@@ -8,7 +8,7 @@ use clap::Args;
 
 use super::console::{complain, print, say};
 use super::exit::Exit;
-use crate::output::report::page;
+use results::report::page;
 
 #[derive(Debug, Args)]
 #[command(

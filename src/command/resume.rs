@@ -5,9 +5,9 @@ use super::exit::Exit;
 use super::folder::require_free;
 use super::load::Loaded;
 use super::version::{VERSION, instructions};
-use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
-use crate::output::{holds_run, log, result_json};
-use crate::text_file::read_text;
+use base::text_file::read_text;
+use results::checkpoint::{Checkpoint, CheckpointOrigin};
+use results::{holds_run, log, result_json};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 

@@ -20,21 +20,21 @@ use super::stages::{StageRunner, StagesTold};
 use super::verdict::{End, end, error_bars_in_words, line};
 use super::version::{VERSION, instructions};
 use super::watchers::{Watchers, stage_begins};
-use crate::diagnostic::{Diagnostic, Source};
-use crate::model::{Model, Part, StepLength};
-use crate::output::checkpoint::{Checkpoint, CheckpointOrigin};
-use crate::output::error_bars::ErrorBars;
-use crate::output::log::Log;
-use crate::output::result_json::{
+use base::diagnostic::{Diagnostic, Source};
+use model::{Model, Part, StepLength};
+use results::checkpoint::{Checkpoint, CheckpointOrigin};
+use results::error_bars::ErrorBars;
+use results::log::Log;
+use results::result_json::{
     ReportedCounts, ReportedErrors, ReportedMasses, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes,
     Status, Timings, peak_memory_bytes,
 };
-use crate::output::{FolderLock, claim, listed, wanted};
-use crate::plan::Plan;
-use crate::plan::explain::{explain, mass_added};
-use crate::solve::{Counts, Outcome, Run, StepError};
-use crate::study::LIFELINE;
-use crate::system::System;
+use results::{FolderLock, claim, listed, wanted};
+use solve::plan::Plan;
+use solve::plan::explain::{explain, mass_added};
+use solve::system::System;
+use solve::{Counts, Outcome, Run, StepError};
+use study::LIFELINE;
 
 /// Runs a deck.
 ///

@@ -5,8 +5,8 @@ use serde_json::Value;
 
 use super::console::print;
 use super::exit::Exit;
-use crate::deck::{Deck, aliases};
-use crate::sweep::file::SCHEMA;
+use deck::{Deck, aliases};
+use sweep::file::SCHEMA;
 
 #[derive(Debug, Args)]
 pub struct SchemaArgs {

@@ -7,15 +7,15 @@ use std::time::Duration;
 use super::load::{Loaded, model_stage};
 use super::verdict::{energy_line, energy_warning, overshoot_warning, ringing_warning, short_of_stop, work_warning};
 use super::watchers::{Watchers, stage_begins};
-use crate::model::{self, AnalysisKind, Model};
-use crate::names::{instant, to_digits};
-use crate::output::checkpoint::Checkpoint;
-use crate::output::{settle_cadence, wanted};
-use crate::plan::Plan;
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::solve::{Counts, Handover, Outcome, Run, StepError};
-use crate::state::State;
-use crate::system::System;
+use base::names::{instant, to_digits};
+use base::snapshot::{Keep, Snapshot, keep};
+use mechanics::state::State;
+use model::{self, AnalysisKind, Model};
+use results::checkpoint::Checkpoint;
+use results::{settle_cadence, wanted};
+use solve::plan::Plan;
+use solve::system::System;
+use solve::{Counts, Handover, Outcome, Run, StepError};
 
 /// What the stages of a run, or its only one, have left to be told at the end.
 #[derive(Default)]

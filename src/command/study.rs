@@ -14,17 +14,17 @@ use super::load::{Loaded, is_standard_input, load};
 use super::processor::Level;
 use super::recommend;
 use super::signals::{EndAtOnce, stop_on_signals};
-use crate::deck::Deck;
-use crate::diagnostic::{Diagnostic, Source};
-use crate::model::Model;
-use crate::output::FolderLock;
-use crate::plan::Plan;
-use crate::study::{
+use base::diagnostic::{Diagnostic, Source};
+use base::words::{PER_DECADE, rungs};
+use deck::Deck;
+use model::Model;
+use results::FolderLock;
+use solve::plan::Plan;
+use solve::system::System;
+use study::{
     Cost, Found, Options, RunStatus, StudyAdvice, StudyFault, recommend as recommended, rigidify, study as studied,
     text,
 };
-use crate::system::System;
-use crate::words::{PER_DECADE, rungs};
 
 #[derive(Debug, Args)]
 #[command(
@@ -173,7 +173,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         show(&loaded.warnings, &loaded.source);
     }
     // Studies run the deck itself with other entries; the model is sound, so there is a deck.
-    let (Some(deck), _) = crate::deck::read(&loaded.source) else { return Err(Exit::Internal) };
+    let (Some(deck), _) = deck::read(&loaded.source) else { return Err(Exit::Internal) };
     if !args.rigidify {
         let problems = massless(&loaded.model)?;
         if !problems.is_empty() {

@@ -2,9 +2,9 @@
 
 use super::console::{complain, print};
 use super::exit::Exit;
-use crate::names::to_digits;
-use crate::output::summary::{ColumnSummary, Extremum, ResultSummary};
+use base::names::to_digits;
 use clap::{Args, ValueEnum};
+use results::summary::{ColumnSummary, Extremum, ResultSummary};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]

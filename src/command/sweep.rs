@@ -9,16 +9,11 @@ use super::resume::deck_digest;
 use super::run::{Case, CaseFault, run_case};
 use super::signals::{EndAtOnce, stop_on_signals};
 use super::version::VERSION;
-use crate::diagnostic::Source;
-use crate::output::result_json::Status;
-use crate::output::{SharedLock, replace};
-use crate::sweep::case_state::CaseState;
-use crate::sweep::cases::Cases;
-use crate::sweep::file::{self, SweepFile};
-use crate::sweep::folder::{FAILURE, SweepFolder};
-use crate::sweep::marks::{Computed, mark_all};
+use base::diagnostic::Source;
 use clap::Args;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use results::result_json::Status;
+use results::{SharedLock, replace};
 use std::fs;
 use std::io::{self, IsTerminal};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -27,6 +22,11 @@ use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex};
+use sweep::case_state::CaseState;
+use sweep::cases::Cases;
+use sweep::file::{self, SweepFile};
+use sweep::folder::{FAILURE, SweepFolder};
+use sweep::marks::{Computed, mark_all};
 
 #[derive(Debug, Args)]
 #[command(

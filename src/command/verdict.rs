@@ -1,13 +1,13 @@
 //! The end of a run in words: its status, its warnings about energy, its expectations.
 
-use crate::integrators::spectrum::spectrum;
-use crate::model::{AnalysisKind, ArcLength, DIRECTIONS, History, Model, StepLength};
-use crate::names::{instant, short, to_digits};
-use crate::output::error_bars::ErrorBar;
-use crate::output::expect::Verdict;
-use crate::output::result_json::Status;
-use crate::solve::{Counts, Outcome, Run, settling_energy};
-use crate::system::energy::Balance;
+use base::names::{instant, short, to_digits};
+use mechanics::integrators::spectrum::spectrum;
+use model::{AnalysisKind, ArcLength, DIRECTIONS, History, Model, StepLength};
+use results::error_bars::ErrorBar;
+use results::expect::Verdict;
+use results::result_json::Status;
+use solve::system::energy::Balance;
+use solve::{Counts, Outcome, Run, settling_energy};
 use std::io;
 
 /// The end of a run.

@@ -2,15 +2,15 @@
 
 use super::checkpoints::Checkpoints;
 use super::load::model_stage;
-use crate::model::{AnalysisKind, ModeKind, Model};
-use crate::names::instant;
-use crate::output::error_bars::ErrorBars;
-use crate::output::expect::Expectations;
-use crate::output::log::Log;
-use crate::output::progress::Progress;
-use crate::output::{Files, FilesMark};
-use crate::snapshot::{Keep, Snapshot};
-use crate::solve::{Frame, Observer, OtherRun};
+use base::names::instant;
+use base::snapshot::{Keep, Snapshot};
+use model::{AnalysisKind, ModeKind, Model};
+use results::error_bars::ErrorBars;
+use results::expect::Expectations;
+use results::log::Log;
+use results::progress::Progress;
+use results::{Files, FilesMark};
+use solve::{Frame, Observer, OtherRun};
 use std::io;
 use std::path::Path;
 

@@ -1,14 +1,14 @@
 //! Second words for keys, where the field writes a symbol: `E` is `youngs_modulus`.
 //!
 //! Before the deck is read every key gets its first word, so that nothing after this knows of the second. Words of kinds
-//! (`"ball"` for `"spherical"`) are aliases of the kinds themselves, see [`crate::words::kinds::Kind`].
+//! (`"ball"` for `"spherical"`) are aliases of the kinds themselves, see [`base::words::kinds::Kind`].
 
 use serde_json::{Value as Json, json};
 use std::borrow::Cow;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::diagnostic::Diagnostic;
+use base::diagnostic::Diagnostic;
 
 /// Another word for a key.
 struct Alias {

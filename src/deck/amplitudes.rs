@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{ColumnName, Maybe, Numbers, OneOrMany};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// A function of time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -5,9 +5,9 @@ use serde::Deserialize;
 
 use super::words::kinds::Kinds;
 use super::words::{Frequencies, Maybe, NumberOrAuto, Table};
-use crate::integrators::SCHEMES;
-use crate::integrators::scheme::{MakeScheme, SchemeKind};
-use crate::math::rotation::RotationUpdate;
+use base::math::rotation::RotationUpdate;
+use mechanics::integrators::SCHEMES;
+use mechanics::integrators::scheme::{MakeScheme, SchemeKind};
 
 /// What is computed, and over what time.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Table};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// A bar or cable: no bending.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -6,8 +6,8 @@ use serde::Deserialize;
 use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
-use crate::diagnostic::At;
-use crate::elements::beam::{DEFAULT_ORDER, IntegrationRule};
+use base::diagnostic::At;
+use mechanics::elements::beam::{DEFAULT_ORDER, IntegrationRule};
 
 /// A shear-flexible beam along straight segments between points, or along those of a group of the mesh.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

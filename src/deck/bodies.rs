@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::words::kinds::{Given, Kinds, OneOf};
 use super::words::{Maybe, Names, Vector};
-use crate::solids::{SOLIDS, Solid, SolidKind};
+use mechanics::solids::{SOLIDS, Solid, SolidKind};
 
 /// A rigid body.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -6,10 +6,10 @@ use serde::Deserialize;
 use super::part_table::{PartTable, names};
 use super::words::kinds::{Kinds, OneOf};
 use super::words::{Maybe, Names, NumberOrTable};
-use crate::diagnostic::At;
-use crate::elements::contact::SurfaceShape;
-use crate::elements::contact::surfaces::SURFACES;
-use crate::elements::contact::surfaces::kind::{MakeSurface, SurfaceKind};
+use base::diagnostic::At;
+use mechanics::elements::contact::SurfaceShape;
+use mechanics::elements::contact::surfaces::SURFACES;
+use mechanics::elements::contact::surfaces::kind::{MakeSurface, SurfaceKind};
 
 /// Points that push away from a surface, rub on it and bounce off it; or, with a stiffness of 0, a zone whose gap
 /// is watched.

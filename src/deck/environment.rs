@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Maybe, Names, Table, Vector};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// Acceleration fields.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -3,14 +3,14 @@
 //! Words for schemes, sections and joints stand with these, see [`Kind`]. A row is only used where one of our words is known in
 //! the table at hand, so that the same guess may mean `area` in a section and nothing elsewhere. What stands in another place of the deck has a sentence of its own.
 
-use crate::constraints::joints::JOINTS;
-use crate::elements::contact::surfaces::SURFACES;
-use crate::integrators::SCHEMES;
-use crate::materials::models::MATERIALS;
-use crate::materials::overstress::OVERSTRESSES;
-use crate::sections::SECTIONS;
-use crate::solids::SOLIDS;
-use crate::words::kinds::Kind;
+use base::words::kinds::Kind;
+use mechanics::constraints::joints::JOINTS;
+use mechanics::elements::contact::surfaces::SURFACES;
+use mechanics::integrators::SCHEMES;
+use mechanics::materials::models::MATERIALS;
+use mechanics::materials::overstress::OVERSTRESSES;
+use mechanics::sections::SECTIONS;
+use mechanics::solids::SOLIDS;
 
 /// Guessed words, and ours: the first that is known where the guess stands.
 type Row = (&'static [&'static str], &'static [&'static str]);
@@ -350,7 +350,7 @@ pub fn value(guess: &str, known: &[&str]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deck::tables::{DeckTable, tables};
+    use crate::tables::{DeckTable, tables};
     use std::collections::HashSet;
 
     /// Keys and words that the schema knows.
@@ -368,7 +368,7 @@ mod tests {
             }
         }
         let mut words = HashSet::new();
-        collect(schemars::schema_for!(crate::deck::Deck).as_value(), &mut words);
+        collect(schemars::schema_for!(crate::Deck).as_value(), &mut words);
         (tables().iter().flat_map(|table| table.keys.clone()).collect(), words)
     }
 

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Maybe, Names, Table, Vector};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// Velocities at t = 0. Several tables may give a node different quantities; two that give it different values of the same one, or
 /// a value other than that of its body, are an error unless the later one `replaces` what the others give.

@@ -7,9 +7,9 @@ use super::links::End;
 use super::part_damping::SpringDamping;
 use super::words::kinds::Kinds;
 use super::words::{Maybe, Names, NumberOrTable, Numbers, Table};
-use crate::constraints::joints::kind::{Coordinate, MakeJoint};
-use crate::constraints::joints::{JOINTS, JointKind};
-use crate::diagnostic::At;
+use base::diagnostic::At;
+use mechanics::constraints::joints::kind::{Coordinate, MakeJoint};
+use mechanics::constraints::joints::{JOINTS, JointKind};
 
 /// Two ends that may move against each other only as the kind of joint allows; Lagrange multipliers hold them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

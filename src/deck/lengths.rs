@@ -6,9 +6,9 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::diagnostic::{Diagnostic, Span};
-use crate::math::LARGEST_LENGTH;
-use crate::names::short;
+use base::diagnostic::{Diagnostic, Span};
+use base::math::LARGEST_LENGTH;
+use base::names::short;
 
 /// Keys of sizes, which are above zero.
 const SIZES: [&str; 14] = [

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::part_damping::SpringDamping;
 use super::part_table::PartTable;
 use super::words::{Maybe, Names, NumberOrTable, Numbers, Table, Vector};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// A spring and damper between two ends, along the line between them, along a direction, or a bushing.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Maybe, Names, Numbers, Vector};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// A force or moment on points or bodies, or spread over shells.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

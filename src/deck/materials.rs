@@ -5,8 +5,8 @@ use serde::Deserialize;
 
 use super::words::Maybe;
 use super::words::kinds::{Given, Kinds, OneOf};
-use crate::materials::models::{MATERIALS, MaterialKind, MaterialModel};
-use crate::materials::overstress::{OVERSTRESSES, Overstress, OverstressKind};
+use mechanics::materials::models::{MATERIALS, MaterialKind, MaterialModel};
+use mechanics::materials::overstress::{OVERSTRESSES, Overstress, OverstressKind};
 
 /// A material.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

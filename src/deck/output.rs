@@ -122,3 +122,26 @@ pub enum Units {
     #[serde(rename = "mm-kg-ms")]
     MmKgMs,
 }
+
+impl Units {
+    /// The deck's word for it.
+    pub fn label(self) -> &'static str {
+        match self {
+            Units::Si => "SI",
+            Units::MKgS => "m-kg-s",
+            Units::MmTS => "mm-t-s",
+            Units::MmKgS => "mm-kg-s",
+            Units::MmKgMs => "mm-kg-ms",
+        }
+    }
+
+    /// Its length, mass and time in metres, kilograms and seconds.
+    pub fn scales(self) -> [f64; 3] {
+        match self {
+            Units::Si | Units::MKgS => [1.0, 1.0, 1.0],
+            Units::MmTS => [1e-3, 1e3, 1.0],
+            Units::MmKgS => [1e-3, 1.0, 1.0],
+            Units::MmKgMs => [1e-3, 1.0, 1e-3],
+        }
+    }
+}

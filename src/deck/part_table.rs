@@ -2,7 +2,7 @@
 
 use super::part_damping::PartDamping;
 use super::words::{Names, OneOrMany, Table};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 use schemars::JsonSchema;
 use serde::Deserialize;
 

@@ -4,7 +4,7 @@
 use super::Deck;
 use super::part_table::PartTable;
 use super::words::Table;
-use crate::diagnostic::{At, Span};
+use base::diagnostic::{At, Span};
 
 /// The kinds of parts, in the order in which they are read, numbered, assembled and written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -9,8 +9,8 @@ use toml::de::{DeTable, DeValue};
 
 use super::value::{Problem, Value, Wanted, Wrong};
 use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, set, study, tables};
-use crate::diagnostic::{Diagnostic, Source, Span};
-use crate::names::{nearest, quoted};
+use base::diagnostic::{Diagnostic, Source, Span};
+use base::names::{nearest, quoted};
 
 /// Where the table of the top-level keys stands.
 pub const ROOT: Span = 0..0;

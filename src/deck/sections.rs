@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::kinds::Kinds;
-use crate::sections::section_shape::MakeSection;
-use crate::sections::{SECTIONS, SectionKind};
+use mechanics::sections::section_shape::MakeSection;
+use mechanics::sections::{SECTIONS, SectionKind};
 
 /// The cross section of a beam, in its local axes: width along y, height along z.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -5,14 +5,14 @@
 //! is a bare word or the name of a file, and neither a number nor `true` or `false`, is text
 //! (`--set integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`). And `loads[0].force` is `loads.0.force`.
 //!
-//! [`Source`]: crate::diagnostic::Source
+//! [`Source`]: base::diagnostic::Source
 
 use toml::Spanned;
 use toml::de::{DeString, DeTable, DeValue};
 
 use super::number_slips;
-use crate::diagnostic::{Diagnostic, Span};
-use crate::names::nearest;
+use base::diagnostic::{Diagnostic, Span};
+use base::names::nearest;
 
 /// Tables that an override may begin; entries of any other must stand in the deck.
 const SINGLE: [&str; 8] = ["mesh", "analysis", "integrator", "iteration", "environment", "damping", "output", "study"];

@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
-use crate::diagnostic::At;
+use base::diagnostic::At;
 
 /// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1`
 /// to `name.edge4` for those of an edge: edge1

@@ -11,7 +11,7 @@ use super::analysis::{Integrator, Method};
 use super::set;
 use super::words::kinds::OneOf;
 use super::words::{Ladder, Maybe, Named, Names, OneOrMany};
-use crate::diagnostic::{At, Diagnostic, Span};
+use base::diagnostic::{At, Diagnostic, Span};
 
 /// What `rdsolve study` goes over: time steps, schemes, iteration methods, meshes.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::words::{Directions, Maybe, Names, Table};
-use crate::math::turn::RotationAngles;
+use base::math::turn::RotationAngles;
 
 /// Directions held at rest or moved as told.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]

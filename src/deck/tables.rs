@@ -19,7 +19,7 @@ pub fn place_of(key: &str) -> Option<String> {
     let tables = tables();
     let having: Vec<&str> =
         tables.iter().filter(|table| table.keys.iter().any(|k| k == key)).map(|table| table.label.as_str()).collect();
-    (1..=FEW).contains(&having.len()).then(|| format!("`{key}` is a key of {}", crate::names::joined(&having)))
+    (1..=FEW).contains(&having.len()).then(|| format!("`{key}` is a key of {}", base::names::joined(&having)))
 }
 
 /// All tables of the deck, its top first.

@@ -12,7 +12,7 @@ use serde::forward_to_deserialize_any;
 use toml::Spanned;
 use toml::de::{DeString, DeValue};
 
-use crate::diagnostic::{PLACED, Span};
+use base::diagnostic::{PLACED, Span};
 
 /// What serde stumbled over, and where.
 #[derive(Debug)]
@@ -308,7 +308,7 @@ impl<'de> Deserializer<'de> for Key<'_, '_> {
     }
 }
 
-/// A value or key with its place, as [`crate::diagnostic::At`] asks for it: where it begins, where it ends, itself.
+/// A value or key with its place, as [`base::diagnostic::At`] asks for it: where it begins, where it ends, itself.
 struct Placed<D> {
     bounds: std::vec::IntoIter<u64>,
     inner: Option<D>,

@@ -15,7 +15,7 @@ use super::memory::{self, TooLarge};
 use super::pivot::Singular;
 use super::stats::Stats;
 use super::stops::StopQuery;
-use crate::snapshot::{Keep, Snapshot};
+use base::snapshot::{Keep, Snapshot};
 
 /// Numbers from which on it is asked whether the memory holds them.
 const WORTH_A_LOOK: usize = 1_000_000;

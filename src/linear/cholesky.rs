@@ -15,7 +15,7 @@ use super::stops::StopQuery;
 use super::substitution::Factored;
 use super::tree::Layout;
 use super::triangle::LowerTriangle;
-use crate::snapshot::{Keep, Snapshot};
+use base::snapshot::{Keep, Snapshot};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{FaerError, SymbolicSparseColMat, SymbolicSparseColMatRef};
@@ -292,7 +292,7 @@ fn symbolic(upper: SymbolicSparseColMatRef<usize>) -> Result<supernodal::Symboli
 mod tests {
     use super::super::memory::NoScratch;
     use super::*;
-    use crate::linear::Structure;
+    use crate::Structure;
 
     /// A grid of nodes with three unknowns each.
     fn grid(side: usize) -> Structure {

@@ -104,7 +104,7 @@ fn couples(graph: &Graph, g: usize, part: &[usize], with: usize) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::structure::Structure;
+    use crate::structure::Structure;
 
     /// A net of quadrilaterals: every group comes once, and separators are straight lines, the last of them across the middle.
     #[test]

@@ -1,7 +1,7 @@
 //! Operations on dense blocks of fixed size, column by column, written so that the compiler keeps them in vector registers.
 
 use super::pivot::PIVOT_TOLERANCE;
-use crate::math::fma;
+use base::math::fma;
 
 /// A square matrix: `block[column][row]`.
 pub(super) type DenseBlock<const B: usize> = [[f64; B]; B];

@@ -1,8 +1,8 @@
 //! Checks that the memory holds a factor before it is taken: a system that promises more memory than it has ends the
 //! programs that come to use it, without a message.
 
-use crate::names::amount;
-use crate::snapshot::{keep, keep_either};
+use base::names::amount;
+use base::snapshot::{keep, keep_either};
 use std::fmt;
 
 /// Bytes for each unknown beside the numbers of a factorisation, at least: vectors of the solution, and lists of the structure. Whole runs of

@@ -5,7 +5,7 @@
 
 use super::dense::join;
 use super::tree::Front;
-use crate::math::fma;
+use base::math::fma;
 
 /// Columns eliminated together: the rows below are then read and written once for all of them.
 const COLUMNS: usize = 4;

@@ -11,7 +11,7 @@ use super::sparse::Sparse;
 use super::stats::Stats;
 use super::stops::StopQuery;
 use super::structure::Structure;
-use crate::snapshot::{Keep, Snapshot};
+use base::snapshot::{Keep, Snapshot};
 
 /// A matrix and its factorisation, the memory of both included.
 pub enum Solver {

@@ -5,12 +5,12 @@ use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
 use super::values::span;
-use crate::amplitude::{self, Amplitude};
-use crate::deck::Deck;
-use crate::deck::amplitudes as words;
-use crate::deck::words::{Maybe, Table};
-use crate::diagnostic::{At, Span};
-use crate::math::cubic_curve::{CubicCurve, CurveShape};
+use base::diagnostic::{At, Span};
+use base::math::cubic_curve::{CubicCurve, CurveShape};
+use deck::Deck;
+use deck::amplitudes as words;
+use deck::words::{Maybe, Table};
+use mechanics::amplitude::{self, Amplitude};
 
 /// Reads `[amplitudes]`, with the records that have been read for them. Each gives one, also those with errors, since others refer to them
 /// by their index.

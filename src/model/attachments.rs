@@ -9,11 +9,11 @@ use super::places::place::Place;
 use super::places::spot::Spot;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
-use crate::deck::attachments::{Attachment, AttachmentMethod};
-use crate::deck::parts::PartIndex;
-use crate::diagnostic::{At, Diagnostic};
-use crate::math::Vec3;
-use crate::names::short;
+use base::diagnostic::{At, Diagnostic};
+use base::math::Vec3;
+use base::names::short;
+use deck::attachments::{Attachment, AttachmentMethod};
+use deck::parts::PartIndex;
 use std::collections::{HashMap, HashSet};
 
 /// Distances that agree to this relative difference count as equal.

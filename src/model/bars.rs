@@ -6,7 +6,7 @@ use super::own_damping;
 use super::part_context::PartContext;
 use super::report::Owner;
 use super::values::{chosen, flag, span};
-use crate::deck::bars as words;
+use deck::bars as words;
 
 /// Reads `[[bars]]`: makes the nodes of each path and the elements between them.
 pub(super) fn bars(cx: &mut PartContext) {

@@ -64,11 +64,11 @@ use super::stages::{self, CurrentStage, StageSequence};
 use super::supports::supports;
 use super::supports::turns::given_turns;
 use super::values::vec3;
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::deck::read::ROOT;
-use crate::diagnostic::{Diagnostic, Source};
-use crate::integrators::{Scheme, Stepping};
+use base::diagnostic::{Diagnostic, Source};
+use deck::Deck;
+use deck::read::ROOT;
+use mechanics::amplitude::Amplitude;
+use mechanics::integrators::{Scheme, Stepping};
 
 /// Reads a deck and builds its model; everything there is to say about it, in the order of the deck. Of a deck with stages it is the model of
 /// the first.
@@ -106,7 +106,7 @@ pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model
 
 /// The models of all stages, or of the next one, planned otherwise, after some that have ended at these times.
 fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, Vec<Diagnostic>) {
-    let (deck, mut problems) = crate::deck::read(source);
+    let (deck, mut problems) = deck::read(source);
     let folder = Path::new(&source.path).parent().unwrap_or(Path::new(""));
     let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
     let (records, of_records) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_records(deck, folder));

@@ -7,9 +7,9 @@ use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::stages::CurrentStage;
 use super::values::vec3_or_zero;
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::math::Vec3;
+use base::math::Vec3;
+use deck::Deck;
+use mechanics::amplitude::Amplitude;
 
 /// What acts on all masses: gravity with the index of its amplitude, and the accelerations of the ground.
 #[derive(Default)]

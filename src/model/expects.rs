@@ -7,12 +7,12 @@ use super::procedure::displacement_targets::displacement_target;
 use super::report::{Owner, Report};
 use super::scene::Scene;
 use super::values::span;
-use crate::deck::expect as words;
-use crate::deck::parts::PartIndex;
-use crate::deck::words::Table;
-use crate::diagnostic::{At, Diagnostic};
-use crate::names::nearest;
-use crate::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION};
+use base::diagnostic::{At, Diagnostic};
+use base::names::nearest;
+use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION};
+use deck::expect as words;
+use deck::parts::PartIndex;
+use deck::words::Table;
 use std::ops::Range;
 
 /// What expected values refer to.

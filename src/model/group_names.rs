@@ -4,9 +4,9 @@
 //! sections belong to the sets of parts. Where two are left that differ, the deck says which: `node-set:Edge`, `STRIP-1.Edge`.
 
 use super::report::Report;
-use crate::diagnostic::{At, Diagnostic};
 use crate::mesh::{GroupKind, Mesh, MeshGroup};
-use crate::names::joined;
+use base::diagnostic::{At, Diagnostic};
+use base::names::joined;
 use std::collections::HashSet;
 
 /// Whether a group of a mesh is of a kind.

@@ -7,10 +7,10 @@ use super::group_names::{self, GroupChoice};
 use super::mesh_file::MeshNodes;
 use super::names::Names;
 use super::report::Report;
-use crate::deck::Deck;
-use crate::diagnostic::At;
 use crate::mesh::{self, GroupKind, MOST_CELL_NODES, Mesh};
-use crate::names::{joined, nearest, quoted};
+use base::diagnostic::At;
+use base::names::{joined, nearest, quoted};
+use deck::Deck;
 
 /// The groups and elements of the mesh that parts have taken so far.
 pub(super) struct Groups<'d> {

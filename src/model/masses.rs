@@ -5,7 +5,7 @@ use super::data::Mass;
 use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
-use crate::math::Mat3;
+use base::math::Mat3;
 
 /// Reads `[[masses]]`: point masses on nodes.
 pub(super) fn masses<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> Vec<Mass> {

@@ -3,14 +3,14 @@
 use super::data::MassKind;
 use super::report::{Owner, Report};
 use super::values::span;
-use crate::deck::Deck;
-use crate::deck::environment::Environment;
-use crate::deck::materials as words;
-use crate::deck::words::kinds::OneOf;
-use crate::deck::words::{Maybe, Named};
-use crate::diagnostic::At;
-use crate::materials::models::MaterialKind;
-use crate::materials::{MaterialLaw, Viscosity};
+use base::diagnostic::At;
+use deck::Deck;
+use deck::environment::Environment;
+use deck::materials as words;
+use deck::words::kinds::OneOf;
+use deck::words::{Maybe, Named};
+use mechanics::materials::models::MaterialKind;
+use mechanics::materials::{MaterialLaw, Viscosity};
 
 /// The materials of a deck, with what parts ask of them.
 pub(super) struct Materials<'d> {

@@ -1,7 +1,7 @@
 //! A set of thousands of nodes with the same mistake is one message.
 
-use crate::diagnostic::{Diagnostic, Severity};
-use crate::names::quoted;
+use base::diagnostic::{Diagnostic, Severity};
+use base::names::quoted;
 use std::collections::HashMap;
 
 /// Names that are listed; of the others, how many there are.

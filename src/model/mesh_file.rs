@@ -6,11 +6,11 @@ use sha2::{Digest, Sha256};
 
 use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
-use crate::deck::Deck;
-use crate::diagnostic::Diagnostic;
 use crate::mesh::{self, Mesh};
-use crate::text_file::includes::Included;
-use crate::text_file::{Text, read_regular};
+use base::diagnostic::Diagnostic;
+use base::text_file::includes::Included;
+use base::text_file::{Text, read_regular};
+use deck::Deck;
 
 /// A mesh that has been read.
 #[derive(Debug)]

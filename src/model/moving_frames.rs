@@ -2,8 +2,8 @@
 
 use super::data::{DIRECTIONS, Joint, JointOrigin, MassKind, Model, MovingFrame, MovingFrames, Part, PrescribedMotion};
 use super::report::Report;
-use crate::constraints::joint::ConstraintEquation;
-use crate::deck::Deck;
+use deck::Deck;
+use mechanics::constraints::joint::ConstraintEquation;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Finds the frames of a model whose masses are damped, and warns where the supports of a structure move against each other.

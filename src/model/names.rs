@@ -9,10 +9,10 @@ use super::mesh_file::MeshNodes;
 use super::parts::Parts;
 use super::places::place::Place;
 use super::report::Report;
-use crate::deck::Deck;
-use crate::deck::loads::Load;
-use crate::deck::parts::{DeckPart, PartIndex};
-use crate::diagnostic::{At, Diagnostic, Span};
+use base::diagnostic::{At, Diagnostic, Span};
+use deck::Deck;
+use deck::loads::Load;
+use deck::parts::{DeckPart, PartIndex};
 
 /// Names with a meaning of their own in lists of nodes and in `[[expect]]`.
 const RESERVED: [&str; 2] = ["all", "energy"];

@@ -4,9 +4,9 @@ use super::data::{Cadence, Model, Node, Output};
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::flag;
-use crate::deck::output as words;
-use crate::deck::words::{FlagOrTable, Table};
-use crate::diagnostic::At;
+use base::diagnostic::At;
+use deck::output as words;
+use deck::words::{FlagOrTable, Table};
 
 /// Files of fields at most, unless the deck says how many.
 const MOST_FIELDS: f64 = 200.0;

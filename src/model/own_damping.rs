@@ -2,9 +2,9 @@
 
 use super::data::OwnDamping;
 use super::report::Report;
-use crate::deck::part_damping::{PartDamping, SpringDamping};
-use crate::deck::words::{Maybe, NumberOrTable, Table};
-use crate::diagnostic::At;
+use base::diagnostic::At;
+use deck::part_damping::{PartDamping, SpringDamping};
+use deck::words::{Maybe, NumberOrTable, Table};
 
 /// The Rayleigh factors of a part that the deck gives it.
 pub fn of_part(table: &Option<At<Table<PartDamping>>>, report: &mut Report) -> OwnDamping {

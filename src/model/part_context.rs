@@ -7,7 +7,7 @@ use super::parts::Parts;
 use super::places::nodes::Nodes;
 use super::report::Report;
 use super::sections::Sections;
-use crate::deck::Deck;
+use deck::Deck;
 
 /// Names and materials are known; nodes, parts, sections and what is taken of the mesh grow from table to table.
 pub(super) struct PartContext<'a, 'd> {

@@ -5,10 +5,10 @@ use std::ops::Range;
 
 use super::data::Part;
 use super::report::Report;
-use crate::deck::parts::PartIndex;
-use crate::diagnostic::Span;
-use crate::linear::available_memory;
-use crate::sections::Stiffness;
+use base::diagnostic::Span;
+use deck::parts::PartIndex;
+use linear::available_memory;
+use mechanics::sections::Stiffness;
 
 /// The bytes that an element takes at least, with its nodes and its part of the matrix before that is factorised.
 const BYTES: f64 = 4e3;

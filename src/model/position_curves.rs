@@ -4,13 +4,13 @@
 use super::data::{Analysis, AnalysisKind};
 use super::report::Report;
 use super::stages::CurrentStage;
-use crate::amplitude::{Amplitude, Side};
-use crate::deck::Deck;
-use crate::deck::amplitudes::AmplitudeKind;
-use crate::deck::supports::History;
-use crate::deck::words::Maybe;
-use crate::math::cubic_curve::{CubicCurve, CurveShape};
-use crate::names::short;
+use base::math::cubic_curve::{CubicCurve, CurveShape};
+use base::names::short;
+use deck::Deck;
+use deck::amplitudes::AmplitudeKind;
+use deck::supports::History;
+use deck::words::Maybe;
+use mechanics::amplitude::{Amplitude, Side};
 use std::collections::{BTreeSet, HashMap};
 
 /// A curve that leaves the values at both ends of a segment by this part of their range is told: eight samples of a period give 0.04.

@@ -1,13 +1,13 @@
 //! The records that amplitudes name: they are read before the model is built.
 
 use super::data::RecordFile;
-use crate::deck::Deck;
-use crate::deck::amplitudes::Amplitude;
-use crate::deck::words::ColumnName;
-use crate::diagnostic::{Diagnostic, Span};
-use crate::names::short;
 use crate::record::{self, RecordColumn, RecordSelection, RecordUnit, TimeSeries};
-use crate::text_file::read_regular;
+use base::diagnostic::{Diagnostic, Span};
+use base::names::short;
+use base::text_file::read_regular;
+use deck::Deck;
+use deck::amplitudes::Amplitude;
+use deck::words::ColumnName;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 

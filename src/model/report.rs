@@ -2,13 +2,13 @@
 //! share: keys that must be there, keys that have no meaning, numbers in their range. A table goes on after an error with what
 //! is sound, so that one mistake hides no other.
 
-use crate::deck::Deck;
-use crate::deck::read::ROOT;
-use crate::deck::words::kinds::{Given, Kind, Values};
-use crate::deck::words::{Maybe, Named, Numbers, Vector};
-use crate::diagnostic::{At, Diagnostic, Span};
-use crate::math::Vec3;
-use crate::names::{nearest, quoted};
+use base::diagnostic::{At, Diagnostic, Span};
+use base::math::Vec3;
+use base::names::{nearest, quoted};
+use deck::Deck;
+use deck::read::ROOT;
+use deck::words::kinds::{Given, Kind, Values};
+use deck::words::{Maybe, Named, Numbers, Vector};
 
 /// A table of the deck as messages name it, "beam `portal`", and where it stands.
 pub(super) struct Owner<'d> {

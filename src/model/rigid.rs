@@ -9,11 +9,11 @@ use super::data::{Body, MassIntegrals, Rigid};
 use super::parts::Parts;
 use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
-use crate::deck::Deck;
-use crate::deck::parts::PartIndex;
-use crate::diagnostic::Span;
-use crate::math::Vec3;
-use crate::solids::element_faces::ElementFaces;
+use base::diagnostic::Span;
+use base::math::Vec3;
+use deck::Deck;
+use deck::parts::PartIndex;
+use mechanics::solids::element_faces::ElementFaces;
 use std::collections::HashMap;
 use std::sync::Arc;
 

@@ -11,10 +11,10 @@ use super::places::place::Place;
 use super::places::spot::{Label, Spot};
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
-use crate::deck::Deck;
-use crate::deck::words::Maybe;
-use crate::deck::words::Names as List;
-use crate::diagnostic::At;
+use base::diagnostic::At;
+use deck::Deck;
+use deck::words::Maybe;
+use deck::words::Names as List;
 
 /// Everything that names can refer to: the scene without what connects and loads it.
 pub(super) struct Scene<'d> {

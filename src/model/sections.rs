@@ -3,12 +3,12 @@
 use super::data::MassKind;
 use super::materials::Materials;
 use super::report::{Owner, Report};
-use crate::deck::Deck;
-use crate::deck::sections as words;
-use crate::deck::words::kinds::{Given, OneOf};
-use crate::deck::words::{Maybe, Named};
-use crate::diagnostic::At;
-use crate::sections::{CrossSection, Fibre, Stiffness};
+use base::diagnostic::At;
+use deck::Deck;
+use deck::sections as words;
+use deck::words::kinds::{Given, OneOf};
+use deck::words::{Maybe, Named};
+use mechanics::sections::{CrossSection, Fibre, Stiffness};
 use std::collections::HashMap;
 
 /// Largest number of fibres; a section's response no longer changes beyond it.

@@ -10,10 +10,10 @@ use super::procedure::stops::NamedActors;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::chosen;
-use crate::amplitude::Amplitude;
-use crate::deck::supports as words;
-use crate::deck::words::Table;
-use crate::diagnostic::{At, Span};
+use base::diagnostic::{At, Span};
+use deck::supports as words;
+use deck::words::Table;
+use mechanics::amplitude::Amplitude;
 use std::collections::HashMap;
 use turns::{GivenRotations, TurnSetting, TurnedNode};
 

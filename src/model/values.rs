@@ -1,10 +1,10 @@
 //! Values of the deck as the model takes them.
 
 use super::data::DIRECTIONS;
-use crate::deck::words::{Maybe, Vector};
-use crate::diagnostic::Span;
-use crate::math::Vec3;
-use crate::names::joined;
+use base::diagnostic::Span;
+use base::math::Vec3;
+use base::names::joined;
+use deck::words::{Maybe, Vector};
 
 /// The vector of three numbers of the deck.
 pub(super) fn vec3(value: &Vector) -> Vec3 {

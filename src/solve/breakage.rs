@@ -1,10 +1,10 @@
 //! What breaks in a run: elements and links that carry nothing any more, from one step to the next.
 
 use super::context::Context;
-use crate::math::Vec3;
-use crate::snapshot::keep;
-use crate::state::State;
 use crate::system::System;
+use base::math::Vec3;
+use base::snapshot::keep;
+use mechanics::state::State;
 
 /// An element or a link that has failed.
 #[derive(Debug, Clone, PartialEq)]

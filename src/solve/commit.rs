@@ -7,12 +7,12 @@ use super::projection::ConstraintProjection;
 use super::work::WorkQuadrature;
 use super::workspace::Workspace;
 use super::{drifting_rotations, large_strains};
-use crate::integrators::Coefficients;
-use crate::materials::Dissipation;
-use crate::math::rotation::rates;
-use crate::math::{Vec6, angular, linear, stack};
-use crate::state::State;
 use crate::system::TurningBody;
+use base::math::rotation::rates;
+use base::math::{Vec6, angular, linear, stack};
+use mechanics::integrators::Coefficients;
+use mechanics::materials::Dissipation;
+use mechanics::state::State;
 
 /// The energies of a step for the balance of work.
 #[derive(Default)]

@@ -4,8 +4,8 @@ use super::context::Context;
 use super::failure::Failure;
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::model::{Contact, Model, PartType};
-use crate::state::{Configuration, State};
+use mechanics::state::{Configuration, State};
+use model::{Contact, Model, PartType};
 use std::ops::Range;
 
 /// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.

@@ -2,11 +2,11 @@
 
 use super::node_chunks::NodeChunks;
 use super::stop_request::StopRequest;
-use crate::math::Vec3;
-use crate::model::{AnalysisKind, Model, Restraint};
 use crate::plan::Plan;
-use crate::state::Node;
 use crate::system::{Excitation, System};
+use base::math::Vec3;
+use mechanics::state::Node;
+use model::{AnalysisKind, Model, Restraint};
 use std::sync::atomic::AtomicBool;
 
 /// Everything about a run that no step changes. It is built once and borrowed by all that computes.
@@ -27,7 +27,7 @@ pub struct Context<'a> {
     pub driving: Vec<usize>,
     /// Nodes whose displacement along x is a number: no place in space.
     pub numbers: Vec<usize>,
-    /// Coefficients of [`crate::integrators::Scheme::algorithmic_acceleration`]; `None` in statics too.
+    /// Coefficients of [`mechanics::integrators::Scheme::algorithmic_acceleration`]; `None` in statics too.
     pub algorithmic_acceleration: Option<[f64; 3]>,
     /// The largest distance of a node from the first, the length to which corrections are compared where hardly
     /// anything moves.

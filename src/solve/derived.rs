@@ -3,14 +3,14 @@
 
 use super::breakage::Broken;
 use super::effort::Effort;
-use crate::model::Model;
-use crate::snapshot::keep;
-use crate::state::State;
 use crate::system::energy::{self, Energy, PartEnergy};
 use crate::system::{
     ContactState, ContactTouch, Excitation, JointState, LinkState, Loading, SectionPoint, ShearBalance, ShellState,
     Side, System, results,
 };
+use base::snapshot::keep;
+use mechanics::state::State;
+use model::Model;
 use std::ops::BitOr;
 
 /// A set of derived quantities, those that the observer needs; others are not computed. The bits come in three groups: what it needs

@@ -3,9 +3,9 @@
 
 use super::context::Context;
 use super::workspace::Workspace;
-use crate::math::rotation;
-use crate::model::DIRECTIONS;
-use crate::state::State;
+use base::math::rotation;
+use mechanics::state::State;
+use model::DIRECTIONS;
 
 /// The drift, in radians, from which it is told.
 const NOTICED: f64 = 1e-3;

@@ -1,6 +1,6 @@
 //! The effort of a step.
 
-use crate::snapshot::keep;
+use base::snapshot::keep;
 
 /// What a step took.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -2,13 +2,13 @@
 //! its current configuration is stable.
 
 use super::failure::Failure;
-use crate::integrators::Stepping;
-use crate::model::{AnalysisKind, Model, Part};
 use crate::plan::Plan;
-use crate::snapshot::keep;
-use crate::state::State;
 use crate::system::System;
 use crate::system::energy::{Balance, Energy};
+use base::snapshot::keep;
+use mechanics::integrators::Stepping;
+use mechanics::state::State;
+use model::{AnalysisKind, Model, Part};
 
 /// The balance of energy of an analysis. In statics the work of a step is that of its ends, whatever lies between: what the balance
 /// misses is told at the end.

@@ -2,11 +2,11 @@
 //! the step is of first order in its length, whatever the scheme.
 
 use super::context::Context;
-use crate::materials::Dissipation;
-use crate::model::StepLength;
-use crate::snapshot::keep;
-use crate::state::State;
 use crate::system::kinks;
+use base::snapshot::keep;
+use mechanics::materials::Dissipation;
+use mechanics::state::State;
+use model::StepLength;
 
 /// Watches for events where the errors of steps are told. Nothing is looked at in other runs.
 #[derive(Default)]

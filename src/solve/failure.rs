@@ -1,12 +1,12 @@
 //! The failures of steps, with the names of what failed.
 
 use super::warning::Instability;
-use crate::model::{DIRECTIONS, Model};
 use crate::modes::ModesFault;
-use crate::names::{short, to_digits};
 use crate::plan::Plan;
-use crate::snapshot::{keep, keep_either};
 use crate::system::System;
+use base::names::{short, to_digits};
+use base::snapshot::{keep, keep_either};
+use model::{DIRECTIONS, Model};
 use std::fmt;
 
 /// A step that was given up.

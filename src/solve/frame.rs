@@ -2,10 +2,10 @@
 
 use super::derived::Derived;
 use super::effort::Effort;
-use crate::model::Model;
 use crate::modes::Modes;
-use crate::snapshot::Snapshot;
-use crate::state::State;
+use base::snapshot::Snapshot;
+use mechanics::state::State;
+use model::Model;
 use std::ops::Range;
 
 /// One accepted step, read-only.

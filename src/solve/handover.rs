@@ -7,15 +7,15 @@
 use super::context::Context;
 use super::load_steps::LoadSteps;
 use super::outcome::Counts;
-use crate::amplitude::{Amplitude, StraightLines};
-use crate::constraints::joint::ConstraintEquation;
-use crate::constraints::rigid_link::RigidLink;
-use crate::elements::Force;
-use crate::math::{Vec3, Vec6};
-use crate::model::{AnalysisKind, Joint, Load, Model, count_along};
-use crate::state::{Increment, Node, State};
 use crate::system::energy::Energy;
 use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
+use base::math::{Vec3, Vec6};
+use mechanics::amplitude::{Amplitude, StraightLines};
+use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::constraints::rigid_link::RigidLink;
+use mechanics::elements::Force;
+use mechanics::state::{Increment, Node, State};
+use model::{AnalysisKind, Joint, Load, Model, count_along};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -189,7 +189,7 @@ impl NodeMap {
         };
         let restraints = cx.model.constraints.restraints.iter().zip(&state.reactions);
         let reactions: HashMap<(usize, usize), f64> = restraints.map(|(of, r)| ((of.node, of.dof), *r)).collect();
-        let reaction = |of: &crate::model::Restraint| {
+        let reaction = |of: &model::Restraint| {
             self.old[of.node].and_then(|old| reactions.get(&(old, of.dof))).copied().unwrap_or(0.0)
         };
         let mut history = vec![0.0; system.history];
@@ -242,7 +242,7 @@ impl NodeMap {
 
     /// The multipliers of the equations that both scenes have; zero for others.
     fn multipliers(&self, (old, values): (&System, &[f64]), system: &System) -> Vec<f64> {
-        let number = |first: &mut usize, joint: &crate::constraints::joint::Joint| {
+        let number = |first: &mut usize, joint: &mechanics::constraints::joint::Joint| {
             let begin = *first;
             *first += joint.equations.len();
             Some(begin)

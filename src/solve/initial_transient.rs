@@ -6,12 +6,12 @@
 use super::context::Context;
 use super::start::update_rates_of_dependent_nodes;
 use super::workspace::Workspace;
-use crate::elements::Moduli;
-use crate::integrators::Stepping;
-use crate::math::{Vec3, Vec6, angular, linear, stack};
-use crate::model::StepLength;
-use crate::state::{Configuration, Node, State};
 use crate::system::TangentWeights;
+use base::math::{Vec3, Vec6, angular, linear, stack};
+use mechanics::elements::Moduli;
+use mechanics::integrators::Stepping;
+use mechanics::state::{Configuration, Node, State};
+use model::StepLength;
 
 /// Motions by such an acceleration in a step, as parts of the model's length and in radians, that rotations of slender parts may have
 /// without stretching what they should only bend.

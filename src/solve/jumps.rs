@@ -4,12 +4,12 @@ use super::context::Context;
 use super::failure::Failure;
 use super::start::{add_accelerations, factor_mass, project_velocities, update_rates_of_dependent_nodes};
 use super::workspace::Workspace;
-use crate::elements::Force;
-use crate::math::Vec3;
-use crate::model::Restraint;
-use crate::state::{Configuration, Node, State};
 use crate::system::Side;
 use crate::system::energy::kinetic_energy;
+use base::math::Vec3;
+use mechanics::elements::Force;
+use mechanics::state::{Configuration, Node, State};
+use model::Restraint;
 
 /// Takes the state over a jump of the loads or of prescribed velocities. Other velocities are continuous, accelerations jump by M Δa = Δf
 /// and reactions with them; otherwise the scheme would take the old acceleration into the next step and lose an order.

@@ -2,7 +2,7 @@
 
 use super::context::Context;
 use super::workspace::Workspace;
-use crate::state::State;
+use mechanics::state::State;
 
 /// Strain from which forces are off by a tenth: stress conjugate to Green's strain makes them twice the strain too large.
 const LARGE: f64 = 0.05;

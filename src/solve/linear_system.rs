@@ -1,12 +1,12 @@
 //! A matrix with its factorization, and the one protocol by which systems with joints are solved.
 
 use super::context::Context;
-use crate::elements::Partners;
-use crate::linear::{Singular, Solver};
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::state::Configuration;
 use crate::system::Multipliers;
 use crate::system::assembly::Assembly;
+use base::snapshot::{Keep, Snapshot, keep};
+use linear::{Singular, Solver};
+use mechanics::elements::Partners;
+use mechanics::state::Configuration;
 
 /// A sparse matrix with the assembly that fills it and its factors.
 pub struct LinearSystem {

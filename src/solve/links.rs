@@ -3,10 +3,10 @@
 use super::context::Context;
 use super::failure::Failure;
 use super::workspace::Workspace;
-use crate::constraints::joint::ConstraintEquation;
-use crate::model::Link;
-use crate::state::State;
 use crate::system::results::{bushing_turned_over, bushing_turns_too_far};
+use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::state::State;
+use model::Link;
 
 /// Before the trial motion is taken, at the end of a step of length `dt`.
 ///

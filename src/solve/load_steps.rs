@@ -4,8 +4,8 @@
 //! had are then the measure.
 
 use super::sudden_loads::SuddenLoads;
-use crate::snapshot::keep;
 use crate::system::{Loading, Prescribed, Scale};
+use base::snapshot::keep;
 
 /// Loads and motions below this part of the largest so far are those of a structure that has been let go: amplitudes come back to zero
 /// with the rounding of their times.

@@ -9,8 +9,8 @@ use super::report::StepReport;
 use super::sample::{Sample, Samples};
 use super::stop_watch::StopWatch;
 use super::workspace::Workspace;
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::state::{Node, State};
+use base::snapshot::{Keep, Snapshot, keep};
+use mechanics::state::{Node, State};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A run under way: what it reads, what it writes, its state, and its observer.

@@ -3,10 +3,10 @@
 
 use super::context::Context;
 use super::workspace::Workspace;
-use crate::integrators::Coefficients;
-use crate::math::{Vec3, Vec6, angular, stack};
-use crate::state::{Increment, Node, State};
 use crate::system::{Prescribed, Side, TurningBody, between};
+use base::math::{Vec3, Vec6, angular, stack};
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Increment, Node, State};
 
 /// The relation between displacements, velocities and accelerations in a stage of a step.
 #[derive(Clone, Copy)]

@@ -1,7 +1,7 @@
 //! Loops over nodes in chunks that several threads share. The chunks rest on the scene alone and sums over them keep their order, so
 //! results do not depend on the number of threads.
 
-use crate::model::Restraint;
+use model::Restraint;
 use std::ops::{AddAssign, Range};
 
 /// Number of nodes in a chunk: what they move by stays near the processor from one loop to the next.

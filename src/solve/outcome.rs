@@ -1,7 +1,7 @@
 //! The outcome of a run, and its effort.
 
 use super::failure::Failure;
-use crate::snapshot::keep;
+use base::snapshot::keep;
 
 /// The way a run ended.
 #[derive(Debug)]

@@ -11,16 +11,16 @@ use super::joints::{self, MOST_CORRECTIONS, ROUNDING};
 use super::linear_system::LinearSystem;
 use super::motion::update_dependent_nodes;
 use super::workspace::Workspace;
-use crate::elements::Moduli;
-use crate::integrators::Coefficients;
-use crate::linear::TooLarge;
-use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec3, angular};
 use crate::plan::Plan;
-use crate::snapshot::keep;
-use crate::state::{Configuration, Node, State};
 use crate::system::TangentWeights;
 use crate::system::{Forces, Loading, System};
+use base::math::rotation::inverse_tangent;
+use base::math::{Vec3, angular};
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::elements::Moduli;
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Configuration, Node, State};
 
 /// Mass given to a degree of freedom without one, relative to the largest: so it is the one that gives way.
 const TRACE: f64 = 1e-9;

@@ -13,11 +13,11 @@ use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
 use super::sample::Sample;
 use super::workspace::Workspace;
-use crate::model::{Cadence, Model};
 use crate::modes::Modes;
-use crate::snapshot::keep;
-use crate::state::State;
 use crate::system::energy::{Balance, Energy, work_of_rounding};
+use base::snapshot::keep;
+use mechanics::state::State;
+use model::{Cadence, Model};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 

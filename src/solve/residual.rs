@@ -3,8 +3,8 @@
 use super::context::Context;
 use super::failure::{self, Failure};
 use super::workspace::Workspace;
-use crate::math::larger;
 use crate::system::Scale;
+use base::math::larger;
 
 /// Writes the residual by unknown into `ws.r`. Returns its largest entry relative to the forces or moments that it is
 /// summed from.

@@ -7,7 +7,7 @@ use super::energy_growth::checks_energy_growth;
 use super::frame::Observer;
 use super::handover::{EndedStage, Handover, hand_over};
 use super::march::{March, RunPosition};
-use super::modes;
+use super::modes_at_end;
 use super::outcome::{Counts, Outcome};
 use super::recorder::Recorder;
 use super::sample::Samples;
@@ -17,13 +17,13 @@ use super::stop_watch::StopWatch;
 use super::trials::{StepError, Unseen};
 use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
-use crate::linear::{Solver, TooLarge};
-use crate::model::{AnalysisKind, Model, StepLength};
 use crate::plan::Plan;
-use crate::snapshot::{Keep, Snapshot};
-use crate::state::State;
 use crate::system::System;
 use crate::system::energy::Balance;
+use base::snapshot::{Keep, Snapshot};
+use linear::{Solver, TooLarge};
+use mechanics::state::State;
+use model::{AnalysisKind, Model, StepLength};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
                 return (Outcome::Io(unfit()), None);
             }
         }
-        let mut outcome = modes::lead(controller, &mut march, schedule);
+        let mut outcome = modes_at_end::lead(controller, &mut march, schedule);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }

@@ -1,6 +1,6 @@
 //! The times inside steps at which the motion is looked at.
 
-use crate::snapshot::{Keep, Snapshot};
+use base::snapshot::{Keep, Snapshot};
 
 /// A time inside the steps.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,9 +9,9 @@ use super::run::{NoSearch, Run};
 use super::stop_watch::StopWatch;
 use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace, Unseen};
 use super::warning::Warnings;
-use crate::model::StepLength;
-use crate::snapshot::{Keep, keep, keep_either};
-use crate::state::State;
+use base::snapshot::{Keep, keep, keep_either};
+use mechanics::state::State;
+use model::StepLength;
 
 /// Into how many the intervals between the times at which steps must end are cut, in the run under way and the one before.
 #[derive(Debug, Clone, Copy)]

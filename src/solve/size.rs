@@ -1,6 +1,6 @@
 //! The size of a motion, translations and rotations apart.
 
-use crate::snapshot::keep;
+use base::snapshot::keep;
 
 /// The largest translation and the largest rotation of a set of nodes.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

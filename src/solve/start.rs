@@ -5,11 +5,11 @@ use super::failure::Failure;
 use super::joints;
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::elements::Moduli;
-use crate::math::{Vec3, Vec6, rotation, stack};
-use crate::state::{Configuration, Increment, Node, State, Work};
 use crate::system::Side;
 use crate::system::TangentWeights;
+use base::math::{Vec3, Vec6, rotation, stack};
+use mechanics::elements::Moduli;
+use mechanics::state::{Configuration, Increment, Node, State, Work};
 
 /// The largest change of initial velocities, relative to the largest velocity, that joints may require without a word: a deck gives
 /// its numbers with some digits only.
@@ -63,7 +63,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
 
 /// The state as the model gives it, before prescribed motion. Omitted degrees of freedom are at rest.
 fn given_state(cx: &Context) -> State {
-    let node = |(i, spec): (usize, &crate::model::Node)| {
+    let node = |(i, spec): (usize, &model::Node)| {
         let mut node = Node::at_rest(spec.x);
         for dof in 0..3 {
             if cx.is_dynamic() && cx.plan.is_unknown(i, dof) {

@@ -11,10 +11,10 @@ use super::start::{
 };
 use super::warning::Warning;
 use super::workspace::Workspace;
-use crate::elements::Force;
-use crate::math::{Vec6, stack};
-use crate::state::{Node, State};
 use crate::system::Side;
+use base::math::{Vec6, stack};
+use mechanics::elements::Force;
+use mechanics::state::{Node, State};
 
 /// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed but velocities of supports that jump there.
 ///

@@ -3,12 +3,12 @@
 use super::context::Context;
 use super::load_steps::LoadSteps;
 use super::workspace::Workspace;
-use crate::elements::Force;
-use crate::math::{Vec3, rotation};
-use crate::model::{Actors, Stop, StopQuantity};
-use crate::snapshot::keep;
-use crate::state::State;
 use crate::system::{Loading, Prescribed, Side};
+use base::math::{Vec3, rotation};
+use base::snapshot::keep;
+use mechanics::elements::Force;
+use mechanics::state::State;
+use model::{Actors, Stop, StopQuantity};
 
 /// Part of the value within which it is met by a step of given length, which is shortened to end there.
 const MET: f64 = 1e-8;

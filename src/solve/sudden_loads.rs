@@ -3,8 +3,8 @@
 //! of forces that grow with what they move.
 
 use super::context::Context;
-use crate::snapshot::keep;
 use crate::system::{Loading, Side};
+use base::snapshot::keep;
 
 /// The step that brings loads on.
 #[derive(Debug, Clone, Default)]

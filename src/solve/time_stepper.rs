@@ -7,10 +7,10 @@ use super::implicit::Implicit;
 use super::jumps;
 use super::report::StepReport;
 use super::workspace::Workspace;
-use crate::integrators::Stepping;
-use crate::linear::TooLarge;
-use crate::snapshot::{Keep, Snapshot};
-use crate::state::State;
+use base::snapshot::{Keep, Snapshot};
+use linear::TooLarge;
+use mechanics::integrators::Stepping;
+use mechanics::state::State;
 
 /// A stepper that takes a step of given length.
 pub enum TimeStepper<'a> {

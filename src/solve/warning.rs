@@ -1,7 +1,7 @@
 //! What a run has to say about its own results: they may not be the answer to the deck, or not to all of it.
 
-use crate::names::{short, to_digits};
-use crate::snapshot::{keep, keep_either};
+use base::names::{short, to_digits};
+use base::snapshot::{keep, keep_either};
 use std::fmt;
 use std::mem::discriminant;
 

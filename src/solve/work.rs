@@ -1,12 +1,12 @@
 //! The work of loads and dampers over a step, by quadrature with the weights of a Runge-Kutta scheme.
 
-use crate::integrators::tableau::StageWeights;
-use crate::model::Restraint;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, Node, State, Work};
+use crate::context::Context;
 use crate::system::{Forces, Prescribed};
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::integrators::tableau::StageWeights;
+use mechanics::state::{Configuration, Node, State, Work};
+use model::Restraint;
 
 /// The power at an instant of a step.
 #[derive(Debug, Clone, Copy, Default)]

@@ -4,11 +4,11 @@ use super::context::{self, Context};
 use super::linear_system::LinearSystem;
 use super::load_steps::LoadSteps;
 use super::warning::{Remark, Warnings};
-use crate::linear::{Solver, TooLarge};
 use crate::modes::ResponseSoFar;
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::state::{Increment, Node};
 use crate::system::{Forces, Loading, Prescribed, TurningStart};
+use base::snapshot::{Keep, Snapshot, keep};
+use linear::{Solver, TooLarge};
+use mechanics::state::{Increment, Node};
 
 /// The numbers of the step at hand.
 pub struct Workspace {

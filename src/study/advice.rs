@@ -3,7 +3,7 @@
 use super::cells::{field, maybe, seconds};
 use super::columns::columns;
 use super::run::{RunStatus, StudyRun};
-use crate::model::study::Quantity;
+use model::study::Quantity;
 
 /// A beam, bar or shell that deforms.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@
 use super::grid::StudyGrid;
 use super::run::{RunStatus, StudyRun};
 use super::section::StudySection;
-use crate::names::short;
+use base::names::short;
 
 /// A run with automatic steps.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,7 +1,7 @@
 //! What pictures of studies are made of: axes by decades, a frame with rules, marks.
 
-use crate::names::short;
-use crate::output::report::html::escaped;
+use base::names::short;
+use results::report::html::escaped;
 
 /// The height of the picture, in its own units.
 const HEIGHT: f64 = 520.0;

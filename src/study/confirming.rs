@@ -3,11 +3,11 @@
 
 use super::family::Family;
 use super::lines::StudyLine;
-use crate::deck::Deck;
-use crate::diagnostic::Diagnostic;
-use crate::integrators::Scheme;
-use crate::model::Model;
-use crate::model::study::{Confirm, choose_scheme, scheme_of};
+use base::diagnostic::Diagnostic;
+use deck::Deck;
+use mechanics::integrators::Scheme;
+use model::Model;
+use model::study::{Confirm, choose_scheme, scheme_of};
 use std::sync::Arc;
 
 /// The number of steps, the finest of the grid, that the line which confirms is run with: as many as show an order.

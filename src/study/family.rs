@@ -1,6 +1,6 @@
 //! Families of schemes. What two of a family have in common may be wrong in both; a scheme of another is an independent answer.
 
-use crate::integrators::{Scheme, Stepping};
+use mechanics::integrators::{Scheme, Stepping};
 
 /// A family of schemes: those whose steps are made alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,7 +8,7 @@ use super::order::Order;
 use super::phase::Phase;
 use super::reference::Reference;
 use super::run::StudyRun;
-use crate::model::study::Quantity;
+use model::study::Quantity;
 
 /// A study that has been run.
 pub struct Found {

@@ -4,11 +4,11 @@
 use super::cells::float;
 use super::confirming;
 use super::lines::{StudyLine, lines};
-use crate::deck::Deck;
-use crate::deck::analysis::{Analysis, Plane};
-use crate::diagnostic::Diagnostic;
-use crate::model::study::{Quantity, Study, obstacle};
-use crate::model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
+use base::diagnostic::Diagnostic;
+use deck::Deck;
+use deck::analysis::{Analysis, Plane};
+use model::study::{Quantity, Study, obstacle};
+use model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
 
 /// The number of intervals between samples where the deck gives none.
 pub const SAMPLES: usize = 200;

@@ -1,11 +1,11 @@
 //! The quantities of a run at the sample times are read from its tables; errors are differences of them.
 
-use crate::math::{Mat3, Vec3, rotation};
-use crate::model::Model;
-use crate::model::study::{Quantity, Study};
-use crate::output::at;
-use crate::output::table_reader::{TableReader, fields, number, text};
+use base::math::{Mat3, Vec3, rotation};
+use model::Model;
+use model::study::{Quantity, Study};
 use nalgebra::Quaternion;
+use results::at;
+use results::table_reader::{TableReader, fields, number, text};
 use std::collections::HashMap;
 use std::io;
 use std::path::Path;

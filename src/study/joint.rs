@@ -6,7 +6,7 @@ use super::grid::StudyGrid;
 use super::joint_fit::{CostFit, JointFit, Pair, Point, PowerLaw, fit};
 use super::run::{RunStatus, StudyRun};
 use super::section::StudySection;
-use crate::names::short;
+use base::names::short;
 
 /// The fit of a scheme over meshes and steps.
 #[derive(Debug, Clone, PartialEq)]

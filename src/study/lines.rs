@@ -4,12 +4,12 @@
 use super::cells::float;
 use super::family::Family;
 use super::meshes::{refine, reorder};
-use crate::deck::Deck;
-use crate::diagnostic::Diagnostic;
-use crate::integrators::{Scheme, Stepping, default_scheme};
-use crate::model::study::{Study, choose_scheme};
-use crate::model::{AnalysisKind, Model};
-use crate::names::short;
+use base::diagnostic::Diagnostic;
+use base::names::short;
+use deck::Deck;
+use mechanics::integrators::{Scheme, Stepping, default_scheme};
+use model::study::{Study, choose_scheme};
+use model::{AnalysisKind, Model};
 use std::sync::Arc;
 
 /// Over a load step only material that yields makes an error, of first order in general and never above second.

@@ -1,8 +1,8 @@
 //! study.list: the names of all that a study has written into its folder. Nothing else is removed or written over.
 
 use super::options::RUNS;
-use crate::output::{at, holds_run, remove, remove_empty, remove_run, replace};
-use crate::text_file::read_text;
+use base::text_file::read_text;
+use results::{at, holds_run, remove, remove_empty, remove_run, replace};
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};

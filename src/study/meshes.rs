@@ -1,9 +1,9 @@
 //! The meshes of a study, as overrides of the deck: all numbers of elements times a factor, and the degree of all beams.
 
-use crate::deck::Deck;
-use crate::deck::words::OneOrMany;
-use crate::diagnostic::Diagnostic;
-use crate::model::Model;
+use base::diagnostic::Diagnostic;
+use deck::Deck;
+use deck::words::OneOrMany;
+use model::Model;
 
 /// The overrides that multiply all numbers of elements.
 pub fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<String> {

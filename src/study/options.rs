@@ -1,7 +1,7 @@
 //! The options of a study, the names of its folders, and the reasons why there may be none.
 
 use super::cost::Cost;
-use crate::diagnostic::Diagnostic;
+use base::diagnostic::Diagnostic;
 use std::io;
 use std::path::PathBuf;
 

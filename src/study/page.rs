@@ -3,8 +3,8 @@
 use super::cost::Cost;
 use super::found::Found;
 use super::{asked_picture, picture, table};
-use crate::output::report::STYLE;
-use crate::output::report::html::{self, escaped};
+use results::report::STYLE;
+use results::report::html::{self, escaped};
 
 /// The styles by which the axis that is chosen shows its picture, and hides the others.
 const CHOICE: &str = ".axes > svg { display: none; }\n.axes > label { margin-right: 1em; }\n\

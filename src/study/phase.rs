@@ -7,7 +7,7 @@ use super::phase_fit::{Split, split};
 use super::reference::Reference;
 use super::run::{RunStatus, StudyRun};
 use super::section::StudySection;
-use crate::model::study::Quantity;
+use model::study::Quantity;
 
 /// The number of parts of a run that are split apart, besides the whole.
 const PARTS: usize = 8;

@@ -1,6 +1,6 @@
 //! A run of a study is a process of its own, timed from start to exit.
 
-use crate::output::at;
+use results::at;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -5,8 +5,8 @@ use super::cheapest::{noise, seconds_range};
 use super::confirmation::Confirmation;
 use super::found::Found;
 use super::run::{RunStatus, StudyRun};
-use crate::deck::Deck;
-use crate::names::short;
+use base::names::short;
+use deck::Deck;
 
 /// The deck lines, as TOML with comments, of the cheapest run whose error is at most this one for certain.
 ///

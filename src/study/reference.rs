@@ -18,7 +18,7 @@ use super::limit::{Limit, limit};
 use super::lines::StudyLine;
 use super::reference_file::GivenReference;
 use super::run::{RunStatus, StudyRun};
-use crate::model::study::Quantity;
+use model::study::Quantity;
 
 /// Mean steps count as equally long up to this ratio, which is less than that of a halving, and more than what rounding to whole
 /// steps makes of equal ones.
@@ -117,7 +117,7 @@ pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity])
     let apart = |other: &Limit| history::error(&other.q, &limit.q, count, |_| true) - other.error_bound;
     let error_bound = candidates.iter().map(|other| apart(&of(other))).fold(limit.error_bound, f64::max);
     let order = |limit: &Limit, what: &str| match limit.order {
-        Some(order) => format!("extrapolated in the {what} at order {}", crate::names::short(order)),
+        Some(order) => format!("extrapolated in the {what} at order {}", base::names::short(order)),
         None => format!("not extrapolated in the {what}"),
     };
     let mut source = format!("the finest runs of {}, {}", grid.lines[best.0].label, order(&best.1, "time step"));

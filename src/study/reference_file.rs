@@ -1,11 +1,11 @@
 //! The file that a deck names as the reference of its study, read with all of its faults told at once.
 
-use crate::diagnostic::{Diagnostic, Span};
-use crate::model::Model;
-use crate::model::study::{Quantity, Study};
-use crate::names::{nearest, quoted};
-use crate::text_file::read_regular;
-use crate::text_file::{Text, TextLine};
+use base::diagnostic::{Diagnostic, Span};
+use base::names::{nearest, quoted};
+use base::text_file::read_regular;
+use base::text_file::{Text, TextLine};
+use model::Model;
+use model::study::{Quantity, Study};
 use std::path::Path;
 
 /// The values of a file.

@@ -2,9 +2,8 @@
 
 use super::history;
 use super::process::{Ended, first_error};
-use crate::model::study::Quantity;
-use crate::output;
-use crate::text_file::read_regular;
+use base::text_file::read_regular;
+use model::study::Quantity;
 use serde_json::Value;
 use std::io;
 use std::path::Path;
@@ -213,8 +212,8 @@ pub fn spread(runs: &[StudyRun]) -> Option<f64> {
 
 fn result(place: &Path) -> io::Result<Value> {
     let path = place.join("result.json");
-    let bytes = read_regular(&path).map_err(|error| output::at(&path, error))?;
-    serde_json::from_slice(&bytes).map_err(|error| output::at(&path, error.into()))
+    let bytes = read_regular(&path).map_err(|error| results::at(&path, error))?;
+    serde_json::from_slice(&bytes).map_err(|error| results::at(&path, error.into()))
 }
 
 fn reason(place: &Path) -> String {

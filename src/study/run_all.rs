@@ -7,7 +7,7 @@ use super::options::{Options, RUNS, StudyFault};
 use super::process::Program;
 use super::progress::StudyProgress;
 use super::run::{RunStatus, StudyRun, measured};
-use crate::model::study::Quantity;
+use model::study::Quantity;
 use std::io;
 use std::sync::atomic::AtomicBool;
 
@@ -49,7 +49,7 @@ pub fn run_all(
     let mut stopped = false;
     for repeat in 0..options.repeats {
         for (index, (line, resolution, sets)) in jobs.iter().enumerate() {
-            let label = format!("{}, {}", grid.lines[*line].label, crate::names::short(*resolution));
+            let label = format!("{}, {}", grid.lines[*line].label, base::names::short(*resolution));
             progress.show(&label, repeat + 1, options.repeats);
             let folder = folder(index);
             let enough =

@@ -1,7 +1,7 @@
 //! A part of what a study says: a title, a table, and sentences below it; the same on standard output and on the page.
 
 use super::columns::columns;
-use crate::output::report::html::{self, escaped};
+use results::report::html::{self, escaped};
 
 /// A titled table with notes.
 pub struct StudySection {

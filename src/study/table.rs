@@ -10,7 +10,7 @@ use super::order::{Order, local};
 use super::run::{RunStatus, StudyRun, spread};
 use super::section::StudySection;
 use super::{asked, joint, phase};
-use crate::names::short;
+use base::names::short;
 
 /// The header of the table of runs.
 pub const HEAD: [&str; 9] =

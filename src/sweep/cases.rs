@@ -2,7 +2,7 @@
 
 use super::file::{MOST_CASES, SampleKind, SampleOfCases, SweepFile, VariedKey, VariedValues};
 use super::sampling::{MOST_DIMENSIONS, latin_hypercube, sobol};
-use crate::text_file::read_regular;
+use base::text_file::read_regular;
 use std::path::Path;
 
 /// The cases of a sweep in their order, counted from 1 where they are named.

@@ -1,9 +1,9 @@
 //! Numbers read from the tables of one case.
 
 use super::file::{Collected, CollectedWhen};
-use crate::output::TABLES;
-use crate::output::table::{STAGE, TableKind};
-use crate::output::table_reader::{TableReader, fields, number, text};
+use results::TABLES;
+use results::table::{STAGE, TableKind};
+use results::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::path::Path;
 

@@ -1,9 +1,9 @@
 //! The file of a sweep: the deck, what varies in it, and what is collected.
 
 use super::case_state::CaseState;
-use crate::deck::number_slips;
-use crate::diagnostic::{Diagnostic, Source, Span};
-use crate::names::{nearest, quoted};
+use base::diagnostic::{Diagnostic, Source, Span};
+use base::names::{nearest, quoted};
+use deck::number_slips;
 use std::collections::HashSet;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

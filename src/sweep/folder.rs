@@ -9,11 +9,11 @@ use super::collect::collect;
 use super::file::{Collected, KeptFolders, SweepFile};
 use super::page::page;
 use super::records::{Records, remove_folder};
-use crate::deck::Deck;
-use crate::diagnostic::Source;
-use crate::output::{at, result_json};
-use crate::text_file::{read_regular, read_text};
+use base::diagnostic::Source;
+use base::text_file::{read_regular, read_text};
+use deck::Deck;
 use rayon::prelude::*;
+use results::{at, result_json};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -225,7 +225,7 @@ impl<'d> CaseNames<'d> {
         let may_name_files = |key: &String| key.contains("mesh") || key.contains("amplitudes");
         let files = match keys.iter().any(may_name_files) {
             true => None,
-            false => crate::deck::read(&Source::new(deck.0, deck.1, &[])).0.map(|deck| files(&deck)),
+            false => deck::read(&Source::new(deck.0, deck.1, &[])).0.map(|deck| files(&deck)),
         };
         CaseNames { deck, begun, files, digests: HashMap::new() }
     }
@@ -234,7 +234,7 @@ impl<'d> CaseNames<'d> {
     fn of(&mut self, sets: &[String]) -> String {
         let mut hasher = self.begun.clone();
         sets.iter().for_each(|set| add(&mut hasher, set));
-        let own = || crate::deck::read(&Source::new(self.deck.0, self.deck.1, sets)).0.map(|deck| files(&deck));
+        let own = || deck::read(&Source::new(self.deck.0, self.deck.1, sets)).0.map(|deck| files(&deck));
         let folder = Path::new(self.deck.0).parent().unwrap_or(Path::new(""));
         for file in self.files.clone().or_else(own).unwrap_or_default() {
             let digest = self.digests.entry(folder.join(file)).or_insert_with_key(|path| {

@@ -2,8 +2,8 @@
 //! none that seems to stand and does not. Cases that end while others are being made safe are made safe together.
 
 use super::folder::SweepFolder;
-use crate::output::checkpoint::Checkpoint;
-use crate::output::{FolderLock, make_safe, result_json};
+use results::checkpoint::Checkpoint;
+use results::{FolderLock, make_safe, result_json};
 use std::io;
 use std::path::PathBuf;
 use std::sync::mpsc::Receiver;
@@ -55,8 +55,8 @@ pub fn mark_all(within: &SweepFolder, computed: &Receiver<Computed>) -> io::Resu
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::cases::Cases;
-    use crate::sweep::file::SweepFile;
+    use crate::cases::Cases;
+    use crate::file::SweepFile;
     use std::fs;
     use std::sync::mpsc::channel;
 

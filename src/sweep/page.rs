@@ -1,7 +1,7 @@
 //! summary.html: the summary of a sweep as scatter plots and a sortable table, on one page that opens without a network.
 
-use crate::output::report::STYLE;
-use crate::output::report::html::{data, escaped};
+use results::report::STYLE;
+use results::report::html::{data, escaped};
 use serde_json::json;
 
 const SCRIPT: &str = include_str!("page.js");

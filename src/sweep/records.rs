@@ -5,7 +5,7 @@
 
 use super::case_state::{CaseState, one_line};
 use super::file::Collected;
-use crate::output::at;
+use results::at;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
@@ -146,7 +146,7 @@ fn tail(path: &Path, from: u64) -> io::Result<String> {
 
 /// The name of this host as a part of a file's name.
 fn this_host() -> String {
-    crate::output::host().chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
+    results::host().chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
 }
 
 /// Removes the folder of a case whose record stands. Another process may be making it anew to look whether the case is open, and takes it

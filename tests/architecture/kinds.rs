@@ -16,10 +16,10 @@ const WELL_KNOWN: Known = &[];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
 const CATALOGUES: [(&str, &[&str]); 7] = [
-    ("constraints/joints", &["kind"]),
-    ("elements/contact/surfaces", &["kind", "sight"]),
+    ("mechanics/constraints/joints", &["kind"]),
+    ("mechanics/elements/contact/surfaces", &["kind", "sight"]),
     (
-        "integrators",
+        "mechanics/integrators",
         &[
             "alpha_family",
             "coefficients",
@@ -31,10 +31,10 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
             "tableau",
         ],
     ),
-    ("materials/models", &["kind"]),
-    ("output/tables", &["shell_order"]),
-    ("sections", &["dimensions", "fibres", "profile", "section", "section_shape", "wall"]),
-    ("solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
+    ("mechanics/materials/models", &["kind"]),
+    ("results/tables", &["shell_order"]),
+    ("mechanics/sections", &["dimensions", "fibres", "profile", "section", "section_shape", "wall"]),
+    ("mechanics/solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
 ];
 
 /// Kinds that more than one file besides their own knows.

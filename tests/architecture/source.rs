@@ -6,22 +6,62 @@ use std::path::{Path, PathBuf};
 use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree, Visibility};
 
-/// A path of names from the root of the crate.
+/// The crates below src, each in the folder of its name; what lies beside them is the program itself.
+pub const CRATES: [&str; 9] = ["base", "linear", "mechanics", "deck", "model", "solve", "results", "study", "sweep"];
+
+/// Folders of a crate that are rooms of their own; the rest of a crate is the room of its name.
+const ROOMS: [&str; 20] = [
+    "math",
+    "names",
+    "quantities",
+    "diagnostic",
+    "words",
+    "text_file",
+    "snapshot",
+    "state",
+    "sections",
+    "solids",
+    "materials",
+    "amplitude",
+    "elements",
+    "constraints",
+    "integrators",
+    "mesh",
+    "record",
+    "system",
+    "plan",
+    "modes",
+];
+
+/// The room that a path of names lies in, the crate's own where no room of it is named.
+pub fn room_of<'a>(crate_name: &'a str, next: Option<&'a str>) -> &'a str {
+    // A crate has rooms of its own: `model/names.rs` is no room.
+    let holds = |name: &str| match crate_name {
+        "base" | "mechanics" => ROOMS.contains(&name),
+        "model" => ["mesh", "record"].contains(&name),
+        "solve" => ["system", "plan", "modes"].contains(&name),
+        _ => false,
+    };
+    next.filter(|name| holds(name)).unwrap_or(crate_name)
+}
+
+/// A path of names from the root of all crates.
 pub type Names = Vec<String>;
 
 /// A file of src, without its tests.
 pub struct File {
     /// Path below src.
     pub path: String,
-    /// The module that the file is, from the root of the crate.
+    /// The module that the file is, its crate first.
     pub module: Names,
     pub items: Vec<Item>,
 }
 
 impl File {
-    /// The folder below src, or the file itself where it stands alone.
+    /// The room that the file stands in.
     pub fn room(&self) -> &str {
-        self.path.split('/').next().expect("a name").trim_end_matches(".rs")
+        let mut names = self.path.split('/').map(|name| name.trim_end_matches(".rs"));
+        room_of(names.next().expect("a name"), names.next())
     }
 }
 
@@ -78,7 +118,8 @@ impl Source {
         }
         for (tree, shown) in uses(items) {
             for (name, target) in leaves(&tree, &[]) {
-                let Some(target) = absolute(&module, &target) else { continue };
+                let declared = items.iter().any(|item| matches!(item, Item::Mod(inner) if inner.ident == target[0]));
+                let Some(target) = absolute(&module, &target, declared) else { continue };
                 match name {
                     Some(name) => {
                         here.meanings.insert(name, Meaning::Import { target, shown });
@@ -156,7 +197,10 @@ impl Source {
 
     /// The file that defines what a path in a module names, and its name there.
     pub fn seen_from(&self, module: &[String], path: &[String]) -> Option<(usize, String)> {
-        self.definition(&absolute(module, path)?, 0)
+        let child = [module, &path[..1]].concat();
+        let here = &self.modules[module];
+        let local = self.modules.contains_key(&child) || here.meanings.contains_key(&path[0]);
+        self.definition(&absolute(module, path, local)?, 0)
     }
 }
 
@@ -226,18 +270,23 @@ fn paths_of(tokens: TokenStream, paths: &mut Vec<Names>) {
     groups.into_iter().for_each(|group| paths_of(group, paths));
 }
 
-/// A path from the root of the crate, if it says where it begins.
-fn absolute(module: &[String], path: &[String]) -> Option<Names> {
+/// A path from the root of all crates; `local`: its first name is known in the module.
+fn absolute(module: &[String], path: &[String], local: bool) -> Option<Names> {
     let (first, rest) = path.split_first()?;
     match first.as_str() {
-        "crate" | "rdsolve" => Some(rest.to_vec()),
+        "crate" => {
+            let own = module.first().filter(|name| CRATES.contains(&name.as_str()));
+            Some(own.into_iter().chain(rest).cloned().collect())
+        }
+        "rdsolve" => Some(rest.to_vec()),
         "self" => Some([module, rest].concat()),
         "super" => {
             let above = rest.iter().take_while(|name| *name == "super").count();
             let base = module.len().checked_sub(1 + above)?;
             Some([&module[..base], &rest[above..]].concat())
         }
-        // Other crates, and children of the module, which are found from the module.
+        name if !local && CRATES.contains(&name) => Some(path.to_vec()),
+        // Children of the module, which are found from the module, and foreign crates.
         _ => Some([module, path].concat()),
     }
 }

@@ -1,7 +1,7 @@
 //! Elements of different lengths along a segment of a path: short at its ends, where hinges form and boundary layers lie, long between.
 
-use crate::deck::words::{Maybe, OneOrMany};
-use crate::model::part_context::PartContext;
+use crate::part_context::PartContext;
+use deck::words::{Maybe, OneOrMany};
 
 /// A segment of fewer elements is all ends.
 const FEWEST: usize = 3;

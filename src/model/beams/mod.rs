@@ -3,22 +3,22 @@
 pub mod grading;
 pub mod paths;
 
-use crate::deck::Deck;
-use crate::deck::beams as words;
-use crate::deck::words::Vector;
-use crate::diagnostic::At;
-use crate::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
-use crate::math::quadrature::lobatto;
-use crate::math::{Mat3, Vec3};
+use crate::beams::grading::{cuts, gradings};
+use crate::beams::paths::{counts, path, segments};
+use crate::data::{Beam, BeamElement, Part, PartIndex, PartKind};
 use crate::mesh::MeshElement;
-use crate::model::beams::grading::{cuts, gradings};
-use crate::model::beams::paths::{counts, path, segments};
-use crate::model::data::{Beam, BeamElement, Part, PartIndex, PartKind};
-use crate::model::own_damping;
-use crate::model::part_context::PartContext;
-use crate::model::report::Owner;
-use crate::model::sections;
-use crate::model::values::{chosen, flag, span, vec3};
+use crate::own_damping;
+use crate::part_context::PartContext;
+use crate::report::Owner;
+use crate::sections;
+use crate::values::{chosen, flag, span, vec3};
+use base::diagnostic::At;
+use base::math::quadrature::lobatto;
+use base::math::{Mat3, Vec3};
+use deck::Deck;
+use deck::beams as words;
+use deck::words::Vector;
+use mechanics::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use std::collections::HashSet;
 
 /// Sine of the angle between orientation and axis below which they count as parallel.

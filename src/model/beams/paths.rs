@@ -1,9 +1,9 @@
 //! Paths of beams and bars: points that follow one another, and the elements that each segment is cut into.
 
-use crate::deck::words::{Maybe, OneOrMany};
-use crate::diagnostic::At;
-use crate::model::part_context::PartContext;
-use crate::model::report::Owner;
+use crate::part_context::PartContext;
+use crate::report::Owner;
+use base::diagnostic::At;
+use deck::words::{Maybe, OneOrMany};
 
 /// Largest number of elements in a segment; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 1_000_000;

@@ -3,14 +3,14 @@
 
 use super::mesh_edges::{MeshEdge, mesh_edges};
 use super::points::Finder;
-use crate::deck::contacts as words;
-use crate::diagnostic::At;
-use crate::math::Vec3;
-use crate::math::convex::{ConvexShape, Spherocylinder};
-use crate::model::places::place::Place;
-use crate::model::report::Owner;
-use crate::model::values::vec3_or_zero;
-use crate::names::short;
+use crate::places::place::Place;
+use crate::report::Owner;
+use crate::values::vec3_or_zero;
+use base::diagnostic::At;
+use base::math::Vec3;
+use base::math::convex::{ConvexShape, Spherocylinder};
+use base::names::short;
+use deck::contacts as words;
 
 /// Decks have some digits only.
 const DIGITS: f64 = 1e-6;

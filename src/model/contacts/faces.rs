@@ -1,19 +1,19 @@
 //! Contacts of faces of shells, of beams by their radius, and of balls among themselves.
 
-use crate::deck::contacts as words;
-use crate::deck::parts::PartIndex;
-use crate::deck::words::kinds::OneOf;
-use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, Toucher};
-use crate::math::curved_faces;
-use crate::model::contacts::coarse_faces::warn_of_long_solids;
-use crate::model::contacts::points::{Finder, SurfaceLines};
-use crate::model::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
-use crate::model::places::place::Place;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::span;
-use crate::solids::Touching;
+use crate::contacts::coarse_faces::warn_of_long_solids;
+use crate::contacts::points::{Finder, SurfaceLines};
+use crate::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
+use crate::places::place::Place;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::span;
+use base::diagnostic::At;
+use base::math::curved_faces;
+use deck::contacts as words;
+use deck::parts::PartIndex;
+use deck::words::kinds::OneOf;
+use mechanics::elements::contact::{ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, Toucher};
+use mechanics::solids::Touching;
 
 /// The word for a shell that touches itself.
 pub const ITSELF: &str = "itself";
@@ -235,7 +235,7 @@ fn balls<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
     contact: &'d words::Contact,
-    among: &'d At<crate::deck::words::Names>,
+    among: &'d At<deck::words::Names>,
 ) -> Option<(FacetSurface, Vec<ContactPoint>)> {
     let what = "a contact of bodies `among` themselves";
     let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
@@ -288,11 +288,7 @@ fn is_unread(scene: &Scene, place: Place) -> bool {
 }
 
 /// The bodies and points that a list names; `None` where one of them is neither.
-fn members<'d>(
-    finder: &mut Finder<'_, 'd>,
-    among: &'d At<crate::deck::words::Names>,
-    given: Option<f64>,
-) -> Option<Members> {
+fn members<'d>(finder: &mut Finder<'_, 'd>, among: &'d At<deck::words::Names>, given: Option<f64>) -> Option<Members> {
     let (scene, report) = (finder.scene, &mut *finder.report);
     let (mut members, mut sound) = (Members::default(), true);
     for at in &among.values {

@@ -1,9 +1,9 @@
 //! Checks of the coefficients of friction that a contact gives.
 
-use crate::deck::contacts as words;
-use crate::deck::words::NumberOrTable;
-use crate::model::report::{Owner, Report};
-use crate::names::short;
+use crate::report::{Owner, Report};
+use base::names::short;
+use deck::contacts as words;
+use deck::words::NumberOrTable;
 
 /// Checks the coefficients of friction; two of them need `has_inertia`, an analysis that knows slip speeds.
 pub fn check<'d>(owner: &Owner<'d>, contact: &'d words::Contact, has_inertia: bool, report: &mut Report<'d>) {

@@ -1,17 +1,17 @@
 //! The numbers of a contact law, from the deck and the masses that meet.
 
-use crate::deck::contacts as words;
-use crate::elements::contact::restitution::{self, Loss};
-use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
-use crate::math::Vec3;
-use crate::model::contacts::method::{self, is_augmented};
-use crate::model::contacts::opposite::Opposite;
-use crate::model::contacts::stiffness::{ChosenStiffness, Meets};
-use crate::model::data::{AnalysisKind, Mass, StepLength};
-use crate::model::places::nodes::Topology;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::names::short;
+use crate::contacts::method::{self, is_augmented};
+use crate::contacts::opposite::Opposite;
+use crate::contacts::stiffness::{ChosenStiffness, Meets};
+use crate::data::{AnalysisKind, Mass, StepLength};
+use crate::places::nodes::Topology;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use base::math::Vec3;
+use base::names::short;
+use deck::contacts as words;
+use mechanics::elements::contact::restitution::{self, Loss};
+use mechanics::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
 use std::f64::consts::{PI, TAU};
 
 /// Fraction of 1/√(k/m) that a step of an impact may reach ahead: an impact then takes nine steps or more.

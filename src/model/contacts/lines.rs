@@ -1,14 +1,14 @@
 //! The lines with which things touch a surface that is itself made of lines: beams and bars, free edges of shells, capsules, edges of boxes, hulls and cylinders, and bodies that are made of such parts.
 
 use super::points::{Finder, SurfaceLines, Touch, lines_of};
-use crate::deck::parts::PartIndex;
-use crate::diagnostic::At;
-use crate::elements::contact::facets::free_edges;
-use crate::elements::contact::{Facet, TouchKind, Toucher};
-use crate::math::convex::{ConvexShape, Spherocylinder};
-use crate::math::polyhedron::Polyhedron;
-use crate::math::{Mat3, Vec3, curved_faces};
-use crate::model::places::place::Place;
+use crate::places::place::Place;
+use base::diagnostic::At;
+use base::math::convex::{ConvexShape, Spherocylinder};
+use base::math::polyhedron::Polyhedron;
+use base::math::{Mat3, Vec3, curved_faces};
+use deck::parts::PartIndex;
+use mechanics::elements::contact::facets::free_edges;
+use mechanics::elements::contact::{Facet, TouchKind, Toucher};
 
 impl<'d> Finder<'_, 'd> {
     /// The lines with which a place touches a surface of lines; `None` where it touches with something else.

@@ -1,6 +1,6 @@
 //! The edges of a mesh of faces over which something long may lie: those of the border, and folds that bulge.
 
-use crate::math::Vec3;
+use base::math::Vec3;
 use std::collections::BTreeMap;
 
 /// An edge between two corners of faces.

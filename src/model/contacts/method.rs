@@ -1,12 +1,12 @@
 //! How a contact keeps things apart: by springs alone, or by multipliers besides, which leave no depth.
 
-use crate::deck::contacts::{Contact, ContactMethod};
-use crate::diagnostic::Span;
-use crate::model::data::AnalysisKind;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::span;
-use crate::names::short;
+use crate::data::AnalysisKind;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::span;
+use base::diagnostic::Span;
+use base::names::short;
+use deck::contacts::{Contact, ContactMethod};
 
 /// The depth that is left, as a part of the size of what touches, where the deck leaves it open: the tolerance of equilibria.
 const LEFT: f64 = 1e-8;

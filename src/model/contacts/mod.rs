@@ -13,25 +13,25 @@ pub mod sight;
 pub mod stiffness;
 pub mod surface;
 
-use crate::deck::contacts as words;
-use crate::elements::contact::restitution;
-use crate::elements::contact::{
+use crate::contacts::faces::{is_of_facets, read_facets};
+use crate::contacts::law::LawReader;
+use crate::contacts::method::is_augmented;
+use crate::contacts::opposite::Opposite;
+use crate::contacts::points::{Finder, OnConvex};
+use crate::contacts::surface::read_surface;
+use crate::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
+use crate::places::nodes::Topology;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::span;
+use base::math::Vec3;
+use base::names::short;
+use deck::contacts as words;
+use mechanics::elements::contact::restitution;
+use mechanics::elements::contact::{
     ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, SurfaceShape, Toucher, convex, least_gap, pair_gap,
 };
-use crate::math::Vec3;
-use crate::model::contacts::faces::{is_of_facets, read_facets};
-use crate::model::contacts::law::LawReader;
-use crate::model::contacts::method::is_augmented;
-use crate::model::contacts::opposite::Opposite;
-use crate::model::contacts::points::{Finder, OnConvex};
-use crate::model::contacts::surface::read_surface;
-use crate::model::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSurface};
-use crate::model::places::nodes::Topology;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::span;
-use crate::names::short;
-use crate::state::Node;
+use mechanics::state::Node;
 use std::collections::{BTreeSet, HashMap};
 
 /// Reads `[[contacts]]`, after all constraints: nodes that depend on the surface's own body do not touch it, and

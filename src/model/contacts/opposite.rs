@@ -1,10 +1,10 @@
 //! The other side of a contact, as far as its law depends on it: a shape on a body or on the ground, or facets.
 
-use crate::elements::contact::facets::facet_gap;
-use crate::elements::contact::{ContactPoint, Facet, Surface};
-use crate::math::Vec3;
-use crate::model::places::nodes::Topology;
-use crate::state::Node;
+use crate::places::nodes::Topology;
+use base::math::Vec3;
+use mechanics::elements::contact::facets::facet_gap;
+use mechanics::elements::contact::{ContactPoint, Facet, Surface};
+use mechanics::state::Node;
 
 /// What points meet in a contact.
 #[derive(Clone, Copy)]
@@ -62,7 +62,7 @@ impl Opposite<'_> {
             Opposite::Facets(facets) => {
                 let nodes: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
                 let may_touch =
-                    |e: usize, facet: usize| !crate::elements::contact::facets::is_own(&points[e], &facets[facet]);
+                    |e: usize, facet: usize| !mechanics::elements::contact::facets::is_own(&points[e], &facets[facet]);
                 facet_gap(facets, points, &may_touch, &nodes, &mut Vec::new())
             }
         }

@@ -1,21 +1,21 @@
 //! The points of `[[contacts]]` that may touch a surface: nodes, places between them, corners of bodies.
 
-use crate::deck::contacts as words;
-use crate::deck::parts::PartIndex;
-use crate::deck::words::Names;
-use crate::diagnostic::At;
-use crate::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, TouchKind, Toucher};
-use crate::math::convex::{ConvexShape, Spherocylinder};
-use crate::math::cylinder::RoundCylinder;
-use crate::math::polyhedron::Polyhedron;
-use crate::math::{Vec3, curved_faces};
-use crate::model::contacts::sight::{Opening, Sight};
-use crate::model::data::{NodeWeights, lattice};
-use crate::model::places::nodes::{Nodes, Topology};
-use crate::model::places::place::Place;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::solids::Touching;
+use crate::contacts::sight::{Opening, Sight};
+use crate::data::{NodeWeights, lattice};
+use crate::places::nodes::{Nodes, Topology};
+use crate::places::place::Place;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use base::diagnostic::At;
+use base::math::convex::{ConvexShape, Spherocylinder};
+use base::math::cylinder::RoundCylinder;
+use base::math::polyhedron::Polyhedron;
+use base::math::{Vec3, curved_faces};
+use deck::contacts as words;
+use deck::parts::PartIndex;
+use deck::words::Names;
+use mechanics::elements::contact::{ContactPoint, ConvexBody, MOST_NODES, TouchKind, Toucher};
+use mechanics::solids::Touching;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::sync::Arc;

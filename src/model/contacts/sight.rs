@@ -1,8 +1,8 @@
 //! Whether a surface may pass between the points that are to touch it.
 
-use crate::elements::contact::{Surface, Toucher, passing_width};
-use crate::model::report::{Owner, Report};
-use crate::names::short;
+use crate::report::{Owner, Report};
+use base::names::short;
+use mechanics::elements::contact::{Surface, Toucher, passing_width};
 use std::collections::BTreeSet;
 
 /// The widest opening between the points of a body or a part.

@@ -1,14 +1,14 @@
 //! The penalty stiffness where the deck leaves it open: by the material and size of what touches, by weight and by speed. It does
 //! not depend on the time step, so that results converge with it.
 
-use crate::deck::Deck;
-use crate::elements::contact::ContactPoint;
-use crate::math::Vec3;
-use crate::model::contacts::opposite::Opposite;
-use crate::model::places::nodes::Topology;
-use crate::model::scene::Scene;
-use crate::model::values::{vec3, vec3_or_zero};
-use crate::names::short;
+use crate::contacts::opposite::Opposite;
+use crate::places::nodes::Topology;
+use crate::scene::Scene;
+use crate::values::{vec3, vec3_or_zero};
+use base::math::Vec3;
+use base::names::short;
+use deck::Deck;
+use mechanics::elements::contact::ContactPoint;
 use std::collections::HashSet;
 
 /// The part of the size of what touches that weight on one point presses it in: nobody sees it.
@@ -97,7 +97,7 @@ impl Meets<'_, '_> {
         }
         let (nodes, stiffnesses) = (&self.topology.list, &self.scene.parts.stiffnesses);
         let softest = |touches: &dyn Fn(&[usize]) -> bool| {
-            let stiffest = |part: &crate::model::data::Part| {
+            let stiffest = |part: &crate::data::Part| {
                 let elements = (0..part.elements()).filter(|&element| touches(part.nodes(element)));
                 elements.filter_map(|element| part.stretching(element, nodes, stiffnesses)).reduce(f64::max)
             };
@@ -199,7 +199,7 @@ impl Meets<'_, '_> {
 
     /// The largest velocity that tables of initial motion give.
     fn given_speed(&self) -> f64 {
-        let of = |table: &crate::deck::initial::Initial| {
+        let of = |table: &deck::initial::Initial| {
             let v = table.velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
             let turning = table.angular_velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
             v + table.normal_velocity.as_ref().map_or(0.0, |at| at.value.abs()) + turning * self.size()

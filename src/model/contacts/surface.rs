@@ -1,15 +1,15 @@
 //! The surface of `[[contacts]]` in the frame of the node that carries it.
 
-use crate::deck::contacts as words;
-use crate::deck::words::kinds::OneOf;
-use crate::diagnostic::At;
-use crate::elements::contact::Surface;
-use crate::math::Vec3;
-use crate::math::convex::{ConvexShape, Spherocylinder};
-use crate::model::places::nodes::Topology;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::solids::Touching;
+use crate::places::nodes::Topology;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use base::diagnostic::At;
+use base::math::Vec3;
+use base::math::convex::{ConvexShape, Spherocylinder};
+use deck::contacts as words;
+use deck::words::kinds::OneOf;
+use mechanics::elements::contact::Surface;
+use mechanics::solids::Touching;
 
 /// The node that carries a surface, and the surface in its frame.
 pub fn read_surface<'d>(

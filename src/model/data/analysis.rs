@@ -3,8 +3,8 @@
 use super::modes::{ModeKind, ModesAsked};
 use super::stage::RunStage;
 use super::step_length::{FIRST_STEP, StepLength};
-use crate::deck::analysis::{Gyroscopic, Method, Update};
-use crate::integrators::Scheme;
+use deck::analysis::{Gyroscopic, Method, Update};
+use mechanics::integrators::Scheme;
 use std::sync::Arc;
 
 /// The kind of the analysis, its time and its steps.

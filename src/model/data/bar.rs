@@ -4,11 +4,11 @@ use super::integrals::{MassIntegrals, along};
 use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
-use crate::deck::part_table::MassKind;
-use crate::materials::MaterialLaw;
-use crate::math::{Mat3, Vec3};
-use crate::quantities::{AXIAL_FORCE, Column, PLASTIC_STRAIN};
-use crate::sections::Stiffness;
+use base::math::{Mat3, Vec3};
+use base::quantities::{AXIAL_FORCE, Column, PLASTIC_STRAIN};
+use deck::part_table::MassKind;
+use mechanics::materials::MaterialLaw;
+use mechanics::sections::Stiffness;
 
 /// A line of nodes, each two of them joined by an element that resists stretching alone.
 #[derive(Debug, Clone)]

@@ -5,11 +5,11 @@ use super::lattice;
 use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
-use crate::deck::part_table::MassKind;
-use crate::elements::beam::FibreModel;
-use crate::math::{Mat3, Vec3};
-use crate::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES};
-use crate::sections::Stiffness;
+use base::math::{Mat3, Vec3};
+use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES};
+use deck::part_table::MassKind;
+use mechanics::elements::beam::FibreModel;
+use mechanics::sections::Stiffness;
 
 /// A line of nodes, cut into elements with one or more inner nodes.
 #[derive(Debug, Clone)]

@@ -1,9 +1,9 @@
 //! Rigid links, joints and restraints.
 
-use crate::constraints::joint::{ConstraintEquation, Drive};
-use crate::deck::supports::History;
-use crate::math::Vec3;
-use crate::math::turn::RotationAngles;
+use base::math::Vec3;
+use base::math::turn::RotationAngles;
+use deck::supports::History;
+use mechanics::constraints::joint::{ConstraintEquation, Drive};
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]

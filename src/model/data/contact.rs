@@ -1,8 +1,8 @@
 //! Contacts: points against a surface.
 
 use super::part_answers::PartAnswers;
-use crate::elements::contact::{ContactLaw, ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, Toucher};
-use crate::quantities::{CONTACT, CONTACT_FORCE, Column};
+use base::quantities::{CONTACT, CONTACT_FORCE, Column};
+use mechanics::elements::contact::{ContactLaw, ContactPoint, ConvexBody, Facet, FacetTouchers, Surface, Toucher};
 use std::collections::BTreeSet;
 
 /// Points against a surface.

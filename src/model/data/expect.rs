@@ -1,7 +1,7 @@
 //! Values that a run is expected to reach.
 
 use super::displacement_target::DisplacementTarget;
-use crate::deck::parts::PartIndex;
+use deck::parts::PartIndex;
 
 /// An expected value, checked at the end of the run.
 #[derive(Debug, Clone)]

@@ -1,7 +1,7 @@
 //! Velocities that the deck gives, as functions of the place: a stage begins with them where nodes then are.
 
-use crate::amplitude::Amplitude;
-use crate::math::Vec3;
+use base::math::Vec3;
+use mechanics::amplitude::Amplitude;
 use std::sync::Arc;
 
 /// A factor on a velocity that depends on the place.

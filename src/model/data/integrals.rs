@@ -1,6 +1,6 @@
 //! Mass and inertia of parts as integrals over their elements.
 
-use crate::math::{Mat3, Vec3};
+use base::math::{Mat3, Vec3};
 
 /// Integrals of density over elements: 1, x, x xᵀ; and the rotary inertia. Also of 1 instead of density, where there is none.
 #[derive(Default)]

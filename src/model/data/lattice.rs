@@ -1,8 +1,8 @@
 //! Places between the nodes of elements, as weighted sums of these.
 
 use super::part_answers::NodeWeights;
-use crate::math::curved_faces::{self, CurvedFace, NineNodes, SixNodes, facets};
-use crate::math::quadrature;
+use base::math::curved_faces::{self, CurvedFace, NineNodes, SixNodes, facets};
+use base::math::quadrature;
 use std::collections::HashSet;
 
 /// So many places between neighbouring nodes of lines, by the nodes of each.

@@ -2,12 +2,12 @@
 
 use super::loading::OwnDamping;
 use super::part_answers::{Drawing, LinearSpring, PartAnswers};
-use crate::constraints::joint::ConstraintEquation;
-use crate::elements::coordinate_law::CoordinateLaw;
-use crate::elements::link::LinkLaw;
-use crate::elements::link_failure::LinkFailure;
-use crate::math::{Mat3, Vec3};
-use crate::quantities::{Column, LINK};
+use base::math::{Mat3, Vec3};
+use base::quantities::{Column, LINK};
+use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::elements::coordinate_law::CoordinateLaw;
+use mechanics::elements::link::LinkLaw;
+use mechanics::elements::link_failure::LinkFailure;
 
 /// A spring, damper or bushing between two nodes.
 #[derive(Debug, Clone)]

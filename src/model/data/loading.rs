@@ -1,10 +1,11 @@
 //! Loads, ground motion and damping.
 
 use super::moving_frame::MovingFrames;
-use crate::amplitude::Amplitude;
-use crate::constraints::joint::ConstraintEquation;
-use crate::elements::pressure::Face;
-use crate::math::Vec3;
+use base::math::Vec3;
+use mechanics::amplitude::Amplitude;
+use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::elements::pressure::Face;
+use mechanics::state::Node;
 
 /// The loads of a scene.
 #[derive(Debug, Clone)]
@@ -77,6 +78,34 @@ pub struct LoadedCoordinate {
     pub lock: ConstraintEquation,
     /// Force or moment along the coordinate.
     pub effort: f64,
+}
+
+impl LoadedCoordinate {
+    /// The way of the coordinate between two configurations, less than half a turn apart. The load on the second end counts it, that on the
+    /// first none of it.
+    pub fn way(&self, from: &[Node], to: &[Node]) -> f64 {
+        if self.end == 0 {
+            return 0.0;
+        }
+        let [before, after] = [from, to].map(|nodes| {
+            let [a, b] = self.ends.map(|end| &nodes[end]);
+            self.lock.gap(a, b)[0]
+        });
+        self.lock.nearest(after - before)
+    }
+
+    /// Writes the load stiffness −∂(f, m)/∂(x, θ) of both ends, 12×12 in row-major order.
+    pub fn stiffness(&self, factor: f64, nodes: &[Node], K: &mut [f64]) {
+        K.fill(0.0);
+        let [a, b] = self.ends.map(|end| &nodes[end]);
+        self.lock.stiffness(a, b, -factor * self.effort, |row, column, block| {
+            for i in 0..3 {
+                for j in 0..3 {
+                    K[12 * (3 * row + i) + 3 * column + j] += block[(i, j)];
+                }
+            }
+        });
+    }
 }
 
 impl Load {

@@ -25,11 +25,6 @@ mod stage;
 mod step_length;
 mod study;
 
-pub use crate::deck::analysis::{Gyroscopic, Method, Update};
-pub use crate::deck::output::{ContactRows, SectionPlaces};
-pub use crate::deck::part_table::MassKind;
-pub use crate::deck::parts::{PartIndex, PartKind};
-pub use crate::deck::supports::History;
 pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
@@ -38,6 +33,11 @@ pub use constraints::{
     PrescribedMotion, Restraint,
 };
 pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
+pub use deck::analysis::{Gyroscopic, Method, Update};
+pub use deck::output::{ContactRows, SectionPlaces};
+pub use deck::part_table::MassKind;
+pub use deck::parts::{PartIndex, PartKind};
+pub use deck::supports::History;
 pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};

@@ -9,8 +9,8 @@ use super::output::Output;
 use super::part::{Part, PartType};
 use super::step_length::{SAFE, SAFE_WHERE_STRUCK};
 use super::study::Study;
-use crate::deck::parts::PartKind;
-use crate::sections::Stiffness;
+use deck::parts::PartKind;
+use mechanics::sections::Stiffness;
 
 /// A scene, checked and ready to be planned.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! Frames that supports move, in which parts stand.
 
-use crate::math::Vec3;
+use base::math::Vec3;
 
 /// A frame whose velocity is that of nodes that supports move.
 #[derive(Debug, Clone, Copy, PartialEq)]

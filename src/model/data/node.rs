@@ -1,8 +1,8 @@
 //! Nodes, and their masses: rigid bodies and point masses.
 
 use super::GivenVelocity;
-use crate::math::{Mat3, Vec3};
-use crate::solids::SolidShape;
+use base::math::{Mat3, Vec3};
+use mechanics::solids::SolidShape;
 use std::sync::Arc;
 
 /// The deck's words for the six degrees of freedom of a node.

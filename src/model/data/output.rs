@@ -1,7 +1,7 @@
 //! The output of a run.
 
 use super::step_length::StepLength;
-use crate::deck::output::{ContactRows, SectionPlaces};
+use deck::output::{ContactRows, SectionPlaces};
 
 /// The tables and fields that the run writes.
 #[derive(Debug, Clone)]

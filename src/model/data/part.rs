@@ -10,11 +10,11 @@ use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, LinearSpring, NodeWeights, PartAnswers};
 use super::shell::Shell;
-use crate::deck::part_table::MassKind;
-use crate::deck::parts::PartKind;
-use crate::math::Vec3;
-use crate::quantities::Column;
-use crate::sections::Stiffness;
+use base::math::Vec3;
+use base::quantities::Column;
+use deck::part_table::MassKind;
+use deck::parts::PartKind;
+use mechanics::sections::Stiffness;
 
 /// A part of the scene; [`super::Model::parts`] lists them kind by kind in the order of the variants.
 #[derive(Debug, Clone)]

@@ -3,10 +3,10 @@
 use super::integrals::MassIntegrals;
 use super::loading::OwnDamping;
 use super::node::Node;
-use crate::deck::part_table::MassKind;
-use crate::math::{Mat3, Vec3};
-use crate::quantities::Column;
-use crate::sections::Stiffness;
+use base::math::{Mat3, Vec3};
+use base::quantities::Column;
+use deck::part_table::MassKind;
+use mechanics::sections::Stiffness;
 
 /// How an element is drawn.
 pub enum Drawing<'p> {

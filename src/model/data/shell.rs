@@ -5,11 +5,11 @@ use super::lattice;
 use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, NodeWeights, PartAnswers};
-use crate::deck::part_table::MassKind;
-use crate::elements::shell::{self, LayerModel, MOST_NODES, Plate};
-use crate::math::{Mat3, Vec3};
-use crate::quantities::{Column, PLASTIC_STRAIN, SHELL_RESULTANTS, VON_MISES};
-use crate::sections::Stiffness;
+use base::math::{Mat3, Vec3};
+use base::quantities::{Column, PLASTIC_STRAIN, SHELL_RESULTANTS, VON_MISES};
+use deck::part_table::MassKind;
+use mechanics::elements::shell::{self, LayerModel, MOST_NODES, Plate};
+use mechanics::sections::Stiffness;
 
 /// A surface of elements of one shape. A part of the deck that has several is as many shells of the same name, one after the other.
 #[derive(Debug, Clone)]

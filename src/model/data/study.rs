@@ -1,7 +1,7 @@
 //! The variants that `rdsolve study` runs.
 
-use crate::deck::analysis::Method;
-use crate::integrators::Scheme;
+use deck::analysis::Method;
+use mechanics::integrators::Scheme;
 use std::sync::Arc;
 
 /// The schemes, methods, steps and meshes to be compared, and the quantities whose errors are measured.
@@ -57,7 +57,7 @@ pub struct Quantity {
     pub label: String,
     /// True for a body, whose motion is in bodies.csv.
     pub body: bool,
-    /// Column of [`crate::quantities::MOTION`], or one that follows from it.
+    /// Column of [`base::quantities::MOTION`], or one that follows from it.
     pub column: &'static str,
 }
 

@@ -1,8 +1,8 @@
 //! Scenes in which nothing can move.
 
-use crate::deck::Deck;
-use crate::model::places::nodes::Topology;
-use crate::model::report::Report;
+use crate::places::nodes::Topology;
+use crate::report::Report;
+use deck::Deck;
 
 /// Warns where supports hold every degree of freedom at zero, as one on a set with more nodes than were meant does.
 pub fn check_all_held(deck: &Deck, topology: &Topology, report: &mut Report) {

@@ -1,10 +1,10 @@
 //! Amplitudes whose times do not fit those of the run: tables that begin after it or end before it, and what acts only later.
 
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::model::doubts::usage::amplitudes_over_time;
-use crate::model::report::Report;
-use crate::names::short;
+use crate::doubts::usage::amplitudes_over_time;
+use crate::report::Report;
+use base::names::short;
+use deck::Deck;
+use mechanics::amplitude::Amplitude;
 
 /// Times are equal within this part of the run: tables are written with six digits or more.
 const SAME_TIME: f64 = 1e-6;

@@ -1,15 +1,15 @@
 //! Angles in degrees where the deck takes radians.
 
-use crate::constraints::joints::kind::Coordinate;
-use crate::deck::Deck;
-use crate::deck::amplitudes::Amplitude;
-use crate::deck::joints::Joint;
-use crate::deck::supports::{History, Motion};
-use crate::deck::words::Maybe;
-use crate::deck::words::kinds::OneOf;
-use crate::diagnostic::Span;
-use crate::model::report::Report;
-use crate::names::short;
+use crate::report::Report;
+use base::diagnostic::Span;
+use base::names::short;
+use deck::Deck;
+use deck::amplitudes::Amplitude;
+use deck::joints::Joint;
+use deck::supports::{History, Motion};
+use deck::words::Maybe;
+use deck::words::kinds::OneOf;
+use mechanics::constraints::joints::kind::Coordinate;
 use std::f64::consts::TAU;
 
 /// Angles in degrees are mostly multiples of this, and radians hardly ever.

@@ -1,10 +1,10 @@
 //! When places count as one: the elements of parts as segments and faces, and what lies on them.
 
-use crate::math::Vec3;
-use crate::math::curved_faces::facets;
-use crate::model::data::PartIndex;
-use crate::model::places::nodes::Topology;
-use crate::model::scene::Scene;
+use crate::data::PartIndex;
+use crate::places::nodes::Topology;
+use crate::scene::Scene;
+use base::math::Vec3;
+use base::math::curved_faces::facets;
 
 /// Places are the same within this part of the median length of an element, ...
 const OF_ELEMENT: f64 = 1e-4;

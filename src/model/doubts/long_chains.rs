@@ -1,9 +1,9 @@
 //! Chains of bodies that hang one on the other: elimination couples each body of a chain with all before it, so long ones are held by
 //! multipliers, which couple neighbours alone.
 
-use crate::model::data::{DependentNode, Joint};
-use crate::model::joints::equations;
-use crate::model::places::nodes::Nodes;
+use crate::data::{DependentNode, Joint};
+use crate::joints::equations;
+use crate::places::nodes::Nodes;
 use std::collections::HashSet;
 
 /// Hinges one behind the other up to which elimination is kept. Its time grows with the third power of their number; at thirty both

@@ -16,14 +16,14 @@ pub mod unjoined;
 pub mod unused;
 pub mod usage;
 
-use crate::deck::Deck;
-use crate::deck::read::ROOT;
-use crate::deck::words::Named;
-use crate::diagnostic::Diagnostic;
-use crate::model::doubts::usage::{named_amplitudes, named_materials, named_sections};
-use crate::model::places::nodes::Topology;
-use crate::model::report::Report;
-use crate::model::values::span;
+use crate::doubts::usage::{named_amplitudes, named_materials, named_sections};
+use crate::places::nodes::Topology;
+use crate::report::Report;
+use crate::values::span;
+use base::diagnostic::Diagnostic;
+use deck::Deck;
+use deck::read::ROOT;
+use deck::words::Named;
 use std::collections::HashSet;
 
 /// Reports a deck without anything that could move.

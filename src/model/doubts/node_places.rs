@@ -1,10 +1,10 @@
 //! Where the deck names each node, for what is found out about a sound model.
 
-use crate::diagnostic::Span;
-use crate::model::names::Names;
-use crate::model::parts::Parts;
-use crate::model::places::nodes::Topology;
-use crate::model::places::place::Place;
+use crate::names::Names;
+use crate::parts::Parts;
+use crate::places::nodes::Topology;
+use crate::places::place::Place;
+use base::diagnostic::Span;
 
 /// Tells nodes where the deck names them: itself, the attachment that makes it depend on another, or its part.
 pub fn place_nodes(names: &Names, parts: &Parts, topology: &mut Topology) {

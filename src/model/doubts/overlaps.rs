@@ -3,12 +3,12 @@
 //! An edge of an element lies on another part where its ends and its middle do. Parts that cross have one place in common, and no
 //! edge. Bars carry forces between their ends only, and run through other parts as cables do.
 
-use crate::math::Vec3;
-use crate::model::data::{PartIndex, PartKind};
-use crate::model::doubts::coincidence::{Coincidence, corners, lies_on};
-use crate::model::doubts::ties::Ties;
-use crate::model::places::cells::Cells;
-use crate::model::places::nodes::Topology;
+use crate::data::{PartIndex, PartKind};
+use crate::doubts::coincidence::{Coincidence, corners, lies_on};
+use crate::doubts::ties::Ties;
+use crate::places::cells::Cells;
+use crate::places::nodes::Topology;
+use base::math::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Two parts of which the one lies on the other.

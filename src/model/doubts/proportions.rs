@@ -2,13 +2,13 @@
 
 use std::collections::HashMap;
 
-use crate::deck::parts::DeckPart;
-use crate::math::{Vec3, curved_faces};
-use crate::model::data::Part;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::Report;
-use crate::model::scene::Scene;
-use crate::names::short;
+use crate::data::Part;
+use crate::places::nodes::Nodes;
+use crate::report::Report;
+use crate::scene::Scene;
+use base::math::{Vec3, curved_faces};
+use base::names::short;
+use deck::parts::DeckPart;
 use std::f64::consts::PI;
 
 /// Numbers of sections are rounded to three digits in tables; beyond this part an inequality is violated.

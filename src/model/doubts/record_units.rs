@@ -1,13 +1,13 @@
 //! Records whose unit is not that of the deck: the headers of data bases name it, and values are not converted.
 
-use crate::deck::Deck;
-use crate::deck::supports::{History, Motion};
-use crate::deck::words::Maybe;
-use crate::diagnostic::Span;
-use crate::model::records::Record;
-use crate::model::report::Report;
-use crate::names::short;
 use crate::record::{MotionQuantity, RecordUnit};
+use crate::records::Record;
+use crate::report::Report;
+use base::diagnostic::Span;
+use base::names::short;
+use deck::Deck;
+use deck::supports::{History, Motion};
+use deck::words::Maybe;
 
 /// Records are scaled up and down for analyses of one strength after the other, seldom by more than this.
 const SCALING: f64 = 50.0;

@@ -1,12 +1,12 @@
 //! Badly shaped shell elements. They pass the patch test, so they are accepted, but they lose precision.
 
-use crate::deck::Deck;
-use crate::math::{Vec3, curved_faces};
-use crate::model::data::Drawing;
-use crate::model::parts::Parts;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::Report;
-use crate::names::short;
+use crate::data::Drawing;
+use crate::parts::Parts;
+use crate::places::nodes::Nodes;
+use crate::report::Report;
+use base::math::{Vec3, curved_faces};
+use base::names::short;
+use deck::Deck;
 
 /// Longest edge over least height, beyond which bending has lost six digits.
 const LONG: f64 = 1e3;

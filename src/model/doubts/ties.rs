@@ -1,7 +1,7 @@
 //! Which nodes something holds together without an element between them: joints, attachments, links, contacts, the ground.
 
-use crate::model::data::Joint;
-use crate::model::places::nodes::Topology;
+use crate::data::Joint;
+use crate::places::nodes::Topology;
 use std::collections::HashSet;
 
 /// Groups of nodes whose places depend on each other.

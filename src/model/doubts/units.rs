@@ -1,13 +1,13 @@
 //! Numbers of the wrong units: those that no material and no planet has, alone or together.
 
-use crate::deck::Deck;
-use crate::deck::materials::Material;
-use crate::deck::output::Units;
-use crate::deck::words::kinds::OneOf;
-use crate::diagnostic::At;
-use crate::model::report::Report;
-use crate::model::values::vec3;
-use crate::names::short;
+use crate::report::Report;
+use crate::values::vec3;
+use base::diagnostic::At;
+use base::names::short;
+use deck::Deck;
+use deck::materials::Material;
+use deck::output::Units;
+use deck::words::kinds::OneOf;
 
 /// Young's moduli from rubber to diamond, in Pa.
 const MODULUS: [f64; 2] = [1e5, 1.3e12];
@@ -46,29 +46,6 @@ const PRESSURES: [f64; 5] = [1.0, 1e6, 1e9, 6894.76, 6.89476e6];
 const NEVER: f64 = 1e5;
 /// A hardening modulus below this part of Young's modulus has no effect.
 const NO_HARDENING: f64 = 2e-8;
-
-impl Units {
-    /// The deck's word for it.
-    pub fn label(self) -> &'static str {
-        match self {
-            Units::Si => "SI",
-            Units::MKgS => "m-kg-s",
-            Units::MmTS => "mm-t-s",
-            Units::MmKgS => "mm-kg-s",
-            Units::MmKgMs => "mm-kg-ms",
-        }
-    }
-
-    /// Its length, mass and time in metres, kilograms and seconds.
-    pub fn scales(self) -> [f64; 3] {
-        match self {
-            Units::Si | Units::MKgS => [1.0, 1.0, 1.0],
-            Units::MmTS => [1e-3, 1e3, 1.0],
-            Units::MmKgS => [1e-3, 1.0, 1.0],
-            Units::MmKgMs => [1e-3, 1.0, 1e-3],
-        }
-    }
-}
 
 /// Warns of numbers that are implausible in the units that the deck names, and of those that do not go together in any.
 pub fn check_units(deck: &Deck, report: &mut Report) {

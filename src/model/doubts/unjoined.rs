@@ -2,17 +2,17 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::diagnostic::Span;
-use crate::math::Vec3;
-use crate::model::bodies::title;
-use crate::model::data::PartIndex;
-use crate::model::doubts::coincidence::{Coincidence, corners, lies_on, pieces};
-use crate::model::doubts::overlaps::{Overlap, overlaps};
-use crate::model::doubts::ties::Ties;
-use crate::model::places::cells::Cells;
-use crate::model::places::nodes::Topology;
-use crate::model::report::Report;
-use crate::model::scene::Scene;
+use crate::bodies::title;
+use crate::data::PartIndex;
+use crate::doubts::coincidence::{Coincidence, corners, lies_on, pieces};
+use crate::doubts::overlaps::{Overlap, overlaps};
+use crate::doubts::ties::Ties;
+use crate::places::cells::Cells;
+use crate::places::nodes::Topology;
+use crate::report::Report;
+use crate::scene::Scene;
+use base::diagnostic::Span;
+use base::math::Vec3;
 
 /// Warns once for each pair of parts that touch where nothing holds them together. The deck is sound.
 pub fn check_unjoined(scene: &Scene, topology: &Topology, ties: Ties, report: &mut Report) {

@@ -1,7 +1,7 @@
 //! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
 
-use crate::elements::pressure::Face;
-use crate::model::data::{ArcLength, ExpectAt, LoadAlong, Model, StepLength, Stop, StopQuantity, When};
+use crate::data::{ArcLength, ExpectAt, LoadAlong, Model, StepLength, Stop, StopQuantity, When};
+use mechanics::elements::pressure::Face;
 
 /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
 /// rigid parts have none.

@@ -1,6 +1,6 @@
 //! Which materials, sections and amplitudes of a deck something names.
 
-use crate::deck::Deck;
+use deck::Deck;
 use std::collections::HashSet;
 
 /// Materials that a part of the deck names.

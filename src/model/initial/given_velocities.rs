@@ -2,14 +2,14 @@
 
 use std::collections::HashMap;
 
-use crate::amplitude::{Amplitude, Side};
-use crate::diagnostic::Span;
-use crate::math::Vec3;
-use crate::model::data::{DIRECTIONS, GivenVelocity, History, Restraint};
-use crate::model::places::nodes::Nodes;
-use crate::model::places::spot::Spot;
-use crate::model::report::Report;
-use crate::names::short;
+use crate::data::{DIRECTIONS, GivenVelocity, History, Restraint};
+use crate::places::nodes::Nodes;
+use crate::places::spot::Spot;
+use crate::report::Report;
+use base::diagnostic::Span;
+use base::math::Vec3;
+use base::names::short;
+use mechanics::amplitude::{Amplitude, Side};
 
 /// Two values of the same velocity may differ by the rounding of formulas that give them twelve digits, and a prescribed motion from
 /// the velocity that the deck writes beside it by the rounding of six digits.

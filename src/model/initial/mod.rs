@@ -2,18 +2,18 @@
 
 pub mod given_velocities;
 
-use crate::amplitude::Amplitude;
-use crate::deck::initial::{Initial, Profile};
-use crate::deck::words::Table;
-use crate::diagnostic::At;
-use crate::math::Vec3;
-use crate::model::data::{DependentNode, GivenVelocity, InitialMotion, PlaceFactor};
-use crate::model::initial::given_velocities::{GivenVelocities, Giver, InitialQuantity};
-use crate::model::places::nodes::Topology;
-use crate::model::places::spot::{Label, Spot};
-use crate::model::report::{Owner, Report};
-use crate::model::scene::{Reach, Scene};
-use crate::model::values::{flag, span, vec3, vec3_or_zero};
+use crate::data::{DependentNode, GivenVelocity, InitialMotion, PlaceFactor};
+use crate::initial::given_velocities::{GivenVelocities, Giver, InitialQuantity};
+use crate::places::nodes::Topology;
+use crate::places::spot::{Label, Spot};
+use crate::report::{Owner, Report};
+use crate::scene::{Reach, Scene};
+use crate::values::{flag, span, vec3, vec3_or_zero};
+use base::diagnostic::At;
+use base::math::Vec3;
+use deck::initial::{Initial, Profile};
+use deck::words::Table;
+use mechanics::amplitude::Amplitude;
 use std::collections::HashSet;
 use std::sync::Arc;
 

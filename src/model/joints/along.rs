@@ -1,27 +1,27 @@
 //! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops, friction and what yields.
 
-use crate::amplitude::Amplitude;
-use crate::constraints::joints::JointKind;
-use crate::constraints::joints::kind::Coordinate;
-use crate::deck::joints as words;
-use crate::deck::words::Table;
-use crate::diagnostic::{At, Span};
-use crate::elements::contact::restitution::{LEAST, Loss, number};
-use crate::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
-use crate::elements::hysteresis::Hysteresis;
-use crate::math::{Mat3, Vec3};
-use crate::model::data::{
+use crate::data::{
     AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadAlong, LoadedCoordinate, Node,
     OwnDamping, PrescribedMotion,
 };
-use crate::model::links::ModelLinks;
-use crate::model::own_damping::of_spring;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::{flag, span};
-use crate::names::short;
-use crate::words::kinds::{OneOf, Values};
+use crate::links::ModelLinks;
+use crate::own_damping::of_spring;
+use crate::places::nodes::Nodes;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::{flag, span};
+use base::diagnostic::{At, Span};
+use base::math::{Mat3, Vec3};
+use base::names::short;
+use base::words::kinds::{OneOf, Values};
+use deck::joints as words;
+use deck::words::Table;
+use mechanics::amplitude::Amplitude;
+use mechanics::constraints::joints::JointKind;
+use mechanics::constraints::joints::kind::Coordinate;
+use mechanics::elements::contact::restitution::{LEAST, Loss, number};
+use mechanics::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
+use mechanics::elements::hysteresis::Hysteresis;
 use std::collections::HashSet;
 
 /// What `[[joints]]` make.

@@ -1,10 +1,10 @@
 //! Gears: joints whose coordinates are multiples of each other follow one number that they share.
 
-use crate::model::data::{Joint, JointDrive};
-use crate::model::joints::along::{Gear, is_later, size};
-use crate::model::places::nodes::Nodes;
-use crate::model::report::Report;
-use crate::model::scene::Scene;
+use crate::data::{Joint, JointDrive};
+use crate::joints::along::{Gear, is_later, size};
+use crate::places::nodes::Nodes;
+use crate::report::Report;
+use crate::scene::Scene;
 
 /// Lets geared joints, known by their places in the list, follow the joint that their gears lead to. Where that one is driven they follow its
 /// drive, elsewhere a number that all of them share.

@@ -3,20 +3,20 @@
 pub mod along;
 pub mod gears;
 
-use crate::amplitude::{Amplitude, Side};
-use crate::constraints::joint::{ConstraintEquation, rotations, translations};
-use crate::constraints::joints::JointKind;
-use crate::diagnostic::Diagnostic;
-use crate::math::{Mat3, Vec3};
-use crate::model::data::{History, Joint, Node, PrescribedMotion};
-use crate::model::joints::along::{Along, Joints, PlacedJoint};
-use crate::model::links::ModelLinks;
-use crate::model::places::ends::EndTable;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::names::short;
-use crate::state;
+use crate::data::{History, Joint, Node, PrescribedMotion};
+use crate::joints::along::{Along, Joints, PlacedJoint};
+use crate::links::ModelLinks;
+use crate::places::ends::EndTable;
+use crate::places::nodes::Nodes;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use base::diagnostic::Diagnostic;
+use base::math::{Mat3, Vec3};
+use base::names::short;
+use mechanics::amplitude::{Amplitude, Side};
+use mechanics::constraints::joint::{ConstraintEquation, rotations, translations};
+use mechanics::constraints::joints::JointKind;
+use mechanics::state;
 
 /// Reads `[[joints]]`; what acts along their coordinates comes after the `links` of the deck, and motions without an amplitude add one.
 pub fn joints<'d>(

@@ -2,23 +2,23 @@
 
 pub mod pretension;
 
-use crate::constraints::joint::ConstraintEquation;
-use crate::deck::links as words;
-use crate::deck::words::{Maybe, NumberOrTable, Numbers, Table};
-use crate::diagnostic::{At, Span};
-use crate::elements::coordinate_law::CoordinateLaw;
-use crate::elements::link::LinkLaw;
-use crate::elements::link_failure::LinkFailure;
-use crate::math::Mat3;
-use crate::model::data::{Link, LinkKind, Load, OwnDamping};
-use crate::model::links::pretension::pretension;
-use crate::model::own_damping::of_spring;
-use crate::model::places::axes::axes;
-use crate::model::places::ends::EndTable;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::span;
+use crate::data::{Link, LinkKind, Load, OwnDamping};
+use crate::links::pretension::pretension;
+use crate::own_damping::of_spring;
+use crate::places::axes::axes;
+use crate::places::ends::EndTable;
+use crate::places::nodes::Nodes;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::span;
+use base::diagnostic::{At, Span};
+use base::math::Mat3;
+use deck::links as words;
+use deck::words::{Maybe, NumberOrTable, Numbers, Table};
+use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::elements::coordinate_law::CoordinateLaw;
+use mechanics::elements::link::LinkLaw;
+use mechanics::elements::link_failure::LinkFailure;
 
 /// The links of a model: those of the deck, then those along coordinates of joints.
 #[derive(Default)]

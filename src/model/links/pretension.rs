@@ -1,12 +1,12 @@
 //! Links that are pulled to a force in a static stage, and then keep the length that was taken up.
 
-use crate::deck::links as words;
-use crate::elements::link::LinkLaw;
-use crate::math::Vec3;
-use crate::model::data::{AnalysisKind, LinkKind, Load};
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::span;
+use crate::data::{AnalysisKind, LinkKind, Load};
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::span;
+use base::math::Vec3;
+use deck::links as words;
+use mechanics::elements::link::LinkLaw;
 
 /// The pretension of a link in one stage.
 pub struct Pretension {

@@ -3,16 +3,16 @@
 pub mod per_length;
 pub mod spread;
 
-use crate::deck::loads as words;
-use crate::deck::words::Table;
-use crate::diagnostic::At;
-use crate::model::data::{Actors, Load, Pressure};
-use crate::model::loads::spread::spread_load;
-use crate::model::places::nodes::Topology;
-use crate::model::procedure::stops::NamedActors;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::{Reach, Scene};
-use crate::model::values::{directions, flag, span, vec3_or_zero};
+use crate::data::{Actors, Load, Pressure};
+use crate::loads::spread::spread_load;
+use crate::places::nodes::Topology;
+use crate::procedure::stops::NamedActors;
+use crate::report::{Owner, Report};
+use crate::scene::{Reach, Scene};
+use crate::values::{directions, flag, span, vec3_or_zero};
+use base::diagnostic::At;
+use deck::loads as words;
+use deck::words::Table;
 
 /// Loads of the scene, in the order of the deck.
 #[derive(Default)]

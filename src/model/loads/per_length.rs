@@ -1,10 +1,10 @@
 //! `[[loads]]` per length of beams and bars, as forces and moments on the nodes of their elements that do the same work.
 
-use crate::elements::beam;
-use crate::math::{Vec3, quadrature};
-use crate::model::data::{LineElement, Load, LoadAlong, Part};
-use crate::model::places::nodes::Topology;
-use crate::sections::Stiffness;
+use crate::data::{LineElement, Load, LoadAlong, Part};
+use crate::places::nodes::Topology;
+use base::math::{Vec3, quadrature};
+use mechanics::elements::beam;
+use mechanics::sections::Stiffness;
 
 /// Gauss points of an element, or of the part of it over which the load is linear: products of it with polynomials of the highest order
 /// are integrated exactly.

@@ -1,21 +1,21 @@
 //! `[[loads]]` spread over shells, along their edges, and along beams and bars.
 
-use crate::deck::loads as words;
-use crate::deck::parts::PartIndex;
-use crate::deck::words::{Names, Table};
-use crate::diagnostic::At;
-use crate::elements::pressure::Face;
-use crate::elements::shell;
-use crate::math::{Vec3, curved_faces, quadrature};
-use crate::model::data::{Load, Part, Pressure};
-use crate::model::loads::per_length::{LineLoad, is_chain};
-use crate::model::places::nodes::Topology;
-use crate::model::places::place::Place;
-use crate::model::places::spot::Spot;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::shells::edges::{Edge, edges_of_shells};
-use crate::model::values::{flag, span, vec3, vec3_or_zero};
+use crate::data::{Load, Part, Pressure};
+use crate::loads::per_length::{LineLoad, is_chain};
+use crate::places::nodes::Topology;
+use crate::places::place::Place;
+use crate::places::spot::Spot;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::shells::edges::{Edge, edges_of_shells};
+use crate::values::{flag, span, vec3, vec3_or_zero};
+use base::diagnostic::At;
+use base::math::{Vec3, curved_faces, quadrature};
+use deck::loads as words;
+use deck::parts::PartIndex;
+use deck::words::{Names, Table};
+use mechanics::elements::pressure::Face;
+use mechanics::elements::shell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// A load spread over shells, edges or lines, as forces on their nodes; a pressure that follows, as one on their faces.

@@ -1,9 +1,9 @@
 //! Axes of a frame, given by two vectors.
 
-use crate::deck::words::{Numbers, kinds};
-use crate::diagnostic::At;
-use crate::math::{Mat3, Vec3};
-use crate::model::report::Report;
+use crate::report::Report;
+use base::diagnostic::At;
+use base::math::{Mat3, Vec3};
+use deck::words::{Numbers, kinds};
 
 /// The frame whose x lies along the first vector of `axes` and whose x-y plane holds the second.
 pub fn axes(axes: &At<Vec<Numbers<3>>>, report: &mut Report) -> Option<Mat3> {

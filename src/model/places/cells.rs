@@ -1,6 +1,6 @@
 //! Points in cubic cells of space: those near a place are found without looking at all.
 
-use crate::math::Vec3;
+use base::math::Vec3;
 use std::collections::HashMap;
 
 /// Points by the cell in which they lie.

@@ -1,13 +1,13 @@
 //! The ends of links and joints: a point, a place on a body or a place on the ground.
 
-use crate::deck::links as words;
-use crate::deck::words::{Maybe, Table};
-use crate::diagnostic::Diagnostic;
-use crate::math::Vec3;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::values::{span, vec3};
+use crate::places::nodes::Nodes;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::values::{span, vec3};
+use base::diagnostic::Diagnostic;
+use base::math::Vec3;
+use deck::links as words;
+use deck::words::{Maybe, Table};
 
 /// An end as the deck has it.
 pub struct EndTable<'b, 'd> {

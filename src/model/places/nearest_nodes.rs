@@ -1,7 +1,7 @@
 //! The nearest nodes of a line of nodes.
 
-use crate::math::Vec3;
-use crate::model::places::nodes::Nodes;
+use crate::places::nodes::Nodes;
+use base::math::Vec3;
 use std::collections::HashSet;
 
 /// Nodes sorted along the axis in which they reach farthest, so that a search may stop where nothing nearer can come.

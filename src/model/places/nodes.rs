@@ -4,11 +4,11 @@
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{Deref, DerefMut};
 
-use crate::diagnostic::Span;
-use crate::math::Vec3;
-use crate::model::data::{DependentNode, Node, PrescribedMotion, Restraint};
-use crate::model::places::spot::Spot;
-use crate::model::report::Report;
+use crate::data::{DependentNode, Node, PrescribedMotion, Restraint};
+use crate::places::spot::Spot;
+use crate::report::Report;
+use base::diagnostic::Span;
+use base::math::Vec3;
 
 /// The nodes of a model that is being built.
 #[derive(Default)]

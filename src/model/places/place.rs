@@ -1,7 +1,7 @@
 //! What a name of the deck can stand for.
 
-use crate::deck::parts::PartIndex;
-use crate::model::group_names::GroupPlace;
+use crate::group_names::GroupPlace;
+use deck::parts::PartIndex;
 
 /// The thing that a name of the deck stands for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -1,6 +1,6 @@
 //! A node that the deck names, and what messages call it.
 
-use crate::diagnostic::Span;
+use base::diagnostic::Span;
 use std::fmt;
 
 /// A node that a list of names covers.

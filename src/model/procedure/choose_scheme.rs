@@ -1,8 +1,8 @@
 //! The scheme of automatic steps where the deck names none: an explicit one of high order where nothing is stiff, otherwise an
 //! implicit one.
 
-use crate::integrators::{Scheme, automatic_scheme};
-use crate::model::data::{LinearSpring, Model};
+use crate::data::{LinearSpring, Model};
+use mechanics::integrators::{Scheme, automatic_scheme};
 use std::sync::Arc;
 
 /// Largest phase ω T of the fastest vibration over a run for which explicit steps are worth their number: they resolve it with some two

@@ -1,17 +1,17 @@
 //! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
 
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::deck::analysis as words;
-use crate::diagnostic::At;
-use crate::model::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
-use crate::model::doubts::usage::named_amplitudes;
-use crate::model::places::nodes::Topology;
-use crate::model::procedure::displacement_targets::displacement_target;
-use crate::model::report::Report;
-use crate::model::scene::Scene;
-use crate::model::values::span;
-use crate::names::short;
+use crate::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
+use crate::doubts::usage::named_amplitudes;
+use crate::places::nodes::Topology;
+use crate::procedure::displacement_targets::displacement_target;
+use crate::report::Report;
+use crate::scene::Scene;
+use crate::values::span;
+use base::diagnostic::At;
+use base::names::short;
+use deck::Deck;
+use deck::analysis as words;
+use mechanics::amplitude::Amplitude;
 
 /// The steps along a path of equilibria, where the deck asks for them; `None`: the time leads on. A displacement to stop at must
 /// be an unknown, so supports are known.

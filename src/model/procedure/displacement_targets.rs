@@ -1,13 +1,13 @@
 //! Target displacements, for `stop` of `[analysis]` and `when` of `[[expect]]`.
 
-use crate::deck::analysis as words;
-use crate::deck::words::Table;
-use crate::diagnostic::At;
-use crate::model::data::DisplacementTarget;
-use crate::model::places::nodes::Topology;
-use crate::model::places::place::Place;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
+use crate::data::DisplacementTarget;
+use crate::places::nodes::Topology;
+use crate::places::place::Place;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use base::diagnostic::At;
+use deck::analysis as words;
+use deck::words::Table;
 
 /// Reads a target displacement, at which some step is to end; it must be one of the unknowns.
 pub fn displacement_target<'d>(

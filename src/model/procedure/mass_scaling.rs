@@ -1,12 +1,12 @@
 //! What mass scaling of elements does not go with.
 
-use crate::deck::Deck;
-use crate::diagnostic::Span;
-use crate::integrators::Scheme;
-use crate::model::data::{Analysis, FEWEST_STEPS, MassKind, Part, SAFE, SAFE_WHERE_STRUCK, StepLength};
-use crate::model::report::Report;
-use crate::model::values::span;
-use crate::names::short;
+use crate::data::{Analysis, FEWEST_STEPS, MassKind, Part, SAFE, SAFE_WHERE_STRUCK, StepLength};
+use crate::report::Report;
+use crate::values::span;
+use base::diagnostic::Span;
+use base::names::short;
+use deck::Deck;
+use mechanics::integrators::Scheme;
 
 /// The key that asks for it, in the table of the scheme.
 pub const KEY: &str = "mass_scaling_step";
@@ -76,6 +76,6 @@ fn check_length(deck: &Deck, analysis: &Analysis, (step, place): (f64, &Span), r
 }
 
 /// The place of the length of steps.
-fn span_of_step(deck: &Deck) -> Option<&crate::diagnostic::Span> {
+fn span_of_step(deck: &Deck) -> Option<&base::diagnostic::Span> {
     span(&deck.analysis.as_ref()?.time_step)
 }

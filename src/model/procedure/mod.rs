@@ -9,20 +9,20 @@ pub mod response;
 pub mod stops;
 pub mod study;
 
-use crate::deck::Deck;
-use crate::deck::analysis as words;
-use crate::deck::read::ROOT;
-use crate::deck::words::kinds::OneOf;
-use crate::deck::words::{NumberOrAuto, Table};
-use crate::diagnostic::{At, Diagnostic, Span};
-use crate::integrators::{SCHEMES, Scheme, Stepping, default_scheme};
-use crate::model::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
-use crate::model::data::{ERROR_TOLERANCE, FIRST_STEP};
-use crate::model::procedure::modes::modes;
-use crate::model::report::{Owner, Report};
-use crate::model::stages::CurrentStage;
-use crate::model::values::{chosen, span};
-use crate::names::short;
+use crate::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
+use crate::data::{ERROR_TOLERANCE, FIRST_STEP};
+use crate::procedure::modes::modes;
+use crate::report::{Owner, Report};
+use crate::stages::CurrentStage;
+use crate::values::{chosen, span};
+use base::diagnostic::{At, Diagnostic, Span};
+use base::names::short;
+use deck::Deck;
+use deck::analysis as words;
+use deck::read::ROOT;
+use deck::words::kinds::OneOf;
+use deck::words::{NumberOrAuto, Table};
+use mechanics::integrators::{SCHEMES, Scheme, Stepping, default_scheme};
 use std::sync::Arc;
 
 /// Largest number of halvings of a step, unless the deck says otherwise.

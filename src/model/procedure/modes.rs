@@ -3,14 +3,14 @@
 //! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
 //! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
 
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::deck::analysis::{self as words, AnalysisKind as Word};
-use crate::diagnostic::{Diagnostic, Span};
-use crate::model::data::{Analysis, AnalysisKind, History, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
-use crate::model::procedure::response::{is_harmonic, keys_of_response, response};
-use crate::model::report::Report;
-use crate::model::values::{flag, span};
+use crate::data::{Analysis, AnalysisKind, History, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
+use crate::procedure::response::{is_harmonic, keys_of_response, response};
+use crate::report::Report;
+use crate::values::{flag, span};
+use base::diagnostic::{Diagnostic, Span};
+use deck::Deck;
+use deck::analysis::{self as words, AnalysisKind as Word};
+use mechanics::amplitude::Amplitude;
 
 /// Number of modes unless the deck says otherwise.
 const MODES: usize = 10;

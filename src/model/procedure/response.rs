@@ -1,18 +1,16 @@
 //! The frequency response of `[analysis]`, and what excites it: loads and motions with amplitudes of kind "harmonic".
 
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::deck::amplitudes::AmplitudeKind;
-use crate::deck::analysis::{Analysis, AnalysisKind, ResponseWord};
-use crate::deck::stages::StageKind;
-use crate::deck::words::{Frequencies, FrequencyRange, Spacing};
-use crate::diagnostic::{At, Span};
-use crate::model::data::{
-    AroundResonances, ExpectAt, ModeExtent, Model, OverFrequencies, ResponseAsked, ResponseMethod,
-};
-use crate::model::doubts::usage::amplitudes_over_time;
-use crate::model::report::{Owner, Report};
-use crate::model::values::{chosen, span};
+use crate::data::{AroundResonances, ExpectAt, ModeExtent, Model, OverFrequencies, ResponseAsked, ResponseMethod};
+use crate::doubts::usage::amplitudes_over_time;
+use crate::report::{Owner, Report};
+use crate::values::{chosen, span};
+use base::diagnostic::{At, Span};
+use deck::Deck;
+use deck::amplitudes::AmplitudeKind;
+use deck::analysis::{Analysis, AnalysisKind, ResponseWord};
+use deck::stages::StageKind;
+use deck::words::{Frequencies, FrequencyRange, Spacing};
+use mechanics::amplitude::Amplitude;
 
 /// Most frequencies of a response.
 const MOST: u64 = 1_000_000;

@@ -1,15 +1,15 @@
 //! `stop` of `[[stages]]`: what ends a stage before its time.
 
-use crate::deck::stages as words;
-use crate::deck::words::Table;
-use crate::diagnostic::At;
-use crate::model::data::{Actors, DIRECTIONS, RunStage, Stop, StopQuantity};
-use crate::model::places::place::Place;
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::model::stages::CurrentStage;
-use crate::model::values::span;
-use crate::names::short;
+use crate::data::{Actors, DIRECTIONS, RunStage, Stop, StopQuantity};
+use crate::places::place::Place;
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use crate::stages::CurrentStage;
+use crate::values::span;
+use base::diagnostic::At;
+use base::names::short;
+use deck::stages as words;
+use deck::words::Table;
 use std::f64::consts::PI;
 
 /// The loads and motions that a deck names.

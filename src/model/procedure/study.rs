@@ -1,21 +1,21 @@
 //! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
-//! [`crate::study`] alone.
+//! [`study`] alone.
 
-use crate::deck::analysis as deck;
-use crate::deck::study::Study as Written;
-use crate::deck::words::kinds::{Given, OneOf, Values};
-use crate::deck::words::{Ladder, Maybe, OneOrMany, PER_DECADE, rungs};
-use crate::diagnostic::{At, Span};
-use crate::integrators::{RotationUpdate, SCHEMES, Scheme};
-use crate::model::data::{AnalysisKind, Method, Node, Part};
-pub use crate::model::data::{Choice, Confirm, Quantity, Study};
-use crate::model::places::place::Place;
-pub use crate::model::procedure::choose_scheme::choose_scheme;
-use crate::model::procedure::{can_be_kept, check_yielding, scheme as read_scheme};
-use crate::model::report::{Owner, Report};
-use crate::model::scene::Scene;
-use crate::names::nearest;
-use crate::quantities::{self, MOTION};
+use crate::data::{AnalysisKind, Method, Node, Part};
+pub use crate::data::{Choice, Confirm, Quantity, Study};
+use crate::places::place::Place;
+pub use crate::procedure::choose_scheme::choose_scheme;
+use crate::procedure::{can_be_kept, check_yielding, scheme as read_scheme};
+use crate::report::{Owner, Report};
+use crate::scene::Scene;
+use ::deck::analysis as deck;
+use ::deck::study::Study as Written;
+use ::deck::words::kinds::{Given, OneOf, Values};
+use ::deck::words::{Ladder, Maybe, OneOrMany, PER_DECADE, rungs};
+use base::diagnostic::{At, Span};
+use base::names::nearest;
+use base::quantities::{self, MOTION};
+use mechanics::integrators::{RotationUpdate, SCHEMES, Scheme};
 use std::sync::Arc;
 
 /// Quantities of a node or body besides its motion: angular velocity in body axes, and the rotation matrix.
@@ -29,7 +29,7 @@ const MOST_PER_DECADE: u64 = 20;
 const MOST_SAMPLES: u64 = 1_000_000;
 
 /// Checks `[study]` of a deck whose own scheme is known.
-pub(in crate::model) fn study<'d>(
+pub(crate) fn study<'d>(
     scene: &Scene<'d>,
     scheme: &Arc<dyn Scheme>,
     nodes: &[Node],
@@ -354,7 +354,7 @@ impl<'d> Reader<'_, 'd> {
 }
 
 /// Why a model cannot be studied; `None`: it can.
-pub fn obstacle(model: &crate::model::data::Model) -> Option<&'static str> {
+pub fn obstacle(model: &crate::data::Model) -> Option<&'static str> {
     let along = model.analysis.step_length.is_arc_length();
     along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
 }

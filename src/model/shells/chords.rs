@@ -1,13 +1,13 @@
 //! Triangles of order 1 that are too long for the curved surface that they stand for.
 
-use crate::deck::Deck;
-use crate::elements::shell::SLENDER;
-use crate::math::Vec3;
-use crate::model::data::{PartType, Shell};
-use crate::model::parts::Parts;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::Report;
-use crate::names::short;
+use crate::data::{PartType, Shell};
+use crate::parts::Parts;
+use crate::places::nodes::Nodes;
+use crate::report::Report;
+use base::math::Vec3;
+use base::names::short;
+use deck::Deck;
+use mechanics::elements::shell::SLENDER;
 
 /// The distance of the surface from a side over the thickness beyond which bending without stretching is stiff by more than a per cent or
 /// two: a pinched hemisphere is by 10 % at 1.5, and the error grows with the square.

@@ -1,9 +1,9 @@
 //! The part of the bulge of each edge of a shell that the stress in its elements works on.
 
-use crate::elements::shell::{FLAT, Interpolation, Quadrilateral, Triangle};
-use crate::math::Vec3;
-use crate::model::data::{Model, Part, PartType, Shell, ShellElement};
-use crate::model::places::nodes::Topology;
+use crate::data::{Model, Part, PartType, Shell, ShellElement};
+use crate::places::nodes::Topology;
+use base::math::Vec3;
+use mechanics::elements::shell::{FLAT, Interpolation, Quadrilateral, Triangle};
 use std::collections::{HashMap, HashSet};
 
 /// Part of the normal of an edge in its surface, squared, that is free at a node taken to be held across the edge: that of an edge

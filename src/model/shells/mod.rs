@@ -5,20 +5,20 @@ pub mod edges;
 pub mod patch;
 pub mod surface_map;
 
-use crate::deck::shells as words;
-use crate::deck::words::OneOrMany;
-use crate::diagnostic::At;
-use crate::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plate};
-use crate::math::{Vec3, curved_faces};
+use crate::data::{MassKind, Part, PartIndex, PartKind, Shell, ShellElement};
 use crate::mesh;
-use crate::model::data::{MassKind, Part, PartIndex, PartKind, Shell, ShellElement};
-use crate::model::own_damping;
-use crate::model::part_context::PartContext;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::Owner;
-use crate::model::shells::patch::{Edges, Patch};
-use crate::model::shells::surface_map::Map;
-use crate::model::values::{chosen, span};
+use crate::own_damping;
+use crate::part_context::PartContext;
+use crate::places::nodes::Nodes;
+use crate::report::Owner;
+use crate::shells::patch::{Edges, Patch};
+use crate::shells::surface_map::Map;
+use crate::values::{chosen, span};
+use base::diagnostic::At;
+use base::math::{Vec3, curved_faces};
+use deck::shells as words;
+use deck::words::OneOrMany;
+use mechanics::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plate};
 use std::collections::HashSet;
 
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.

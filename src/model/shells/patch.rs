@@ -1,10 +1,10 @@
 //! A patch of shells: nodes of its edges, which neighbours share, nodes inside, normals, and the elements between them.
 
-use crate::math::Vec3;
-use crate::model::data::ShellElement;
-use crate::model::places::nodes::Nodes;
-use crate::model::report::{Owner, Report};
-use crate::model::shells::surface_map::Map;
+use crate::data::ShellElement;
+use crate::places::nodes::Nodes;
+use crate::report::{Owner, Report};
+use crate::shells::surface_map::Map;
+use base::math::Vec3;
 
 /// An edge of a patch that later patches may join.
 struct Edge {

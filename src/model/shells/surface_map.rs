@@ -1,13 +1,13 @@
 //! The map of a patch of shells from (s, t) ∈ [0, 1]² to a plane, a cylinder or a sphere.
 
-use crate::deck::shells as words;
-use crate::deck::words::{Maybe, Table};
-use crate::diagnostic::{At, Span};
-use crate::math::{Mat3, Vec3};
-use crate::model::places::nodes::Nodes;
-use crate::model::report::{Owner, Report};
-use crate::model::values::vec3_or_zero;
-use crate::names::{joined, short};
+use crate::places::nodes::Nodes;
+use crate::report::{Owner, Report};
+use crate::values::vec3_or_zero;
+use base::diagnostic::{At, Span};
+use base::math::{Mat3, Vec3};
+use base::names::{joined, short};
+use deck::shells as words;
+use deck::words::{Maybe, Table};
 use std::f64::consts::{PI, TAU};
 
 /// Part of its radius by which corners typed with four digits may miss a sphere.

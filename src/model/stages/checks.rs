@@ -2,14 +2,14 @@
 
 use super::current::CurrentStage;
 use super::sequence::{StageSequence, buckles, name_of, responds};
-use crate::deck::Deck;
-use crate::deck::words::{Maybe, Names};
-use crate::diagnostic::At;
-use crate::model::data::AnalysisKind;
-use crate::model::procedure::mass_scaling::KEY;
-use crate::model::procedure::response::names_harmonic;
-use crate::model::report::Report;
-use crate::model::values::span;
+use crate::data::AnalysisKind;
+use crate::procedure::mass_scaling::KEY;
+use crate::procedure::response::names_harmonic;
+use crate::report::Report;
+use crate::values::span;
+use base::diagnostic::At;
+use deck::Deck;
+use deck::words::{Maybe, Names};
 use std::collections::{HashMap, HashSet};
 
 /// Reports what is wrong with the stages of a deck, and with the tables that name them.

@@ -1,17 +1,17 @@
 //! The stage whose model is built, and the deck as it sees it.
 
 use super::sequence::{PlannedStage, StageSequence, buckles, name_of};
-use crate::amplitude::Amplitude;
-use crate::deck::Deck;
-use crate::deck::analysis::{self as words, Analysis};
-use crate::deck::expect::Expect;
-use crate::deck::loads::Load;
-use crate::deck::stages::{Stage, StageKind};
-use crate::deck::words::{Maybe, Names, Table};
-use crate::diagnostic::{At, Span};
-use crate::model::data::AnalysisKind;
-use crate::model::procedure::response::names_harmonic;
-use crate::model::values::span;
+use crate::data::AnalysisKind;
+use crate::procedure::response::names_harmonic;
+use crate::values::span;
+use base::diagnostic::{At, Span};
+use deck::Deck;
+use deck::analysis::{self as words, Analysis};
+use deck::expect::Expect;
+use deck::loads::Load;
+use deck::stages::{Stage, StageKind};
+use deck::words::{Maybe, Names, Table};
+use mechanics::amplitude::Amplitude;
 use std::collections::HashSet;
 
 /// The stage whose model is built.
@@ -229,7 +229,7 @@ impl<'d> CurrentStage<'d> {
         let PlannedStage { table, kind, has_modes, duration, .. } = &self.sequence.stages[self.index];
         let all = self.sequence.whole.analysis.as_ref();
         let place = |own: Option<&Span>| own.unwrap_or(&table.span).clone();
-        let automatic = table.time_step.as_ref().is_some_and(|at| at.value == crate::deck::words::NumberOrAuto::Auto);
+        let automatic = table.time_step.as_ref().is_some_and(|at| at.value == deck::words::NumberOrAuto::Auto);
         let general = all.and_then(|all| all.error_tolerance.clone()).filter(|_| automatic);
         let word = match table.kind.as_ref().map(|kind| kind.value) {
             Some(StageKind::Modal) => words::AnalysisKind::Modal,

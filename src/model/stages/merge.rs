@@ -1,6 +1,6 @@
 //! What is said of the decks of several stages, each of which is a deck of its own.
 
-use crate::diagnostic::Diagnostic;
+use base::diagnostic::Diagnostic;
 
 /// What is said of the decks of several stages: each thing once, and in which stages where not in all.
 pub fn merge(of_stages: Vec<(String, Vec<Diagnostic>)>) -> Vec<Diagnostic> {

@@ -1,16 +1,16 @@
 //! The stages of a deck, one after the other: their times, and which tables are there in which of them.
 
-use crate::amplitude::{Amplitude, StraightLines};
-use crate::deck::Deck;
-use crate::deck::expect::Expect;
-use crate::deck::stages::{Stage, StageKind};
-use crate::deck::words::{Maybe, Names, Table};
-use crate::diagnostic::{At, Span};
-use crate::model::data::AnalysisKind;
-use crate::model::report::{Owner, Report};
-use crate::model::shells::edges::Bulges;
-use crate::model::values::span;
-use crate::names::short;
+use crate::data::AnalysisKind;
+use crate::report::{Owner, Report};
+use crate::shells::edges::Bulges;
+use crate::values::span;
+use base::diagnostic::{At, Span};
+use base::names::short;
+use deck::Deck;
+use deck::expect::Expect;
+use deck::stages::{Stage, StageKind};
+use deck::words::{Maybe, Names, Table};
+use mechanics::amplitude::{Amplitude, StraightLines};
 
 /// The stages of a deck, one after the other.
 pub struct StageSequence<'d> {

@@ -1,20 +1,20 @@
 //! What several rotations of a node mean that supports give together.
 
-use crate::amplitude::Amplitude;
-use crate::constraints::given_angle::GivenAngle;
-use crate::constraints::joint::ConstraintEquation;
-use crate::deck::supports::Rotation;
-use crate::diagnostic::{At, Span};
-use crate::math::Vec3;
-use crate::math::turn::RotationAngles;
-use crate::model::data::{
+use crate::data::{
     AnalysisKind, DIRECTIONS, GivenTurn, History, Joint, JointCoordinate, JointDrive, PrescribedMotion, Restraint,
 };
-use crate::model::places::nodes::Topology;
-use crate::model::places::spot::Spot;
-use crate::model::procedure::stops::NamedActors;
-use crate::model::report::Report;
-use crate::model::scene::Scene;
+use crate::places::nodes::Topology;
+use crate::places::spot::Spot;
+use crate::procedure::stops::NamedActors;
+use crate::report::Report;
+use crate::scene::Scene;
+use base::diagnostic::{At, Span};
+use base::math::Vec3;
+use base::math::turn::RotationAngles;
+use deck::supports::Rotation;
+use mechanics::amplitude::Amplitude;
+use mechanics::constraints::given_angle::GivenAngle;
+use mechanics::constraints::joint::ConstraintEquation;
 use std::collections::{BTreeMap, HashMap};
 
 /// What the deck says about the rotations of a node.

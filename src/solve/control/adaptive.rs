@@ -2,15 +2,15 @@
 
 use super::end_at_stop::end_at_stop;
 use super::intervals::{CoverInterval, Interval};
-use crate::snapshot::Keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::march::March;
-use crate::solve::outcome::Outcome;
-use crate::solve::recorder::AcceptedStep;
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::march::March;
+use crate::outcome::Outcome;
+use crate::recorder::AcceptedStep;
+use crate::report::StepReport;
+use crate::workspace::Workspace;
+use base::snapshot::Keep;
+use mechanics::state::State;
 
 /// A controller that finds the length of each step, and leads a stepper by it.
 pub trait StepController: Keep {
@@ -21,7 +21,7 @@ pub trait StepController: Keep {
     /// differences.
     ///
     /// # Errors
-    /// As for [`crate::solve::jumps::release`].
+    /// As for [`crate::jumps::release`].
     fn release(&mut self, _: &Context, _: &mut Workspace, _: &mut State, _dt: f64) -> Result<(), Failure> {
         Ok(())
     }
@@ -36,7 +36,7 @@ pub trait StepController: Keep {
     /// the next proposal will be better.
     ///
     /// # Errors
-    /// As for [`crate::solve::time_stepper::TimeStepper::step`], and [`Failure::ErrorTooLarge`]; `state` is untouched.
+    /// As for [`crate::time_stepper::TimeStepper::step`], and [`Failure::ErrorTooLarge`]; `state` is untouched.
     fn step(
         &mut self,
         cx: &Context,

@@ -3,20 +3,20 @@
 //! between the step's ends.
 
 use super::targets::{TargetQuantity, Targets};
-use crate::integrators::load_steps;
-use crate::model::{ArcLength, DisplacementTarget};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::implicit::{ArcLengthConstraint, Condition, EquilibriumSolver, StepMotion};
-use crate::solve::march::March;
-use crate::solve::motion::Stage;
-use crate::solve::outcome::Outcome;
-use crate::solve::recorder::AcceptedStep;
-use crate::solve::report::StepReport;
-use crate::solve::residual;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::implicit::{ArcLengthConstraint, Condition, EquilibriumSolver, StepMotion};
+use crate::march::March;
+use crate::motion::Stage;
+use crate::outcome::Outcome;
+use crate::recorder::AcceptedStep;
+use crate::report::StepReport;
+use crate::residual;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::integrators::load_steps;
+use mechanics::state::State;
+use model::{ArcLength, DisplacementTarget};
 
 /// Desired number of iterations of a step, the first being the prediction: more make it too long for its cost, fewer too short. Frames of
 /// slender beams take a third fewer iterations in all than with five; with eight roofs leave their path.

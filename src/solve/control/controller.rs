@@ -7,16 +7,16 @@ use super::fixed::FixedController;
 use super::intervals::{CoverInterval, Interval, Schedule};
 use super::stability_limited::StabilityController;
 use super::tolerance::FollowTolerance;
-use crate::linear::TooLarge;
-use crate::model::StepLength;
-use crate::snapshot::{Keep, Snapshot};
-use crate::solve::context::Context;
-use crate::solve::initial_transient;
-use crate::solve::jumps;
-use crate::solve::march::{March, RunPosition};
-use crate::solve::outcome::Outcome;
-use crate::solve::time_stepper::TimeStepper;
-use crate::solve::workspace::Workspace;
+use crate::context::Context;
+use crate::initial_transient;
+use crate::jumps;
+use crate::march::{March, RunPosition};
+use crate::outcome::Outcome;
+use crate::time_stepper::TimeStepper;
+use crate::workspace::Workspace;
+use base::snapshot::{Keep, Snapshot};
+use linear::TooLarge;
+use model::StepLength;
 
 use std::borrow::Cow;
 

@@ -2,16 +2,16 @@
 
 use super::adaptive::StepController;
 use super::tolerance::{EventLimit, FollowTolerance};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::explicit::RungeKuttaStepper;
-use crate::solve::failure::Failure;
-use crate::solve::jumps;
-use crate::solve::report::StepReport;
-use crate::solve::size::Size;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::explicit::RungeKuttaStepper;
+use crate::failure::Failure;
+use crate::jumps;
+use crate::report::StepReport;
+use crate::size::Size;
 use crate::system::kinks::has_kinks;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::state::State;
 
 /// Safety factor on the length that would just meet the tolerance.
 const SAFETY: f64 = 0.9;

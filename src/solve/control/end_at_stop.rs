@@ -1,11 +1,11 @@
 //! The last step of a stage that a value stops: it ends where it comes to the value.
 
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::march::March;
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::march::March;
+use crate::report::StepReport;
+use crate::workspace::Workspace;
+use mechanics::state::State;
 
 /// Takes a step from a state to a time.
 pub type TakeStep<'s> = dyn FnMut(&Context, &mut Workspace, &mut State, f64) -> Result<StepReport, Failure> + 's;

@@ -12,19 +12,19 @@ use super::adaptive::StepController;
 use super::error_measure::ErrorMeasure;
 use super::lasting_error::LastingError;
 use super::tolerance::{EventLimit, FollowTolerance};
-use crate::integrators::spectrum::error_constant;
-use crate::integrators::{AlphaFamily, RotationUpdate};
-use crate::math::{Vec3, Vec6, stack};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::implicit::{Implicit, IterationMatrix};
-use crate::solve::jumps;
-use crate::solve::motion::Stage;
-use crate::solve::report::StepReport;
-use crate::solve::size::Size;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::implicit::{Implicit, IterationMatrix};
+use crate::jumps;
+use crate::motion::Stage;
+use crate::report::StepReport;
+use crate::size::Size;
+use crate::workspace::Workspace;
+use base::math::{Vec3, Vec6, stack};
+use base::snapshot::keep;
+use mechanics::integrators::spectrum::error_constant;
+use mechanics::integrators::{AlphaFamily, RotationUpdate};
+use mechanics::state::State;
 
 /// A step is taken back where its error exceeds this multiple of its allowance and of recent errors: an event has
 /// occurred.

@@ -1,10 +1,10 @@
 //! The reference of errors: the largest motion so far, or that of trial steps ahead.
 
-use crate::math::{Vec6, angular, linear};
-use crate::model::Model;
-use crate::snapshot::keep;
-use crate::solve::size::Size;
-use crate::state::State;
+use crate::size::Size;
+use base::math::{Vec6, angular, linear};
+use base::snapshot::keep;
+use mechanics::state::State;
+use model::Model;
 
 /// Fraction of a run after which the motion so far is reference enough.
 const AHEAD: f64 = 0.2;

@@ -2,18 +2,18 @@
 
 use super::end_at_stop::end_at_stop;
 use super::intervals::{CoverInterval, Interval};
-use crate::model::AnalysisKind;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::march::March;
-use crate::solve::outcome::Outcome;
-use crate::solve::recorder::AcceptedStep;
-use crate::solve::report::StepReport;
-use crate::solve::sudden_loads::SuddenLoads;
-use crate::solve::time_stepper::TimeStepper;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::march::March;
+use crate::outcome::Outcome;
+use crate::recorder::AcceptedStep;
+use crate::report::StepReport;
+use crate::sudden_loads::SuddenLoads;
+use crate::time_stepper::TimeStepper;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::state::State;
+use model::AnalysisKind;
 
 /// Largest number of halvings of a step; the deck's least step may stop earlier.
 const MOST_HALVINGS: u32 = 40;

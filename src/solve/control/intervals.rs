@@ -1,14 +1,14 @@
 //! The output times and events that steps must end at, and the intervals between them.
 
-use crate::amplitude::Amplitude;
-use crate::model::{AnalysisKind, Cadence, History, Model, When};
-use crate::snapshot::Keep;
-use crate::solve::context::Context;
-use crate::solve::march::March;
-use crate::solve::outcome::Outcome;
-use crate::solve::sample::Sample;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::march::March;
+use crate::outcome::Outcome;
+use crate::sample::Sample;
+use crate::workspace::Workspace;
+use base::snapshot::Keep;
+use mechanics::amplitude::Amplitude;
+use mechanics::state::State;
+use model::{AnalysisKind, Cadence, History, Model, When};
 
 /// A controller that covers the time interval by interval.
 pub trait CoverInterval: Keep {

@@ -2,8 +2,8 @@
 //! Δt² T, at the end of a run of length T, but never by much more than A. Butterworth's filter of third order over the
 //! time, with its corner at φ = 1, makes that φ A/√(1 + φ²): modes long out of phase count by their amplitude.
 
-use crate::math::Vec6;
-use crate::snapshot::keep;
+use base::math::Vec6;
+use base::snapshot::keep;
 
 /// The filtered errors by node, over c Δt³: a filter of first order and one of second order in a row. It is allocated
 /// once.

@@ -1,13 +1,13 @@
 //! Steps of central differences at a fraction of the critical time step.
 
 use super::adaptive::StepController;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::explicit::CentralDifferenceStepper;
-use crate::solve::failure::Failure;
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::explicit::CentralDifferenceStepper;
+use crate::failure::Failure;
+use crate::report::StepReport;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::state::State;
 
 /// Largest growth from step to step: growth is slow, since each change of the step generates or dissipates energy.
 const GROWTH: f64 = 1.2;

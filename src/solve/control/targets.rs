@@ -1,10 +1,10 @@
 //! The times and displacements at which a step along a path must end.
 
-use crate::model::{ArcLength, DisplacementTarget, Model, When};
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::solve::context::Context;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::workspace::Workspace;
+use base::snapshot::{Keep, Snapshot, keep};
+use mechanics::state::State;
+use model::{ArcLength, DisplacementTarget, Model, When};
 
 /// A time or displacement at which a step must end.
 pub struct Target {

@@ -1,9 +1,9 @@
 //! Controllers whose steps follow a tolerance.
 
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::state::State;
+use crate::context::Context;
 use crate::system::kinks;
+use base::snapshot::keep;
+use mechanics::state::State;
 
 /// Steps in which an event falls are no longer than this part of the run, times the root of the tolerance. What such a step errs by goes with
 /// the square of its length; a step of a twentieth of what opens and closes again then errs by less than a tenth of the tolerance.

@@ -2,21 +2,21 @@
 //! body of its own, nothing is factorized but the small system of the joints; a coupled mass matrix is formed and
 //! factorized at every evaluation.
 
-use crate::elements::Moduli;
-use crate::integrators::Coefficients;
-use crate::linear::TooLarge;
-use crate::math::rotation::vector_rates;
-use crate::math::{Vec6, angular, linear, stack};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::joints::constraints_violated;
-use crate::solve::projection::ConstraintProjection;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, Increment, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::joints::constraints_violated;
+use crate::projection::ConstraintProjection;
 use crate::system::TangentWeights;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::{Masses, NodeRates};
+use crate::workspace::Workspace;
+use base::math::rotation::vector_rates;
+use base::math::{Vec6, angular, linear, stack};
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::elements::Moduli;
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Configuration, Increment, State};
 
 /// The masses of a scene and the accelerations that forces cause. It is allocated once.
 pub struct Accelerations {

@@ -7,20 +7,20 @@ use super::inner_product::{aMa_of_nodes, aMa_of_trial};
 use super::node_loops::{accelerate, end_step, move_ahead};
 use super::node_sums::StepSums;
 use super::stiffening::{change, is_growing, is_growing_by, resistance, resistance_of_nodes};
-use crate::integrators::Coefficients;
-use crate::linear::TooLarge;
-use crate::materials::Dissipation;
-use crate::math::Vec6;
-use crate::snapshot::keep;
-use crate::solve::commit::{Account, commit};
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{excite, measure_reach, move_to_step_end};
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::solve::{contacts, joints, links, residual};
-use crate::state::{Configuration, State, Work};
+use crate::commit::{Account, commit};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{excite, measure_reach, move_to_step_end};
+use crate::report::StepReport;
 use crate::system::masses::{CORRECTIONS, NodeRates};
+use crate::workspace::Workspace;
+use crate::{contacts, joints, links, residual};
+use base::math::Vec6;
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::integrators::Coefficients;
+use mechanics::materials::Dissipation;
+use mechanics::state::{Configuration, State, Work};
 
 /// Central differences, with what they need besides the workspace. It is allocated once.
 pub struct CentralDifferenceStepper {
@@ -310,11 +310,11 @@ fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnostic::Source;
-    use crate::model;
     use crate::plan::Plan;
-    use crate::solve::start::start;
+    use crate::start::start;
     use crate::system::System;
+    use base::diagnostic::Source;
+    use model;
     use std::sync::atomic::AtomicBool;
 
     static NEVER: AtomicBool = AtomicBool::new(false);

@@ -5,17 +5,17 @@
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
 use super::scaled_step::check_scaled_step;
-use crate::integrators::stability_limit::longest_step;
-use crate::math::rotation::RotationUpdate;
-use crate::math::{Vec3, Vec6, angular, linear, stack};
-use crate::model::{FEWEST_STEPS, Model};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{excite, update_dependent_nodes};
 use crate::plan::Plan;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{excite, update_dependent_nodes};
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, Increment, Node, State};
+use crate::workspace::Workspace;
+use base::math::rotation::RotationUpdate;
+use base::math::{Vec3, Vec6, angular, linear, stack};
+use base::snapshot::keep;
+use mechanics::integrators::stability_limit::longest_step;
+use mechanics::state::{Configuration, Increment, Node, State};
+use model::{FEWEST_STEPS, Model};
 
 /// Number of power iterations at the start, and when the limit is measured again: one residual each, two with damping.
 const AT_FIRST: usize = 60;

@@ -2,16 +2,16 @@
 //! positions, then velocities.
 
 use super::accelerations::Accelerations;
-use crate::math::rotation::{exp, inverse_tangent, renormalise};
-use crate::math::{Vec6, angular, linear, stack};
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::joints::{MOST_CORRECTIONS, ROUNDING, constraints_violated};
-use crate::solve::motion::update_dependent_nodes;
-use crate::solve::workspace::Workspace;
-use crate::state::{Node, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::joints::{MOST_CORRECTIONS, ROUNDING, constraints_violated};
+use crate::motion::update_dependent_nodes;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
+use crate::workspace::Workspace;
+use base::math::rotation::{exp, inverse_tangent, renormalise};
+use base::math::{Vec6, angular, linear, stack};
+use mechanics::state::{Node, State};
 
 /// Projects positions and velocities of the trial motion onto the constraints by the least change in the norm of the masses; the
 /// increments follow, their q̇ as rates of the rotation vector.

@@ -1,12 +1,12 @@
 //! Products of motions in the norm of the masses, by which explicit schemes judge their steps.
 
 use super::accelerations::Accelerations;
-use crate::math::{Vec6, stack};
-use crate::solve::context::Context;
-use crate::solve::workspace::Workspace;
-use crate::state::Node;
+use crate::context::Context;
 use crate::system::Forces;
 use crate::system::masses::MassBlock;
+use crate::workspace::Workspace;
+use base::math::{Vec6, stack};
+use mechanics::state::Node;
 
 /// Writes M times small motions of the independent nodes into the forces on nodes, for unknown degrees of freedom of a
 /// coupled mass matrix; the forces at hand are lost.

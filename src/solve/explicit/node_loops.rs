@@ -2,15 +2,15 @@
 //! joint holds, its acceleration with what is judged by it, and its rates there.
 
 use super::node_sums::StepSums;
-use crate::integrators::Coefficients;
-use crate::math::rotation::Chart;
-use crate::math::{Vec6, angular, linear, stack};
-use crate::solve::context::Context;
-use crate::solve::motion::{prescribe, rates_of, update_dependent_nodes};
-use crate::solve::node_chunks::{Largest, NodeChunk, Nothing};
-use crate::solve::workspace::Workspace;
-use crate::state::{Increment, Node, State};
+use crate::context::Context;
+use crate::motion::{prescribe, rates_of, update_dependent_nodes};
+use crate::node_chunks::{Largest, NodeChunk, Nothing};
 use crate::system::masses::{Masses, NodeRates};
+use crate::workspace::Workspace;
+use base::math::rotation::Chart;
+use base::math::{Vec6, angular, linear, stack};
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Increment, Node, State};
 
 /// Moves the trial motion to the end of the step of length `dt`, with predicted velocities; bodies that turn freely by their angular
 /// momentum.

@@ -1,8 +1,8 @@
 //! What a step by central differences is judged by, summed over nodes that move by themselves in one pass.
 
-use crate::math::{Vec6, angular, linear, stack};
-use crate::state::Node;
 use crate::system::masses::MassBlock;
+use base::math::{Vec6, angular, linear, stack};
+use mechanics::state::Node;
 use std::ops::AddAssign;
 
 /// Sums over the nodes by which a step is judged, M taken as mass and mean moment of inertia but for `aMa`.

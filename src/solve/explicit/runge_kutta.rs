@@ -2,24 +2,24 @@
 
 use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
-use crate::integrators::tableau::{StageWeights, Tableau};
-use crate::linear::TooLarge;
-use crate::math::rotation::{exp, inverse_tangent, renormalise};
-use crate::math::{Vec6, angular, linear, stack};
-use crate::model::Restraint;
-use crate::snapshot::keep;
-use crate::solve::commit::{Account, commit};
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{excite, measure_reach, rates_of, update_dependent_nodes};
-use crate::solve::report::StepReport;
-use crate::solve::size::Size;
-use crate::solve::work::{Power, WorkQuadrature, weight_of};
-use crate::solve::workspace::Workspace;
-use crate::solve::{contacts, joints, links, residual};
-use crate::state::{Configuration, Increment, Node, State};
+use crate::commit::{Account, commit};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{excite, measure_reach, rates_of, update_dependent_nodes};
+use crate::report::StepReport;
+use crate::size::Size;
 use crate::system::Side;
 use crate::system::masses::NodeRates;
+use crate::work::{Power, WorkQuadrature, weight_of};
+use crate::workspace::Workspace;
+use crate::{contacts, joints, links, residual};
+use base::math::rotation::{exp, inverse_tangent, renormalise};
+use base::math::{Vec6, angular, linear, stack};
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::integrators::tableau::{StageWeights, Tableau};
+use mechanics::state::{Configuration, Increment, Node, State};
+use model::Restraint;
 
 /// Square of the longest rotation vector of a step: T⁻¹ is singular at a full turn.
 const FARTHEST: f64 = 9.0;

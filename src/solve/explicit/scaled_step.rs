@@ -1,12 +1,12 @@
 //! What asks for shorter steps than those for which mass scaling has raised the masses of elements.
 
 use super::accelerations::Accelerations;
-use crate::elements::Moduli;
-use crate::math::Vec6;
-use crate::solve::context::Context;
-use crate::solve::warning::Warning;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::warning::Warning;
+use crate::workspace::Workspace;
+use base::math::Vec6;
+use mechanics::elements::Moduli;
+use mechanics::state::{Configuration, State};
 
 /// Differences of residuals leave seven digits of the limit.
 const ROUNDING: f64 = 1e-4;

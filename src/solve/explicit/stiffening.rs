@@ -4,11 +4,11 @@
 use super::accelerations::Accelerations;
 use super::inner_product::{apply_mass, times_applied};
 use super::node_sums::StepSums;
-use crate::math::{Vec6, angular, linear, stack};
-use crate::solve::context::Context;
-use crate::solve::workspace::Workspace;
-use crate::state::{Node, State};
+use crate::context::Context;
 use crate::system::masses::Masses;
+use crate::workspace::Workspace;
+use base::math::{Vec6, angular, linear, stack};
+use mechanics::state::{Node, State};
 
 /// The change of a node's acceleration over the step; `missing` is the difference of those of the trial motion.
 pub fn change(missing: &[Vec6], trial: &[Node], state: &State, node: usize) -> Vec6 {

@@ -2,16 +2,16 @@
 //! constraints, into the state.
 
 use super::jump;
-use crate::solve::commit::{Account, commit};
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{Stage, differentiate, finish, move_to_step_end, move_trial};
-use crate::solve::projection::ConstraintProjection;
-use crate::solve::work::WorkQuadrature;
-use crate::solve::workspace::Workspace;
-use crate::solve::{contacts, joints, links};
-use crate::state::{Configuration, State};
+use crate::commit::{Account, commit};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{Stage, differentiate, finish, move_to_step_end, move_trial};
+use crate::projection::ConstraintProjection;
 use crate::system::contact_work;
+use crate::work::WorkQuadrature;
+use crate::workspace::Workspace;
+use crate::{contacts, joints, links};
+use mechanics::state::{Configuration, State};
 
 /// Accepts the equilibrium that was found: the state moves to the time `to`, written once. `work` is that of loads and damping where the
 /// stages of the step tell it better than its ends.

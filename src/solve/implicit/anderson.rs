@@ -2,7 +2,7 @@
 //! ones so that the remaining residual is least. For a linear problem it is GMRES on the preconditioned residual. D. G.
 //! Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
 
-use crate::snapshot::keep;
+use base::snapshot::keep;
 
 /// Number of earlier corrections that are combined.
 const DEPTH: usize = 5;

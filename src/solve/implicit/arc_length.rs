@@ -5,17 +5,17 @@
 //! that is given. Of the two roots of the first the one that goes on: along the last step at the start of a step (Y. T. Feng
 //! et al., Eng. Comput. 12 (1995)), whatever the sign of det K, along the motion so far afterwards.
 
-use crate::integrators::load_steps;
-use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, angular, linear, stack};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{Stage, excite, move_trial};
-use crate::solve::residual::no_equilibrium;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{Stage, excite, move_trial};
+use crate::residual::no_equilibrium;
 use crate::system::{Forces, Loading};
+use crate::workspace::Workspace;
+use base::math::rotation::inverse_tangent;
+use base::math::{Vec6, angular, linear, stack};
+use base::snapshot::keep;
+use mechanics::integrators::load_steps;
+use mechanics::state::{Configuration, State};
 
 /// The condition in place of a given time.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,10 +1,10 @@
 //! Load steps with contacts that end without depth: the equilibrium is found again and again, each time with the contact forces of the
 //! last as multipliers, until nothing is pressed in by more than its tolerance.
 
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::workspace::Workspace;
+use mechanics::state::{Configuration, State};
 
 /// Equilibria of a step after which it is given up. One leaves a half where the spring is as soft as what it presses: enough for 1e-30.
 const MOST: usize = 100;

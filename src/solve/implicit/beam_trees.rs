@@ -1,10 +1,10 @@
 //! The trees among the beams of a scene and what is rigidly attached to them.
 
-use crate::elements::Moduli;
-use crate::math::{Vec3, frame_along};
-use crate::solve::context::{Context, at_rest};
-use crate::state::{Configuration, Node};
+use crate::context::{Context, at_rest};
 use crate::system::Group;
+use base::math::{Vec3, frame_along};
+use mechanics::elements::Moduli;
+use mechanics::state::{Configuration, Node};
 use std::collections::VecDeque;
 use std::ops::Range;
 

@@ -1,16 +1,16 @@
 //! A step in two stages, of which the second also uses the start of the step (Bathe's scheme).
 
 use super::equilibrium::EquilibriumSolver;
-use crate::integrators::TwoStages;
-use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec3, Vec6, angular, stack};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{Stage, rates_of};
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{Stage, rates_of};
+use crate::report::StepReport;
+use crate::workspace::Workspace;
+use base::math::rotation::inverse_tangent;
+use base::math::{Vec3, Vec6, angular, stack};
+use base::snapshot::keep;
+use mechanics::integrators::TwoStages;
+use mechanics::state::State;
 
 /// The scheme, with the data of the first stage that its second needs. It is allocated once.
 pub struct Composite<'a> {

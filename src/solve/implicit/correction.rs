@@ -1,10 +1,10 @@
 //! The correction of the increments, and its size.
 
-use crate::math::rotation::inverse_tangent;
-use crate::math::{Vec6, angular, larger};
-use crate::solve::context::Context;
-use crate::solve::size::Size;
-use crate::solve::workspace::Workspace;
+use crate::context::Context;
+use crate::size::Size;
+use crate::workspace::Workspace;
+use base::math::rotation::inverse_tangent;
+use base::math::{Vec6, angular, larger};
 
 /// The size of the correction in `r`.
 pub fn size_of_correction(cx: &Context, ws: &Workspace) -> Size {

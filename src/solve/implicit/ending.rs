@@ -7,11 +7,11 @@
 //! that: errors of one sign add up over the steps, so a tolerance that does not know their number may not end an iteration.
 
 use super::convergence::Judgement;
-use crate::integrators::Stepping;
-use crate::integrators::spectrum::spectrum;
-use crate::model::StepLength;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
+use crate::context::Context;
+use base::snapshot::keep;
+use mechanics::integrators::Stepping;
+use mechanics::integrators::spectrum::spectrum;
+use model::StepLength;
 
 /// Contraction assumed where none was seen.
 const UNKNOWN: f64 = 0.5;

@@ -6,18 +6,18 @@ use super::massless::MasslessNodes;
 use super::newton::Newton;
 use super::refresh::Refresh;
 use super::stability::Stability;
-use crate::linear::TooLarge;
-use crate::model::{Method, Update};
-use crate::snapshot::keep;
-use crate::solve::contacts;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::Stage;
-use crate::solve::projection::ConstraintProjection;
-use crate::solve::report::StepReport;
-use crate::solve::work::WorkQuadrature;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::contacts;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::Stage;
+use crate::projection::ConstraintProjection;
+use crate::report::StepReport;
+use crate::work::WorkQuadrature;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::state::{Configuration, State};
+use model::{Method, Update};
 
 /// Takes the stages of implicit steps. What a scene does not need is `None`.
 pub struct EquilibriumSolver {

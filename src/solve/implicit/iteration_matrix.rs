@@ -4,17 +4,17 @@ use super::mechanism_watch::MechanismWatch;
 use super::refresh::Refresh;
 use super::stabilization::{self, HeldByForces, Unheld};
 use super::turning::Turning;
-use crate::elements::Moduli;
-use crate::integrators::Coefficients;
-use crate::model::Update;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::Stage;
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, Node, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::Stage;
+use crate::report::StepReport;
 use crate::system::TangentWeights;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::elements::Moduli;
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Configuration, Node, State};
+use model::Update;
 
 /// The matrix at hand; its numbers are in the workspace.
 pub struct IterationMatrix {

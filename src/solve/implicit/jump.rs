@@ -2,14 +2,14 @@
 //! loads lead to: a long step may end with a structure turned inside out, and where a path ends at a limit point the next equilibrium is
 //! far away. Such steps are cut, or end the run.
 
-use crate::materials::Dissipation;
-use crate::math::{Vec3, angular, linear};
-use crate::model::DIRECTIONS;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
 use crate::system::Scale;
+use crate::workspace::Workspace;
+use base::math::{Vec3, angular, linear};
+use mechanics::materials::Dissipation;
+use mechanics::state::{Configuration, State};
+use model::DIRECTIONS;
 
 /// Largest rotation of a node in a load step, in radians. Below it the chord of a turning element keeps a positive part along its old
 /// direction with room to spare, and the work of moments follows from the rotation vector of the step alone.

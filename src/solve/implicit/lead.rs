@@ -1,11 +1,11 @@
-//! The iterate from which stresses are extrapolated to the one at hand, see [`Configuration::lead`](crate::state::Configuration).
+//! The iterate from which stresses are extrapolated to the one at hand, see [`Configuration::lead`](mechanics::state::Configuration).
 
-use crate::math::{Vec6, angular, linear};
-use crate::model::StepLength;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::workspace::Workspace;
-use crate::state::Node;
+use crate::context::Context;
+use crate::workspace::Workspace;
+use base::math::{Vec6, angular, linear};
+use base::snapshot::keep;
+use mechanics::state::Node;
+use model::StepLength;
 
 /// The iterate before, and the one that led to the last equilibrium, from which predictions start. It is allocated once, where elements
 /// turn.

@@ -3,9 +3,9 @@
 //! along a correction shows it. Matthies & Strang, Int. J. Numer. Meth. Eng. 14 (1979), 1613-1626: a correction that
 //! leaves more than four fifths of |s| is shortened.
 
-use crate::math::Vec6;
-use crate::snapshot::keep;
-use crate::state::Increment;
+use base::math::Vec6;
+use base::snapshot::keep;
+use mechanics::state::Increment;
 
 /// Largest fraction of the work of the residual that may be left after a correction.
 const LEFT: f64 = 0.8;

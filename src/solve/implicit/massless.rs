@@ -3,13 +3,13 @@
 //! once. Neither has a motion to compute. Directions are those of the tangent, whatever axes they lie oblique to.
 
 use super::mechanism::open_part;
-use crate::elements::Moduli;
-use crate::math::Vec3;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::Stage;
-use crate::state::{Configuration, Node, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::Stage;
+use base::math::Vec3;
+use base::snapshot::keep;
+use mechanics::elements::Moduli;
+use mechanics::state::{Configuration, Node, State};
 use nalgebra::DMatrix;
 
 /// A pivot below this part of the diagonal is rounding of the terms that cancel in it, some thousand times over: a chain that is

@@ -3,13 +3,13 @@
 
 use super::mode::Mode;
 use super::stabilization::HeldByForces;
-use crate::elements::{ElementBlock, Moduli};
-use crate::linear::Solver;
-use crate::math::{Vec6, angular, linear};
-use crate::model::Model;
-use crate::names::short;
-use crate::state::Configuration;
 use crate::system::{DofMap, Group, System, TangentWeights, open_gap};
+use base::math::{Vec6, angular, linear};
+use base::names::short;
+use linear::Solver;
+use mechanics::elements::{ElementBlock, Moduli};
+use mechanics::state::Configuration;
+use model::Model;
 
 /// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred
 /// times the rounding of the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.

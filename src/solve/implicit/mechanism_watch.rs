@@ -2,12 +2,12 @@
 
 use super::mechanism;
 use super::stabilization::HeldByForces;
-use crate::linear::Solver;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
 use crate::system::{Prescribed, TangentWeights};
+use base::snapshot::keep;
+use linear::Solver;
+use mechanics::state::{Configuration, State};
 
 /// What is known of open parts.
 #[derive(Default)]

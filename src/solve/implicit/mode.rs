@@ -1,8 +1,8 @@
 //! The softest mode of a matrix by inverse iteration, and the place where it moves most.
 
-use crate::linear::{Solver, Sparse};
-use crate::math::Vec6;
 use crate::system::DofMap;
+use base::math::Vec6;
+use linear::{Solver, Sparse};
 
 /// A mode by unknown, multipliers included; its largest translation, or rotation times the model's length, is 1.
 pub struct Mode {

@@ -11,18 +11,18 @@ use super::lead::Lead;
 use super::line_search::LineSearch;
 use super::refresh::{Advice, Refresh};
 use super::step_progress::StepProgress;
-use crate::math::{Vec6, angular, linear};
-use crate::model::Method;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{self, Stage};
-use crate::solve::report::StepReport;
-use crate::solve::size::Size;
-use crate::solve::workspace::Workspace;
-use crate::solve::{joints, residual};
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{self, Stage};
+use crate::report::StepReport;
+use crate::size::Size;
 use crate::system::Prescribed;
+use crate::workspace::Workspace;
+use crate::{joints, residual};
+use base::math::{Vec6, angular, linear};
+use base::snapshot::keep;
+use mechanics::state::{Configuration, State};
+use model::Method;
 
 /// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace.
 pub struct Newton {

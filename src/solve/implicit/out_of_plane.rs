@@ -2,17 +2,17 @@
 
 use super::mechanism;
 use super::tangent::{Criterion, Ends, Tangent, WEIGHTS};
-use crate::linear::TooLarge;
-use crate::math::Vec6;
-use crate::model::DIRECTIONS;
+use crate::context::Context;
+use crate::linear_system::LinearSystem;
 use crate::plan::Sideways;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::linear_system::LinearSystem;
-use crate::solve::warning::{Remark, Warning};
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, Node, State};
 use crate::system::{DofMap, Forces, Loading, System};
+use crate::warning::{Remark, Warning};
+use crate::workspace::Workspace;
+use base::math::Vec6;
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::state::{Configuration, Node, State};
+use model::DIRECTIONS;
 
 /// Largest number of parts that may turn about their own axes, each held by a spring.
 const MOST_HELD: usize = 8;

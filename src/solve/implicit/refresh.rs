@@ -1,10 +1,10 @@
 //! Decides when the matrix is formed and factorized anew.
 
 use super::convergence::Judgement;
-use crate::elements::Moduli;
-use crate::model::{AnalysisKind, Iteration, Method, Update};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
+use crate::context::Context;
+use base::snapshot::keep;
+use mechanics::elements::Moduli;
+use model::{AnalysisKind, Iteration, Method, Update};
 
 /// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
 /// always takes the same path.

@@ -8,17 +8,17 @@
 //! which one more stage makes an equilibrium: forces and energies there are as exact as at the ends, with stiff parts too.
 
 use super::equilibrium::EquilibriumSolver;
-use crate::integrators::{Coefficients, StageTableau};
-use crate::math::Vec6;
-use crate::math::quintic;
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::{Stage, differentiate, excite, move_trial, rates_of};
-use crate::solve::report::StepReport;
-use crate::solve::work::{Power, WorkQuadrature};
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::{Stage, differentiate, excite, move_trial, rates_of};
+use crate::report::StepReport;
+use crate::work::{Power, WorkQuadrature};
+use crate::workspace::Workspace;
+use base::math::Vec6;
+use base::math::quintic;
+use base::snapshot::keep;
+use mechanics::integrators::{Coefficients, StageTableau};
+use mechanics::state::{Configuration, State};
 
 /// The stages of a step. It is allocated once.
 pub struct StageStepper {

@@ -12,15 +12,15 @@
 
 use super::out_of_plane::OutOfPlane;
 use super::tangent::{Criterion, Ends, Tangent};
-use crate::linear::{Factorization, TooLarge};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::linear_system::LinearSystem;
-use crate::solve::warning::{Instability, Remark, Warning};
-use crate::solve::workspace::Workspace;
-use crate::state::{Configuration, State};
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::linear_system::LinearSystem;
 use crate::system::Forces;
+use crate::warning::{Instability, Remark, Warning};
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use linear::{Factorization, TooLarge};
+use mechanics::state::{Configuration, State};
 
 /// Part of a step of the deck below which one that ends on an unstable branch is not cut again. A strut with a lateral load of 1e-6 of its
 /// buckling load bends away within 1e-4 of it.

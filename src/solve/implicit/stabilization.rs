@@ -4,9 +4,9 @@
 //! on them likewise.
 
 use super::mode::Mode;
-use crate::linear::{Solver, Sparse};
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
+use crate::context::Context;
+use crate::failure::Failure;
+use linear::{Solver, Sparse};
 
 /// Part of the model's length, or of a radian, by which a first correction may move what springs hold. What hangs already hardly moves; what
 /// moves further would jump to where it hangs, which is no path of equilibria.

@@ -3,11 +3,11 @@
 use super::convergence::{Convergence, Judgement};
 use super::correction::is_rounding;
 use super::ending::Ending;
-use crate::solve::context::Context;
-use crate::solve::report::StepReport;
-use crate::solve::size::Size;
-use crate::solve::warning::Warning;
-use crate::solve::workspace::Workspace;
+use crate::context::Context;
+use crate::report::StepReport;
+use crate::size::Size;
+use crate::warning::Warning;
+use crate::workspace::Workspace;
 
 /// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
 const UNBALANCED: f64 = 1e3;

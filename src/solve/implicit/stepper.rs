@@ -3,15 +3,15 @@
 use super::composite::Composite;
 use super::equilibrium::EquilibriumSolver;
 use super::runge_kutta::StageStepper;
-use crate::integrators::{Coefficients, Stepping, load_steps};
-use crate::linear::TooLarge;
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::solve::context::Context;
-use crate::solve::failure::Failure;
-use crate::solve::motion::Stage;
-use crate::solve::report::StepReport;
-use crate::solve::workspace::Workspace;
-use crate::state::State;
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::motion::Stage;
+use crate::report::StepReport;
+use crate::workspace::Workspace;
+use base::snapshot::{Keep, Snapshot, keep};
+use linear::TooLarge;
+use mechanics::integrators::{Coefficients, Stepping, load_steps};
+use mechanics::state::State;
 
 /// Takes load steps of a static analysis, and time steps of one stage or several.
 pub struct Implicit<'a> {

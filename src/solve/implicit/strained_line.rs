@@ -1,9 +1,9 @@
 //! A beam between its nodes: what strains it at its Gauss points, and displacements that follow from given strains.
 
 use super::beam_trees::MOST_NODES;
-use crate::math::{Vec3, quadrature};
-use crate::snapshot::keep;
-use crate::state::Node;
+use base::math::{Vec3, quadrature};
+use base::snapshot::keep;
+use mechanics::state::Node;
 use nalgebra::Quaternion;
 
 /// The most Gauss points: one less than nodes.

@@ -1,15 +1,15 @@
 //! The tangent at an equilibrium, and what its eigenvalues tell of stability between two of them.
 
 use super::mode::Mode;
-use crate::elements::Moduli;
-use crate::math::rotation;
-use crate::model::DIRECTIONS;
-use crate::solve::context::Context;
-use crate::solve::linear_system::LinearSystem;
-use crate::solve::warning::Instability;
-use crate::state::{Configuration, Node};
+use crate::context::Context;
+use crate::linear_system::LinearSystem;
 use crate::system::TangentWeights;
 use crate::system::{DofMap, Forces, Loading, System};
+use crate::warning::Instability;
+use base::math::rotation;
+use mechanics::elements::Moduli;
+use mechanics::state::{Configuration, Node};
+use model::DIRECTIONS;
 
 /// Number of bisections for the load at which the first eigenvalue is negative: 1e-5 of the step.
 const BISECTIONS: usize = 17;

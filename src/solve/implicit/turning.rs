@@ -10,12 +10,12 @@
 
 use super::beam_trees::{BeamTrees, MOST_NODES};
 use super::strained_line::{LinePoint, LineShape};
-use crate::math::rotation::matrix;
-use crate::math::{Mat3, Vec3};
-use crate::snapshot::keep;
-use crate::solve::context::Context;
-use crate::state::Node;
+use crate::context::Context;
 use crate::system::NodeRows;
+use base::math::rotation::matrix;
+use base::math::{Mat3, Vec3};
+use base::snapshot::keep;
+use mechanics::state::Node;
 use nalgebra::Quaternion;
 
 /// An angle φ spoils the matrix of a tree by about φ² EA L²/EI beside what bends it; below this the contraction does not show it.
@@ -332,18 +332,18 @@ fn turn_of(rows: &NodeRows, turned: &Mat3) -> Mat3 {
 }
 
 fn scatter(rows: &NodeRows, u: &Vec3, theta: &Vec3, x: &mut [f64]) {
-    rows.scatter(&crate::math::stack(u, theta), x);
+    rows.scatter(&base::math::stack(u, theta), x);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::diagnostic::Source;
-    use crate::math::rotation::exp;
-    use crate::model::{self, Model};
     use crate::plan::Plan;
-    use crate::state::Configuration;
     use crate::system::System;
+    use base::diagnostic::Source;
+    use base::math::rotation::exp;
+    use mechanics::state::Configuration;
+    use model::{self, Model};
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
     use std::sync::atomic::AtomicBool;
@@ -449,7 +449,7 @@ interval = 1.0
         let mut turning = Turning::new(&cx).expect("two slender arms on a hub");
         let mut rng = StdRng::seed_from_u64(3);
         let mut number = |size: f64| rng.random_range(-size..size);
-        let start = crate::solve::context::at_rest(&model);
+        let start = crate::context::at_rest(&model);
         let count = start.len();
         let mut random = |size: f64| -> Vec<[Vec3; 2]> {
             (0..count).map(|_| [0, 1].map(|_| Vec3::from_fn(|_, _| number(size)))).collect()
@@ -477,7 +477,7 @@ interval = 1.0
             let [plus, minus] = [1e-5, -1e-5].map(|h| {
                 let by = |k: usize| {
                     let q = plan.dofs.of(k).gather(x) * h;
-                    [crate::math::linear(&q), crate::math::angular(&q)]
+                    [base::math::linear(&q), base::math::angular(&q)]
                 };
                 forces(&system, &moved(&system, nodes, by))
             });

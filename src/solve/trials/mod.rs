@@ -13,7 +13,7 @@ use trace::TELLING;
 
 use super::outcome::Counts;
 use super::warning::Warning;
-use crate::snapshot::keep;
+use base::snapshot::keep;
 
 /// Largest number of runs, the trial aside.
 pub const MOST_RUNS: usize = 4;

@@ -1,10 +1,10 @@
 //! The motion of a run at a few times, by which runs with different steps are compared.
 
-use crate::math::Vec3;
-use crate::model::Model;
-use crate::snapshot::{Keep, Snapshot, keep};
-use crate::solve::control::{COMPARISONS, comparison_time};
-use crate::solve::frame::{Frame, Observer};
+use crate::control::{COMPARISONS, comparison_time};
+use crate::frame::{Frame, Observer};
+use base::math::Vec3;
+use base::snapshot::{Keep, Snapshot, keep};
+use model::Model;
 use nalgebra::Quaternion;
 use std::io;
 

@@ -1,0 +1,144 @@
+//! The words of the deck, as written: one file per family of tables, every value with its place.
+//!
+//! Every key may be left out here; what is needed is decided where it is used, so that a missing key is one more
+//! diagnostic and not the end of reading.
+
+#![warn(missing_docs)]
+
+pub mod aliases;
+pub mod amplitudes;
+pub mod analysis;
+pub mod attachments;
+pub mod bars;
+pub mod beams;
+pub mod bodies;
+pub mod contacts;
+pub mod environment;
+pub mod expect;
+mod hints;
+pub mod initial;
+pub mod joints;
+mod lengths;
+pub mod links;
+pub mod loads;
+pub mod materials;
+pub mod mesh;
+pub mod number_slips;
+pub mod output;
+pub mod part_damping;
+pub mod part_table;
+pub mod parts;
+pub mod read;
+pub mod sections;
+pub mod set;
+pub mod shells;
+pub mod stages;
+pub mod study;
+pub mod supports;
+mod tables;
+mod value;
+
+pub use base::words;
+pub use read::read;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use base::diagnostic::{At, Span};
+use words::kinds::OneOf;
+use words::{Maybe, Named, Names, Table, Vector};
+
+/// A deck of rdsolve: one scene and how to compute it. Units are SI or any consistent set.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Deck {
+    /// What the scene is, in one line.
+    pub title: Maybe<String>,
+    /// System of units: it labels output and turns on warnings about implausible values. Nothing is converted.
+    pub units: Maybe<output::Units>,
+    /// What is computed, over what time, in which steps. A deck with `[[stages]]` has these instead; here it may say what holds for all.
+    pub analysis: Maybe<Table<analysis::Analysis>>,
+    /// What is computed one after the other.
+    #[serde(default)]
+    pub stages: Vec<At<Table<stages::Stage>>>,
+    /// The time integration scheme.
+    pub integrator: Maybe<OneOf<analysis::Integrator>>,
+    /// How the nonlinear equations of each step are solved.
+    pub iteration: Maybe<Table<analysis::Iteration>>,
+    /// Materials by name.
+    #[serde(default)]
+    pub materials: Named<OneOf<materials::Material>>,
+    /// Cross sections of beams by name.
+    #[serde(default)]
+    pub sections: Named<OneOf<sections::Section>>,
+    /// Points by name, [x, y, z] at t = 0 in global coordinates; every one becomes a node.
+    #[serde(default)]
+    pub points: Named<Vector>,
+    /// A mesh from a file.
+    pub mesh: Maybe<Table<mesh::Mesh>>,
+    /// Lists of names under one name: points, bodies, beams, bars, shells and their edges, groups of the mesh, other sets.
+    #[serde(default)]
+    pub sets: Named<Names>,
+    /// Beams: shear-flexible, geometrically exact, elastic or yielding.
+    #[serde(default)]
+    pub beams: Vec<At<Table<beams::Beam>>>,
+    /// Bars and cables: axial force alone.
+    #[serde(default)]
+    pub bars: Vec<At<Table<bars::Bar>>>,
+    /// Shells: patches of triangles or quadrilaterals.
+    #[serde(default)]
+    pub shells: Vec<At<Table<shells::Shell>>>,
+    /// Rigid bodies.
+    #[serde(default)]
+    pub bodies: Vec<At<Table<bodies::Body>>>,
+    /// Point masses.
+    #[serde(default)]
+    pub masses: Vec<At<Table<bodies::Mass>>>,
+    /// Nodes rigidly attached to bodies or beams.
+    #[serde(default)]
+    pub attachments: Vec<At<Table<attachments::Attachment>>>,
+    /// Restrained and prescribed degrees of freedom.
+    #[serde(default)]
+    pub supports: Vec<At<Table<supports::Support>>>,
+    /// Joints between bodies or points: spherical, revolute, prismatic and others.
+    #[serde(default)]
+    pub joints: Vec<At<OneOf<joints::Joint>>>,
+    /// Springs, dampers, gaps and bushings between two points.
+    #[serde(default)]
+    pub links: Vec<At<Table<links::Link>>>,
+    /// Unilateral contact with friction and impact between points and surfaces.
+    #[serde(default)]
+    pub contacts: Vec<At<Table<contacts::Contact>>>,
+    /// Forces, moments and distributed loads.
+    #[serde(default)]
+    pub loads: Vec<At<Table<loads::Load>>>,
+    /// Functions of time by name, for loads and prescribed motion.
+    #[serde(default)]
+    pub amplitudes: Named<Table<amplitudes::Amplitude>>,
+    /// Gravity and accelerations of the ground.
+    pub environment: Maybe<Table<environment::Environment>>,
+    /// Velocities at t = 0.
+    #[serde(default)]
+    pub initial: Vec<At<Table<initial::Initial>>>,
+    /// Rayleigh damping, and dampers to the ground.
+    pub damping: Maybe<Table<environment::Damping>>,
+    /// Values that the run must reach; a miss ends it with exit code 5.
+    #[serde(default)]
+    pub expect: Vec<At<Table<expect::Expect>>>,
+    /// Which results are written, and how often.
+    pub output: Maybe<Table<output::Output>>,
+    /// What `rdsolve study` goes over; a run leaves it aside.
+    pub study: Maybe<Table<study::Study>>,
+    /// Entries that are written but could not be read: not missing, and already reported.
+    #[serde(skip)]
+    pub spoiled: Vec<Spoiled>,
+}
+
+/// An entry taken out of its table because it is wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spoiled {
+    /// Where its table stands; `None`: somewhere, the text being no TOML there.
+    pub table: Option<Span>,
+    /// The key of the entry.
+    pub key: String,
+}

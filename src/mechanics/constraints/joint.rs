@@ -1,0 +1,389 @@
+//! Two nodes joined by Lagrange multipliers (57). This does what elimination cannot do where a node already depends on
+//! another one, is restrained, or closes a loop.
+//!
+//! A joint is a list of constraint equations c(x, R) = 0 between the positions and rotations of its nodes. With a
+//! multiplier λ it exerts the forces Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it is closed. Its stiffness is K
+//! = λ ∂²c, for spatial spins as everywhere.
+
+use super::angle::{Angle, body_vector};
+use super::given_angle::GivenAngle;
+use crate::state::Node;
+use base::math::{Mat3, Vec3, Vec6, skew, stack};
+use std::f64::consts::TAU;
+
+/// Largest number of constraint equations of a joint: a node of multipliers has six rows.
+pub const MOST_EQUATIONS: usize = 6;
+
+/// A joint of two nodes; its equations describe the first as seen from the second.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// The two nodes.
+    pub nodes: [usize; 2],
+    /// The constraint equations, at most six.
+    pub equations: Vec<ConstraintEquation>,
+    /// True where the second node is restrained and stands for a support.
+    pub supports: bool,
+    /// What drives the coordinate; the last equation is then the one that holds it there.
+    pub drive: Option<Drive>,
+}
+
+/// What leads the coordinate of a joint: a node that nothing else moves, whose displacement along x, times a ratio, is what the
+/// coordinate shall be. Where the motion is prescribed the node is restrained like a support, and its reaction is the effort of the drive; of
+/// gears the node is an unknown that all their joints share, so that turns are counted and efforts are in equilibrium.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drive {
+    /// The node.
+    pub node: usize,
+    /// Its position at t = 0.
+    pub start: Vec3,
+    /// Coordinate per displacement of the node.
+    pub ratio: f64,
+    /// True where the node is an unknown.
+    pub is_free: bool,
+}
+
+impl Drive {
+    /// What the coordinate shall be.
+    #[inline]
+    pub fn coordinate(&self, nodes: &[Node]) -> f64 {
+        self.ratio * nodes[self.node].moved(&self.start).x
+    }
+}
+
+impl Joint {
+    /// The violation of an equation with its first two derivatives in time; what is driven is behind its drive by so much.
+    #[inline]
+    pub fn gap(&self, number: usize, nodes: &[Node]) -> [f64; 3] {
+        let [a, b] = self.nodes.map(|n| &nodes[n]);
+        let row = &self.equations[number];
+        let gap = row.gap(a, b);
+        match &self.drive {
+            Some(drive) if self.is_driven(number) => {
+                let node = &nodes[drive.node];
+                let behind = gap[0] - drive.coordinate(nodes);
+                [row.nearest(behind), gap[1] - drive.ratio * node.v.x, gap[2] - drive.ratio * node.a.x]
+            }
+            _ => gap,
+        }
+    }
+
+    /// The change of the violation of an equation for small motions (u, θ) of all nodes.
+    pub fn opening(&self, number: usize, nodes: &[Node], motions: &[Vec6]) -> f64 {
+        let [a, b] = self.nodes;
+        let [Ga, Gb] = self.equations[number].gradient(&nodes[a], &nodes[b]);
+        let change = Ga.dot(&motions[a]) + Gb.dot(&motions[b]);
+        match &self.drive {
+            Some(drive) if self.is_driven(number) => change - drive.ratio * motions[drive.node][0],
+            _ => change,
+        }
+    }
+
+    /// The node of gears that the joint moves besides its own.
+    pub fn shared(&self) -> Option<&Drive> {
+        self.drive.as_ref().filter(|drive| drive.is_free)
+    }
+
+    /// The nodes whose unknowns stand in its matrix, in the order in which they stand there.
+    pub fn matrix_nodes(&self) -> impl Iterator<Item = usize> + '_ {
+        self.nodes.into_iter().chain(self.shared().map(|drive| drive.node))
+    }
+
+    /// True for the equation that holds the coordinate where its drive is.
+    #[inline]
+    pub fn is_driven(&self, number: usize) -> bool {
+        self.drive.is_some() && number + 1 == self.equations.len()
+    }
+}
+
+/// One constraint equation. Vectors are unit vectors at t = 0, fixed to the node that they belong to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ConstraintEquation {
+    /// The relative position along a global axis is constant: (x_a − x_b)·e = `at`.
+    GlobalAxis {
+        /// The global axis, 0 to 2.
+        axis: usize,
+        /// The component of the relative position along it, in units of length.
+        at: f64,
+    },
+    /// The relative position along an axis of the second node is constant: (x_a − x_b)·R_b e = `at`.
+    BodyAxis {
+        /// The axis, fixed to the second node.
+        e: Vec3,
+        /// The component of the relative position along it, in units of length.
+        at: f64,
+    },
+    /// An axis of the first node stays perpendicular to one of the second: R_a p · R_b s = 0.
+    Perpendicular {
+        /// The axis that is fixed to the first node.
+        p: Vec3,
+        /// The axis that is fixed to the second node.
+        s: Vec3,
+    },
+    /// The distance of the nodes is constant: |x_a − x_b| = `length` > 0.
+    Distance {
+        /// The distance.
+        length: f64,
+    },
+    /// The second node has not turned from the first about an axis that both share.
+    Angle(Angle),
+    /// One of the rotations of the first node against the second, a support, is zero.
+    Given(GivenAngle),
+    /// The second node goes along a shared axis by `lead` for each turn about it: −(x_a − x_b)·R_b e − `at` = `lead` θ/2π.
+    Screw {
+        /// The angle θ of the second node from the first.
+        angle: Angle,
+        /// The axis, fixed to the second node.
+        e: Vec3,
+        /// The left-hand side without it at t = 0, in units of length.
+        at: f64,
+        /// The length of a turn, negative for a left-hand thread.
+        lead: f64,
+    },
+}
+
+impl ConstraintEquation {
+    /// The axis that a coordinate turns about or moves along, for an equation that locks one; global components.
+    pub fn axis(&self, a: &Node, b: &Node) -> Option<Vec3> {
+        match self {
+            ConstraintEquation::BodyAxis { e, .. } => Some(b.R() * e),
+            ConstraintEquation::Angle(Angle { p, s, .. }) => Some(a.R() * p.cross(s)),
+            _ => None,
+        }
+    }
+
+    /// The degrees of freedom of the two nodes on which the equation can ever act.
+    pub fn reach(&self) -> [[bool; 6]; 2] {
+        let moves = [true, true, true, false, false, false];
+        let turns = [false, false, false, true, true, true];
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
+            ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
+            ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) | ConstraintEquation::Given(_) => {
+                [turns; 2]
+            }
+            ConstraintEquation::Screw { .. } => [[true; 6]; 2],
+            ConstraintEquation::Distance { .. } => [moves; 2],
+        }
+    }
+
+    /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0: its violation is
+    /// that distance. `d` is x_a − x_b at t = 0.
+    pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {
+        ConstraintEquation::BodyAxis { e: -e, at: -d.dot(e) }
+    }
+
+    /// The same equation between the nodes a and b as they are now, whose gap is zero there: axes lie as those of the first node do or, for
+    /// a support, as they did at t = 0. Ends that are apart, as they are where they do not meet, are held together by an arm that turns with the
+    /// second.
+    pub fn held_here(&self, [a, b]: [&Node; 2], supports: bool, meets: bool) -> ConstraintEquation {
+        let d = a.relative_position(b);
+        let as_seen = |node: &Node, axis: &Vec3| node.R().tr_mul(axis);
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } if supports || meets => {
+                ConstraintEquation::GlobalAxis { axis: *axis, at: d[*axis] }
+            }
+            ConstraintEquation::GlobalAxis { axis, .. } => {
+                ConstraintEquation::BodyAxis { e: as_seen(b, &Vec3::ith(*axis, 1.0)), at: d[*axis] }
+            }
+            ConstraintEquation::BodyAxis { e, .. } => {
+                let now = a.R() * e;
+                ConstraintEquation::BodyAxis { e: as_seen(b, &now), at: d.dot(&now) }
+            }
+            ConstraintEquation::Perpendicular { p, s } if supports => {
+                ConstraintEquation::Perpendicular { p: as_seen(a, &(b.R() * p)), s: *s }
+            }
+            ConstraintEquation::Perpendicular { p, s } => {
+                ConstraintEquation::Perpendicular { p: *p, s: as_seen(b, &(a.R() * s)) }
+            }
+            ConstraintEquation::Distance { .. } => ConstraintEquation::Distance { length: d.norm() },
+            ConstraintEquation::Screw { angle, e, at, lead } => {
+                let [gap, ..] = self.gap(a, b);
+                ConstraintEquation::Screw { angle: *angle, e: *e, at: at + gap, lead: *lead }
+            }
+            ConstraintEquation::Given(angle) => ConstraintEquation::Given(angle.from_here(a)),
+            // A drive is never held where it is: it goes on.
+            ConstraintEquation::Angle(_) => *self,
+        }
+    }
+
+    /// The same equation as that of a coordinate which is zero where the nodes are now.
+    pub fn counted_from_here(&self, [a, b]: [&Node; 2]) -> ConstraintEquation {
+        match self {
+            ConstraintEquation::Angle(angle) => ConstraintEquation::Angle(angle.from_here(a, b)),
+            _ => self.held_here([a, b], false, false),
+        }
+    }
+
+    /// The violation nearest to zero where the equation knows it up to full turns only.
+    pub fn nearest(&self, gap: f64) -> f64 {
+        match self {
+            ConstraintEquation::Angle(_) => gap - TAU * (gap / TAU).round(),
+            ConstraintEquation::Given(angle) => angle.nearest(gap),
+            _ => gap,
+        }
+    }
+
+    /// The violation c with its derivatives ċ and c̈.
+    pub fn gap(&self, a: &Node, b: &Node) -> [f64; 3] {
+        let (d, v, w) = (a.relative_position(b), a.v - b.v, a.a - b.a);
+        match self {
+            ConstraintEquation::GlobalAxis { axis, at } => [d[*axis] - at, v[*axis], w[*axis]],
+            ConstraintEquation::BodyAxis { e, at } => {
+                let [e, de, dde] = body_vector(b, e);
+                [d.dot(&e) - at, v.dot(&e) + d.dot(&de), w.dot(&e) + 2.0 * v.dot(&de) + d.dot(&dde)]
+            }
+            ConstraintEquation::Perpendicular { p, s } => {
+                let ([p, dp, ddp], [s, ds, dds]) = (body_vector(a, p), body_vector(b, s));
+                [p.dot(&s), dp.dot(&s) + p.dot(&ds), ddp.dot(&s) + 2.0 * dp.dot(&ds) + p.dot(&dds)]
+            }
+            ConstraintEquation::Distance { length } => {
+                let now = d.norm();
+                let u = d / now;
+                let rate = u.dot(&v);
+                [now - length, rate, u.dot(&w) + (v.norm_squared() - rate * rate) / now]
+            }
+            ConstraintEquation::Angle(angle) => angle.value(a, b),
+            ConstraintEquation::Given(angle) => angle.value(a, b),
+            ConstraintEquation::Screw { angle, e, at, lead } => {
+                let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gap(a, b);
+                let turned = angle.value(a, b);
+                let [c, rate, second] = std::array::from_fn(|i| along[i] - lead / TAU * turned[i]);
+                // The distance tells how many turns the angle lacks.
+                [c - lead * (c / lead).round(), rate, second]
+            }
+        }
+    }
+
+    /// The gradient G = ∂c/∂(x, θ) of the two nodes.
+    pub fn gradient(&self, a: &Node, b: &Node) -> [Vec6; 2] {
+        let zero = Vec3::zeros();
+        let d = a.relative_position(b);
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } => {
+                let e = Vec3::ith(*axis, 1.0);
+                [stack(&e, &zero), stack(&-e, &zero)]
+            }
+            ConstraintEquation::BodyAxis { e, .. } => {
+                let e = b.R() * e;
+                [stack(&e, &zero), stack(&-e, &e.cross(&d))]
+            }
+            ConstraintEquation::Perpendicular { p, s } => {
+                let turn = (a.R() * p).cross(&(b.R() * s));
+                [stack(&zero, &turn), stack(&zero, &-turn)]
+            }
+            ConstraintEquation::Distance { .. } => {
+                let u = d.normalize();
+                [stack(&u, &zero), stack(&-u, &zero)]
+            }
+            ConstraintEquation::Angle(angle) => angle.gradient(a, b),
+            ConstraintEquation::Given(angle) => angle.gradient(a, b),
+            ConstraintEquation::Screw { angle, e, at, lead } => {
+                let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gradient(a, b);
+                let turned = angle.gradient(a, b);
+                std::array::from_fn(|i| along[i] - lead / TAU * turned[i])
+            }
+        }
+    }
+
+    /// Adds the stiffness: calls `add(row, column, k)` for the 3×3 blocks of ∂(Gᵀλ)/∂(x, θ), whose rows and columns are
+    /// numbered in the order x_a, θ_a, x_b, θ_b.
+    pub fn stiffness(&self, a: &Node, b: &Node, lambda: f64, mut add: impl FnMut(usize, usize, Mat3)) {
+        let d = a.relative_position(b);
+        match self {
+            ConstraintEquation::GlobalAxis { .. } => {}
+            ConstraintEquation::BodyAxis { e, .. } => along_axis(e, b, &d, lambda, &mut add),
+            ConstraintEquation::Perpendicular { p, s } => {
+                let (p, s) = (skew(&(a.R() * p)), skew(&(b.R() * s)));
+                let (sp, ps) = (s * p * lambda, p * s * lambda);
+                add(1, 1, sp);
+                add(1, 3, -ps);
+                add(3, 1, -sp);
+                add(3, 3, ps);
+            }
+            ConstraintEquation::Distance { .. } => {
+                let now = d.norm();
+                let u = d / now;
+                let k = (Mat3::identity() - u * u.transpose()) * (lambda / now);
+                for (i, j, sign) in [(0, 0, 1.0), (0, 2, -1.0), (2, 0, -1.0), (2, 2, 1.0)] {
+                    add(i, j, k * sign);
+                }
+            }
+            ConstraintEquation::Angle(angle) => angle.stiffness(a, b, lambda, &mut add),
+            ConstraintEquation::Given(angle) => angle.stiffness(a, b, lambda, &mut add),
+            ConstraintEquation::Screw { angle, e, lead, .. } => {
+                along_axis(&-e, b, &d, lambda, &mut add);
+                angle.stiffness(a, b, -lead / TAU * lambda, &mut add);
+            }
+        }
+    }
+
+    /// True where the multiplier is a moment and the gap an angle; otherwise they are a force and a length.
+    pub fn is_rotational(&self) -> bool {
+        use ConstraintEquation::{Angle, Given, Perpendicular};
+        matches!(self, Perpendicular { .. } | Angle(_) | Given(_))
+    }
+
+    /// Tells, for motion in the plane normal to a global axis, whether the equation constrains anything; `None` where
+    /// its forces would act out of that plane. `d` is x_a − x_b.
+    pub fn in_plane(&self, normal: usize, d: &Vec3) -> Option<bool> {
+        const SMALL: f64 = 1e-12; // what rounding leaves of a zero
+        let along = |v: &Vec3| v[normal].abs() > 1.0 - SMALL;
+        let across = |v: &Vec3| v[normal].abs() <= SMALL * v.amax();
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } => Some(*axis != normal),
+            ConstraintEquation::BodyAxis { e, .. } if along(e) => Some(false),
+            ConstraintEquation::BodyAxis { e, .. } => (across(e) && across(d)).then_some(true),
+            ConstraintEquation::Perpendicular { p, s } if along(p) || along(s) => Some(false),
+            ConstraintEquation::Perpendicular { p, s } => (across(p) && across(s)).then_some(true),
+            ConstraintEquation::Distance { .. } => across(d).then_some(true),
+            ConstraintEquation::Angle(Angle { p, s, .. }) => (across(p) && across(s)).then_some(true),
+            ConstraintEquation::Given(angle) => Some(angle.axis == normal),
+            // Its moment is about the axis along which its force acts.
+            ConstraintEquation::Screw { .. } => None,
+        }
+    }
+
+    /// A word for what the equation constrains, as messages and tables give it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            ConstraintEquation::GlobalAxis { axis, .. } => ["ux", "uy", "uz"][*axis],
+            ConstraintEquation::BodyAxis { .. } => "sideways",
+            ConstraintEquation::Perpendicular { .. } => "turn",
+            ConstraintEquation::Distance { .. } => "distance",
+            ConstraintEquation::Angle(_) => "angle",
+            ConstraintEquation::Given(angle) => ["rx", "ry", "rz"][angle.axis],
+            ConstraintEquation::Screw { .. } => "thread",
+        }
+    }
+}
+
+/// The stiffness of [`ConstraintEquation::BodyAxis`]; `d` is x_a − x_b.
+fn along_axis(e: &Vec3, b: &Node, d: &Vec3, lambda: f64, add: &mut impl FnMut(usize, usize, Mat3)) {
+    let e = skew(&(b.R() * e)) * lambda;
+    add(0, 3, -e);
+    add(2, 3, e);
+    add(3, 0, e);
+    add(3, 2, -e);
+    add(3, 3, skew(d) * e);
+}
+
+/// Equations that keep the nodes together along global axes where they meet, as [`super::rigid_link`] does.
+pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = ConstraintEquation> {
+    (0..3).filter(move |&axis| dofs[axis]).map(move |axis| ConstraintEquation::GlobalAxis { axis, at: d[axis] })
+}
+
+/// Equations that keep the nodes from turning against each other about some of the axes of the second: with one axis
+/// free they make a revolute joint, with two a universal joint whose cross is perpendicular at t = 0. The free axes
+/// turn with the nodes.
+pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<ConstraintEquation> {
+    let e = |i: usize| axes.column(i % 3).into_owned();
+    let square = |i: usize, j: usize| ConstraintEquation::Perpendicular { p: e(i), s: e(j) };
+    let fixed: Vec<usize> = (0..3).filter(|&i| dofs[i]).collect();
+    match fixed.as_slice() {
+        [k] => vec![square(k + 1, k + 2)],
+        // The free axis of the first node stays perpendicular to the other two of the second.
+        [i, j] => vec![square(3 - i - j, *i), square(3 - i - j, *j)],
+        [] => Vec::new(),
+        _ => vec![square(0, 1), square(1, 2), square(2, 0)],
+    }
+}

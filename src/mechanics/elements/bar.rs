@@ -1,0 +1,283 @@
+//! Bar or cable: a straight two-node element with an axial force only, N = A σ(ε) with ε = (l − L)/L, L the length without
+//! force.
+
+use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::link::{Link, LinkLaw, Links};
+use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, Uniaxial};
+use crate::state::{Configuration, Node, elongation, stretch};
+use base::math::{Mat3, Vec3};
+
+/// Elastic bars as springs of stiffness EA/L along the line of their nodes. L is `free` times the length at t = 0; `x`: positions
+/// of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
+pub fn elastic_bars(
+    elements: &[[usize; 2]],
+    axial_stiffness: f64,
+    tension_only: bool,
+    free: f64,
+    x: &[Vec3],
+    damping: f64,
+) -> Links {
+    let link = |&nodes: &[usize; 2]| {
+        let start = nodes.map(|node| x[node]);
+        let length = free * (start[1] - start[0]).norm();
+        let stiffness = axial_stiffness / length;
+        let law = match tension_only {
+            true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
+            false => LinkLaw::Linear { stiffness, preload: 0.0 },
+        };
+        Link::new(nodes, law, damping * stiffness, None, length, start)
+    };
+    Links::new(elements.iter().map(link).collect())
+}
+
+/// Bars whose material yields. A tension-only bar goes slack where its elastic strain would be compressive, and keeps its
+/// plastic elongation.
+pub struct YieldingBars {
+    elements: Vec<BarElement>,
+    area: f64,
+    law: MaterialLaw,
+    tension_only: bool,
+    /// Factor of stiffness-proportional damping (time).
+    damping: f64,
+    /// The number of history variables of a bar.
+    variables: usize,
+}
+
+/// One bar.
+struct BarElement {
+    nodes: [usize; 2],
+    /// Positions of the nodes at t = 0.
+    start: [Vec3; 2],
+    /// Length without force.
+    free: f64,
+}
+
+/// Length and strain of a bar, with their rates.
+struct BarStrain {
+    /// Unit vector from the first node to the second.
+    e: Vec3,
+    length: f64,
+    strain: f64,
+    strain_rate: f64,
+    /// Velocity of the second node less that of the first.
+    dv: Vec3,
+}
+
+impl YieldingBars {
+    /// `x`: positions of all nodes at t = 0; `free`: length without force over that at t = 0; `damping`: factor of
+    /// stiffness-proportional damping (time).
+    pub fn new(
+        elements: &[[usize; 2]],
+        axial_stiffness: f64,
+        law: &MaterialLaw,
+        tension_only: bool,
+        free: f64,
+        x: &[Vec3],
+        damping: f64,
+    ) -> Self {
+        let element = |&nodes: &[usize; 2]| {
+            let start = nodes.map(|node| x[node]);
+            BarElement { nodes, start, free: free * (start[1] - start[0]).norm() }
+        };
+        YieldingBars {
+            elements: elements.iter().map(element).collect(),
+            area: axial_stiffness / law.elastic().E,
+            law: law.clone(),
+            tension_only,
+            damping,
+            variables: law.history(Uniaxial),
+        }
+    }
+
+    fn strain(&self, e: usize, nodes: &[Node]) -> BarStrain {
+        let BarElement { nodes: ends, start, free } = &self.elements[e];
+        let [a, b] = ends.map(|node| &nodes[node]);
+        let (dx, dv) = (b.relative_position(a), b.v - a.v);
+        let (length, before) = (dx.norm(), start[1] - start[0]);
+        let more = elongation(&before, before.norm(), &stretch(a, b, start), length);
+        // Coincident points define no direction: there is no force until they separate.
+        let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
+        BarStrain { e, length, strain: ((before.norm() - free) + more) / free, strain_rate: e.dot(&dv) / free, dv }
+    }
+
+    /// The range of the history of the group that bar `e` has.
+    fn history_range(&self, e: usize) -> std::ops::Range<usize> {
+        e * self.variables..(e + 1) * self.variables
+    }
+
+    /// True where a tension-only bar would be compressed elastically, so that it has no force.
+    fn is_slack(&self, strain: f64, old: &[f64]) -> bool {
+        self.tension_only && self.law.stress(Uniaxial, &[strain], 0.0, old)[0] < 0.0 && strain <= old[0]
+    }
+
+    /// The axial force and its derivatives.
+    fn tension(&self, at: &BarStrain, dt: f64, old: &[f64], moduli: Moduli) -> Tension {
+        if self.is_slack(at.strain, old) {
+            return Tension::default();
+        }
+        if self.law.has_failed(Uniaxial, old) {
+            return Tension { modulus: FAILED_STIFFNESS * self.law.elastic().E, ..Tension::default() };
+        }
+        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Uniaxial, &[at.strain], dt, old);
+        let viscosity = self.damping * self.law.elastic().E;
+        let damping = viscosity * at.strain_rate;
+        if self.tension_only && stress + damping < 0.0 {
+            // Damping cancels the force of the material at most: the bar does not push.
+            return Tension { material: self.area * stress, damping: -self.area * stress, ..Tension::default() };
+        }
+        let modulus = if moduli == Moduli::Elastic { self.law.elastic().E } else { modulus };
+        Tension { material: self.area * stress, damping: self.area * damping, modulus, viscosity }
+    }
+}
+
+/// Axial force of a bar.
+#[derive(Default)]
+struct Tension {
+    /// Force of the material.
+    material: f64,
+    /// Force of damping.
+    damping: f64,
+    /// ∂stress/∂strain.
+    modulus: f64,
+    /// ∂stress/∂(strain rate).
+    viscosity: f64,
+}
+
+impl ElementBlock for YieldingBars {
+    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
+        self.is_slack(self.strain(e, now.nodes).strain, &now.history[self.history_range(e)])
+    }
+
+    fn has_kinks(&self) -> bool {
+        self.tension_only
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        if self.tension_only { (0..self.len()).filter(|&e| self.is_inactive(e, now)).count() } else { 0 }
+    }
+
+    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
+        !self.tension_only && self.strain(e, before).e.dot(&self.strain(e, now).e) < 0.0
+    }
+
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        &self.elements[e].nodes
+    }
+
+    fn dofs(&self) -> usize {
+        3
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn history(&self) -> usize {
+        self.variables * self.elements.len()
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        for (e, BarElement { nodes: [a, b], .. }) in self.elements.iter().enumerate() {
+            let at = self.strain(e, now.nodes);
+            let tension = self.tension(&at, now.dt, &now.history[self.history_range(e)], Moduli::Algorithmic);
+            let f = (tension.material + tension.damping) * at.e;
+            subtract(&mut F[*a], 0, &-f);
+            subtract(&mut F[*b], 0, &f);
+        }
+    }
+
+    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
+        let old = now.history.get(self.history_range(e))?;
+        let tension = self.tension(&self.strain(e, now.nodes), now.dt, old, Moduli::Algorithmic);
+        Some(tension.material + tension.damping)
+    }
+
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let at = self.strain(e, now.nodes);
+        let free = self.elements[e].free;
+        let tension = self.tension(&at, now.dt, &now.history[self.history_range(e)], moduli);
+        let along = at.e * at.e.transpose();
+        let mut k = self.area / free * (tension.modulus + rate_weight * tension.viscosity) * along;
+        if at.length > 0.0 {
+            let across = (Mat3::identity() - along) / at.length;
+            let force = tension.material + tension.damping;
+            k += force * across + (self.area / free * tension.viscosity) * at.e * (across * at.dv).transpose();
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                K[6 * i + j] = k[(i, j)];
+                K[6 * i + 3 + j] = -k[(i, j)];
+                K[6 * (3 + i) + j] = -k[(i, j)];
+                K[6 * (3 + i) + 3 + j] = k[(i, j)];
+            }
+        }
+    }
+
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        let history = &now.history[self.history_range(e)];
+        let (at, there) = (self.strain(e, now.nodes), self.strain(e, stressed));
+        let along = at.e * at.e.transpose();
+        let modulus = self.tension(&at, now.dt, history, Moduli::Elastic).modulus;
+        let force = self.tension(&there, now.dt, history, Moduli::Elastic).material;
+        let mut k = self.area / self.elements[e].free * modulus * along;
+        if at.length > 0.0 {
+            k += force / at.length * (Mat3::identity() - along);
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                K[6 * i + j] = k[(i, j)];
+                K[6 * i + 3 + j] = -k[(i, j)];
+                K[6 * (3 + i) + j] = -k[(i, j)];
+                K[6 * (3 + i) + 3 + j] = k[(i, j)];
+            }
+        }
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+        let mut sum = Dissipation::default();
+        for (e, new) in new.chunks_exact_mut(self.variables).enumerate() {
+            let at = self.strain(e, now.nodes);
+            let old = &now.history[self.history_range(e)];
+            // The strain of a slack bar is its plastic strain.
+            let strain = if self.is_slack(at.strain, old) { old[0] } else { at.strain };
+            let (_, dissipation) = self.law.advance(Uniaxial, &[strain], (now.dt, part), old, new);
+            sum += dissipation * (self.area * self.elements[e].free);
+        }
+        sum
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let energy = |e: usize| {
+            let (at, old) = (self.strain(e, now.nodes), &now.history[self.history_range(e)]);
+            let slack = self.is_slack(at.strain, old);
+            let density = if slack { 0.0 } else { self.law.elastic_energy(Uniaxial, &[at.strain], old) };
+            self.area * self.elements[e].free * density
+        };
+        (0..self.len()).map(energy).sum()
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        let power = |e: usize| {
+            let at = self.strain(e, now.nodes);
+            let old = &now.history[self.history_range(e)];
+            self.tension(&at, now.dt, old, Moduli::Algorithmic).damping * at.strain_rate * self.elements[e].free
+        };
+        if self.damping > 0.0 { (0..self.len()).map(power).sum() } else { 0.0 }
+    }
+
+    fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
+        self.law.accumulated(Uniaxial, &history[self.history_range(e)])
+    }
+
+    fn can_fail(&self) -> bool {
+        self.law.can_fail()
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        self.law.has_failed(Uniaxial, &history[self.history_range(e)])
+    }
+}

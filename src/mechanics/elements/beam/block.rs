@@ -1,0 +1,335 @@
+//! Forces, energies and results of beams.
+
+use super::kinematics::{Beam, BeamMotion, Beams, GaussPoint, Pack};
+use super::lane_section::SectionStiffness;
+use super::quaternion::{left, right, times_conjugate};
+use super::section::{BeamSection, BeamStiffness};
+use super::tangent::{PackSections, tangent};
+use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::results::IntegrationPoint;
+use crate::materials::Dissipation;
+use crate::state::{Configuration, Node};
+use base::math::lanes::{LANES, Lanes};
+use base::math::number::{LaneVec3, Number};
+use base::math::{Mat3, Vec3};
+
+/// The number of elements from which eight side by side take less time than one after the other; the numbers are the same.
+const WORTH_A_PACK: usize = 6;
+
+/// Stress resultants of one element.
+#[inline(always)]
+fn single((n, m): (Vec3, Vec3)) -> [LaneVec3<f64>; 2] {
+    [LaneVec3(n.into()), LaneVec3(m.into())]
+}
+
+/// The damping of some elements: β, and the stiffness C of their sections; none where they have failed.
+struct Damping<T> {
+    factor: T,
+    elastic: SectionStiffness<T>,
+}
+
+/// Internal forces and moments on the nodes of a pack, global components, whose nodes move by `motion` and whose sections have the stress
+/// resultants `stress`.
+#[inline(always)]
+fn forces_of<T: Number, const N: usize>(
+    pack: &Pack<T, N>,
+    points: usize,
+    (motion, nodes): (&BeamMotion<T, N>, &[Node]),
+    damping: Option<Damping<T>>,
+    mut stress: impl FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2],
+) -> [[T; 6]; N] {
+    let q = &motion.q;
+    let mut gradient = [[T::ZERO; 4]; N]; // ∂U/∂q_a
+    let mut force = [LaneVec3::ZERO; N];
+    for g in 0..points {
+        let point = pack.interpolate(g, motion);
+        let [mut n, mut m] = stress(g, &point);
+        if let Some(Damping { factor, elastic }) = &damping {
+            let (rates, _) = pack.rates(g, &point, q, nodes);
+            let [nd, md] = elastic.stress(&rates);
+            n += *factor * nd;
+            m += *factor * md;
+        }
+        // σ·∂ε/∂p = −2 (r′ p n + p′ m + (σ·e) p)/|p|², σ·∂ε/∂p′ = 2 p m/|p|².
+        let sigma_e = n.dot(&(point.strain[0] + pack.tangent)) + m.dot(&point.strain[1]);
+        let rpn = right(&left(&point.dr, &point.p), &n);
+        let dpm = right(&point.dp, &m);
+        let pm = right(&point.p, &m);
+        let w = pack.weight(g);
+        let w2 = T::splat(2.0) * point.inv * w;
+        let LaneVec3([x, y, z]) = n;
+        let n_global = x * point.R[0] + y * point.R[1] + z * point.R[2];
+        for a in 0..N {
+            let (value, slope) = pack.at_node(g, a);
+            let (of_value, of_slope) = (-w2 * value, w2 * slope);
+            for k in 0..4 {
+                gradient[a][k] += of_value * (rpn[k] + dpm[k] + sigma_e * point.p[k]) + of_slope * pm[k];
+            }
+            force[a] += (w * slope) * n_global;
+        }
+    }
+    let mut out = [[T::ZERO; 6]; N];
+    for a in 0..N {
+        let LaneVec3([x, y, z]) = force[a];
+        let LaneVec3([u, v, w]) = T::splat(0.5) * times_conjugate(&gradient[a], &q[a]).1;
+        out[a] = [x, y, z, u, v, w];
+    }
+    out
+}
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// The damping of an element.
+    #[inline(always)]
+    fn damping_of(&self, e: usize, now: &Configuration) -> Option<Damping<f64>> {
+        let section = &self.elements[e].section;
+        let acts = self.damping > 0.0 && !section.has_failed(now.history);
+        acts.then(|| Damping { factor: self.damping, elastic: BeamStiffness::side_by_side(|_| section.elastic()) })
+    }
+
+    /// Internal forces and moments on the nodes of an element.
+    #[inline(always)]
+    fn nodal_forces(&self, e: usize, now: &Configuration) -> [Force; N] {
+        let (pack, motion) = self.one(e, now.nodes);
+        let section = &self.elements[e].section;
+        let damping = self.damping_of(e, now);
+        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, |g, point| {
+            let (gamma, kappa) = point.strains();
+            single(section.stress(g, &gamma, &kappa, now))
+        })
+    }
+
+    /// Internal forces and moments on the nodes of some elements that stay elastic, side by side.
+    #[inline(always)]
+    fn forces_side_by_side(&self, elements: &[Beam<N, S>], now: &Configuration) -> [[Lanes; 6]; N] {
+        let pack = Pack::<Lanes, N>::new(elements, &self.shape);
+        let motion = pack.gather(now.nodes);
+        let elastic = BeamStiffness::side_by_side(|lane| elements[lane.min(elements.len() - 1)].section.elastic());
+        let damping = (self.damping > 0.0).then(|| Damping { factor: Lanes::splat(self.damping), elastic });
+        let stress = |_, point: &GaussPoint<Lanes>| elastic.stress(&point.strain);
+        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, stress)
+    }
+
+    /// Subtracts forces on the nodes of element `e` from `F`.
+    #[inline(always)]
+    fn subtract_from_nodes(&self, e: usize, f: &[Force; N], F: &mut [Force]) {
+        for a in 0..N {
+            let F = &mut F[self.elements[e].nodes[a]];
+            (0..6).for_each(|i| F[i] -= f[a][i]);
+        }
+    }
+
+    /// Tangents of elements into `K`, one after the other, see [`ElementBlock::tangent`]: as many as `T` has lanes, or fewer. The stresses are
+    /// those at the nodes `lead`, where there are such.
+    fn tangents_of<T: Number>(
+        &self,
+        elements: &[Beam<N, S>],
+        (now, lead): (&Configuration, Option<&[Node]>),
+        rate_weight: Option<f64>,
+        moduli: Moduli,
+        K: &mut [f64],
+    ) {
+        let pack = Pack::<T, N>::new(elements, &self.shape);
+        let section = |lane: usize| &elements[lane.min(elements.len() - 1)].section;
+        let elastic = BeamStiffness::side_by_side(|lane| section(lane).elastic());
+        let sections = PackSections {
+            points: self.integration_points(),
+            linearise: &|g, strain| S::linearise(section, g, strain, (now, moduli), &elastic),
+            viscous: elastic.scaled(T::splat(self.damping)),
+            has_failed: self.damping > 0.0 && section(0).has_failed(now.history),
+        };
+        match rate_weight.filter(|_| self.damping > 0.0) {
+            Some(rate_weight) => tangent::<T, N, true>(&pack, &sections, (now.nodes, lead), rate_weight, K),
+            None => tangent::<T, N, false>(&pack, &sections, (now.nodes, lead), 0.0, K),
+        }
+    }
+}
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// The elastic energy that is left in an element that fails, in the sections that have not.
+    fn left_in(&self, e: usize, now: &Configuration) -> f64 {
+        let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
+        let at = |g: usize| {
+            let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+            let energy = element.section.stored(g, (&gamma, &kappa), now);
+            self.shape.weight[g] * element.jacobian * energy
+        };
+        (0..self.integration_points()).map(at).sum()
+    }
+}
+
+impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        &self.elements[e].nodes
+    }
+
+    fn dofs(&self) -> usize {
+        6
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn history(&self) -> usize {
+        self.elements.iter().map(|e| e.section.history()).sum()
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        if S::IS_ELASTIC && self.len() >= WORTH_A_PACK {
+            for elements in self.elements.chunks(LANES) {
+                let f = self.forces_side_by_side(elements, now);
+                // A node gets the forces of its elements in their order.
+                for (lane, element) in elements.iter().enumerate() {
+                    for a in 0..N {
+                        let F = &mut F[element.nodes[a]];
+                        (0..6).for_each(|i| F[i] -= f[a][i].as_array()[lane]);
+                    }
+                }
+            }
+            return;
+        }
+        for e in 0..self.len() {
+            self.subtract_from_nodes(e, &self.nodal_forces(e, now), F);
+        }
+    }
+
+    fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
+        let mut sum = Dissipation::default();
+        for (e, element) in self.elements.iter().enumerate() {
+            let (pack, motion) = self.one(e, now.nodes);
+            let damping = self.damping_of(e, now);
+            let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, |g, point| {
+                let (gamma, kappa) = point.strains();
+                let (n, m, spent) = element.section.advance(g, (&gamma, &kappa), now, new);
+                sum += spent * (self.shape.weight[g] * element.jacobian);
+                single((n, m))
+            });
+            self.subtract_from_nodes(e, &forces, F);
+            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+                sum.eroded += self.left_in(e, &Configuration { history: new, ..*now });
+            }
+        }
+        sum
+    }
+
+    fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {
+        let forces = self.nodal_forces(e, now);
+        Some([forces[0], forces[N - 1]])
+    }
+
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let (pack, motion) = self.one(e, now);
+        // The axis opposes the normals of its sections: Rᵀr′·t ≤ 0.
+        let along = |g| pack.interpolate(g, &motion).strain[0].dot(&pack.tangent) + 1.0;
+        (0..self.integration_points()).any(|g| along(g) <= 0.0)
+    }
+
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        // Where material yields, its state counts more than what a correction stretches.
+        let lead = now.lead.filter(|_| S::IS_ELASTIC);
+        self.tangents_of::<f64>(&self.elements[e..=e], (now, lead), Some(rate_weight), moduli, K);
+    }
+
+    fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let length = 36 * N * N;
+        let elements = &self.elements[first..first + K.len() / length];
+        let lead = now.lead.filter(|_| S::IS_ELASTIC);
+        for (elements, K) in elements.chunks(LANES).zip(K.chunks_mut(LANES * length)) {
+            // Damping ends where an element fails.
+            let fails = self.damping > 0.0 && elements.iter().any(|e| e.section.has_failed(now.history));
+            if !fails && elements.len() >= WORTH_A_PACK {
+                self.tangents_of::<Lanes>(elements, (now, lead), Some(rate_weight), moduli, K);
+                continue;
+            }
+            for (one, K) in elements.chunks(1).zip(K.chunks_mut(length)) {
+                self.tangents_of::<f64>(one, (now, lead), Some(rate_weight), moduli, K);
+            }
+        }
+    }
+
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        self.tangents_of::<f64>(&self.elements[e..=e], (now, Some(stressed)), None, Moduli::Elastic, K);
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+        let mut sum = Dissipation::default();
+        for (e, element) in self.elements.iter().enumerate() {
+            let (pack, motion) = self.one(e, now.nodes);
+            for g in 0..self.integration_points() {
+                let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+                let dissipation = element.section.update_history(g, (&gamma, &kappa), now, part, new);
+                sum += dissipation * (self.shape.weight[g] * element.jacobian);
+            }
+            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+                sum.eroded += self.left_in(e, &Configuration { history: new, ..*now });
+            }
+        }
+        sum
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let mut sum = 0.0;
+        for (e, element) in self.elements.iter().enumerate() {
+            let (pack, motion) = self.one(e, now.nodes);
+            for g in 0..self.integration_points() {
+                let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+                let energy = element.section.energy(g, &gamma, &kappa, now);
+                sum += self.shape.weight[g] * element.jacobian * energy;
+            }
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn points(&self) -> usize {
+        self.integration_points()
+    }
+
+    fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Configuration) -> Option<IntegrationPoint> {
+        let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
+        let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+        let (n, m) = element.section.stress(g, &gamma, &kappa, now);
+        let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
+        Some(IntegrationPoint {
+            s: element.jacobian * (1.0 + self.shape.xi[g]),
+            forces: [n.x, n.y, n.z, m.x, m.y, m.z],
+            plastic_strain: element.section.plastic_strain(g, now.history),
+        })
+    }
+
+    fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
+        (0..self.integration_points()).map(|g| self.elements[e].section.plastic_strain(g, history)).fold(0.0, f64::max)
+    }
+
+    fn can_fail(&self) -> bool {
+        self.elements.first().is_some_and(|element| element.section.can_fail())
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        self.elements[e].section.has_failed(history)
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        let nodes = now.nodes;
+        if self.damping == 0.0 {
+            return 0.0;
+        }
+        let mut sum = 0.0;
+        let intact = |(_, element): &(usize, &Beam<N, S>)| !element.section.has_failed(now.history);
+        for (e, element) in self.elements.iter().enumerate().filter(intact) {
+            let (pack, motion) = self.one(e, nodes);
+            for g in 0..self.integration_points() {
+                let point = pack.interpolate(g, &motion);
+                let ([gamma, kappa], _) = pack.rates(g, &point, &motion.q, nodes);
+                let (gamma, kappa) = (gamma.lane(0), kappa.lane(0));
+                let (n, m) = element.section.elastic().stress(&gamma, &kappa);
+                sum += self.damping * self.shape.weight[g] * element.jacobian * (n.dot(&gamma) + m.dot(&kappa));
+            }
+        }
+        sum
+    }
+}

@@ -1,0 +1,122 @@
+//! Beams as the model describes them, and what is computed once from the undeformed geometry.
+
+use super::fibres::{FibreProfile, FibreSection};
+use super::kinematics::{Beam, Beams};
+use super::section::{BeamSection, BeamStiffness};
+use super::shape::{IntegrationRule, ShapeFunctions};
+use crate::elements::block::ElementBlock;
+use crate::materials::{FibreStress, MaterialLaw, StressState, Uniaxial};
+use crate::sections::{Fibre, Stiffness};
+use base::math::{Mat3, Vec3};
+use std::sync::Arc;
+
+/// One element as the model describes it.
+pub struct BeamGeometry<'a> {
+    /// Its nodes from one end to the other.
+    pub nodes: &'a [usize],
+    /// Tangent and section axes at t = 0: columns, global components.
+    pub frame: &'a Mat3,
+    /// Stiffness of its section, in section axes.
+    pub stiffness: &'a Stiffness,
+}
+
+impl<const N: usize> Beams<N> {
+    /// Elastic beams. `x`: positions of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
+    pub fn new<'a>(elements: impl Iterator<Item = BeamGeometry<'a>>, x: &[Vec3], damping: f64) -> Self {
+        let section = |e: &BeamGeometry, length: f64| match N {
+            2 => BeamStiffness::new(&with_bending_flexibility(e.stiffness, length), e.frame),
+            _ => BeamStiffness::new(e.stiffness, e.frame),
+        };
+        Beams::build(elements, x, damping, IntegrationRule::Gauss.points(N - 1), section)
+    }
+}
+
+/// A section of fibres whose material yields.
+#[derive(Debug, Clone)]
+pub struct FibreModel {
+    /// The law of the fibres.
+    pub law: MaterialLaw,
+    /// The fibres of the section, in section axes.
+    pub fibres: Vec<Fibre>,
+    /// Shear stress enters the yield condition; otherwise shear and torsion stay elastic.
+    pub shear: bool,
+    /// The rule by which an element is integrated along its length.
+    pub rule: IntegrationRule,
+    /// The number of integration points of an element, at least its order.
+    pub points: usize,
+}
+
+impl FibreModel {
+    /// Beams of N nodes, all of one section. The shear stiffness of two-node elements is not corrected, because the correction
+    /// is that of an elastic beam.
+    pub fn beams<'a, const N: usize>(
+        &self,
+        elements: impl Iterator<Item = BeamGeometry<'a>>,
+        x: &[Vec3],
+        damping: f64,
+    ) -> Box<dyn ElementBlock> {
+        match self.shear {
+            true => self.in_state::<N, _, 3>(FibreStress, elements, x, damping),
+            false => self.in_state::<N, _, 1>(Uniaxial, elements, x, damping),
+        }
+    }
+
+    /// Beams whose fibres are in the stress state `state`.
+    fn in_state<'a, const N: usize, S: StressState<C> + 'static, const C: usize>(
+        &self,
+        state: S,
+        elements: impl Iterator<Item = BeamGeometry<'a>>,
+        x: &[Vec3],
+        damping: f64,
+    ) -> Box<dyn ElementBlock> {
+        let (mut profile, mut first) = (None, 0);
+        let section = |e: &BeamGeometry, _| {
+            let new = || Arc::new(FibreProfile::new(&self.law, state, &self.fibres, e.stiffness));
+            let section = FibreSection::new(profile.get_or_insert_with(new), e.stiffness, e.frame, first, self.points);
+            first += section.history();
+            section
+        };
+        Box::new(Beams::<N, FibreSection<S, C>>::build(elements, x, damping, self.rule.points(self.points), section))
+    }
+}
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// Beams integrated by `rule`; `section` makes the sections of an element of given length.
+    fn build<'a>(
+        elements: impl Iterator<Item = BeamGeometry<'a>>,
+        x: &[Vec3],
+        damping: f64,
+        rule: (&'static [f64], &[f64]),
+        mut section: impl FnMut(&BeamGeometry, f64) -> S,
+    ) -> Self {
+        let elements = elements
+            .map(|e| {
+                let mut nodes = [0; N];
+                nodes.copy_from_slice(&e.nodes[..N]);
+                let axis = x[nodes[N - 1]] - x[nodes[0]];
+                let length = axis.norm();
+                let start = nodes.map(|node| x[node]);
+                Beam { nodes, start, jacobian: 0.5 * length, tangent: axis / length, section: section(&e, length) }
+            })
+            .collect();
+        Beams { shape: ShapeFunctions::new(rule), elements, damping }
+    }
+}
+
+/// The stiffness of a section with the bending flexibility of an element of the given length added to its shear flexibility,
+/// 1/GA + h²/12EI (MacNeal, J. Struct. Mech. 6, 1978). The shear centre stays where it is.
+fn with_bending_flexibility(section: &Stiffness, length: f64) -> Stiffness {
+    let mut out = section.clone();
+    let shear = section.N.fixed_view::<2, 2>(1, 1).into_owned();
+    let bending = section.M.fixed_view::<2, 2>(1, 1).into_owned();
+    let (Some(shear_flexibility), Some(f)) = (shear.try_inverse(), bending.try_inverse()) else { return out };
+    // Q_y bends about z, Q_z about −y.
+    let swapped = nalgebra::Matrix2::new(f[(1, 1)], -f[(0, 1)], -f[(1, 0)], f[(0, 0)]);
+    let Some(reduced) = (shear_flexibility + swapped * (length * length / 12.0)).try_inverse() else { return out };
+    let arm = shear_flexibility * section.NM.fixed_view::<2, 1>(1, 0);
+    let coupling = reduced * arm;
+    out.N.fixed_view_mut::<2, 2>(1, 1).copy_from(&reduced);
+    out.M[(0, 0)] += (arm.tr_mul(&(reduced - shear)) * arm)[(0, 0)];
+    out.NM.fixed_view_mut::<2, 1>(1, 0).copy_from(&coupling);
+    out
+}

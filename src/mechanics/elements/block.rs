@@ -1,0 +1,173 @@
+//! The interface of a group of like elements to assembly.
+
+use super::results::{IntegrationPoint, ShellResultants};
+use super::wandering::Wandering;
+use crate::materials::Dissipation;
+use crate::state::{Configuration, Node};
+use base::math::{Mat3, Vec3};
+use base::names::short;
+use std::any::Any;
+
+/// Generalised force on a node: force and moment, global components.
+pub type Force = [f64; 6];
+
+/// The moduli of the material that a tangent is formed with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Moduli {
+    /// The derivative of the stress at the end of the step: K(ep) + K(σ).
+    Algorithmic,
+    /// The elastic moduli, whatever has yielded: K(e) + K(σ) (11).
+    Elastic,
+}
+
+/// A group of like elements. Matrices are row-major over the element's nodes, [`ElementBlock::dofs`] degrees of freedom each.
+pub trait ElementBlock: Send + Sync {
+    /// The number of elements.
+    fn len(&self) -> usize;
+    /// True where the group has no elements.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+    /// Nodes of element `e`.
+    fn nodes(&self, e: usize) -> &[usize];
+    /// Nodes on which elements may act besides their own, and those of all nodes that they may turn besides.
+    fn further_nodes(&self) -> [&[usize]; 2] {
+        [&[], &[]]
+    }
+    /// The block as elements that act on nodes which change; `None` for all others.
+    fn wandering(&self) -> Option<&dyn Wandering> {
+        None
+    }
+    /// Degrees of freedom of each node: 3, translations only, or 6, translations and rotations.
+    fn dofs(&self) -> usize;
+    /// The number of history variables of all material points.
+    fn history(&self) -> usize {
+        0
+    }
+    /// Prepares for schemes that ask for forces alone, over and over, at the expense of memory. Forces stay the same to the last bit.
+    fn pack(&mut self) {}
+    /// Subtracts the internal forces of all elements from `F`, which is indexed by node.
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
+    /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
+    /// Tangents of the elements from `first` on, one after the other, as many as `K` holds: those of [`ElementBlock::tangent`] but for
+    /// rounding.
+    fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let length = (self.dofs() * self.nodes(first).len()).pow(2);
+        let each = K.chunks_mut(length).enumerate();
+        each.for_each(|(k, K)| self.tangent(first + k, now, rate_weight, moduli, K));
+    }
+    /// The elastic tangent of element `e` in the configuration `now` with the stresses that it has where its nodes are those `stressed`: what
+    /// stresses add to stiffness, apart from what displacements do. By default all is that of the nodes `stressed`.
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        self.tangent(e, &Configuration { nodes: stressed, lead: None, ..*now }, 0.0, Moduli::Elastic, K);
+    }
+    /// Writes the history variables at `part` of the way from the last state to `now` into `new`, which has the length
+    /// [`ElementBlock::history`], and returns the work that material points dissipate or store inelastically on that way.
+    fn update_history(&self, _now: &Configuration, _part: f64, _new: &mut [f64]) -> Dissipation {
+        Dissipation::default()
+    }
+    /// Subtracts the internal forces from `F` as [`ElementBlock::subtract_forces`] does and writes the history variables in `now` into `new`
+    /// as [`ElementBlock::update_history`] does: the same numbers, with the material computed once.
+    fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
+        self.subtract_forces(now, F);
+        self.update_history(now, 1.0, new)
+    }
+    /// Elastic energy stored.
+    fn energy(&self, now: &Configuration) -> f64;
+    /// Power that the damping of the elements dissipates, ≥ 0.
+    fn damping_power(&self, _now: &Configuration) -> f64 {
+        0.0
+    }
+    /// Internal forces of element `e`, a line from its first node to its last, on these two; `None` for what is no such line.
+    fn end_forces(&self, _e: usize, _now: &Configuration) -> Option<[Force; 2]> {
+        None
+    }
+    /// Force along element `e` with its damping, positive in tension; `None` for what resists more than stretching.
+    fn axial_force(&self, _e: usize, _now: &Configuration) -> Option<f64> {
+        None
+    }
+    /// The number of integration points of an element at which [`ElementBlock::point`] gives results.
+    fn points(&self) -> usize {
+        0
+    }
+    /// Stress resultants at an integration point, in the axes of `frame` (columns, global at t = 0).
+    fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Configuration) -> Option<IntegrationPoint> {
+        None
+    }
+    /// Stress resultants of a shell element whose nodes lay at `start`. Axis 1 is `axis` projected on the surface at t = 0, or,
+    /// where that is normal to the surface, the global axis farthest from the normal.
+    fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<ShellResultants> {
+        None
+    }
+    /// The strain of largest size in the surface of element `e`, of Green, where its material yields; 0 for all others. And whether its law
+    /// is for large strains.
+    fn surface_strain(&self, _e: usize, _now: &Configuration) -> (f64, bool) {
+        (0.0, false)
+    }
+    /// Largest accumulated plastic strain in element `e`, by the history variables of the group.
+    fn plastic_strain(&self, _e: usize, _history: &[f64]) -> f64 {
+        0.0
+    }
+    /// True for elements that may fail: such as carry nothing any more from some state on.
+    fn can_fail(&self) -> bool {
+        false
+    }
+    /// True where element `e` has failed, by the history variables of the group.
+    fn has_failed(&self, _e: usize, _history: &[f64]) -> bool {
+        false
+    }
+    /// Why element `e` has failed.
+    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
+        format!("its plastic strain is {}", short(self.plastic_strain(e, history)))
+    }
+    /// True where the tangent is the same in every configuration.
+    fn is_linear(&self) -> bool {
+        false
+    }
+    /// The unit vector along which element `e` acts, where that is fixed in space.
+    fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
+        None
+    }
+    /// True where element `e`, with six degrees of freedom a node, acts on the rotations of its `node`-th.
+    fn is_rotational(&self, _e: usize, _node: usize) -> bool {
+        true
+    }
+    /// True where element `e` has neither force nor tangent in this configuration.
+    fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
+        false
+    }
+    /// True where forces have kinks: their slope jumps where something opens, closes, slips, yields or comes to a stop.
+    fn has_kinks(&self) -> bool {
+        false
+    }
+    /// A number of the branches between kinks on which the elements are; histories tell the others.
+    fn branches(&self, _now: &Configuration) -> usize {
+        0
+    }
+    /// True where element `e` has passed through zero length or area, or stands against its own sections, so that it is no longer what
+    /// it models. `before`: the nodes at the start of the step.
+    fn is_turned_over(&self, _e: usize, _before: &[Node], _now: &[Node]) -> bool {
+        false
+    }
+    /// The block itself where its type does more than this trait says: contacts, which limit the step.
+    fn as_any(&self) -> Option<&dyn Any> {
+        None
+    }
+    /// True where friction may make tangents unsymmetric.
+    fn rubs(&self) -> bool {
+        false
+    }
+    /// True where forces depend on velocities.
+    fn is_damped(&self) -> bool {
+        false
+    }
+}
+
+/// Subtracts `f` from three components of `F` from `at` on: 0, the force, or 3, the moment.
+#[inline]
+pub fn subtract(F: &mut Force, at: usize, f: &Vec3) {
+    F[at] -= f.x;
+    F[at + 1] -= f.y;
+    F[at + 2] -= f.z;
+}

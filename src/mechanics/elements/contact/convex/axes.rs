@@ -1,0 +1,109 @@
+//! The axis that separates two convex solids, or along which they overlap least.
+
+use super::cylinder::CylinderPose;
+use super::pose::{ConvexPose, LeastAxis, PolyhedronPose};
+use super::swept::Swept;
+use base::math::Vec3;
+use base::math::convex::ConvexShape;
+use base::math::polyhedron::{Polyhedron, PolyhedronEdge};
+
+/// Looks for the axis of the largest gap.
+struct AxisSearch {
+    best: LeastAxis,
+    size: f64,
+}
+
+impl AxisSearch {
+    fn look(&mut self, axis: Vec3, gap: f64) {
+        // Rounding does not choose between axes that are as good.
+        if gap > self.best.gap + 1e-9 * self.size {
+            self.best = LeastAxis { axis, gap };
+        }
+    }
+}
+
+impl ConvexPose<'_> {
+    /// The axis of the largest gap. Of polyhedra that is one of the normals of faces and the products of edges: two of them overlap where
+    /// none of these separates them (S. Gottschalk, 1996).
+    pub fn least_axis(&self) -> LeastAxis {
+        if let ConvexShape::HalfSpace(_) = self.other {
+            return LeastAxis { axis: Vec3::z(), gap: self.deepest(&Vec3::z()).z };
+        }
+        let best = LeastAxis { axis: Vec3::z(), gap: f64::NEG_INFINITY };
+        let mut search = AxisSearch { best, size: self.size() };
+        let Some(pose) = self.as_polyhedra() else {
+            let of_cylinder = || CylinderPose::of(self).map(|pose| pose.least_axis());
+            return Swept::of(self).map(|swept| swept.least_axis()).or_else(of_cylinder).unwrap_or(best);
+        };
+        match (pose.own.half(), pose.other.half()) {
+            (Some(own), Some(other)) => pose.look_along_boxes(own, other, &mut search),
+            _ => pose.look_along_polyhedra(&mut search),
+        }
+        search.best
+    }
+}
+
+impl PolyhedronPose<'_> {
+    /// Of boxes the 15 axes, to both sides at once.
+    fn look_along_boxes(&self, own: &Vec3, other: &Vec3, search: &mut AxisSearch) {
+        let reach = |axis: &Vec3| {
+            let own: f64 = (0..3).map(|k| own[k] * self.Q.column(k).dot(axis).abs()).sum();
+            own + other.dot(&axis.abs())
+        };
+        let mut look = |axis: Vec3| {
+            let along = self.y.dot(&axis);
+            search.look(axis * 1f64.copysign(along), along.abs() - reach(&axis));
+        };
+        (0..3).for_each(|k| look(Vec3::ith(k, 1.0)));
+        (0..3).for_each(|k| look(self.Q.column(k).into_owned()));
+        for i in 0..3 {
+            for j in 0..3 {
+                // Edges that are parallel have the plane of two faces between them.
+                if let Some(axis) = Vec3::ith(i, 1.0).cross(&self.Q.column(j)).try_normalize(1e-6) {
+                    look(axis);
+                }
+            }
+        }
+    }
+
+    /// Of others the normals of all faces, and of each pair of edges the axis across both, where they are a pair that may meet first: where
+    /// the arcs between the normals of their faces cross on the sphere (D. Gregorius, 2013).
+    fn look_along_polyhedra(&self, search: &mut AxisSearch) {
+        for face in self.other.faces() {
+            let nearest = self.own.farthest(&-self.Q.tr_mul(&face.normal));
+            search.look(face.normal, face.normal.dot(&(self.y + self.Q * nearest)) - face.offset);
+        }
+        for face in self.own.faces() {
+            let axis = -(self.Q * face.normal);
+            search.look(axis, axis.dot(&(self.y - self.other.farthest(&axis))) - face.offset);
+        }
+        for own in self.own.edges() {
+            let [a, b] = own.ends.map(|k| self.y + self.Q * self.own.corners()[k]);
+            let arc = normals(self.own, own).map(|normal| -(self.Q * normal));
+            for other in self.other.edges() {
+                let [c, d] = other.ends.map(|k| self.other.corners()[k]);
+                if !cross(&normals(self.other, other), &arc) {
+                    continue;
+                }
+                let Some(axis) = (d - c).cross(&(b - a)).try_normalize(1e-6 * (d - c).norm() * (b - a).norm()) else {
+                    continue;
+                };
+                // The origin lies inside the other.
+                let outward = axis * 1f64.copysign(axis.dot(&c));
+                search.look(outward, outward.dot(&(a - c)));
+            }
+        }
+    }
+}
+
+/// The normals of the two faces that meet in an edge.
+fn normals(of: &Polyhedron, edge: &PolyhedronEdge) -> [Vec3; 2] {
+    edge.faces.map(|face| of.faces()[face].normal)
+}
+
+/// True where the shorter arcs between two pairs of unit vectors cross.
+fn cross([a, b]: &[Vec3; 2], [c, d]: &[Vec3; 2]) -> bool {
+    let (ab, cd) = (b.cross(a), d.cross(c));
+    let (c_ab, d_ab, a_cd, b_cd) = (c.dot(&ab), d.dot(&ab), a.dot(&cd), b.dot(&cd));
+    c_ab * d_ab < 0.0 && a_cd * b_cd < 0.0 && c_ab * b_cd > 0.0
+}

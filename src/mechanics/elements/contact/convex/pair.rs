@@ -1,0 +1,228 @@
+//! Two convex solids on two bodies, or on a body and the ground: where they lie, and the force between them.
+
+use super::depth::Depth;
+use super::memory::Memory;
+use super::pose::ConvexPose;
+use super::rubbing::{Rubbing, rubbing};
+use super::touch::{SHALLOW, depth};
+use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::restitution::{Loss, NormalForce, normal_force};
+use crate::elements::contact::surface::Surface;
+use crate::elements::contact::surfaces::SurfaceShape;
+use crate::state::{Configuration, Node};
+use base::math::convex::ConvexShape;
+use base::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, stack};
+
+/// A face that lies on another acts as the four corners it has.
+const POINTS: f64 = 4.0;
+
+/// Depth, as a part of their size, at which those are taken to rest on each other that were drawn face to face.
+const RESTING: f64 = 1e-6;
+
+/// A convex solid on a body, which touches others.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConvexBody {
+    /// The node of its body, at its centre.
+    pub node: usize,
+    /// The shape, in the axes of the body.
+    pub shape: ConvexShape,
+}
+
+/// A convex solid that is touched.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CarriedConvex {
+    /// The node that carries it.
+    pub node: usize,
+    /// Its centre from the node, in the frame of the node.
+    pub center: Vec3,
+    /// Its axes (columns), in the frame of the node.
+    pub axes: Mat3,
+    /// The shape, in these axes.
+    pub shape: ConvexShape,
+}
+
+impl CarriedConvex {
+    /// The convex solid that a surface is to what reaches so far; `None` where it is none.
+    pub fn of_surface(surface: &Surface, node: usize, reach: f64) -> Option<Self> {
+        let half_space = || matches!(surface.shape, SurfaceShape::Plane(_)).then(|| ConvexShape::half_space(reach));
+        let shape = surface.as_convex().or_else(half_space)?;
+        Some(CarriedConvex { node, center: surface.center, axes: surface.axes, shape })
+    }
+
+    /// The one that touches, where others touch it.
+    pub fn of_body(one: &ConvexBody) -> Self {
+        CarriedConvex { node: one.node, center: Vec3::zeros(), axes: Mat3::identity(), shape: one.shape.clone() }
+    }
+}
+
+/// The law for the whole of a face, of that for a corner.
+pub(super) fn law_of_faces(law: ContactLaw) -> ContactLaw {
+    let loss = match law.loss {
+        Loss::Damping(c) => Loss::Damping(POINTS * c),
+        other => other,
+    };
+    ContactLaw { stiffness: POINTS * law.stiffness, loss, ..law }
+}
+
+/// The number of history variables of a pair.
+pub(super) fn width(law: &ContactLaw) -> usize {
+    let of_motion = if law.friction > 0.0 { super::memory::WIDTH } else { FRICTION_FORCE };
+    of_motion + usize::from(law.keeps_inset())
+}
+
+/// Two convex solids and the law between them.
+#[derive(Clone, Copy)]
+pub(in crate::elements::contact) struct ConvexPair<'a> {
+    /// The law, for the whole of a face.
+    pub law: &'a ContactLaw,
+    /// The one that touches.
+    pub one: &'a ConvexBody,
+    /// The one that is touched.
+    pub other: &'a CarriedConvex,
+}
+
+impl ConvexPair<'_> {
+    /// The stiffness along the faces: with a sphere that of a point, as it is against the normal.
+    fn tangential_stiffness(&self) -> f64 {
+        let is_point = self.one.shape.is_sphere() || self.other.shape.is_sphere();
+        self.law.stiffness / if is_point { POINTS } else { 1.0 }
+    }
+}
+
+/// A pair at an instant. E is the frame of the one that is touched: its columns are its axes, global components.
+#[derive(Clone, Copy)]
+pub(in crate::elements::contact) struct PairKinematics<'a> {
+    /// The frame of the one that is touched.
+    pub E: Mat3,
+    /// Position of the one body less that of the carrier, global components.
+    pub d: Vec3,
+    /// The position of the one relative to the other, in E.
+    pub pose: ConvexPose<'a>,
+    /// Velocity of the one body relative to the frame E that moves with the carrier, and relative angular velocity, in E.
+    pub rates: Vec6,
+}
+
+impl PairKinematics<'_> {
+    /// Force and moment on the one body, global components.
+    pub fn global(&self, W: &Vec6) -> (Vec3, Vec3) {
+        (self.E * linear(W), self.E * angular(W))
+    }
+}
+
+/// The force of a pair at an instant.
+pub(in crate::elements::contact) struct PairForce {
+    /// The depth D with its derivatives.
+    pub depth: Depth,
+    /// The depth at which the spring begins.
+    pub inset: f64,
+    /// Ḋ, per time.
+    pub rate: f64,
+    /// The normal force.
+    pub normal: NormalForce,
+    /// The friction; `None` where there is none.
+    pub rubbing: Option<Rubbing>,
+    /// Force and moment on the one body at its node, in E.
+    pub W: Vec6,
+}
+
+impl<'a> ConvexPair<'a> {
+    /// Where the two are to each other, and how they move.
+    pub fn kinematics(&self, nodes: &[Node]) -> PairKinematics<'a> {
+        let (one, carrier) = (&nodes[self.one.node], &nodes[self.other.node]);
+        let d = one.relative_position(carrier);
+        let R = carrier.R();
+        let E = R * self.other.axes;
+        let w = one.v - carrier.v - carrier.omega.cross(&d);
+        let rates = stack(&E.tr_mul(&w), &E.tr_mul(&(one.omega - carrier.omega)));
+        let y = self.other.axes.tr_mul(&(R.tr_mul(&d) - self.other.center));
+        let pose = ConvexPose { y, Q: E.tr_mul(&one.R()), own: &self.one.shape, other: &self.other.shape };
+        PairKinematics { E, d, pose, rates }
+    }
+
+    /// The force; `None` where the two are apart.
+    pub fn force(&self, at: &PairKinematics, old: PointHistory) -> Option<PairForce> {
+        let depth = depth(&at.pose, self.law.touching)?;
+        let rate = depth.g.dot(&at.rates);
+        let speed = match old.is_known() {
+            true if old.gap() <= 0.0 => old.impact_speed().max(rate),
+            true => old.rate().max(rate),
+            false => rate,
+        };
+        let law = self.law;
+        let inset = old.inset(law.keeps_inset());
+        let normal = normal_force(law.stiffness, &law.loss, depth.D - inset, inset, rate, speed);
+        let mut W = -normal.force * depth.g;
+        let rubs = law.friction > 0.0 && old.is_known();
+        let rubbing = rubs
+            .then(|| {
+                let memory = Memory::read(old);
+                let mu = law.friction_at(memory.slip_speed);
+                rubbing((self.tangential_stiffness(), mu), &at.pose, &depth, normal.force, &memory)
+            })
+            .flatten();
+        if let Some(rubbing) = &rubbing {
+            W += rubbing.W;
+        }
+        Some(PairForce { depth, inset, rate, normal, rubbing, W })
+    }
+
+    /// Derivatives of the force W by the motion (u, ψ) at fixed rates, and by the rates.
+    ///
+    /// The first are central differences: the solid that the two have in common has exact moments and first derivatives, and
+    /// differences over a small part of its thickness are exact to some 1e-8, which no formula in closed form would better by much.
+    pub fn derivatives(&self, at: &PairKinematics, acting: &PairForce, old: PointHistory) -> [Mat6; 2] {
+        let (g, normal) = (&acting.depth.g, &acting.normal);
+        let mut by_rates = -normal.by_rate * g * g.transpose();
+        if let Some(rubbing) = &acting.rubbing {
+            by_rates += normal.by_rate * rubbing.by_N * g.transpose();
+        }
+        let size = at.pose.size();
+        // What only begins to touch, or is about to part, has the stiffness of the normal force alone.
+        let stiffness = || -normal.by_depth * g * g.transpose();
+        let (mut at, mut D) = (*at, acting.depth.D);
+        if D < 2.0 * SHALLOW * size {
+            if self.law.dynamic {
+                return [stiffness(), by_rates];
+            }
+            // In statics nothing else may hold what was put on another: it has the stiffness of one that rests there.
+            at.pose = at.pose.pushed_in(&at.pose.least_axis(), RESTING * size);
+            D = RESTING * size;
+        }
+        let h = (1e-4 * D).max(1e-10 * size);
+        let mut by_motion = Mat6::zeros();
+        for k in 0..6 {
+            let step = if k < 3 { h } else { h / size };
+            let moved = |step: f64| {
+                let pose = at.pose.moved(k, step);
+                self.force(&PairKinematics { pose, ..at }, old).map(|force| force.W)
+            };
+            let (Some(ahead), Some(behind)) = (moved(step), moved(-step)) else { return [stiffness(), by_rates] };
+            by_motion.set_column(k, &((ahead - behind) / (2.0 * step)));
+        }
+        if let (ConvexShape::Cylinder(shape), None) = (&self.one.shape, &acting.rubbing) {
+            // Spinning about its own axis changes nothing, where differences leave rounding.
+            let axis = at.pose.Q * shape.axes().column(2);
+            let spin = stack(&Vec3::zeros(), &axis);
+            by_motion -= by_motion * spin * spin.transpose();
+        }
+        [by_motion, by_rates]
+    }
+
+    /// The kinematics and the force; `None` where the two are apart or known to be far.
+    pub fn touch(&self, old: PointHistory, now: &Configuration) -> Option<(PairKinematics<'a>, PairForce)> {
+        if now.dt < old.safe_time() {
+            return None;
+        }
+        let at = self.kinematics(now.nodes);
+        let force = self.force(&at, old)?;
+        Some((at, force))
+    }
+
+    /// The energy of the springs of the normal force and of friction.
+    pub fn energy(&self, acting: &PairForce) -> f64 {
+        let k = self.law.stiffness;
+        let pull = acting.rubbing.as_ref().map_or(0.0, |rubbing| rubbing.pull);
+        0.5 * k * (acting.depth.D - acting.inset).max(0.0).powi(2) + 0.5 * pull * pull / k
+    }
+}

@@ -1,0 +1,57 @@
+//! Friction between two convex solids: a spring at the centre of what they have in common, along the faces and about their normal.
+//!
+//! It bears up to μN in sliding, μN r in turning about the normal, r the mean lever of an even pressure, and what lies on the
+//! ellipsoid between the two where both happen (S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991)); beyond that it slips.
+//! The stretch grows by the way of the material at the centre since the last state, so that the centre may wander.
+
+use super::depth::Depth;
+use super::memory::Memory;
+use super::pose::ConvexPose;
+use base::math::{Vec3, Vec6, linear, stack};
+
+/// Friction of a pair.
+pub struct Rubbing {
+    /// Force and moment on the one body at its node.
+    pub W: Vec6,
+    /// ∂W/∂N.
+    pub by_N: Vec6,
+    /// Size of the force and moment of the spring, as a force.
+    pub pull: f64,
+    /// The stretch that the spring keeps.
+    pub stretch: Vec3,
+    /// The twist that the spring keeps, in radians.
+    pub twist: f64,
+    /// The length of the way that slipped.
+    pub slip: f64,
+}
+
+/// The friction of a pair that is `depth` deep under the normal force `N`, with a spring of stiffness `k` along the faces; `None` where the normal force has no direction along
+/// which anything could move.
+pub fn rubbing(
+    (k, friction): (f64, f64),
+    pose: &ConvexPose,
+    depth: &Depth,
+    N: f64,
+    memory: &Memory,
+) -> Option<Rubbing> {
+    let normal = -linear(&depth.g);
+    let n = normal.try_normalize(0.0)?;
+    let arm = depth.c - pose.y;
+    // The material at the centre lay at y₀ + Q₀ Qᵀ (c − y).
+    let way = depth.c - memory.y - memory.Q * pose.Q.tr_mul(&arm);
+    let from = memory.stretch + way;
+    let e = from - n.dot(&from) * n;
+    let twist = memory.twist + n.dot(&memory.turned(&pose.Q));
+    let turned = depth.lever * twist;
+    let length = (e.norm_squared() + turned * turned).sqrt();
+    // What presses is N |∂D|: on an edge less than N.
+    let limit = friction * N * normal.norm();
+    let slips = k * length > limit;
+    let factor = if slips { limit / length } else { k };
+    let T = factor * e;
+    let W = -stack(&T, &(arm.cross(&T) + factor * turned * depth.lever * n));
+    // What slips bears in proportion to N.
+    let by_N = if slips && N > 0.0 { W / N } else { Vec6::zeros() };
+    let (pull, part) = if slips { (limit, limit / (k * length)) } else { (k * length, 1.0) };
+    Some(Rubbing { W, by_N, pull, stretch: part * e, twist: part * twist, slip: (1.0 - part) * length })
+}

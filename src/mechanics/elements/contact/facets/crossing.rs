@@ -1,0 +1,74 @@
+//! Edges that cross: two lines whose ends touch as points of their own, a corner of a box the beam or a node of the beam the box.
+//!
+//! With δ the depth where the lines are nearest to each other, and δ_e that of the deepest of their four ends against the other line, they
+//! press with the potential
+//!
+//! ```text
+//!  U = ½ k (δ² − δ_e²)
+//! ```
+//!
+//! which is that of the crossing where no end is within reach, and fades to nothing as the crossing comes to an end: what slides off an edge
+//! over its corner, or along a beam over its nodes, is pressed once all the way. Lines side by side press by their ends alone.
+
+use super::facet::{FacetPoint, Region};
+use super::pair::{EndForce, FacetPair, PairPlace};
+use crate::elements::contact::restitution::normal_force;
+use crate::state::Node;
+use base::math::Vec3;
+use std::borrow::Cow;
+
+/// The deepest of the four ends of two edges against the other edge, where one is within reach.
+pub(super) fn deepest_end<'a>(pair: &FacetPair<'a>, nodes: &[Node]) -> Option<(FacetPair<'a>, PairPlace)> {
+    let at = |share: f64| FacetPair { point: Cow::Owned(pair.point.at(share)), ..pair.clone() };
+    let own = [0.0, 1.0].map(|share| {
+        let end = at(share);
+        let place = end.place(nodes);
+        (end, place)
+    });
+    let others = [0, 1].map(|k| {
+        let end = at(share_nearest_to(pair, k, nodes));
+        let place = place_at_end(&end, k, nodes);
+        (end, place)
+    });
+    let all = own.into_iter().chain(others);
+    all.filter(|(_, place)| place.gap() < 0.0).min_by(|a, b| a.1.gap().total_cmp(&b.1.gap()))
+}
+
+/// What that end does; `speed` is that of the impact by the rate at hand.
+pub(super) fn end_force(pair: &FacetPair, speed: impl Fn(f64) -> f64, nodes: &[Node]) -> Option<EndForce> {
+    let (end, place) = deepest_end(pair, nodes)?;
+    let (law, depth, rate) = (pair.law, -place.gap(), place.rate());
+    let normal = normal_force(law.stiffness, &law.loss, depth, place.inset, rate, speed(rate));
+    Some(EndForce {
+        normal,
+        depth,
+        power: (normal.force - law.stiffness * depth) * rate,
+        F: normal.force * place.n,
+        shares: [end.point.weights[0], end.point.weights[1]],
+        W: [-place.W[0], -place.W[1]],
+    })
+}
+
+/// The share of the second end of the line that touches in its point nearest to the k-th end of the other.
+fn share_nearest_to(pair: &FacetPair, k: usize, nodes: &[Node]) -> f64 {
+    let [a, b] = [0, 1].map(|end| &nodes[pair.point.nodes[end]]);
+    let along = b.relative_position(a);
+    let square = along.norm_squared();
+    let to_end = nodes[pair.facet.nodes[k]].relative_position(a);
+    if square > 0.0 { (to_end.dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 }
+}
+
+/// Where the point of a pair and the k-th end of the other line are to each other.
+fn place_at_end(pair: &FacetPair, k: usize, nodes: &[Node]) -> PairPlace {
+    let mut place = pair.place(nodes);
+    let origin = &nodes[pair.point.nodes[0]];
+    let p = pair.facet.seen_from(&place.x, origin, nodes);
+    let mut N = [0.0; 3];
+    N[k] = 1.0;
+    place.at = FacetPoint { triangle: 0, N, region: Region::Vertex(k), g: -p[k] };
+    place.W = pair.facet.weights(&place.at);
+    place.d = p[k].norm();
+    place.n = if place.d > 0.0 { -p[k] / place.d } else { place.n };
+    place.w = pair.parts(&place.W).map(|(node, share)| share * nodes[node].v).sum::<Vec3>();
+    place
+}

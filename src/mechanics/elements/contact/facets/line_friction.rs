@@ -1,0 +1,148 @@
+//! Friction between two lines: a spring at the place where they touch, which wanders along both.
+//!
+//! The nearest points slide along either line, which is no way of the material. So the stretch of the spring grows by the way of what is at
+//! that place now since the last state: with the shares c of the four ends in x − y, their ways δx and turns δφ since then, and arms a
+//! and b from the axes to the place, a + b = d,
+//!
+//! ```text
+//!  way = Σ c δx − a δφ_A × n − b δφ_B × n,   F = N n − T,   M_A = a n × T,   M_B = b n × T
+//! ```
+//!
+//! where F and M_A go to the ends of the line that touches by its shares, −F and M_B to those of the other, which keeps linear and angular
+//! momentum. Ways and turns are those relative to the first node of the line that is touched, so that nothing acts where both move as one
+//! body. The stretch is kept along that line and across it: what rolls takes it along. Where a line has no rotations to take a moment, a bar,
+//! its arm is zero: it rubs at its axis.
+
+use super::lines;
+use super::memory::{LineMemory, LineMemoryMut};
+use super::pair::{FacetPair, PairPlace, Rub};
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+use base::math::rotation::{exp, log, renormalise};
+use std::borrow::Cow;
+
+/// The four ends: of the line that touches, and of that which is touched.
+pub(super) const ENDS: usize = 4;
+
+/// The way and the turn of an end, global components.
+type Motion = (Vec3, Vec3);
+
+/// The arms from the axes of both lines to the place where they touch: of the one that touches, and of the other.
+pub(super) fn arms(pair: &FacetPair, place: &PairPlace) -> [f64; 2] {
+    let own = pair.point.rolling_radius;
+    let arm = if own > 0.0 { place.d * own / place.reach } else { 0.0 };
+    [arm, place.d - arm]
+}
+
+/// The friction under the normal force `N`.
+pub(super) fn rub(pair: &FacetPair, place: &PairPlace, memory: LineMemory, N: f64, nodes: &[Node]) -> Rub {
+    let n = &place.n;
+    let [along, across] = axes(pair, place, nodes);
+    let way = way(pair, place, &ways(pair, memory, nodes));
+    let [p, q] = memory.stretch();
+    let stretch = p * along + q * across + way - n.dot(&way) * n;
+    let (length, limit) = (stretch.norm(), pair.law.friction_at(memory.slip_speed()) * N / pair.law.stiffness);
+    let kept = if length > limit { limit / length * stretch } else { stretch };
+    Rub { T: pair.law.stiffness * kept, slip: stretch - kept }
+}
+
+/// The way of the material at the place since the last state, less what is common to both.
+fn way(pair: &FacetPair, place: &PairPlace, ways: &[Motion; ENDS]) -> Vec3 {
+    let [a, b] = arms(pair, place);
+    let (own, other) = ([pair.point.weights[0], pair.point.weights[1]], [place.W[0], place.W[1]]);
+    let sum = |from: usize, [c, d]: [f64; 2]| {
+        let ((x, phi), (y, psi)) = (ways[from], ways[from + 1]);
+        (c * x + d * y, c * phi + d * psi)
+    };
+    let ((x, phi), (y, psi)) = (sum(0, own), sum(2, other));
+    x - y - (a * phi + b * psi).cross(&place.n)
+}
+
+/// Unit vectors along the line that is touched and across it, both normal to n.
+fn axes(pair: &FacetPair, place: &PairPlace, nodes: &[Node]) -> [Vec3; 2] {
+    let n = &place.n;
+    let u = nodes[pair.facet.nodes[1]].relative_position(&nodes[pair.facet.nodes[0]]);
+    let along = (u - n.dot(&u) * n).try_normalize(1e-9 * u.norm());
+    // Of lines end to end any direction will do.
+    let along = along.unwrap_or_else(|| n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize());
+    [along, n.cross(&along)]
+}
+
+/// The nodes of the four ends.
+fn ends(pair: &FacetPair) -> [usize; ENDS] {
+    [pair.point.nodes[0], pair.point.nodes[1], pair.facet.nodes[0], pair.facet.nodes[1]]
+}
+
+/// Ways and turns of the four ends since the last state, relative to the first node of the line that is remembered. An end that was none of
+/// those remembered goes as the end of its line that was: the two have just come to the next element, and stand near that.
+fn ways(pair: &FacetPair, memory: LineMemory, nodes: &[Node]) -> [Motion; ENDS] {
+    let old = [pair.kept_line[0], pair.kept_line[1], pair.kept.nodes[0], pair.kept.nodes[1]];
+    let origin = &nodes[old[2]];
+    let (R, q) = (origin.R(), origin.rotation.conjugate());
+    let motion = |k: usize| -> Motion {
+        let Some(stored) = LineMemory::place_of(k) else { return (Vec3::zeros(), Vec3::zeros()) };
+        let node = &nodes[old[k]];
+        let turned = log(&renormalise(&(q * node.rotation * memory.rotation(stored).conjugate())));
+        (node.relative_position(origin) - R * memory.position(stored), R * turned)
+    };
+    let known: [Motion; ENDS] = std::array::from_fn(motion);
+    let now = ends(pair);
+    std::array::from_fn(|k| {
+        let line = if k < 2 { [0, 1] } else { [2, 3] };
+        let same = line.into_iter().find(|&j| old[j] == now[k]);
+        let shared = || line.into_iter().find(|&j| line.iter().any(|&i| old[j] == now[i]));
+        match same.or_else(shared) {
+            Some(j) => known[j],
+            None => {
+                let [(x, phi), (y, psi)] = line.map(|j| known[j]);
+                (0.5 * (x + y), 0.5 * (phi + psi))
+            }
+        }
+    })
+}
+
+/// Writes where the four ends stand after `part` of the way since the last state; without a memory, as the velocities tell.
+pub(super) fn remember(pair: &FacetPair, now: &Configuration, part: f64, new: &mut LineMemoryMut) {
+    let (nodes, ends) = (now.nodes, ends(pair));
+    let origin = &nodes[ends[2]];
+    let (R, q) = (origin.R(), origin.rotation.conjugate());
+    // What of the way to `now` is still to come at the end of the step.
+    let left: [Motion; ENDS] = match pair.memory {
+        Some(memory) => ways(pair, LineMemory(memory.0), nodes).map(|(x, phi)| ((1.0 - part) * x, (1.0 - part) * phi)),
+        None => {
+            let dt = (1.0 - part) * now.dt;
+            ends.map(|node| (dt * nodes[node].v, dt * nodes[node].omega))
+        }
+    };
+    let (common, turn) = left[2];
+    for k in 0..ENDS {
+        let Some(stored) = LineMemory::place_of(k) else { continue };
+        let node = &nodes[ends[k]];
+        let arm = node.relative_position(origin);
+        let (x, phi) = left[k];
+        let way = x - common - turn.cross(&arm);
+        let rotation = exp(&-R.tr_mul(&(phi - turn))) * (q * node.rotation);
+        new.set(stored, &R.tr_mul(&(arm - way)), &renormalise(&rotation));
+    }
+}
+
+/// Writes the stretch after `part` of the way from that of the last state to the one found.
+pub(super) fn remember_stretch(
+    pair: &FacetPair,
+    place: &PairPlace,
+    (stretch, part): (&Vec3, f64),
+    nodes: &[Node],
+    new: &mut LineMemoryMut,
+) {
+    let [along, across] = axes(pair, place, nodes);
+    let old = pair.memory.map_or([0.0; 2], |memory| LineMemory(memory.0).stretch());
+    let toward = |old: f64, axis: &Vec3| old + part * (stretch.dot(axis) - old);
+    new.set_stretch([toward(old[0], &along), toward(old[1], &across)]);
+}
+
+/// The pair where its nodes lie thus: the nearest points are found anew.
+pub(super) fn moved<'a>(pair: &FacetPair<'a>, nodes: &[Node]) -> FacetPair<'a> {
+    let share = lines::share(&pair.point, pair.facet, nodes);
+    let point = share.map_or_else(|| pair.point.clone(), |share| Cow::Owned(pair.point.at(share)));
+    FacetPair { point, ..pair.clone() }
+}

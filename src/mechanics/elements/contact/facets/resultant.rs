@@ -1,0 +1,105 @@
+//! The results of contacts of facets for output.
+
+use super::facet::Facet;
+use super::lines;
+use super::span::FacetSpan;
+use super::surface::FacetContacts;
+use super::touch;
+use crate::elements::contact::grid::GridBox;
+use crate::elements::contact::point::ContactPoint;
+use crate::elements::contact::resultant::ContactAction;
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+
+/// Calls with what each point that touches does to a facet, its moment about the origin.
+pub fn each_facet_touch(of: &FacetContacts, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
+    of.each_touch(now.nodes, now.history, |_, _, pair| {
+        let place = pair.place(now.nodes);
+        let force = pair.force(&place, now.nodes);
+        let x = now.nodes[pair.point.nodes[0]].x + place.x;
+        let (mut f, mut m) = (-force.F, force.C - (x - place.at.g).cross(&force.F));
+        if let Some(end) = &force.less {
+            let x: Vec3 = pair.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * now.nodes[node].x).sum();
+            f += end.F;
+            m += x.cross(&end.F);
+        }
+        act(ContactAction { on: pair.facet.nodes[0], by: pair.point.nodes[0], f, m });
+    });
+}
+
+/// Least gap of points from facets, those left out which `may_touch` excludes; infinite where there are none. Facets are looked at in the
+/// order of one coordinate, as long as that alone does not tell that they are farther than the nearest so far; `sorted` is room for them.
+pub fn facet_gap(
+    facets: &[Facet],
+    points: &[ContactPoint],
+    may_touch: &dyn Fn(usize, usize) -> bool,
+    nodes: &[Node],
+    sorted: &mut Vec<FacetSpan>,
+) -> f64 {
+    let places = |facet: &Facet| facet.nodes.map(|node| nodes[node].x);
+    let all = GridBox::around(facets.iter().flat_map(places));
+    let axis = (all.high - all.low).imax();
+    let span = |facet: &Facet| {
+        let at = places(facet).map(|x| x[axis]);
+        let (low, high) = at.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &x| (l.min(x), h.max(x)));
+        (low - facet.half, high + facet.half)
+    };
+    sorted.clear();
+    sorted.extend(facets.iter().enumerate().map(|(number, facet)| (span(facet).0, span(facet).1, number)));
+    sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.2.cmp(&b.2)));
+    let longest = sorted.iter().map(|(low, high, _)| high - low).fold(0.0, f64::max);
+    let mut least = f64::INFINITY;
+    for (e, point) in points.iter().enumerate() {
+        let origin = &nodes[point.nodes[0]];
+        let x = point.relative_position(origin, nodes);
+        let at = origin.x[axis] + x[axis];
+        // Half of what a line has along the coordinate.
+        let spread = if point.is_line() { x[axis].abs() } else { 0.0 };
+        let look = |&(low, high, number): &FacetSpan, least: &mut f64| {
+            let facet = &facets[number];
+            if (low - at).max(at - high) - spread - point.radius < *least && may_touch(e, number) {
+                let nearest =
+                    lines::share(point, facet, nodes).map(|share| point.at(share).relative_position(origin, nodes));
+                let x = nearest.unwrap_or(x);
+                let gap = facet.closest(&facet.seen_from(&x, origin, nodes)).g.norm() - facet.half - point.radius;
+                *least = least.min(gap);
+            }
+        };
+        let from = sorted.partition_point(|(low, _, _)| *low < at);
+        for facet in &sorted[from..] {
+            if facet.0 - at - spread - point.radius >= least {
+                break;
+            }
+            look(facet, &mut least);
+        }
+        for facet in sorted[..from].iter().rev() {
+            if at - facet.0 - longest - spread - point.radius >= least {
+                break;
+            }
+            look(facet, &mut least);
+        }
+    }
+    least
+}
+
+/// Least gap of the points from the facets that they may touch; infinite where there are none.
+pub fn least_facet_gap(of: &FacetContacts, nodes: &[Node]) -> f64 {
+    let may_touch = |e: usize, facet: usize| of.may_touch(e, facet as u32) && !of.is_near_along(e, facet as u32);
+    let mut nearby = of.nearby(nodes);
+    if of.is_inner {
+        // Of what touches itself only minima of the distance count, which the lists tell as far as they reach.
+        let mut found = std::mem::take(&mut nearby.touches);
+        let least = (0..of.points.len()).map(|e| touch::least_minimum(of, nearby.of(e), e, nodes, &mut found));
+        let least = least.fold(f64::INFINITY, f64::min);
+        nearby.touches = found;
+        if least.is_finite() {
+            return least;
+        }
+    }
+    facet_gap(&of.facets, &of.points, &may_touch, nodes, &mut nearby.spans)
+}
+
+/// True where a facet has a node of a point.
+pub fn is_own(point: &ContactPoint, facet: &Facet) -> bool {
+    point.nodes().iter().any(|node| facet.nodes().contains(node))
+}

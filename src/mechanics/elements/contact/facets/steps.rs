@@ -1,0 +1,199 @@
+//! Limits on the step length: nothing passes through the middle of a surface of facets unseen, and impacts are resolved.
+
+use super::balls;
+use super::facet::{Facet, Region};
+use super::found::{FacetTouch, TouchQuery};
+use super::nearby::farthest;
+use super::surface::FacetContacts;
+use super::touch;
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+
+/// Part of the reach by which a point that is known to be on one side of a facet may have come through its middle.
+const THROUGH: f64 = 0.9;
+
+/// True where a step from `start` to `now` must be shorter: a point would pass a facet, would come into an impact that the step does not
+/// resolve, or would slide on so far that its friction is forgotten.
+pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
+    let way = farthest(of, now.nodes, |_, node| start[node].x);
+    !way.is_finite() || passes_any(of, way, start, now) || 2.0 * way > of.margin && forgets(of, now)
+}
+
+/// True where a point would pass the middle of a facet on whose side it was not known to be, would come through it by nearly all of its
+/// reach, or come into an impact that the step does not resolve. Balls do not pass the middle of each other.
+fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration) -> bool {
+    let mut nearby = of.nearby(now.nodes);
+    let mut found = std::mem::take(&mut nearby.touches);
+    let is_missed = (0..of.points.len()).any(|e| {
+        let old = of.of_point(e, now.history);
+        let near = nearby.of(e);
+        if 2.0 * way <= of.margin && nearby.is_clear(e, 2.0 * way) {
+            return false;
+        }
+        if !near.is_empty() {
+            touch::find(of, near, TouchQuery { e, limit: of.law.touching, stays: true }, now.nodes, old, &mut found);
+            touch::take_over(of, e, now.nodes, now.history, &mut found);
+            let too_far = |touch: &FacetTouch| {
+                let pair = of.pair(e, touch, now.history);
+                let place = pair.place(now.nodes);
+                let is_through = place.d < -THROUGH * place.reach;
+                is_through || is_unresolved(of, pair.memory.map(|memory| memory.motion()), place.gap(), now.dt)
+            };
+            if found.iter().any(too_far) {
+                return true;
+            }
+        }
+        let known = |facet: usize, normal: &dyn Fn(&Facet) -> Vec3| {
+            let is_same = |slot: usize| {
+                let memory = of.memory(old, slot);
+                let other = memory.facet();
+                memory.motion().is_known()
+                    && (other == facet || normal(&of.facets[other]).dot(&normal(&of.facets[facet])).abs() > 0.5)
+            };
+            (0..of.slots).any(is_same)
+        };
+        if !of.is_of_balls && (0..of.slots).any(|slot| has_come_through(of, e, slot, now)) {
+            return true;
+        }
+        let ahead = nearby.on_the_way(of, e, way);
+        ahead.iter().any(|&number| {
+            if of.is_of_balls && !balls::may_have_passed(of, e, number, way, now.nodes) {
+                return false;
+            }
+            let facet = &of.facets[number as usize];
+            let Some(beyond) = passes(of, e, facet, [start, now.nodes]) else { return false };
+            let stays = || {
+                facet.has_sides()
+                    && beyond <= THROUGH * (facet.half + of.points[e].radius)
+                    && known(number as usize, &|facet| facet.frame(now.nodes).column(2).into_owned())
+            };
+            !of.is_near_along(e, number) && !stays()
+        })
+    });
+    nearby.touches = found;
+    is_missed
+}
+
+/// True where what rubbed has slid on so far that nothing tells of it where it touches now, and friction would begin anew there: over more
+/// than a facet in one step.
+fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
+    if of.law.friction == 0.0 || of.is_of_balls {
+        return false;
+    }
+    let rubs = |e: usize, slot: usize| {
+        let motion = of.memory(of.of_point(e, now.history), slot).motion();
+        motion.is_known() && motion.gap() <= 0.0 && motion.friction_force() > 0.0
+    };
+    let all = |e: usize| (0..of.slots).filter(|&slot| rubs(e, slot)).count();
+    // By point: what rubbed there, what of that still touches, and what begins to. Lines hand on to each other.
+    let (mut e, mut known, mut begun) = (usize::MAX, 0, 0);
+    let mut on_all = [0, 0];
+    let mut is_lost = false;
+    of.each_touch(now.nodes, now.history, |point, touch, _| {
+        if point != e {
+            is_lost |= e != usize::MAX && begun > 0 && known < all(e);
+            (e, known, begun) = (point, 0, 0);
+        }
+        match touch.slot.map(|slot| (point, slot)).or(touch.from) {
+            Some((from, slot)) if rubs(from, slot) => (known, on_all[0]) = (known + 1, on_all[0] + 1),
+            Some(_) => {}
+            None if touch.gap < 0.0 => (begun, on_all[1]) = (begun + 1, on_all[1] + 1),
+            None => {}
+        }
+    });
+    match of.is_of_lines {
+        true => on_all[1] > 0 && on_all[0] < (0..of.points.len()).map(all).sum::<usize>(),
+        false => is_lost || e != usize::MAX && begun > 0 && known < all(e),
+    }
+}
+
+/// True where a point has come through the facet that it remembers, by nearly all of its reach.
+fn has_come_through(of: &FacetContacts, e: usize, slot: usize, now: &Configuration) -> bool {
+    let old = of.of_point(e, now.history);
+    let memory = of.memory(old, slot);
+    if !memory.motion().is_known() || memory.motion().gap() > 0.0 || !of.facets[memory.facet()].has_sides() {
+        return false;
+    }
+    let place = of.pair_of(e, slot, old).place(now.nodes);
+    place.at.region == Region::Interior && place.d < -THROUGH * place.reach
+}
+
+/// True for a landing that the step does not resolve: see [`crate::elements::contact::ContactLaw::resolution`].
+fn is_unresolved(
+    of: &FacetContacts,
+    old: Option<crate::elements::contact::history::PointHistory>,
+    gap: f64,
+    dt: f64,
+) -> bool {
+    let law = &of.law;
+    let fast = 3.0 * law.floor;
+    let lands = match old {
+        Some(old) => old.gap() > 0.0 && (old.rate() > fast || -gap > fast * 2.0 * law.resolution),
+        None => true,
+    };
+    lands && dt > law.resolution
+}
+
+/// Longest time ahead at which equilibrium may be written next, given the history of the block.
+pub fn longest_facet_step(of: &FacetContacts, history: &[f64]) -> f64 {
+    let law = &of.law;
+    let mut in_impact = of
+        .known_memories(history)
+        .map(|memory| memory.motion())
+        .filter(|old| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration);
+    if law.resolution < f64::INFINITY && in_impact.next().is_some() { law.resolution } else { f64::INFINITY }
+}
+
+/// Least gap of all pairs at the end of the last step, by the history of the block; infinite where none is near.
+pub fn last_facet_gap(of: &FacetContacts, history: &[f64]) -> f64 {
+    let known = of.known_memories(history).map(|memory| memory.motion());
+    known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
+}
+
+/// By how far a point has come through a facet between two motions, on straight lines; `None` where it has not.
+fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> Option<f64> {
+    let seen = at.map(|nodes| {
+        let point = of.point_at(e, of.share(e, facet, nodes));
+        let origin = &nodes[point.nodes[0]];
+        facet.seen_from(&point.relative_position(origin, nodes), origin, nodes)
+    });
+    let reach = facet.half + of.points[e].radius;
+    if facet.is_ball() {
+        return swaps_sides(seen[0][0], seen[1][0], reach).then_some(0.0);
+    }
+    if facet.is_line() {
+        let [from, to] = [0, 1].map(|i| facet.closest(&seen[i]).g);
+        return swaps_sides(from, to, reach).then_some(0.0);
+    }
+    let is_passed = |k: &usize| {
+        let k = *k;
+        let [from, to] = [0, 1].map(|i| facet.triangle(k, &seen[i]));
+        let side = |[a, b, c]: &[Vec3; 3]| a.dot(&(b - a).cross(&(c - a)));
+        let (s, t) = (side(&from), side(&to));
+        if s == 0.0 || s.signum() == t.signum() {
+            return false;
+        }
+        let part = s / (s - t);
+        let [a, b, c] = [0, 1, 2].map(|i| from[i] + part * (to[i] - from[i]));
+        let n = (b - a).cross(&(c - a));
+        // Inside where the point, the origin, is to the left of all edges; a little beyond counts too.
+        let inside = |p: &Vec3, q: &Vec3| p.cross(q).dot(&n) >= -1e-6 * n.norm_squared();
+        inside(&a, &b) && inside(&b, &c) && inside(&c, &a)
+    };
+    let passed = (0..facet.triangles()).map(|k| facet.piece.unwrap_or(k)).find(is_passed)?;
+    let [a, b, c] = facet.triangle(passed, &seen[1]);
+    let n = (b - a).cross(&(c - a));
+    Some(a.dot(&n).abs() / n.norm())
+}
+
+/// True where two balls whose centres are at `from` and then at `to` from each other go through each other's middle, or a ball through that
+/// of a line, from whose nearest points it lies so.
+fn swaps_sides(from: Vec3, to: Vec3, reach: f64) -> bool {
+    let way = to - from;
+    let square = way.norm_squared();
+    if square == 0.0 {
+        return false;
+    }
+    let part = (-from.dot(&way) / square).clamp(0.0, 1.0);
+    (from + part * way).norm() < 0.3 * reach && from.dot(&to) < 0.3 * from.norm() * to.norm()
+}

@@ -1,0 +1,291 @@
+//! What pairs remember at the end of a step, and what was dissipated on the way.
+
+use super::balls;
+use super::found::{FacetTouch, TouchQuery};
+use super::line_friction;
+use super::memory::{self, LineMemory, LineMemoryMut, PairMemory, PairMemoryMut};
+use super::pair::{FacetPair, PairForceOnPoint, PairPlace, Rub, rotation_of};
+use super::surface::FacetContacts;
+use super::touch;
+use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::normal_motion::{NormalMotion, damping_power, slip_limit, update_normal, way};
+use crate::materials::Dissipation;
+use crate::state::Configuration;
+use base::math::rotation::{exp, matrix, renormalise};
+use base::math::{Mat3, Vec3};
+use nalgebra::Quaternion;
+
+/// Writes the history of all points after `part` of the way from the last state to `now`.
+pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+    let mut spent = Dissipation::default();
+    let mut nearby = of.nearby(now.nodes);
+    let mut found = std::mem::take(&mut nearby.touches);
+    let width = of.slots * of.width;
+    for e in 0..of.points.len() {
+        let old = of.of_point(e, now.history);
+        let near = nearby.of(e);
+        found.clear();
+        if !near.is_empty() && !nearby.is_clear(e, of.margin) {
+            touch::find(of, near, TouchQuery { e, limit: of.margin, stays: false }, now.nodes, old, &mut found);
+            touch::take_over(of, e, now.nodes, now.history, &mut found);
+        }
+        if of.is_of_balls {
+            spent += update_balls(of, e, now, part, &mut found, new);
+            continue;
+        }
+        let new = &mut new[e * width..(e + 1) * width];
+        spent += let_go(of, now, part, &found, old);
+        new.fill(0.0);
+        let is_taken = |slot: usize| of.memory(old, slot).motion().is_known();
+        for k in 0..found.len() {
+            let slot = found[k].slot.or_else(|| touch::free_slot(of.slots, &found, is_taken));
+            let Some(slot) = slot else { continue };
+            let pair = of.pair(e, &found[k], now.history);
+            if let Some((line, from)) = found[k].from {
+                // The neighbour, which forgets it, counts it as lost.
+                let lost = lost(of, now, part, of.memory(of.of_point(line, now.history), from).motion());
+                spent.friction -= lost.friction;
+                spent.impact -= lost.impact;
+            }
+            // Only now, for the pair would take what another left there for its own.
+            found[k].slot = Some(slot);
+            let numbers = &mut new[slot * of.width..(slot + 1) * of.width];
+            spent += update_pair(of, &pair, &found[k], now, part, &mut PairMemoryMut(numbers));
+        }
+    }
+    nearby.touches = found;
+    spent
+}
+
+/// The same of a ball among balls.
+fn update_balls(
+    of: &FacetContacts,
+    e: usize,
+    now: &Configuration,
+    part: f64,
+    found: &mut Vec<FacetTouch>,
+    new: &mut [f64],
+) -> Dissipation {
+    let old = of.of_point(e, now.history);
+    let motion = |touch: &FacetTouch| touch.slot.map(|slot| of.memory(old, slot).motion());
+    found.retain(|touch| balls::is_memorable(of, e, touch, now, motion(touch)));
+    let mut spent = let_go(of, now, part, found, old);
+    balls::clear(of, e, new);
+    for (slot, touch) in found.iter().enumerate() {
+        let (pair, place) = (of.pair(e, touch, now.history), balls::place(of, e, slot));
+        spent += update_pair(of, &pair, touch, now, part, &mut PairMemoryMut(&mut new[place]));
+    }
+    spent
+}
+
+/// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
+fn let_go(of: &FacetContacts, now: &Configuration, part: f64, found: &[FacetTouch], old: &[f64]) -> Dissipation {
+    let mut spent = Dissipation::default();
+    for slot in 0..of.slots {
+        let motion = of.memory(old, slot).motion();
+        match motion.is_known() {
+            true if found.iter().all(|touch| touch.slot != Some(slot)) => spent += lost(of, now, part, motion),
+            false if of.is_of_balls => break,
+            _ => {}
+        }
+    }
+    spent
+}
+
+/// What a pair loses that is forgotten.
+fn lost(of: &FacetContacts, now: &Configuration, part: f64, motion: PointHistory) -> Dissipation {
+    let pull = if of.law.friction > 0.0 { motion.friction_force() } else { 0.0 };
+    Dissipation {
+        friction: 0.5 * pull * pull / of.law.stiffness,
+        impact: 0.5 * part * now.dt * motion.damping_power(),
+        ..Dissipation::default()
+    }
+}
+
+fn update_pair(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    touch: &FacetTouch,
+    now: &Configuration,
+    part: f64,
+    new: &mut PairMemoryMut,
+) -> Dissipation {
+    let place = pair.place(now.nodes);
+    let nothing = [0.0; memory::width(false, 0)];
+    let old = pair.memory.unwrap_or(PairMemory(&nothing));
+    let acting = (place.gap() <= of.law.touching).then(|| pair.force(&place, now.nodes));
+    let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
+    let (gap, rate) = (place.gap(), place.rate());
+    let less = acting.as_ref().and_then(|acting| acting.less.as_ref()).map_or(0.0, |end| end.power);
+    let power = damping_power(&of.law, gap, rate, force) - less;
+    let motion = NormalMotion { gap, inset: place.inset_left(), rate, power, speed: place.w.norm() };
+    let (impact, inset) = update_normal(&of.law, &motion, now, part, old.motion(), &mut new.motion());
+    let mut spent = Dissipation { impact, ..Dissipation::default() };
+    new.set_facet(touch.facet, place.side);
+    new.set_inset(inset);
+    if of.law.friction > 0.0 {
+        spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, part, new);
+    }
+    spent
+}
+
+/// Writes the anchor, the force on it and the rotations from which nodes roll; returns what slip dissipated.
+fn update_friction(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    (place, acting): (&PairPlace, Option<&PairForceOnPoint>),
+    now: &Configuration,
+    part: f64,
+    new: &mut PairMemoryMut,
+) -> f64 {
+    if pair.is_of_lines() {
+        return update_friction_of_lines(of, pair, (place, acting), now, part, new);
+    }
+    let (q, n) = (rotation_of(pair.facet, now.nodes), &place.n);
+    // The point and the anchor stand in global axes from the first node of the facet on which the point is now.
+    let x = pair.seen_from(pair.facet, &place.x, now.nodes);
+    let k = of.law.stiffness;
+    let Some(memory) = pair.memory else {
+        let (pull, slip_speed) = begun(of, pair, place, acting, now);
+        new.motion().set_friction_force(pull.norm());
+        new.set_slip_speed(slip_speed);
+        new.set_anchor(&pair.facet.components(&(x - pull / k), now.nodes));
+        for i in 0..rotations(of, pair) {
+            new.set_rotation(i, &(q.conjugate() * now.nodes[pair.point.nodes[i]].rotation));
+        }
+        return 0.0;
+    };
+    let part = way(memory.motion(), part);
+    let old_q = rotation_of(pair.kept, now.nodes);
+    let old_R = matrix(&old_q);
+    let pull = memory.motion().friction_force();
+    let friction = acting.and_then(|acting| acting.friction.as_ref());
+    let moved = now.nodes[pair.kept.nodes[0]].relative_position(&now.nodes[pair.facet.nodes[0]]);
+    let mut anchor = moved + pair.kept.base(now.nodes) * memory.anchor();
+    let spent = match friction {
+        Some(friction) => {
+            let rubbed = rubbed(of, friction, (memory, memory.slip_speed()), part, now.dt);
+            new.motion().set_friction_force(rubbed.pull);
+            new.set_slip_speed(rubbed.slip_speed);
+            anchor += part * (friction.slip + n.dot(&(x - anchor)) * n);
+            rubbed.spent
+        }
+        // The point is free: the anchor goes along, and what was stretched lets go.
+        None => {
+            anchor += part * (x - anchor);
+            0.5 * pull * (pull / k)
+        }
+    };
+    for i in 0..rotations(of, pair) {
+        let phi = pair.turned(i, memory, (&old_q, &old_R), now.nodes);
+        if friction.is_some() {
+            anchor += part * pair.point.weights[i] * pair.point.rolling_radius * phi.cross(n);
+        }
+        let kept = kept_rotation((&old_q, &old_R), &q, part * phi, &memory.rotation(i));
+        new.set_rotation(i, &kept);
+    }
+    new.set_anchor(&pair.facet.components(&anchor, now.nodes));
+    spent
+}
+
+/// The friction of a pair at the end of a step.
+struct Rubbed {
+    /// The size of the friction force.
+    pull: f64,
+    /// The slip speed of the step.
+    slip_speed: f64,
+    /// The energy that slip dissipated.
+    spent: f64,
+}
+
+/// The friction after `part` of the way from the last state; `before` is the slip speed that the pair remembers.
+fn rubbed(of: &FacetContacts, friction: &Rub, (memory, before): (PairMemory, f64), part: f64, dt: f64) -> Rubbed {
+    let (old, slip) = (memory.motion().friction_force(), friction.slip.norm());
+    let pull = old + part * (friction.T.norm() - old);
+    let begin = old.max(slip_limit(&of.law, (memory.motion(), before), memory.inset()));
+    Rubbed { pull, slip_speed: if dt > 0.0 { slip / dt } else { before }, spent: 0.5 * part * slip * (begin + pull) }
+}
+
+/// The same for two lines.
+fn update_friction_of_lines(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    (place, acting): (&PairPlace, Option<&PairForceOnPoint>),
+    now: &Configuration,
+    part: f64,
+    new: &mut PairMemoryMut,
+) -> f64 {
+    let k = of.law.stiffness;
+    line_friction::remember(pair, now, part, &mut LineMemoryMut(&mut *new.0));
+    let mut stretch = |stretch: Vec3, part: f64| {
+        line_friction::remember_stretch(pair, place, (&stretch, part), now.nodes, &mut LineMemoryMut(&mut *new.0));
+    };
+    let Some(memory) = pair.memory else {
+        let (pull, slip_speed) = begun(of, pair, place, acting, now);
+        stretch(pull / k, 1.0);
+        new.motion().set_friction_force(pull.norm());
+        LineMemoryMut(&mut *new.0).set_slip_speed(slip_speed);
+        return 0.0;
+    };
+    let pull = memory.motion().friction_force();
+    match acting.and_then(|acting| acting.friction.as_ref()) {
+        Some(friction) => {
+            let rubbed = rubbed(of, friction, (memory, LineMemory(memory.0).slip_speed()), part, now.dt);
+            stretch(friction.T / k, part);
+            new.motion().set_friction_force(rubbed.pull);
+            LineMemoryMut(&mut *new.0).set_slip_speed(rubbed.slip_speed);
+            rubbed.spent
+        }
+        // The two are apart: what was stretched lets go.
+        None => {
+            stretch(Vec3::zeros(), 1.0);
+            0.5 * pull * (pull / k)
+        }
+    }
+}
+
+/// The friction and the slip speed with which a pair begins of which nothing is known: what slides at t = 0 has been sliding, and its spring is stretched.
+fn begun(
+    of: &FacetContacts,
+    pair: &FacetPair,
+    place: &PairPlace,
+    acting: Option<&PairForceOnPoint>,
+    now: &Configuration,
+) -> (Vec3, f64) {
+    let force = acting.map_or(0.0, PairForceOnPoint::pressed);
+    if now.dt > 0.0 || force <= 0.0 {
+        return (Vec3::zeros(), 0.0);
+    }
+    let (direction, speed) = sliding(pair, place, of.law.floor, now);
+    (of.law.friction_at(speed) * force * direction, speed)
+}
+
+/// Number of rotations that are kept.
+fn rotations(of: &FacetContacts, pair: &FacetPair) -> usize {
+    if of.rolls { pair.point.count } else { 0 }
+}
+
+/// A rotation relative to the frame of one facet, turned on by `phi` (global), relative to that of another.
+fn kept_rotation(
+    (old_q, old_R): (&Quaternion<f64>, &Mat3),
+    q: &Quaternion<f64>,
+    phi: Vec3,
+    kept: &Quaternion<f64>,
+) -> Quaternion<f64> {
+    let on = exp(&old_R.tr_mul(&phi)) * kept;
+    renormalise(&(q.conjugate() * old_q * on))
+}
+
+/// Unit vector along the slip, and the slip speed; zero for what does not slip faster than its weight makes it.
+fn sliding(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration) -> (Vec3, f64) {
+    let (n, r) = (&place.n, pair.point.rolling_radius);
+    let spin: Vec3 = pair.point.parts().map(|(node, w)| w * now.nodes[node].omega).sum();
+    let of_facet = match pair.facet.has_sides() {
+        true => Vec3::zeros(),
+        false => pair.facet.nodes().iter().zip(place.W).map(|(&node, w)| w * now.nodes[node].omega).sum(),
+    };
+    let w = place.w - of_facet.cross(&(place.d * n));
+    let slip = w - n.dot(&w) * n - r * (spin - of_facet).cross(n);
+    let speed = slip.norm();
+    if speed > floor { (slip / speed, speed) } else { (Vec3::zeros(), 0.0) }
+}

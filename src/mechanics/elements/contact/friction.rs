@@ -1,0 +1,67 @@
+//! Coulomb friction by a spring that slips.
+//!
+//! A tangential spring from an anchor to the point bears up to μN; beyond that the anchor is dragged along (return mapping).
+//! So what sticks stays for ever: its anchor does not move, and nothing creeps as it would where friction grows with the
+//! speed of slip. The anchor is kept in the frame of the surface and turns with it. A ball of radius r rolls: what counts is
+//! the way of its material at the contact, p − r φ × n, where φ is the rotation relative to the surface since the rotation
+//! that the history keeps.
+
+use super::surfaces::kind::ClosestPoint;
+use base::math::{Mat3, Vec3, skew};
+
+/// Tangential force at an instant, in the frame of the surface.
+#[derive(Debug, Clone, Copy)]
+pub struct FrictionForce {
+    /// Friction force on the surface, along the slip.
+    pub T: Vec3,
+    /// Displacement of the anchor by slip.
+    pub slip: Vec3,
+    /// ∂T/∂p at fixed N.
+    pub by_p: Mat3,
+    /// ∂T/∂N.
+    pub by_N: Vec3,
+    /// ∂T/∂φ.
+    pub by_phi: Mat3,
+}
+
+/// The friction force by the stretch s = P e, e = p − a − r φ×n, of the spring; `N` is the normal force.
+#[inline]
+pub fn friction_force(
+    stiffness: f64,
+    mu: f64,
+    N: f64,
+    closest: &ClosestPoint,
+    from_anchor: &Vec3,
+    radius: f64,
+    phi: &Vec3,
+) -> FrictionForce {
+    let ClosestPoint { n, H, .. } = closest;
+    let e = from_anchor - radius * phi.cross(n);
+    let across = n.dot(&e);
+    let s = e - across * n;
+    let length = s.norm();
+    let P = Mat3::identity() - n * n.transpose();
+    // δs = P δe − (n·e) δn − n (e·δn), δe = δp − r φ×δn − r δφ×n, δn = H δp
+    let by_p = P * (Mat3::identity() - radius * skew(phi) * H) - across * H - n * (H * e).transpose();
+    let by_phi = radius * P * skew(n);
+    let limit = mu * N;
+    if stiffness * length <= limit {
+        let k = stiffness;
+        return FrictionForce {
+            T: k * s,
+            slip: Vec3::zeros(),
+            by_p: k * by_p,
+            by_N: Vec3::zeros(),
+            by_phi: k * by_phi,
+        };
+    }
+    let t = s / length;
+    let turn = limit / length * (Mat3::identity() - t * t.transpose());
+    FrictionForce {
+        T: limit * t,
+        slip: s - limit / stiffness * t,
+        by_p: turn * by_p,
+        by_N: mu * t,
+        by_phi: turn * by_phi,
+    }
+}

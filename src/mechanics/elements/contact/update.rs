@@ -1,0 +1,126 @@
+//! The history of a point at the end of a step, and what was dissipated on the way.
+
+use super::force::{ContactForce, contact_force};
+use super::history::{self, PointHistory, PointHistoryMut};
+use super::kinematics::{ContactKinematics, Contacts};
+use super::normal_motion::{NormalMotion, damping_power, pass_over, slip_limit, update_normal, way};
+use super::point::ContactPoint;
+use crate::materials::Dissipation;
+use crate::state::Configuration;
+use base::math::Vec3;
+use base::math::rotation::{self, renormalise};
+
+/// Writes the history of point `e` after `part` of the way from the last state to `now`; returns what was dissipated.
+pub(super) fn update_point(
+    contacts: &Contacts,
+    e: usize,
+    now: &Configuration,
+    part: f64,
+    new: &mut PointHistoryMut,
+) -> Dissipation {
+    let (law, point, old) = (&contacts.law, &contacts.points[e], history::of(contacts, e, now.history));
+    let (d, w) = contacts.relative(point, now.nodes);
+    let speed = w.norm();
+    if let Some(spent) = pass_over(law, (d.norm() - contacts.reach() - point.radius, speed), now, old, new) {
+        return spent;
+    }
+    let mut at = contacts.kinematics(point, now.nodes);
+    at.gap += contacts.inset(old);
+    let touches = at.gap - old.lift(law) <= law.touching && !contacts.is_idle(old);
+    let acting = touches.then(|| contact_force(contacts, point, &at, old, now.nodes));
+    let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
+    let power = if touches { damping_power(law, at.gap, at.rate(), force) } else { 0.0 };
+    let motion = NormalMotion { gap: at.gap, inset: contacts.inset(old), rate: at.rate(), power, speed };
+    let (impact, inset) = update_normal(law, &motion, now, part, old, new);
+    let mut spent = Dissipation { impact, ..Dissipation::default() };
+    contacts.remember_inset(&at, inset, now, old, new);
+    // The multiplier stays that of the equilibrium, under which the gap at hand gives its force; the next step begins from there.
+    new.set_lift(law, old.lift(law));
+    if law.friction > 0.0 {
+        spent.friction = update_friction(contacts, point, (&at, acting.as_ref()), now, way(old, part), old, new);
+    }
+    spent
+}
+
+/// Writes the anchor, the force on it and the rotations from which the nodes roll; returns what slip dissipated.
+fn update_friction(
+    contacts: &Contacts,
+    point: &ContactPoint,
+    (at, acting): (&ContactKinematics, Option<&ContactForce>),
+    now: &Configuration,
+    part: f64,
+    old: PointHistory,
+    new: &mut PointHistoryMut,
+) -> f64 {
+    let law = &contacts.law;
+    let force = acting.map_or(0.0, |acting| acting.normal.force);
+    let friction = acting.and_then(|acting| acting.friction.as_ref());
+    let (p, n) = (&at.p, &at.closest.n);
+    let (pull, held) = (old.friction_force(), old.anchor());
+    // A point that slides at t = 0 has been sliding: its spring is stretched.
+    let starts = !old.is_known() && now.dt <= 0.0 && force != 0.0;
+    let (begun, speed) = if starts { sliding(contacts, point, at, now) } else { (Vec3::zeros(), 0.0) };
+    let stretch = law.friction_at(speed) * force;
+    let (shift, spent) = match friction {
+        Some(friction) => {
+            let end = pull + part * (friction.T.norm() - pull);
+            let (slip, before) = (friction.slip.norm(), old.slip_speed());
+            new.set_friction_force(end);
+            new.set_slip_speed(if now.dt > 0.0 { slip / now.dt } else { before });
+            (friction.slip, 0.5 * part * slip * (pull.max(slip_limit(law, (old, before), contacts.inset(old))) + end))
+        }
+        // The point is free: the anchor goes along, and what was stretched lets go.
+        None => {
+            new.set_friction_force(stretch * begun.norm());
+            new.set_slip_speed(speed);
+            let stored = if law.tolerance.is_some() { 0.0 } else { 0.5 * pull * (pull / law.stiffness) };
+            (p - held, stored)
+        }
+    };
+    let mut anchor = held + part * shift - stretch / law.stiffness * begun;
+    if friction.is_some() {
+        anchor += part * n.dot(&(p - held)) * n;
+    }
+    if contacts.rolls {
+        let rolled = friction.is_some().then_some((n, &mut anchor));
+        update_rotations(contacts, point, rolled, now, part, old, new);
+    }
+    new.set_anchor(&anchor);
+    spent
+}
+
+/// Writes the rotations from which the nodes roll. Where friction acts, the way rolled so far moves from the rotations to the
+/// anchor: `rolled` are the normal and the anchor.
+fn update_rotations(
+    contacts: &Contacts,
+    point: &ContactPoint,
+    mut rolled: Option<(&Vec3, &mut Vec3)>,
+    now: &Configuration,
+    part: f64,
+    old: PointHistory,
+    new: &mut PointHistoryMut,
+) {
+    for k in 0..contacts.count {
+        let present = contacts.relative_rotation(point.nodes[k], now.nodes);
+        if !old.is_known() {
+            new.set_rotation(k, &present);
+            continue;
+        }
+        let phi = history::rotation_since(contacts, point, k, old, now.nodes);
+        if let Some((n, anchor)) = &mut rolled {
+            **anchor += part * point.weights[k] * point.rolling_radius * phi.cross(n);
+        }
+        new.set_rotation(k, &renormalise(&(rotation::exp(&(part * phi)) * old.rotation(k))));
+    }
+}
+
+/// Unit vector along the slip, in the frame of the surface, and the slip speed; zero for what does not slip faster than its weight makes it.
+fn sliding(contacts: &Contacts, point: &ContactPoint, at: &ContactKinematics, now: &Configuration) -> (Vec3, f64) {
+    let n = &at.closest.n;
+    let spin: Vec3 = point.parts().map(|(node, weight)| weight * now.nodes[node].omega).sum();
+    let spin = at.R.tr_mul(&(spin - now.nodes[contacts.carrier].omega));
+    let w = at.R.tr_mul(&at.w);
+    let slip = w - n.dot(&w) * n - point.rolling_radius * spin.cross(n);
+    let speed = slip.norm();
+    if speed > contacts.law.floor { (slip / speed, speed) } else { (Vec3::zeros(), 0.0) }
+}

@@ -1,0 +1,40 @@
+//! Failure of bolts, welds and other links by an interaction of normal and shear force, (F_n/N)ᵃ + (F_s/S)ᵇ ≥ 1. Only tension counts as
+//! normal force. A link that has failed carries nothing any more; its memory is the two forces at which it did.
+
+use base::names::short;
+
+/// The number of history variables of a link that may fail: normal and shear force at its failure, zeros before.
+pub const MEMORY: usize = 2;
+
+/// The forces at which a link fails.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LinkFailure {
+    /// N: normal force that the link bears alone, above 0; infinite where tension does not harm it.
+    pub normal: f64,
+    /// S: shear force that it bears alone, above 0; infinite where shear does not harm it.
+    pub shear: f64,
+    /// a and b, above 0.
+    pub exponents: [f64; 2],
+}
+
+impl LinkFailure {
+    /// True where the link fails under this normal force, positive in tension, and this shear force.
+    pub fn is_reached(&self, normal: f64, shear: f64) -> bool {
+        let [a, b] = self.exponents;
+        (normal.max(0.0) / self.normal).powf(a) + (shear / self.shear).powf(b) >= 1.0
+    }
+}
+
+/// True where a link has failed by its memory; one without never fails.
+#[inline]
+pub fn has_failed(memory: &[f64]) -> bool {
+    memory.iter().any(|force| *force != 0.0)
+}
+
+/// Why a link has failed.
+pub fn reason(memory: &[f64]) -> String {
+    match *memory {
+        [normal, shear] => format!("normal force {}, shear force {}", short(normal), short(shear)),
+        _ => String::new(),
+    }
+}

@@ -1,0 +1,24 @@
+//! Deformable parts, links, contacts and pressure. An element sees the motion of its nodes and hands over forces and their
+//! derivatives; of bodies, constraints and schemes it knows nothing. One more element is a file here and its line below.
+
+pub mod bar;
+pub mod beam;
+mod block;
+pub mod bushing;
+pub mod contact;
+pub mod coordinate_law;
+pub mod hysteresis;
+pub mod link;
+pub mod link_failure;
+pub mod memories;
+pub mod pressure;
+pub mod relative_rotation;
+mod results;
+pub mod shell;
+mod slider;
+mod wandering;
+
+pub use block::subtract;
+pub use block::{ElementBlock, Force, Moduli};
+pub use results::{IntegrationPoint, LayerStress, ShellResultants};
+pub use wandering::{Partners, Wandering};

@@ -1,0 +1,175 @@
+//! Forces, energies and results of curved shells.
+
+use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
+use super::sampling::CurvedStrains;
+use super::surface::{CurvedSurface, tangents};
+use super::tangent::tangent;
+use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::results::ShellResultants;
+use crate::elements::shell::kinematics::NodalVectors;
+use crate::elements::shell::results::MeanStress;
+use crate::elements::shell::section::ShellSection;
+use crate::materials::{Dissipation, FAILED_STIFFNESS};
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+use std::array::from_fn;
+
+/// The stress of an element in a configuration.
+fn stress<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>>(
+    element: &CurvedShell<N, V, P, Q, S>,
+    strains: &CurvedStrain<N, P, Q>,
+    now: &Configuration,
+) -> CurvedStrain<N, P, Q> {
+    CurvedStrain {
+        plane: element.section.stress(&strains.plane, now),
+        shear: element.shear_stress(&strains.shear),
+        drilling: element.drilling_stress(&strains.drilling),
+    }
+}
+
+/// The elastic energy of an element: in its plane, of shear and of drilling.
+fn stored<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>>(
+    element: &CurvedShell<N, V, P, Q, S>,
+    strains: &CurvedStrain<N, P, Q>,
+    now: &Configuration,
+) -> f64 {
+    let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    element.section.energy(&strains.plane, now)
+        + 0.5 * sum(&element.shear_stress(&strains.shear), &strains.shear)
+        + 0.5 * sum(&element.drilling_stress(&strains.drilling), &strains.drilling)
+}
+
+impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> ElementBlock
+    for CurvedShells<K, N, V, P, Q, S>
+where
+    K: CurvedStrains<N, V, P, Q>,
+    S: ShellSection<P, P>,
+{
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        &self.elements[e].nodes
+    }
+
+    fn dofs(&self) -> usize {
+        6
+    }
+
+    fn is_damped(&self) -> bool {
+        self.damping > 0.0
+    }
+
+    fn history(&self) -> usize {
+        self.elements.iter().map(|e| e.section.history()).sum()
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
+            let motion = element.gather(now.nodes);
+            let mut stress = stress(element, &element.strains(&motion), now);
+            if self.damping > 0.0 {
+                // The sum: this less minus one times the other.
+                let viscous = element.viscous_stress(-self.damping, &motion, now.nodes);
+                stress = stress.less(&viscous, 1.0);
+            }
+            let gradient = element.gradient(&stress, &motion);
+            for a in 0..N {
+                let f = &mut F[element.nodes[a]];
+                subtract(f, 0, &gradient.x[a]);
+                let mut moment = Vec3::zeros();
+                for k in 0..3 {
+                    moment += motion.turning[k][a].cross(&gradient.turning[k][a]);
+                }
+                subtract(f, 3, &moment);
+            }
+        }
+    }
+
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let motion = self.elements[e].gather(now);
+        // The normal at a corner opposes the director there.
+        (0..K::CORNERS).any(|a| {
+            let [r, s] = tangents::<K, N>(&motion.x, K::NODES[a]);
+            r.cross(&s).dot(&motion.turning[0][a]) < 0.0
+        })
+    }
+
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        tangent(self, e, (now, None), (self.damping > 0.0).then_some(rate_weight), moduli, K);
+        if self.elements[e].section.has_failed(now.history) {
+            K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+        }
+    }
+
+    fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
+        tangent(self, e, (now, Some(stressed)), None, Moduli::Elastic, K);
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+        let mut dissipation = Dissipation::default();
+        for element in &self.elements {
+            let strains = element.strains(&element.gather(now.nodes));
+            dissipation += element.section.update_history(&strains.plane, now, part, new);
+            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+                // What the layers had stored is booked by then.
+                dissipation.eroded += stored(element, &strains, &Configuration { history: new, ..*now });
+            }
+        }
+        dissipation
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let whole = self.elements.iter().filter(|element| !element.section.has_failed(now.history));
+        whole.map(|element| stored(element, &element.strains(&element.gather(now.nodes)), now)).sum()
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        if self.damping == 0.0 {
+            return 0.0;
+        }
+        let of = |element: &CurvedShell<N, V, P, Q, S>| {
+            let motion = element.gather(now.nodes);
+            let rates = element.strain_rates(&motion, &element.rates(&motion, now.nodes));
+            element.elastic_stress(&rates).dot(&rates)
+        };
+        let whole = self.elements.iter().filter(|element| !element.section.has_failed(now.history));
+        self.damping * whole.map(of).sum::<f64>()
+    }
+
+    fn resultants(&self, e: usize, axis: &Vec3, start: &[Vec3], now: &Configuration) -> Option<ShellResultants> {
+        let element = &self.elements[e];
+        let X: [Vec3; N] = from_fn(|a| start[a] - start[0]);
+        let motion = element.gather(now.nodes);
+        let strains = element.strains(&motion);
+        // What has failed has no stress.
+        let part = if element.section.has_failed(now.history) { 0.0 } else { 1.0 };
+        let stress = stress(element, &strains, now);
+        let at_start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
+        let work = |way: &NodalVectors<N>, s: f64| part * stress.dot(&element.measure(&at_start.plus(s, way)));
+        let mean = MeanStress { X: &X, axis, motion: &motion, first: CurvedSurface::new::<K>(X).axes[0] };
+        mean.resultants(&work, |layers| element.section.layers(&strains.plane, now, layers))
+    }
+
+    fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
+        self.elements[e].section.plastic_strain(history)
+    }
+
+    fn can_fail(&self) -> bool {
+        self.elements.first().is_some_and(|element| element.section.can_fail())
+    }
+
+    fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
+        let element = &self.elements[e];
+        // What has failed carries nothing, however far it is stretched.
+        if element.section.has_failed(now.history) {
+            return (0.0, false);
+        }
+        element.section.surface_strain(&element.strains(&element.gather(now.nodes)).plane)
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        self.elements[e].section.has_failed(history)
+    }
+}

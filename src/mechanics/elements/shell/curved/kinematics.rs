@@ -1,0 +1,254 @@
+//! Kinematics of a curved element: from the motion of its nodes to its strains, their rates and their derivatives.
+
+use super::sampling::Sampling;
+use crate::elements::shell::kinematics::{NodalVectors, StrainHessian, sum};
+use crate::elements::shell::section::{InPlane, ShellSection, ShellStiffness};
+use crate::state::Node;
+use base::math::Vec3;
+use base::math::curved_faces::{NineNodes, SixNodes};
+use std::array::from_fn;
+use std::marker::PhantomData;
+
+/// One curved element: N nodes, V slopes of the surface, P products of them, Q transverse shears.
+pub(super) struct CurvedShell<const N: usize, const V: usize, const P: usize, const Q: usize, S> {
+    /// Nodes, counter-clockwise about the normal: corners, then sides, then the middle.
+    pub nodes: [usize; N],
+    /// Directors at t = 0.
+    pub D: [Vec3; N],
+    /// Vectors p, q of the nodes at t = 0 that measure drilling, ½ (x,r·p + x,s·q).
+    pub T: [[Vec3; 2]; N],
+    /// Where strains are taken.
+    pub sampling: &'static Sampling<N, V, P, Q>,
+    /// Slopes along r and s at the nodes, by the nodes.
+    pub at_nodes: &'static [[[f64; N]; 2]; N],
+    /// Strains at t = 0.
+    pub start: CurvedStrain<N, P, Q>,
+    /// Stiffness of transverse shear.
+    pub shear: [[f64; Q]; Q],
+    /// Stiffness of drilling of a node, and of the mean of all.
+    pub drilling: [f64; 2],
+    /// The sections at its integration points.
+    pub section: S,
+}
+
+/// The strains of an element, or the stresses conjugate to them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CurvedStrain<const N: usize, const P: usize, const Q: usize> {
+    /// Membrane and bending.
+    pub plane: InPlane<P, P>,
+    /// Transverse shear.
+    pub shear: [f64; Q],
+    /// Drilling of the nodes.
+    pub drilling: [f64; N],
+}
+
+impl<const N: usize, const P: usize, const Q: usize> CurvedStrain<N, P, Q> {
+    /// None.
+    pub const ZERO: Self = CurvedStrain { plane: InPlane::ZERO, shear: [0.0; Q], drilling: [0.0; N] };
+
+    /// σ·ε.
+    #[inline(always)]
+    pub fn dot(&self, other: &Self) -> f64 {
+        let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        self.plane.dot(&other.plane) + sum(&self.shear, &other.shear) + sum(&self.drilling, &other.drilling)
+    }
+
+    /// `factor` (this − other).
+    #[inline(always)]
+    pub fn less(mut self, other: &Self, factor: f64) -> Self {
+        let less = |a: &mut [f64], b: &[f64]| a.iter_mut().zip(b).for_each(|(a, b)| *a = factor * (*a - b));
+        less(&mut self.plane.membrane, &other.plane.membrane);
+        less(&mut self.plane.bending, &other.plane.bending);
+        less(&mut self.shear, &other.shear);
+        less(&mut self.drilling, &other.drilling);
+        self
+    }
+}
+
+/// A group of curved shells of one shape `K`, whose sections are of type `S`.
+pub struct CurvedShells<K, const N: usize, const V: usize, const P: usize, const Q: usize, S = ShellStiffness<P, P>> {
+    /// The elements.
+    pub(super) elements: Vec<CurvedShell<N, V, P, Q, S>>,
+    /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
+    pub(super) damping: f64,
+    /// The shape, which holds no data.
+    pub(super) shape: PhantomData<K>,
+}
+
+/// Quadrilaterals of nine nodes.
+pub type CurvedQuadrilaterals<S = ShellStiffness<24, 24>> = CurvedShells<NineNodes, 9, 20, 24, 12, S>;
+/// Triangles of six nodes.
+pub type CurvedTriangles<S = ShellStiffness<9, 9>> = CurvedShells<SixNodes, 6, 9, 9, 9, S>;
+
+impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedShell<N, V, P, Q, S> {
+    /// Positions and directors of the nodes.
+    #[inline(always)]
+    pub fn gather(&self, nodes: &[Node]) -> NodalVectors<N> {
+        let first = &nodes[self.nodes[0]];
+        let mut motion = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+        for a in 0..N {
+            let node = &nodes[self.nodes[a]];
+            let R = node.R();
+            motion.x[a] = node.relative_position(first);
+            motion.turning[0][a] = R * self.D[a];
+            motion.turning[1][a] = R * self.T[a][0];
+            motion.turning[2][a] = R * self.T[a][1];
+        }
+        motion
+    }
+
+    /// Rates of positions and directors.
+    #[inline(always)]
+    pub fn rates(&self, motion: &NodalVectors<N>, nodes: &[Node]) -> NodalVectors<N> {
+        let node = |a: usize| &nodes[self.nodes[a]];
+        NodalVectors {
+            x: from_fn(|a| node(a).v - node(0).v),
+            turning: motion.turning.map(|d| from_fn(|a| node(a).omega.cross(&d[a]))),
+        }
+    }
+
+    /// Strains from zero, those at t = 0 included.
+    #[inline(always)]
+    pub fn measure(&self, motion: &NodalVectors<N>) -> CurvedStrain<N, P, Q> {
+        let NodalVectors { x, turning: [d, p, q] } = motion;
+        let slopes = &self.sampling.slopes;
+        let (v, w) = (NodalVectors::slopes(slopes, x), NodalVectors::slopes(slopes, d));
+        let mut strains = CurvedStrain::ZERO;
+        for (n, &[i, j]) in self.sampling.pairs.iter().enumerate() {
+            strains.plane.membrane[n] = if i == j { 0.5 * v[i].dot(&v[i]) } else { v[i].dot(&v[j]) };
+            strains.plane.bending[n] = if i == j { v[i].dot(&w[i]) } else { v[i].dot(&w[j]) + v[j].dot(&w[i]) };
+        }
+        for (shear, [slope, value]) in strains.shear.iter_mut().zip(&self.sampling.shears) {
+            *shear = sum(slope, x).dot(&sum(value, d));
+        }
+        for a in 0..N {
+            let [by_r, by_s] = &self.at_nodes[a];
+            strains.drilling[a] = 0.5 * (sum(by_r, x).dot(&p[a]) + sum(by_s, x).dot(&q[a]));
+        }
+        strains
+    }
+
+    /// Strains from t = 0.
+    #[inline(always)]
+    pub fn strains(&self, motion: &NodalVectors<N>) -> CurvedStrain<N, P, Q> {
+        self.measure(motion).less(&self.start, 1.0)
+    }
+
+    /// Strain rates: half the difference of the strains ahead and behind by a unit of time, which is exact for polynomials of second
+    /// degree.
+    #[inline(always)]
+    pub fn strain_rates(&self, motion: &NodalVectors<N>, rates: &NodalVectors<N>) -> CurvedStrain<N, P, Q> {
+        self.measure(&motion.plus(1.0, rates)).less(&self.measure(&motion.plus(-1.0, rates)), 0.5)
+    }
+
+    /// The stresses of transverse shear.
+    #[inline(always)]
+    pub fn shear_stress(&self, shear: &[f64; Q]) -> [f64; Q] {
+        from_fn(|i| (0..Q).map(|j| self.shear[i][j] * shear[j]).sum())
+    }
+
+    /// The stresses of drilling.
+    #[inline(always)]
+    pub fn drilling_stress(&self, drilling: &[f64; N]) -> [f64; N] {
+        let [own, mean] = self.drilling;
+        let all = mean * drilling.iter().sum::<f64>();
+        drilling.map(|angle| own * angle + all)
+    }
+
+    /// The gradient Bᵀσ: forces, and the derivatives of energy by d, p and q.
+    #[inline(always)]
+    pub fn gradient(&self, stress: &CurvedStrain<N, P, Q>, motion: &NodalVectors<N>) -> NodalVectors<N> {
+        let NodalVectors { x, turning: [d, p, q] } = motion;
+        let slopes = &self.sampling.slopes;
+        let (v, w) = (NodalVectors::slopes(slopes, x), NodalVectors::slopes(slopes, d));
+        let (mut along, mut across) = ([Vec3::zeros(); V], [Vec3::zeros(); V]);
+        for (n, &[i, j]) in self.sampling.pairs.iter().enumerate() {
+            let (force, moment) = (stress.plane.membrane[n], stress.plane.bending[n]);
+            along[i] += force * v[j] + moment * w[j];
+            across[i] += moment * v[j];
+            if i != j {
+                along[j] += force * v[i] + moment * w[i];
+                across[j] += moment * v[i];
+            }
+        }
+        let mut gradient = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+        for i in 0..V {
+            for a in 0..N {
+                gradient.x[a] += slopes[i][a] * along[i];
+                gradient.turning[0][a] += slopes[i][a] * across[i];
+            }
+        }
+        for (stress, [slope, value]) in stress.shear.iter().zip(&self.sampling.shears) {
+            let (along, across) = (*stress * sum(value, d), *stress * sum(slope, x));
+            for a in 0..N {
+                gradient.x[a] += slope[a] * along;
+                gradient.turning[0][a] += value[a] * across;
+            }
+        }
+        for a in 0..N {
+            let half = 0.5 * stress.drilling[a];
+            let [by_r, by_s] = &self.at_nodes[a];
+            gradient.turning[1][a] += half * sum(by_r, x);
+            gradient.turning[2][a] += half * sum(by_s, x);
+            for b in 0..N {
+                gradient.x[b] += half * (by_r[b] * p[a] + by_s[b] * q[a]);
+            }
+        }
+        gradient
+    }
+
+    /// σ·∂²ε.
+    #[inline(always)]
+    pub fn strain_hessian(&self, stress: &CurvedStrain<N, P, Q>) -> StrainHessian<N> {
+        let mut out = StrainHessian { xx: [[0.0; N]; N], xd: [[[0.0; N]; N]; 3] };
+        let slopes = &self.sampling.slopes;
+        for (n, &[i, j]) in self.sampling.pairs.iter().enumerate() {
+            let (force, moment) = (stress.plane.membrane[n], stress.plane.bending[n]);
+            for a in 0..N {
+                for b in 0..N {
+                    let both = if i == j {
+                        slopes[i][a] * slopes[i][b]
+                    } else {
+                        slopes[i][a] * slopes[j][b] + slopes[j][a] * slopes[i][b]
+                    };
+                    out.xx[a][b] += force * both;
+                    out.xd[0][a][b] += moment * both;
+                }
+            }
+        }
+        for (stress, [slope, value]) in stress.shear.iter().zip(&self.sampling.shears) {
+            for a in 0..N {
+                for b in 0..N {
+                    out.xd[0][a][b] += stress * slope[a] * value[b];
+                }
+            }
+        }
+        for b in 0..N {
+            let half = 0.5 * stress.drilling[b];
+            for a in 0..N {
+                out.xd[1][a][b] += half * self.at_nodes[b][0][a];
+                out.xd[2][a][b] += half * self.at_nodes[b][1][a];
+            }
+        }
+        out
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>> CurvedShell<N, V, P, Q, S> {
+    /// The elastic stress at the given strains.
+    #[inline(always)]
+    pub fn elastic_stress(&self, strains: &CurvedStrain<N, P, Q>) -> CurvedStrain<N, P, Q> {
+        CurvedStrain {
+            plane: self.section.elastic().stress(&strains.plane),
+            shear: self.shear_stress(&strains.shear),
+            drilling: self.drilling_stress(&strains.drilling),
+        }
+    }
+
+    /// The stress of damping by a factor.
+    #[inline(always)]
+    pub fn viscous_stress(&self, damping: f64, motion: &NodalVectors<N>, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
+        let rates = self.strain_rates(motion, &self.rates(motion, nodes));
+        self.elastic_stress(&rates).less(&CurvedStrain::ZERO, damping)
+    }
+}

@@ -1,0 +1,251 @@
+//! Shells as the model describes them, and what is computed once from the undeformed geometry.
+
+use super::edge::EdgeTangents;
+use super::edge_bending::EdgeBending;
+use super::edge_bubbles::edge_bubbles;
+use super::interpolation::{Interpolation, Quadrilateral, Triangle};
+use super::kinematics::{NodalVectors, Shell, Shells, Strains};
+use super::layers::{InPlaneStiffness, LayerModel, LayeredSection};
+use super::plane_strains::PlaneStrains;
+use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
+use super::surface::ElementSurface;
+use crate::elements::block::ElementBlock;
+use base::math::Vec3;
+use nalgebra::{Matrix3, SMatrix};
+use std::array::from_fn;
+use std::marker::PhantomData;
+
+/// Shear correction factor: shear stress is not constant through the thickness.
+pub(super) const SHEAR_FACTOR: f64 = 5.0 / 6.0;
+
+/// Part of the drilling stiffness that resists different drilling of the ends of a straight edge: where a surface is curved, bending
+/// alone makes some.
+const UNEVEN: f64 = 1e-2;
+
+/// Part of the thickness up to which the turn of a surface along an edge times its length is taken as that of a flat one: edges
+/// bulge there, and stretch is that of chords; beyond it edges are straight, and stretch is that of arcs.
+pub const FLAT: f64 = 0.5;
+
+/// Length over thickness beyond which stretch is that of chords on any surface. A side that is under pressure from a strain ε across
+/// buckles from ε (ℓ/h)² of some 5 on, and metals strain by 2e-3 before they yield.
+pub const SLENDER: f64 = 50.0;
+
+/// Thickness and elastic constants of a group of elements.
+#[derive(Debug, Clone, Copy)]
+pub struct Plate {
+    /// Thickness h.
+    pub thickness: f64,
+    /// Young's modulus.
+    pub E: f64,
+    /// Poisson's ratio.
+    pub nu: f64,
+    /// Stiffness of drilling over shear modulus times thickness; see [`super::DRILLING`].
+    pub drilling: f64,
+}
+
+impl Plate {
+    pub(super) fn shear_modulus(&self) -> f64 {
+        0.5 * self.E / (1.0 + self.nu)
+    }
+
+    /// Plane stress per unit of thickness.
+    pub(super) fn plane_stress(&self) -> Matrix3<f64> {
+        let (E, nu) = (self.E, self.nu);
+        Matrix3::new(1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu)) * (E / (1.0 - nu * nu))
+    }
+}
+
+/// One element as the model describes it.
+#[derive(Debug, Clone, Copy)]
+pub struct ShellGeometry<'a> {
+    /// Its three, four, six or nine nodes, the corners counter-clockwise about the normals, then those on the sides, then the middle.
+    pub nodes: &'a [usize],
+    /// Unit normals at the nodes at t = 0, which are the directors there.
+    pub normals: &'a [Vec3],
+    /// The part of the bulge of each edge, from each node to the next, that stress works on: [`Interpolation::BULGE`], the same
+    /// for all elements of an edge, or zero where the edge is held straight.
+    pub bulge: [f64; 4],
+}
+
+impl<'a> ShellGeometry<'a> {
+    /// An element whose edges are free, and shared with others of its shape only.
+    pub fn new(nodes: &'a [usize], normals: &'a [Vec3]) -> Self {
+        ShellGeometry {
+            nodes,
+            normals,
+            bulge: if nodes.len() == 3 { [Triangle::BULGE; 4] } else { [Quadrilateral::BULGE; 4] },
+        }
+    }
+}
+
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize> Shells<K, N, V, P, E>
+where
+    K: PlaneStrains<N, V, P, E>,
+{
+    /// Elastic shells. `x`: positions of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
+    pub fn new<'a>(
+        elements: impl Iterator<Item = ShellGeometry<'a>>,
+        x: &[Vec3],
+        plate: &Plate,
+        damping: f64,
+    ) -> Shells<K, N, V, P, E> {
+        build(elements, x, plate, damping, |stiffness| stiffness.elastic)
+    }
+}
+
+impl LayerModel {
+    /// Shells whose layers yield. `x`: positions of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
+    pub fn shells<'a, K, const N: usize, const V: usize, const P: usize, const E: usize>(
+        &self,
+        elements: impl Iterator<Item = ShellGeometry<'a>>,
+        x: &[Vec3],
+        plate: &Plate,
+        damping: f64,
+    ) -> Box<dyn ElementBlock>
+    where
+        K: PlaneStrains<N, V, P, E> + 'static,
+    {
+        let layers = self.layers(plate.thickness);
+        let mut first = 0;
+        let section = |stiffness: InPlaneStiffness<P, E>| {
+            let section = LayeredSection::new(&layers, stiffness, first);
+            first += ShellSection::<P, E>::history(&section);
+            section
+        };
+        Box::new(build::<K, N, V, P, E, _>(elements, x, plate, damping, section))
+    }
+}
+
+/// Shells whose sections `section` makes from the stiffness of an element in its plane.
+fn build<'a, K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
+    elements: impl Iterator<Item = ShellGeometry<'a>>,
+    x: &[Vec3],
+    plate: &Plate,
+    damping: f64,
+    mut section: impl FnMut(InPlaneStiffness<P, E>) -> S,
+) -> Shells<K, N, V, P, E, S>
+where
+    K: PlaneStrains<N, V, P, E>,
+    S: ShellSection<P, E>,
+{
+    let elements = elements.map(|e| shell::<K, N, V, P, E, S>(&e, x, plate, &mut section)).collect();
+    Shells { elements, packs: Vec::new(), damping, interpolation: PhantomData }
+}
+
+/// An undeformed element with its directors and tangents.
+fn shell<K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
+    e: &ShellGeometry,
+    x: &[Vec3],
+    plate: &Plate,
+    section: &mut impl FnMut(InPlaneStiffness<P, E>) -> S,
+) -> Shell<N, V, P, E, S>
+where
+    K: PlaneStrains<N, V, P, E>,
+{
+    let nodes: [usize; N] = from_fn(|a| e.nodes[a]);
+    let D: [Vec3; N] = from_fn(|a| e.normals[a]);
+    let surface = ElementSurface::<N, V>::new::<K, P>(from_fn(|a| x[nodes[a]] - x[nodes[0]]));
+    let X = surface.X;
+    let T = D.map(|d| surface.tangents(&d));
+    let cambered = K::CAMBERED && is_curved(&X, &D, K::EDGES, plate.thickness);
+    // Positions and directors both fall short of an arc.
+    let (camber, arcs) = if cambered { (Some(Box::new(surface.camber)), 2.0) } else { (None, 1.0) };
+    let (shear, bent) = shear_stiffness::<K, N, V, P>(&surface, &D, plate);
+    let mut shell = Shell {
+        nodes,
+        D,
+        T,
+        slopes: surface.slopes,
+        arc: surface.arc.map(|row| row.map(|s| arcs * s)),
+        camber,
+        edges: K::EDGES.map(|[a, b]| EdgeTangents::new(&(X[b] - X[a]), [&T[a], &T[b]])),
+        start: Strains { plane: InPlane::ZERO, shear: [0.0; N] },
+        shear,
+        bent,
+        section: section(in_plane::<K, N, V, P, E>(&surface, plate, &from_fn(|a| e.bulge[a]))),
+    };
+    shell.start = shell.measure::<K, true>(&NodalVectors { x: X, turning: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
+    shell
+}
+
+/// True for an element along an edge of which the surface turns, over the length of it, by more than half the thickness, and that is
+/// not so slender that tension bends it between its nodes, see [`super::camber`].
+fn is_curved<const N: usize>(X: &[Vec3; N], D: &[Vec3; N], edges: [[usize; 2]; N], thickness: f64) -> bool {
+    let mut lengths = edges.into_iter().map(|[a, b]| (X[b] - X[a]).norm());
+    most_turn(X, D, edges) > FLAT * thickness && lengths.all(|L| L <= SLENDER * thickness)
+}
+
+/// The largest turn of the surface along an edge times its length.
+fn most_turn<const N: usize>(X: &[Vec3; N], D: &[Vec3; N], edges: [[usize; 2]; N]) -> f64 {
+    edges.into_iter().map(|[a, b]| (D[b] - D[a]).norm() * (X[b] - X[a]).norm()).fold(0.0, f64::max)
+}
+
+/// w Aᵀ C A by rows.
+pub(super) fn squared<const R: usize>(A: &SMatrix<f64, 3, R>, C: &Matrix3<f64>, w: f64, to: &mut [[f64; R]; R]) {
+    let K: SMatrix<f64, R, R> = w * A.transpose() * C * A;
+    for i in 0..R {
+        for j in 0..R {
+            to[i][j] += 0.5 * (K[(i, j)] + K[(j, i)]);
+        }
+    }
+}
+
+/// The stiffness of an element in its plane.
+fn in_plane<K, const N: usize, const V: usize, const P: usize, const E: usize>(
+    surface: &ElementSurface<N, V>,
+    plate: &Plate,
+    bulge: &[f64; N],
+) -> InPlaneStiffness<P, E>
+where
+    K: PlaneStrains<N, V, P, E>,
+{
+    let h = plate.thickness;
+    let points = K::strains(surface, plate.nu, bulge);
+    let C = plate.plane_stress();
+    let mut elastic = ShellStiffness::ZERO;
+    for point in &points {
+        squared(&point.membrane, &C, h * point.weight, &mut elastic.N);
+        squared(&point.bending, &C, h.powi(3) / 12.0 * point.weight, &mut elastic.M);
+    }
+    let stiff = plate.drilling * plate.shear_modulus() * h * surface.area;
+    // What constant stress does not feel in straight edges is felt here, so that their nodes do not drill freely.
+    let edges = from_fn(|i| if (P..P + N).contains(&i) && bulge[i - P] == 0.0 { UNEVEN } else { 0.0 });
+    let drilling = Drilling { stiffness: stiff, rows: K::drilling(surface, bulge), edges };
+    drilling.add_to(&mut elastic.N);
+    InPlaneStiffness { elastic, drilling, points }
+}
+
+/// Stiffness of the shear strains at the edges, and the bending of the edges.
+fn shear_stiffness<K: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize>(
+    surface: &ElementSurface<N, V>,
+    D: &[Vec3; N],
+    plate: &Plate,
+) -> ([[f64; N]; N], EdgeBending<f64, N>) {
+    let (h, G) = (plate.thickness, plate.shear_modulus());
+    let (bent, left, mut shear) = if K::EDGES_BEND {
+        let squared = 2.0 / (SHEAR_FACTOR * (1.0 - plate.nu)) * h * h;
+        edge_bubbles::<K, N, V, P>(surface, &(plate.plane_stress() * h.powi(3) / 12.0), squared)
+    } else {
+        let turn = most_turn(&surface.X, D, K::EDGES) / h;
+        let flexibility = K::FLEXIBILITY * turn * turn / (1.0 + turn * turn);
+        let left = K::EDGES.map(|[a, b]| {
+            let length = (surface.X[b] - surface.X[a]).norm_squared();
+            let span = length.min(surface.area * surface.area / length);
+            h / (h * h + flexibility * span).sqrt()
+        });
+        (EdgeBending::NONE, left, [[0.0; N]; N])
+    };
+    for point in &surface.points {
+        let edges = K::shear(point.at);
+        let w = SHEAR_FACTOR * G * h * point.weight;
+        for i in point.inverse {
+            let Z: [f64; N] = from_fn(|e| left[e] * (i[0] * edges[0][e] + i[1] * edges[1][e]));
+            for a in 0..N {
+                for b in 0..N {
+                    shear[a][b] += w * Z[a] * Z[b];
+                }
+            }
+        }
+    }
+    (shear, bent)
+}

@@ -1,0 +1,365 @@
+//! Tangents of eight shell elements side by side: BᵀCB of their strains and σ·∂²ε, the formulas of [`super::tangent`].
+//!
+//! The half of the matrix that belongs to the motion against the first node is computed: the rest follows by symmetry, and because a
+//! translation of all nodes does nothing. Only a node's own rotations have a part that is not symmetric. So a tangent
+//! differs from that of the element by itself by rounding.
+
+use super::interpolation::Interpolation;
+use super::lane_matrix::{LaneMatrix, complete, product, subtract_skew};
+use super::lanes::{Motion, ShellPack, Slopes, by_pairs, sum, total};
+use super::packed::{InPlaneLanes, LinearisedLanes};
+use base::math::lanes::{Lanes, fma};
+use base::math::number::{LaneVec3, Number};
+use std::array::from_fn;
+
+/// A row of B by the positions and the rotations of the nodes. Nothing is kept for the position of the first node.
+#[derive(Clone, Copy)]
+struct Row<const N: usize> {
+    x: [LaneVec3; N],
+    theta: [LaneVec3; N],
+}
+
+/// The rows of B: one for each strain.
+struct Rows<const N: usize, const P: usize, const E: usize> {
+    membrane: [Row<N>; E],
+    bending: [Row<N>; P],
+    shear: [Row<N>; N],
+}
+
+/// y ← y + s x.
+#[inline(always)]
+fn add(y: &mut LaneVec3, s: Lanes, x: &LaneVec3) {
+    (0..3).for_each(|i| y.0[i] = fma(s, x.0[i], y.0[i]));
+}
+
+impl<const N: usize> Row<N> {
+    const ZERO: Self = Row { x: [LaneVec3::ZERO; N], theta: [LaneVec3::ZERO; N] };
+
+    /// Adds s times a row.
+    #[inline(always)]
+    fn add(&mut self, s: Lanes, row: &Self) {
+        self.add_positions(s, row);
+        (0..N).for_each(|a| add(&mut self.theta[a], s, &row.theta[a]));
+    }
+
+    /// Adds s times a row that has nothing by rotations.
+    #[inline(always)]
+    fn add_positions(&mut self, s: Lanes, row: &Self) {
+        (1..N).for_each(|a| add(&mut self.x[a], s, &row.x[a]));
+    }
+
+    /// Adds s times the row of an edge.
+    #[inline(always)]
+    fn add_edge(&mut self, ends: [usize; 2], s: Lanes, row: &Self) {
+        for a in ends {
+            if a > 0 {
+                add(&mut self.x[a], s, &row.x[a]);
+            }
+            add(&mut self.theta[a], s, &row.theta[a]);
+        }
+    }
+}
+
+impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
+    const ZERO: Self = Rows { membrane: [Row::ZERO; E], bending: [Row::ZERO; P], shear: [Row::ZERO; N] };
+
+    /// Adds to a row of C B what the membrane does by the stiffnesses `C`.
+    #[inline(always)]
+    fn add_membrane<K: Interpolation<N, V, P>, const V: usize>(&self, C: impl Fn(usize) -> Lanes, row: &mut Row<N>) {
+        for m in 0..P {
+            // Of products of slopes only the first depend on rotations, by the curvature.
+            if K::CAMBERED && m < 3 {
+                row.add(C(m), &self.membrane[m]);
+            } else {
+                row.add_positions(C(m), &self.membrane[m]);
+            }
+        }
+        for (e, ends) in K::EDGES.into_iter().enumerate() {
+            row.add_edge(ends, C(P + e), &self.membrane[P + e]);
+        }
+        row.add(C(E - 1), &self.membrane[E - 1]);
+    }
+
+    /// Calls `of` with the entries of B in a column and with the rows of `X`, where those entries are not zero for all motions of node `a`.
+    #[inline(always)]
+    fn column<'a, K: Interpolation<N, V, P>, const V: usize>(
+        &'a self,
+        (a, turns): (usize, bool),
+        entry: impl Fn(&Row<N>) -> Lanes,
+        X: &'a Self,
+        mut of: impl FnMut(Lanes, &'a Row<N>),
+    ) {
+        for m in 0..P {
+            if !turns || (K::CAMBERED && m < 3) {
+                of(entry(&self.membrane[m]), &X.membrane[m]);
+            }
+            of(entry(&self.bending[m]), &X.bending[m]);
+        }
+        for (e, ends) in K::EDGES.into_iter().enumerate() {
+            if ends.contains(&a) {
+                of(entry(&self.membrane[P + e]), &X.membrane[P + e]);
+                of(entry(&self.shear[e]), &X.shear[e]);
+            }
+        }
+        of(entry(&self.membrane[E - 1]), &X.membrane[E - 1]);
+    }
+
+    /// The upper half of BᵀX, without the position of the first node: rows of positions by positions, rows of rotations by positions,
+    /// which stand in the upper half too, and by rotations.
+    #[inline(always)]
+    fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(&self, X: &Self, H: &mut LaneMatrix<N>) {
+        for a in 0..N {
+            for k in 0..3 {
+                if a > 0 {
+                    let mut row = [LaneVec3::ZERO; N];
+                    self.column::<K, V>(
+                        (a, false),
+                        |B| B.x[a].0[k],
+                        X,
+                        |s, X| {
+                            (a..N).for_each(|b| add(&mut row[b], s, &X.x[b]));
+                        },
+                    );
+                    (a..N).for_each(|b| H[a][k][b][..3].copy_from_slice(&row[b].0));
+                }
+                let mut row = Row::<N>::ZERO;
+                self.column::<K, V>(
+                    (a, true),
+                    |B| B.theta[a].0[k],
+                    X,
+                    |s, X| {
+                        (1..N).for_each(|b| add(&mut row.x[b], s, &X.x[b]));
+                        (a..N).for_each(|b| add(&mut row.theta[b], s, &X.theta[b]));
+                    },
+                );
+                (a..N).for_each(|b| H[a][3 + k][b][3..].copy_from_slice(&row.theta[b].0));
+                for b in 1..N {
+                    (0..3).for_each(|i| H[b][i][a][3 + k] = row.x[b].0[i]);
+                }
+            }
+        }
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const E: usize, B> ShellPack<N, V, P, E, B> {
+    /// ∂ε/∂(x, θ).
+    #[inline(always)]
+    fn rows<K: Interpolation<N, V, P>>(&self, motion: &Motion<N>, slopes: &Slopes<V>, rows: &mut Rows<N, P, E>) {
+        let Motion { x, turning } = motion;
+        let ([d, t1, t2], Slopes { v, long, .. }) = (turning, slopes);
+        for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
+            let mut y = [LaneVec3::ZERO; V];
+            y[i] = v[j];
+            y[j] = v[i];
+            let g = slopes.gradient(&y);
+            for a in 0..N {
+                let [s, t] = [self.slopes[i][a], self.slopes[j][a]];
+                let by = |v: &[LaneVec3; V]| if i == j { s * v[i] } else { s * v[j] + t * v[i] };
+                let across = sum(&from_fn(|i| self.slopes[i][a]), &g);
+                rows.membrane[n].x[a] = by(v);
+                rows.bending[n].x[a] = by(long);
+                rows.bending[n].theta[a] = d[a].cross(&across);
+            }
+        }
+        if K::CAMBERED {
+            for (m, slopes) in self.camber.slopes(&slopes.first_bending()).into_iter().enumerate() {
+                (0..3).for_each(|n| rows.membrane[m].add(slopes[n], &rows.bending[n]));
+            }
+        }
+        let half = Lanes::splat(0.5);
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let (length, mean) = (x[b] - x[a], half * (d[a] + d[b]));
+            let bulge = self.bulging(e, [a, b], turning);
+            for ((node, sign), [c1, c2]) in [(a, -1.0), (b, 1.0)].into_iter().zip(self.edges[e]) {
+                rows.shear[e].x[node] = Lanes::splat(sign) * mean;
+                rows.shear[e].theta[node] = d[node].cross(&(half * length));
+                rows.membrane[P + e].x[node] = Lanes::splat(sign) * bulge;
+                rows.membrane[P + e].theta[node] = (c1 * t1[node] + c2 * t2[node]).cross(&length);
+            }
+        }
+        let mean = Lanes::splat(0.5 / N as f64);
+        let (all1, all2) = (mean * total(t1), mean * total(t2));
+        for a in 0..N {
+            rows.membrane[E - 1].x[a] = self.slopes[1][a] * all1 - self.slopes[0][a] * all2;
+            rows.membrane[E - 1].theta[a] = mean * (t1[a].cross(&v[1]) - t2[a].cross(&v[0]));
+        }
+    }
+
+    /// C B, with what the stress of the membrane does to the camber.
+    #[inline(always)]
+    fn times<K: Interpolation<N, V, P>>(&self, C: &LinearisedLanes<P, E>, B: &Rows<N, P, E>, CB: &mut Rows<N, P, E>) {
+        let mut bending = B.bending;
+        if K::EDGES_BEND {
+            for (row, by) in bending.iter_mut().zip(&self.bent.0) {
+                (0..N).for_each(|e| row.add_edge(K::EDGES[e], by[e], &B.shear[e]));
+            }
+        }
+        for i in 0..E {
+            let mut row = Row::ZERO;
+            B.add_membrane::<K, V>(|j| C.N[i][j], &mut row);
+            if C.coupled {
+                (0..P).for_each(|j| row.add(C.NM[i][j], &bending[j]));
+            }
+            CB.membrane[i] = row;
+        }
+        for i in 0..P {
+            let mut row = Row::ZERO;
+            (0..P).for_each(|j| row.add(C.M[i][j], &bending[j]));
+            if C.coupled {
+                B.add_membrane::<K, V>(|j| C.NM[j][i], &mut row);
+            }
+            CB.bending[i] = row;
+        }
+        for i in 0..N {
+            let mut row = Row::ZERO;
+            (0..N).for_each(|e| row.add_edge(K::EDGES[e], self.shear[i][e], &B.shear[e]));
+            if K::EDGES_BEND {
+                (0..3).for_each(|n| row.add(self.bent.0[n][i], &CB.bending[n]));
+            }
+            CB.shear[i] = row;
+        }
+        if K::CAMBERED {
+            for n in 0..3 {
+                for k in 0..3 {
+                    let Q = |m: usize| C.stress.membrane[m] * self.camber.0[m][n][k];
+                    CB.bending[n].add(Q(0) + Q(1) + Q(2), &B.bending[k]);
+                }
+            }
+        }
+    }
+
+    /// Tangents of the elements, row-major, one after the other into `out`. `linearise`: stress in the plane and its derivative.
+    #[inline(always)]
+    pub fn tangents<K: Interpolation<N, V, P>>(
+        &self,
+        motion: &Motion<N>,
+        linearise: impl FnOnce(&InPlaneLanes<P, E>) -> LinearisedLanes<P, E>,
+        out: &mut [f64],
+    ) {
+        let slopes = self.slopes(motion);
+        let (strain, shear) = self.strains::<K>(motion, &slopes);
+        let C = linearise(&strain);
+        let shear = self.edge_stress::<K>(&shear, &C.stress);
+        let (mut B, mut CB) = (Rows::ZERO, Rows::ZERO);
+        self.rows::<K>(motion, &slopes, &mut B);
+        self.times::<K>(&C, &B, &mut CB);
+        let mut H = [[[[Lanes::ZERO; 6]; N]; 6]; N];
+        B.transpose_times::<K, V>(&CB, &mut H);
+        self.add_bending::<K>(&C, motion, &slopes, &mut H);
+        self.add_bilinear::<K>((&C, &shear), motion, &mut H);
+        complete(&mut H);
+        let g = self.gradient::<K>((&C.stress, &shear), motion, &slopes);
+        for a in 0..N {
+            // (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
+            for k in 0..3 {
+                let (d, g) = (&motion.turning[k][a], &g.turning[k][a]);
+                let along = d.dot(g);
+                for i in 0..3 {
+                    (0..3).for_each(|j| H[a][3 + i][a][3 + j] += d.0[i] * g.0[j]);
+                    H[a][3 + i][a][3 + i] -= along;
+                }
+            }
+        }
+        Number::store(H.as_flattened().as_flattened().as_flattened(), self.count, out);
+    }
+
+    /// σ·∂²ε of what is bilinear: of products of slopes, bulges, drilling and shear.
+    #[inline(always)]
+    fn add_bilinear<K: Interpolation<N, V, P>>(
+        &self,
+        (C, shear): (&LinearisedLanes<P, E>, &[Lanes; N]),
+        motion: &Motion<N>,
+        H: &mut LaneMatrix<N>,
+    ) {
+        let membrane = &C.stress.membrane;
+        let [d, t1, t2] = &motion.turning;
+        let Q = by_pairs::<V, P>(&K::PAIRS, membrane);
+        for a in 1..N {
+            let half: [Lanes; V] = from_fn(|j| product(|i| self.slopes[i][a] * Q[i][j], V));
+            for b in a..N {
+                let xx = product(|j| half[j] * self.slopes[j][b], V);
+                (0..3).for_each(|i| H[a][i][b][i] += xx);
+            }
+        }
+        let drill = membrane[E - 1] * Lanes::splat(0.5 / N as f64);
+        let mut c: [[LaneVec3; N]; N] = from_fn(|a| {
+            let (first, second) = (drill * self.slopes[1][a], drill * self.slopes[0][a]);
+            from_fn(|b| first * t1[b] - second * t2[b])
+        });
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let (half, bulge) = (Lanes::splat(0.5) * shear[e], membrane[P + e]);
+            for (to, [c1, c2]) in [a, b].into_iter().zip(self.edges[e]) {
+                let u = half * d[to] + bulge * (c1 * t1[to] + c2 * t2[to]);
+                c[b][to] += u;
+                c[a][to] -= u;
+            }
+        }
+        // δd = δθ × d: −[c]~ by position and rotation.
+        for a in 1..N {
+            (0..N).for_each(|b| subtract_skew(&c[a][b], a, b, H));
+        }
+    }
+
+    /// σ·∂²ε of bending measured by angles. All of it is made of products of vectors: with s the slopes by a node,
+    /// (skew d) u vᵀ (−skew d) = (d × u) (d × v)ᵀ.
+    #[inline(always)]
+    fn add_bending<K: Interpolation<N, V, P>>(
+        &self,
+        C: &LinearisedLanes<P, E>,
+        motion: &Motion<N>,
+        slopes: &Slopes<V>,
+        H: &mut LaneMatrix<N>,
+    ) {
+        let (d, Slopes { v, w, y, .. }) = (&motion.turning[0], slopes);
+        let Q = by_pairs::<V, P>(&K::PAIRS, &self.bending_stress::<K>(&C.stress, slopes));
+        let p: [LaneVec3; V] = from_fn(|k| sum(&Q[k], v));
+        let pair = |s: &[Lanes; 2], of: &[LaneVec3; 2]| s[0] * of[0] + s[1] * of[1];
+        let s: [[Lanes; 2]; N] = from_fn(|a| [self.slopes[0][a], self.slopes[1][a]]);
+        let (w, two) = ([w[0], w[1]], [p[0], p[1]]);
+        let (Y, P_): ([_; N], [_; N]) = (from_fn(|a| pair(&s[a], y)), from_fn(|a| pair(&s[a], &two)));
+        // Mixed: Σ_i s_ia ∂²/∂v_i∂w_k.
+        let u: [LaneVec3; V] = from_fn(|i| pair(&[Q[i][0], Q[i][1]], &w));
+        let k: [[Lanes; 2]; V] =
+            from_fn(|i| from_fn(|k| slopes.H[k][0] * Q[i][0] + slopes.H[k][1] * Q[i][1] + Q[i][k]));
+        let turned = |of: &[LaneVec3; 2]| -> [[LaneVec3; 2]; N] { from_fn(|a| of.map(|of| d[a].cross(&of))) };
+        let (dw, dp, dy) = (turned(&w), turned(&two), turned(y));
+        for a in 1..N {
+            let along: [Lanes; V] = from_fn(|i| self.slopes[i][a]);
+            let U = sum(&along, &u);
+            for b in 0..N {
+                let q = |k: usize| product(|i| along[i] * Q[i][k], V);
+                let even = s[b][0] * product(|i| along[i] * k[i][0], V) + s[b][1] * product(|i| along[i] * k[i][1], V);
+                let even = if V > 2 { even + self.slopes[V - 1][b] * q(V - 1) } else { even };
+                let of_A = s[b][0] * q(0) + s[b][1] * q(1);
+                let dU = d[b].cross(&U);
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let A = w[0].0[i] * dy[b][0].0[j] + w[1].0[i] * dy[b][1].0[j];
+                        H[a][i][b][3 + j] += Y[b].0[i] * dU.0[j] + of_A * A;
+                    }
+                }
+                subtract_skew(&(even * d[b]), a, b, H);
+            }
+        }
+        let P2: [[Lanes; 2]; 2] = from_fn(|k| from_fn(|l| two[l].dot(&y[k]) + two[k].dot(&y[l])));
+        let form = |M: &[[Lanes; 2]; 2], a: usize, b: usize| {
+            let row = |k: usize| M[k][0] * s[b][0] + M[k][1] * s[b][1];
+            s[a][0] * row(0) + s[a][1] * row(1)
+        };
+        for a in 0..N {
+            for b in a..N {
+                let (S, even) = (form(&self.arc, a, b), form(&P2, a, b));
+                let (first, second) = (d[a].cross(&P_[b]), d[a].cross(&Y[b]));
+                let (other, another) = (d[b].cross(&Y[a]), d[b].cross(&P_[a]));
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let of = |c: usize| dp[a][c].0[i] * dw[b][c].0[j] + dw[a][c].0[i] * dp[b][c].0[j];
+                        let outer = first.0[i] * other.0[j] + second.0[i] * another.0[j];
+                        H[a][3 + i][b][3 + j] += S * (of(0) + of(1)) + outer - even * d[b].0[i] * d[a].0[j];
+                    }
+                    H[a][3 + i][b][3 + i] += even * d[a].dot(&d[b]);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Central differences, as velocity Verlet: positions at t + Δt from the motion at t alone, accelerations there from equilibrium
+//! with the mass alone, velocities by the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping,
+//! periods shortened; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2, see [`super::stability_limit`].
+//! Momenta of what moves freely are kept.
+//! A body that turns freely follows its angular momentum: exactly where two of its principal inertias agree, otherwise with an
+//! energy that swings by the square of the step. Where masses are coupled or directions restrained, a rotation by
+//! Δt ω + ½ Δt² α is not the same from its end backwards: such a body gains or loses energy steadily, by the third power of the
+//! step.
+//!
+//! Forces that depend on velocities meet the predicted ones, v + Δt a, which costs no order; the limit becomes
+//! ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1. With `mass_scaling_step` elements are given the mass with which each bears that step.
+//! L. Verlet, Phys. Rev. 159 (1967); T. Belytschko, T. J. R. Hughes (eds.), Computational Methods for Transient Analysis (1983).
+
+use std::sync::Arc;
+
+use super::coefficients::Coefficients;
+use super::scheme::{MakeScheme, Scheme, SchemeKind, Stepping};
+use base::math::rotation::RotationUpdate;
+use base::names::short;
+use base::words::kinds::{Form, Key};
+
+/// The scheme's word, keys and maker.
+pub static KIND: SchemeKind = SchemeKind {
+    word: "central-difference",
+    aliases: &[],
+    guesses: &["verlet", "leapfrog", "leap-frog", "explicit"],
+    about: "Explicit, of second order: no matrix but the masses; steps must be shorter than the highest mode allows (omega dt <= 2). \
+            time_step = \"auto\" takes 0.8 of the critical time step, 0.5 where contacts or links may stiffen.",
+    keys: &[Key {
+        name: "mass_scaling_step",
+        form: Form::Number,
+        about: "Mass scaling: a critical time step, above 0. Each element of beams, bars and shells whose own is below it is given \
+                rotary inertia, and where that does not do mass, until it has this one. Weight stays that of the true mass; what is \
+                added is told. Default: none.",
+    }],
+    make: MakeScheme {
+        scheme: |given, rotation| {
+            Arc::new(CentralDifference { rotation, mass_scaling_step: given.positive("mass_scaling_step") })
+        },
+        rotation_update: true,
+    },
+};
+
+/// Central differences.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CentralDifference {
+    /// The update of rotations.
+    pub rotation: RotationUpdate,
+    /// The critical time step that no element shall fall below, by mass that is added to it.
+    pub mass_scaling_step: Option<f64>,
+}
+
+impl Scheme for CentralDifference {
+    fn word(&self) -> &'static str {
+        KIND.word
+    }
+
+    fn in_words(&self) -> String {
+        match self.mass_scaling_step {
+            Some(step) => format!("{}, mass_scaling_step = {}", KIND.word, short(step)),
+            None => KIND.word.to_owned(),
+        }
+    }
+
+    fn note(&self) -> Option<&'static str> {
+        Some(
+            "explicit: steps beyond the critical time step of the fastest mode are cut back, however slow the motion of interest is",
+        )
+    }
+
+    fn stepping(&self) -> Stepping<'_> {
+        Stepping::Verlet
+    }
+
+    fn coefficients(&self, dt: f64) -> Coefficients {
+        Coefficients::verlet(dt, self.rotation)
+    }
+
+    fn mass_scaling_step(&self) -> Option<f64> {
+        self.mass_scaling_step
+    }
+}

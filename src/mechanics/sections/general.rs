@@ -1,0 +1,164 @@
+//! The section that says its numbers itself: areas and moments, or stiffnesses and masses per length.
+
+use super::dimensions::positive;
+use super::fibres::Fibre;
+use super::section::{Section, Stiffness};
+use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
+use base::words::kinds::Values;
+use base::words::kinds::{Form, Given, Key};
+
+/// The shape's word, keys and maker.
+pub static KIND: SectionKind = SectionKind {
+    word: "general",
+    aliases: &[],
+    guesses: &["arbitrary", "numbers", "user"],
+    about: "Areas and moments, or stiffnesses and masses per length themselves.",
+    keys: &[
+        Key { name: "area", form: Form::Number, about: "Area, above 0." },
+        Key { name: "moments", form: Form::Pair, about: "Second moments of area [about y, about z], above 0." },
+        Key { name: "product_moment", form: Form::Number, about: "Product moment of area. Default: 0." },
+        Key { name: "torsion_constant", form: Form::Number, about: "Saint-Venant torsion constant, above 0." },
+        Key { name: "shear_areas", form: Form::Pair, about: "Shear areas [for forces along y, along z], above 0." },
+        Key {
+            name: "axial_stiffness",
+            form: Form::Number,
+            about: "E A, a force above 0, instead of area and moments; the beam then takes no material.",
+        },
+        Key {
+            name: "shear_stiffness",
+            form: Form::Pair,
+            about: "Shear stiffnesses G A_s [along y, along z], forces above 0, with axial_stiffness.",
+        },
+        Key {
+            name: "torsional_stiffness",
+            form: Form::Number,
+            about: "G J, force times length squared, above 0, with axial_stiffness.",
+        },
+        Key {
+            name: "bending_stiffness",
+            form: Form::Pair,
+            about: "E I [about y, about z], force times length squared, above 0, with axial_stiffness.",
+        },
+        Key { name: "mass_per_length", form: Form::Number, about: "Mass per length, 0 or more, with axial_stiffness." },
+        Key {
+            name: "inertia_per_length",
+            form: Form::Vector,
+            about: "Rotary inertia per length [about x, y, z], mass times length, 0 or more, with axial_stiffness.",
+        },
+    ],
+    make: MakeSection { read, takes_material: |values| !is_direct(values) },
+};
+
+const STIFFNESSES: [&str; 6] = [
+    "axial_stiffness",
+    "shear_stiffness",
+    "torsional_stiffness",
+    "bending_stiffness",
+    "mass_per_length",
+    "inertia_per_length",
+];
+
+/// True where a section gives its stiffnesses itself.
+fn is_direct(values: &Values) -> bool {
+    STIFFNESSES.iter().any(|key| values.place(key).is_some())
+}
+
+fn read(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
+    if is_direct(given.values()) { stiffness(given, needs_mass) } else { shape(given) }
+}
+
+fn shape(given: &mut Given) -> Option<CrossSection> {
+    let area = given.require_positive("area");
+    let moments = given.require_positive_pair("moments");
+    let torsion = given.require_positive("torsion_constant");
+    let shear = given.require_positive_pair("shear_areas");
+    let Iyz = given.number("product_moment").unwrap_or(0.0);
+    let moments = moments?;
+    if Iyz * Iyz >= moments[0] * moments[1] {
+        return given.error("product_moment", "`product_moment` is larger than the moments allow");
+    }
+    let shape = General { area: area?, moments, Iyz, torsion: torsion?, shear_areas: shear? };
+    Some(CrossSection::Shape(Box::new(shape)))
+}
+
+/// Stiffnesses as given; masses may be left out where nothing needs them.
+fn stiffness(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
+    for key in
+        KIND.keys.iter().filter(|key| !STIFFNESSES.contains(&key.name) && given.has(key.name)).collect::<Vec<_>>()
+    {
+        given.error::<()>(key.name, format!("`{}` does not apply to a section that gives its stiffnesses", key.name));
+    }
+    let axial = given.require_positive("axial_stiffness");
+    let shear = given.require_positive_pair("shear_stiffness");
+    let torsion = given.require_positive("torsional_stiffness");
+    let bending = given.require_positive_pair("bending_stiffness");
+    if needs_mass {
+        given.require("mass_per_length");
+        given.require("inertia_per_length");
+    }
+    let mass = given.not_negative("mass_per_length", 0.0);
+    let inertia = given.vector("inertia_per_length").map_or([0.0; 3], |inertia| inertia.into());
+    if inertia.iter().any(|&j| j < 0.0) {
+        return given.error("inertia_per_length", "`inertia_per_length` must not be negative");
+    }
+    Some(CrossSection::Stiffness(Box::new(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia))))
+}
+
+/// A section by its area, moments and shear areas.
+#[derive(Debug, Clone, PartialEq)]
+pub struct General {
+    /// Area.
+    pub area: f64,
+    /// Iy, Iz.
+    pub moments: [f64; 2],
+    /// Product moment ∫yz dA.
+    pub Iyz: f64,
+    /// Saint-Venant torsion constant.
+    pub torsion: f64,
+    /// Shear areas for forces along y and z.
+    pub shear_areas: [f64; 2],
+}
+
+/// Why there are no fibres.
+const NO_FIBRES: &str = "a general section has no fibres: it says how much area there is, not where";
+
+impl SectionShape for General {
+    fn section(&self) -> Result<Section, String> {
+        general(self.area, self.moments, self.Iyz, self.torsion, self.shear_areas)
+    }
+
+    fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
+        Err(NO_FIBRES.into())
+    }
+
+    fn lay_fibres(&self, _: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
+        Err(NO_FIBRES.into())
+    }
+
+    fn half_depth(&self) -> f64 {
+        0.0
+    }
+}
+
+/// A section given by its numbers; `moments` = [Iy, Iz]. The shear centre is the centroid.
+///
+/// Errors: a number that is not positive and finite, or a product of inertia too large for the moments.
+pub fn general(area: f64, moments: [f64; 2], Iyz: f64, torsion: f64, shear_areas: [f64; 2]) -> Result<Section, String> {
+    let [Iy, Iz] = moments;
+    let [y, z] = shear_areas;
+    positive(&[
+        ("area", area),
+        ("moments", Iy),
+        ("moments", Iz),
+        ("torsion_constant", torsion),
+        ("shear_areas", y),
+        ("shear_areas", z),
+    ])?;
+    if Iyz.is_nan() || Iyz * Iyz >= Iy * Iz {
+        return Err(format!(
+            "`product_moment` is {Iyz}, but must be smaller in size than the geometric mean of the moments, {}",
+            (Iy * Iz).sqrt()
+        ));
+    }
+    Ok(Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, 0.0], shear_center: [0.0; 2] })
+}

@@ -1,0 +1,119 @@
+//! The numbers of a cross section, and what a beam feels of it.
+
+use base::math::Mat3;
+use std::ops::AddAssign;
+
+/// Geometry of a cross section, axes parallel to the section's y and z through the centroid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// Area.
+    pub area: f64,
+    /// ∫z² dA.
+    pub Iy: f64,
+    /// ∫y² dA.
+    pub Iz: f64,
+    /// ∫yz dA.
+    pub Iyz: f64,
+    /// Saint-Venant torsion constant.
+    pub torsion: f64,
+    /// Shear areas: yy, zz and the product yz, which couples the two directions where Iyz does.
+    pub shear: [f64; 3],
+    /// Shear centre (y_s, z_s) from the centroid.
+    pub shear_center: [f64; 2],
+}
+
+impl Section {
+    /// Stiffness and inertia per length of a section of one elastic material.
+    ///
+    /// The strain at (y, z) is Γ₁ + z κ₂ − y κ₃; shear acts on the strain of the shear centre r_s, Γ + κ×r_s.
+    pub fn stiffness(&self, E: f64, nu: f64, density: f64) -> Stiffness {
+        let Section { area, Iy, Iz, Iyz, torsion, shear: [y, z, yz], shear_center: [ys, zs] } = *self;
+        let G = 0.5 * E / (1.0 + nu);
+        // (Γ + κ×r_s)₂ = Γ₂ − z_s κ₁,  (Γ + κ×r_s)₃ = Γ₃ + y_s κ₁: shear forces of a unit twist, and their moment.
+        let (Qy, Qz) = (G * (yz * ys - y * zs), G * (z * ys - yz * zs));
+        Stiffness {
+            N: Mat3::new(E * area, 0.0, 0.0, 0.0, G * y, G * yz, 0.0, G * yz, G * z),
+            M: Mat3::new(G * torsion + ys * Qz - zs * Qy, 0.0, 0.0, 0.0, E * Iy, -E * Iyz, 0.0, -E * Iyz, E * Iz),
+            NM: Mat3::new(0.0, 0.0, 0.0, Qy, 0.0, 0.0, Qz, 0.0, 0.0),
+            mass_per_length: density * area,
+            inertia_per_length: density * Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz),
+        }
+    }
+}
+
+/// The stiffness and mass of a section, in section axes (x along the beam) about the centroid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stiffness {
+    /// Stiffness of forces against Γ.
+    pub N: Mat3,
+    /// Stiffness of moments against κ.
+    pub M: Mat3,
+    /// Nonzero where the shear centre is off the centroid.
+    pub NM: Mat3,
+    /// Mass per length.
+    pub mass_per_length: f64,
+    /// Rotary inertia per length, about the centroid.
+    pub inertia_per_length: Mat3,
+}
+
+/// The shear stiffness of a beam that does not deform in shear, over that of its section: what is left of the deflection in shear is
+/// below the last digits that a mesh resolves, and rounding loses no more than four digits.
+const RIGID_IN_SHEAR: f64 = 1e4;
+
+impl Stiffness {
+    /// The stiffness of a section that hardly deforms in shear, about the shear centre where it lies.
+    pub fn without_shear(&self) -> Stiffness {
+        let mut out = self.clone();
+        let more = RIGID_IN_SHEAR - 1.0;
+        let (shear, forces) = (self.N.fixed_view::<2, 2>(1, 1), self.NM.fixed_view::<2, 1>(1, 0));
+        out.N.fixed_view_mut::<2, 2>(1, 1).add_assign(shear * more);
+        out.NM.fixed_view_mut::<2, 1>(1, 0).add_assign(forces * more);
+        // Forces of a unit twist are those of shear at the arm of the shear centre, and turn about it.
+        let arm = shear.try_inverse().map(|flexibility| flexibility * forces);
+        out.M[(0, 0)] += arm.map_or(0.0, |arm| more * arm.dot(&forces));
+        out
+    }
+
+    /// Stiffnesses and inertias given as such: shear and bending about y and z, inertia about x, y, z.
+    pub fn general(
+        axial: f64,
+        shear: [f64; 2],
+        torsion: f64,
+        bending: [f64; 2],
+        mass_per_length: f64,
+        inertia: [f64; 3],
+    ) -> Stiffness {
+        Stiffness {
+            N: Mat3::from_diagonal(&[axial, shear[0], shear[1]].into()),
+            M: Mat3::from_diagonal(&[torsion, bending[0], bending[1]].into()),
+            NM: Mat3::zeros(),
+            mass_per_length,
+            inertia_per_length: Mat3::from_diagonal(&inertia.into()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Without shear a section keeps its torsion about the shear centre, which lies off the centroid.
+    #[test]
+    fn the_shear_centre_stays_where_it_is() {
+        let section = Section {
+            area: 2.0,
+            Iy: 0.3,
+            Iz: 0.2,
+            Iyz: 0.05,
+            torsion: 0.1,
+            shear: [1.5, 1.2, 0.1],
+            shear_center: [0.4, -0.3],
+        };
+        let rigid = Section { shear: section.shear.map(|area| RIGID_IN_SHEAR * area), ..section.clone() };
+        let (made, exact) = (section.stiffness(2.0, 0.3, 1.0).without_shear(), rigid.stiffness(2.0, 0.3, 1.0));
+        // Rounding of sums of four terms.
+        for (made, exact) in [(made.N, exact.N), (made.M, exact.M), (made.NM, exact.NM)] {
+            assert!((made - exact).norm() < 1e-14 * exact.norm(), "{made} {exact}");
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
+//! Built once from the deck, never changed; everything downstream borrows it.
+
+#![warn(missing_docs)]
+
+mod amplitudes;
+mod attachments;
+mod bars;
+mod beams;
+mod bodies;
+mod build;
+mod contacts;
+mod data;
+mod doubts;
+mod environment;
+mod expects;
+mod group_names;
+mod groups;
+mod initial;
+mod joints;
+mod links;
+mod loads;
+mod masses;
+mod materials;
+mod merge_diagnostics;
+pub mod mesh;
+mod mesh_file;
+mod moving_frames;
+mod names;
+mod output;
+mod own_damping;
+mod part_context;
+mod parts;
+mod places;
+mod position_curves;
+mod procedure;
+pub mod record;
+mod records;
+mod report;
+mod rigid;
+mod scene;
+mod sections;
+mod shells;
+mod stages;
+mod supports;
+mod values;
+
+pub use build::{build, read, read_stages, replan};
+pub use data::*;
+pub use mesh_file::Input;
+pub use procedure::study;
+pub use records::{Record, load_records};

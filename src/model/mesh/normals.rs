@@ -1,0 +1,272 @@
+//! Normals of a surface of triangles and quadrilaterals at their nodes.
+//!
+//! At a node, the elements that share an edge and whose normals differ by less than [`FOLD`] form one smooth side. Each side has
+//! one normal: the mean of the normals of its elements at the node, weighted by their angles there (Thürmer & Wüthrich 1998), so
+//! that it does not depend on how faces are divided. An element of the other orientation counts with the other sign and has the
+//! opposite normal.
+
+use base::math::{Vec3, curved_faces};
+use std::f64::consts::{PI, TAU};
+
+/// The angle between neighbours, in degrees, from which their edge is a fold: the 12 faces of a coarse cylinder are still smooth,
+/// plates that meet at an angle are not.
+pub const FOLD: f64 = 31.0;
+
+/// Unit normals at the corners of each face, on the side from which the corners of the face follow each other
+/// counter-clockwise, and the number of edges at which two neighbours are oriented differently. `faces`: indices into `x`,
+/// three or four corners each, or, with sides of second degree, six, eight or nine nodes, of which each has its normal; N is the largest
+/// number of nodes, and 9 where some have eight, whose ninth normal is that of their middle.
+pub fn normals<'a, const N: usize>(
+    x: &[Vec3],
+    faces: impl Iterator<Item = &'a [u32]> + Clone,
+) -> (Vec<[Vec3; N]>, usize) {
+    let mut corners: Vec<Corner> = Vec::new();
+    for (face, nodes) in faces.clone().enumerate() {
+        match nodes.len() {
+            3 | 4 => corners.extend(Corner::of(x, face, nodes)),
+            _ => corners.extend(Corner::of_curved(x, face, nodes)),
+        }
+    }
+    // The corners at a node are starts[node]..starts[node + 1] of `order`.
+    let mut starts = vec![0u32; x.len() + 1];
+    corners.iter().for_each(|corner| starts[corner.node as usize + 1] += 1);
+    for node in 0..x.len() {
+        starts[node + 1] += starts[node];
+    }
+    let (mut order, mut next) = (vec![0u32; corners.len()], starts.clone());
+    for (at, corner) in corners.iter().enumerate() {
+        let place = &mut next[corner.node as usize];
+        order[*place as usize] = at as u32;
+        *place += 1;
+    }
+    let middle = |nodes: &[u32]| {
+        let mut normals = [Vec3::zeros(); N];
+        if nodes.len() == 8 {
+            let [r, s] = curved_faces::tangents_of(8, &|a| x[nodes[a] as usize])[8];
+            normals[8] = r.cross(&s).normalize();
+        }
+        normals
+    };
+    let mut normals: Vec<[Vec3; N]> = faces.map(middle).collect();
+    let (mut against, mut sides) = (0, Sides::default());
+    for node in 0..x.len() {
+        let round = &order[starts[node] as usize..starts[node + 1] as usize];
+        against += sides.join(node as u32, round, &corners);
+        sides.write(round, &corners, &mut normals);
+    }
+    (normals, against)
+}
+
+/// One corner of a face.
+struct Corner {
+    node: u32,
+    face: u32,
+    place: usize,
+    /// The corners before and after it on the boundary of the face.
+    sides: [u32; 2],
+    /// Unit normal of the whole face.
+    face_normal: Vec3,
+    /// Unit normal at this corner.
+    normal: Vec3,
+    /// Angle between the sides, radians.
+    angle: f64,
+}
+
+impl Corner {
+    fn of<'a>(x: &'a [Vec3], face: usize, nodes: &'a [u32]) -> impl Iterator<Item = Corner> + 'a {
+        let n = nodes.len();
+        let at = move |i: usize| x[nodes[i % n] as usize];
+        let spans = move |i: usize| (at(i + 1) - at(i), at(i + n - 1) - at(i));
+        let whole: Vec3 = (0..n).map(|i| spans(i).0.cross(&spans(i).1)).sum();
+        let face_normal = whole.normalize();
+        (0..n).map(move |place| {
+            let (ahead, back) = spans(place);
+            let cross = ahead.cross(&back);
+            Corner {
+                node: nodes[place],
+                face: face as u32,
+                place,
+                sides: [nodes[(place + n - 1) % n], nodes[(place + 1) % n]],
+                face_normal,
+                normal: cross.normalize(),
+                angle: cross.norm().atan2(ahead.dot(&back)),
+            }
+        })
+    }
+}
+
+impl Corner {
+    /// The nodes of a face with sides of second degree; between neighbours its normal at the node counts, as the face is curved.
+    fn of_curved<'a>(x: &'a [Vec3], face: usize, nodes: &'a [u32]) -> impl Iterator<Item = Corner> + 'a {
+        let at = move |i: usize| x[nodes[i] as usize];
+        let tangents = curved_faces::tangents_of(nodes.len(), &at);
+        let round: Vec<usize> = curved_faces::ring(nodes.len()).collect();
+        let corners = round.len() / 2;
+        (0..nodes.len()).map(move |place| {
+            let [r, s] = &tangents[place];
+            let normal = r.cross(s).normalize();
+            // The middle has no neighbours but itself.
+            let (mut sides, mut angle) = ([nodes[place]; 2], TAU);
+            if let Some(k) = round.iter().position(|&other| other == place) {
+                let n = round.len();
+                let [back, ahead] = [round[(k + n - 1) % n], round[(k + 1) % n]];
+                sides = [nodes[back], nodes[ahead]];
+                let (along, against) = (at(ahead) - at(place), at(back) - at(place));
+                angle = if place < corners { along.cross(&against).norm().atan2(along.dot(&against)) } else { PI };
+            }
+            Corner { node: nodes[place], face: face as u32, place, sides, face_normal: normal, normal, angle }
+        })
+    }
+}
+
+/// Corners around one node, joined to smooth sides by a union-find structure.
+#[derive(Default)]
+struct Sides {
+    /// Another corner of the same side for each corner, itself for the first, and the relative orientation, ±1.
+    parent: Vec<(usize, f64)>,
+    /// The edges at the node: (node at the other end, corner, outgoing).
+    edges: Vec<(u32, usize, bool)>,
+    /// The sum of normals of each side, at its first corner.
+    sums: Vec<Vec3>,
+}
+
+impl Sides {
+    /// The first corner of the side of `corner`, and the relative orientation.
+    fn root(&self, mut corner: usize) -> (usize, f64) {
+        let mut sense = 1.0;
+        while self.parent[corner].0 != corner {
+            sense *= self.parent[corner].1;
+            corner = self.parent[corner].0;
+        }
+        (corner, sense)
+    }
+
+    /// Joins the corners around a node over its edges; returns the number of edges to higher nodes that both faces run through in
+    /// the same direction.
+    fn join(&mut self, node: u32, round: &[u32], corners: &[Corner]) -> usize {
+        let least = FOLD.to_radians().cos();
+        self.parent.clear();
+        self.parent.extend((0..round.len()).map(|at| (at, 1.0)));
+        self.edges.clear();
+        for (at, &corner) in round.iter().enumerate() {
+            let [back, ahead] = corners[corner as usize].sides;
+            self.edges.extend([(back, at, false), (ahead, at, true)]);
+        }
+        self.edges.sort_unstable();
+        let mut against = 0;
+        let edges = std::mem::take(&mut self.edges);
+        for run in edges.chunk_by(|a, b| a.0 == b.0) {
+            // Neighbours of one orientation run through their common edge in opposite directions.
+            against += usize::from(run.len() == 2 && run[0].2 == run[1].2 && node < run[0].0);
+            // Where more than two faces meet, each joins those that continue it; of many, the last eight are compared.
+            for (i, a) in run.iter().enumerate().skip(1) {
+                for b in &run[i.saturating_sub(8)..i] {
+                    let sense = if a.2 == b.2 { -1.0 } else { 1.0 };
+                    let of = |at: usize| &corners[round[at] as usize].face_normal;
+                    if sense * of(a.1).dot(of(b.1)) < least {
+                        continue;
+                    }
+                    let ((first, s), (second, t)) = (self.root(a.1), self.root(b.1));
+                    let (low, high) = (first.min(second), first.max(second));
+                    if low != high {
+                        self.parent[high] = (low, s * t * sense);
+                    }
+                }
+            }
+        }
+        self.edges = edges;
+        against
+    }
+
+    /// Writes the mean normal of each side to its corners.
+    fn write<const N: usize>(&mut self, round: &[u32], corners: &[Corner], normals: &mut [[Vec3; N]]) {
+        self.sums.clear();
+        self.sums.resize(round.len(), Vec3::zeros());
+        for (at, &corner) in round.iter().enumerate() {
+            let (root, sense) = self.root(at);
+            let corner = &corners[corner as usize];
+            self.sums[root] += sense * corner.angle * corner.normal;
+        }
+        for (at, &corner) in round.iter().enumerate() {
+            let (root, sense) = self.root(at);
+            let corner = &corners[corner as usize];
+            // A side whose normals cancel has no mean; its faces keep their own.
+            let mean = (sense * self.sums[root]).try_normalize(1e-9);
+            normals[corner.face as usize][corner.place] = mean.unwrap_or(corner.normal);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A strip of two quadrilaterals that meet at an angle.
+    fn folded(angle: f64, faces: [[u32; 4]; 2]) -> (Vec<[Vec3; 4]>, usize) {
+        let (sin, cos) = angle.to_radians().sin_cos();
+        let x = [
+            Vec3::new(-1.0, 0.0, 0.0),
+            Vec3::new(-1.0, 1.0, 0.0),
+            Vec3::new(0.0, 0.0, 0.0),
+            Vec3::new(0.0, 1.0, 0.0),
+            Vec3::new(cos, 0.0, sin),
+            Vec3::new(cos, 1.0, sin),
+        ];
+        normals(&x, faces.iter().map(|face| &face[..]))
+    }
+
+    #[test]
+    fn a_bend_is_shared_and_a_fold_is_not() {
+        let faces = [[0, 2, 3, 1], [2, 4, 5, 3]];
+        let (sin, cos) = 10f64.to_radians().sin_cos();
+        let (n, against) = folded(20.0, faces);
+        assert_eq!(against, 0);
+        for corner in [n[0][1], n[0][2], n[1][0], n[1][3]] {
+            assert!((corner - Vec3::new(-sin, 0.0, cos)).norm() < 1e-15, "{corner}");
+        }
+        assert!((n[0][0] - Vec3::z()).norm() < 1e-15);
+        let (n, _) = folded(40.0, faces);
+        assert!((n[0][1] - Vec3::z()).norm() < 1e-15);
+        assert!((n[1][0] - Vec3::new(-(40f64.to_radians().sin()), 0.0, 40f64.to_radians().cos())).norm() < 1e-15);
+    }
+
+    #[test]
+    fn a_face_turned_round_keeps_its_own_sense() {
+        let (straight, _) = folded(20.0, [[0, 2, 3, 1], [2, 4, 5, 3]]);
+        let (n, against) = folded(20.0, [[0, 2, 3, 1], [3, 5, 4, 2]]);
+        assert_eq!(against, 1);
+        assert!((n[0][1] - straight[0][1]).norm() < 1e-15);
+        assert!((n[1][3] + straight[1][0]).norm() < 1e-15);
+    }
+
+    /// Normals of a sphere cut into triangles in no regular way point outwards to first order in the size of the faces, squared.
+    #[test]
+    fn a_sphere_is_round() {
+        let (mut x, mut faces) = (vec![-Vec3::z(), Vec3::z()], Vec::new());
+        let (rings, round) = (16u32, 32u32);
+        for i in 1..rings {
+            for j in 0..round {
+                let (a, b) = (f64::from(i) / f64::from(rings), f64::from(j) / f64::from(round));
+                let (u, v) = (std::f64::consts::PI * (a - 0.5), std::f64::consts::TAU * b);
+                x.push(Vec3::new(u.cos() * v.cos(), u.cos() * v.sin(), u.sin()));
+            }
+        }
+        let at = |i: u32, j: u32| 2 + (i - 1) * round + j % round;
+        for j in 0..round {
+            faces.push(vec![0, at(1, j + 1), at(1, j)]);
+            faces.push(vec![1, at(rings - 1, j), at(rings - 1, j + 1)]);
+            for i in 1..rings - 1 {
+                faces.push(vec![at(i, j), at(i, j + 1), at(i + 1, j + 1)]);
+                faces.push(vec![at(i, j), at(i + 1, j + 1), at(i + 1, j)]);
+            }
+        }
+        let (n, against) = normals::<4>(&x, faces.iter().map(Vec::as_slice));
+        assert_eq!(against, 0);
+        for (face, n) in faces.iter().zip(&n) {
+            for (&node, n) in face.iter().zip(n) {
+                // Faces span 0.2, and the bound is half of its square.
+                assert!((n - x[node as usize]).norm() < 0.02, "{n} at {}", x[node as usize]);
+            }
+        }
+    }
+}

@@ -1,0 +1,634 @@
+//! Records: a quantity over time in a text file, as instruments and data bases give them.
+//!
+//! Values follow one another along the lines, as the header of a data base or the deck says, or stand in columns between semicolons, commas, tabs
+//! or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are comments; one line of names may come before
+//! the columns.
+
+mod header;
+mod number;
+mod rows;
+mod unit;
+
+use rows::MOST_FAULTS;
+pub use unit::{MotionQuantity, RecordUnit};
+
+use base::diagnostic::Diagnostic;
+use base::names::{nearest, quoted};
+use base::text_file::{Fault, Text, TextLine, Word};
+use std::path::Path;
+
+/// A column of a record.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RecordColumn {
+    /// By its name in the line of names.
+    Name(String),
+    /// By its number, counted from 1.
+    Number(u64),
+}
+
+/// The part of a record that is wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RecordSelection {
+    /// The column of the time and that of the value, or that of the value alone; none where the file has no others.
+    pub columns: Vec<RecordColumn>,
+    /// The time between two values, the first at 0; `None` where the file has the times or says their distance.
+    pub time_step: Option<f64>,
+    /// Whether values follow one another along the lines; `None` where the header of the file says it.
+    pub rows: Option<bool>,
+}
+
+/// A record as its file has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeSeries {
+    /// The points (time, value).
+    pub points: Vec<[f64; 2]>,
+    /// The unit of the values, where the header names one.
+    pub unit: Option<RecordUnit>,
+    /// The offset of the instrument that was subtracted from all values, in their unit.
+    pub offset: Option<f64>,
+    /// The number of values of a line, where they look like a sequence of which the column takes a part.
+    pub sequence: Option<usize>,
+}
+
+/// Reads a record from the bytes of a file whose path, for messages, is `path`.
+///
+/// # Errors
+/// All errors found in the file, at least one and at most some.
+pub fn read(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<TimeSeries, Vec<Diagnostic>> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    read_text(path, bytes, selection).map_err(|faults| faults.into_iter().map(|fault| *fault).collect())
+}
+
+fn read_text(path: &str, bytes: &[u8], selection: &RecordSelection) -> Result<TimeSeries, Vec<Fault>> {
+    let text = Text::new(path, bytes);
+    let header = header::find(path, bytes).map_err(|fault| vec![fault])?;
+    let is_in_rows = selection.rows.unwrap_or(header.is_some() && selection.columns.is_empty());
+    let is_bare = selection.columns.is_empty() && selection.time_step.is_none();
+    if is_bare && header.is_none() && is_of_peer(path) {
+        let fault = text.fault("no line says `NPTS= .., DT= ..`, as headers of the PEER data bases do", 1);
+        return Err(vec![Box::new(fault.hint("`rows = true` and `time_step` read values without such a header"))]);
+    }
+    if !is_in_rows {
+        let last = header.as_ref().map_or(0, |header| header.last_line);
+        return read_columns(text, last, selection, header.and_then(|header| header.unit));
+    }
+    let Some(step) = header.as_ref().map(|header| header.step).or(selection.time_step) else {
+        let message = "the file does not say how far apart its values are: `rows = true` needs `time_step` beside it";
+        return Err(vec![text.fault(message, 1)]);
+    };
+    if let (Some(given), Some(header)) = (selection.time_step, &header)
+        && (given - step).abs() > 1e-6 * step
+    {
+        let message = format!("`time_step` is {given}, and the header says {step}: leave `time_step` out");
+        return Err(vec![text.fault(message, header.last_line)]);
+    }
+    let points = rows::read_rows(text, header.as_ref(), step)?;
+    let mut series = with_unit(points, header);
+    if series.unit.is_none() && has_extension(path, "at2") {
+        series.unit = Some(RecordUnit::new("g"));
+    }
+    Ok(series)
+}
+
+/// The points in the unit of the header, without the offset of the instrument.
+fn with_unit(mut points: Vec<[f64; 2]>, header: Option<header::Header>) -> TimeSeries {
+    let Some(header) = header else { return TimeSeries { points, unit: None, offset: None, sequence: None } };
+    points.iter_mut().for_each(|[_, value]| *value *= header.factor);
+    let offset = header.has_offset.then(|| points.iter().map(|[_, value]| value).sum::<f64>() / points.len() as f64);
+    points.iter_mut().for_each(|[_, value]| *value -= offset.unwrap_or(0.0));
+    TimeSeries { points, unit: header.unit, offset, sequence: None }
+}
+
+/// True for the names of files from the PEER data bases.
+fn is_of_peer(path: &str) -> bool {
+    ["at2", "vt2", "dt2"].iter().any(|extension| has_extension(path, extension))
+}
+
+fn has_extension(path: &str, wanted: &str) -> bool {
+    Path::new(path).extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
+}
+
+/// Reads a record in columns behind the line of this number.
+fn read_columns(
+    mut text: Text,
+    last: usize,
+    selection: &RecordSelection,
+    unit: Option<RecordUnit>,
+) -> Result<TimeSeries, Vec<Fault>> {
+    text.skip_to(last);
+    let mut reader = Reader { text, separator: None, faults: Vec::new(), columns: 0, last, blank: 0, jumps: None };
+    let points = reader.points(selection);
+    if reader.faults.is_empty() {
+        let sequence = reader.jumps.filter(Jumps::is_sequence).map(|_| reader.columns);
+        return Ok(TimeSeries { points, unit, offset: None, sequence });
+    }
+    Err(reader.faults)
+}
+
+/// Differences of the first lines of a column: along lines, and from line to line.
+#[derive(Default)]
+struct Jumps {
+    lines: usize,
+    along: f64,
+    across: f64,
+}
+
+impl Jumps {
+    /// True where values along the lines follow one another twice as closely as those of the column do.
+    fn is_sequence(&self) -> bool {
+        self.lines > 2 && 2.0 * self.along < self.across
+    }
+}
+
+struct Reader<'t> {
+    text: Text<'t>,
+    /// What stands between columns; `None` for blanks.
+    separator: Option<u8>,
+    faults: Vec<Fault>,
+    /// The number of columns of the first line of numbers.
+    columns: usize,
+    /// The number of the last line that was read, comments included, and of empty ones before it.
+    last: usize,
+    blank: usize,
+    /// Where a file without names has a column that may be part of a sequence.
+    jumps: Option<Jumps>,
+}
+
+/// The places of the wanted columns in a line, from 0.
+struct Places {
+    time: Option<usize>,
+    value: usize,
+}
+
+impl<'t> Reader<'t> {
+    fn points(&mut self, selection: &RecordSelection) -> Vec<[f64; 2]> {
+        let Some((names, mut line)) = self.begin() else { return Vec::new() };
+        let count = self.split(line).len();
+        if !names.is_empty() && names.len() != count {
+            let message = format!("the line of names has {} columns, that of numbers {count}", names.len());
+            self.faults.push(self.text.fault(message, line.number));
+            return Vec::new();
+        }
+        self.columns = count;
+        let places = match places(selection, &names, count) {
+            Ok(places) => places,
+            Err(message) => {
+                self.faults.push(self.text.fault(message, line.number));
+                return Vec::new();
+            }
+        };
+        let may_be_sequence = selection.rows.is_none() && names.is_empty() && count > 2 && places.time.is_none();
+        self.jumps = may_be_sequence.then(Jumps::default);
+        let mut points: Vec<[f64; 2]> = Vec::with_capacity(self.text.bytes.len() / (line.bytes.len() + 1) + 1);
+        loop {
+            self.point(line, &places, selection.time_step, &mut points);
+            match self.next_line() {
+                Some(next) if self.faults.len() < MOST_FAULTS => line = next,
+                _ => break,
+            }
+        }
+        if points.len() < 2 && self.faults.is_empty() {
+            self.faults.push(self.text.fault_at_end("a record needs two values or more"));
+        }
+        points
+    }
+
+    /// Finds the names of columns, none where the file has none, and the first line of numbers.
+    fn begin(&mut self) -> Option<(Vec<String>, TextLine<'t>)> {
+        let Some(first) = self.next_line() else {
+            self.faults.push(self.text.fault("the file has no lines of numbers", 1));
+            return None;
+        };
+        self.separator = separator(first);
+        let words = self.split(first);
+        // A line of names has letters in each: `nan`, `inf` and `--` are values that are none.
+        let is_name = |word: &Word| {
+            let text = word.text();
+            text.contains(char::is_alphabetic) && text.parse::<f64>().is_err() && word.number().is_none()
+        };
+        if !words.iter().all(is_name) {
+            return Some((Vec::new(), first));
+        }
+        let names = words.iter().map(|word| word.text().trim_matches(['"', '\'', ' ']).to_owned()).collect();
+        let Some(line) = self.next_line() else {
+            self.faults.push(self.text.fault_at_end("the file has a line of names and no numbers"));
+            return None;
+        };
+        // Names may stand between other separators than numbers do.
+        if separator(line) != self.separator && self.split(line).len() == 1 {
+            self.separator = separator(line);
+        }
+        Some((names, line))
+    }
+
+    /// The next line that is no comment.
+    fn next_line(&mut self) -> Option<TextLine<'t>> {
+        loop {
+            let line = self.text.line()?;
+            (self.blank, self.last) = (line.number - self.last - 1, line.number);
+            if !line.bytes.trim_ascii_start().starts_with(b"#")
+                && !line.bytes.trim_ascii_start().starts_with(b"%")
+                && !line.bytes.trim_ascii_start().starts_with(b"!")
+            {
+                return Some(line);
+            }
+        }
+    }
+
+    /// The number of columns of a line.
+    fn count(&self, line: TextLine<'t>) -> usize {
+        match self.separator {
+            Some(separator) => line.parts(separator).count(),
+            None => line.words().count(),
+        }
+    }
+
+    fn split(&self, line: TextLine<'t>) -> Vec<Word<'t>> {
+        match self.separator {
+            Some(separator) => line.parts(separator).collect(),
+            None => line.words().collect(),
+        }
+    }
+
+    /// The n-th part of a line, counted from 0.
+    fn part(&self, line: TextLine<'t>, n: usize) -> Option<Word<'t>> {
+        match self.separator {
+            Some(separator) => line.parts(separator).nth(n),
+            None => line.words().nth(n),
+        }
+    }
+
+    /// Reads one line.
+    fn point(&mut self, line: TextLine<'t>, places: &Places, time_step: Option<f64>, points: &mut Vec<[f64; 2]>) {
+        let count = self.count(line);
+        if count > self.columns {
+            let message = format!("the line has {count} columns, those before it {}", self.columns);
+            self.faults.push(self.text.fault(message, line.number));
+            return;
+        }
+        let Some(value) = self.number(line, places.value) else { return };
+        self.compare_along(line, value, points.last());
+        let Some(place) = places.time else {
+            // Without times an empty line would make all later values early.
+            if self.blank > 0 && !points.is_empty() {
+                self.faults.push(self.text.fault("there is a gap: the line is empty", line.number - 1));
+                return;
+            }
+            points.push([points.len() as f64 * time_step.unwrap_or(1.0), value]);
+            return;
+        };
+        let Some(time) = self.number(line, place) else { return };
+        let falls = points.last().is_some_and(|last| last[0] > time);
+        let thrice = points.len() > 1 && points[points.len() - 2][0] == time;
+        if (falls || thrice)
+            && let Some(word) = self.part(line, place)
+        {
+            let message = if falls {
+                format!("the time falls: {time} comes after {}", points[points.len() - 1][0])
+            } else {
+                format!("the time {time} stands there more than twice: once before a jump and once after it")
+            };
+            self.faults.push(self.text.fault_at(message, &word));
+            return;
+        }
+        points.push([time, value]);
+    }
+
+    /// Adds the differences along a line and to the line before, among the first lines.
+    fn compare_along(&mut self, line: TextLine<'t>, value: f64, before: Option<&[f64; 2]>) {
+        const LINES: usize = 2000;
+        let Some(jumps) = self.jumps.as_ref().filter(|jumps| jumps.lines < LINES) else { return };
+        let values: Vec<f64> = self.split(line).iter().filter_map(Word::number).collect();
+        let along =
+            values.windows(2).map(|pair| (pair[1] - pair[0]).abs()).sum::<f64>() / (values.len().max(2) - 1) as f64;
+        let across = before.map_or(0.0, |before| (value - before[1]).abs());
+        self.jumps = Some(Jumps { lines: jumps.lines + 1, along: jumps.along + along, across: jumps.across + across });
+    }
+
+    /// A number of a line; what is wrong is noted.
+    fn number(&mut self, line: TextLine<'t>, place: usize) -> Option<f64> {
+        let fault = match self.part(line, place) {
+            Some(word) => match word.number() {
+                Some(number) => return Some(number),
+                None if word.bytes.is_empty() => {
+                    self.text.fault(format!("there is a gap: column {} is empty", place + 1), line.number)
+                }
+                None => {
+                    let fault = self.text.fault_at(format!("`{}` is not a finite number", word.text()), &word);
+                    let decimal_comma = word.bytes.contains(&b',');
+                    if decimal_comma { Box::new(fault.hint("decimals stand behind a point")) } else { fault }
+                }
+            },
+            None => {
+                let count = self.split(line).len();
+                let columns = if count == 1 { "column" } else { "columns" };
+                let message = format!("there is a gap: the line has {count} {columns}, column {} is wanted", place + 1);
+                self.text.fault(message, line.number)
+            }
+        };
+        self.faults.push(fault);
+        None
+    }
+}
+
+/// What stands between the columns of a line: `None` for blanks.
+fn separator(line: TextLine) -> Option<u8> {
+    [b';', b',', b'\t'].into_iter().find(|separator| line.bytes.contains(separator))
+}
+
+/// Finds the wanted columns among `count`, some of which have names.
+fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result<Places, String> {
+    let wanted = if selection.time_step.is_some() { 1 } else { 2 };
+    let of_file = match names {
+        [] => format!("the file has {count} of them, without names"),
+        names => format!("the file has {}", quoted(names.iter().map(String::as_str))),
+    };
+    if selection.columns.is_empty() {
+        let which = match wanted {
+            1 => "which of them is the value",
+            _ => "which are the time and the value",
+        };
+        return match count == wanted {
+            true => Ok(Places { time: (wanted == 2).then_some(0), value: wanted - 1 }),
+            false if count == 1 => Err("the file has one column: `time_step` says how far apart its values are".into()),
+            false if names.is_empty() => {
+                let step = if wanted == 1 { "" } else { " with `time_step`" };
+                Err(format!(
+                    "a line has {count} values: `columns` says {which}, or `rows = true`{step} reads all of them one after the other along the lines"
+                ))
+            }
+            false => Err(format!("`columns` must say {which}: {of_file}")),
+        };
+    }
+    let found = selection.columns.iter().map(|column| match column {
+        RecordColumn::Number(number) if (1..=count as u64).contains(number) => Ok(*number as usize - 1),
+        RecordColumn::Number(number) => Err(format!("there is no column {number}: {of_file}")),
+        RecordColumn::Name(name) if names.iter().filter(|own| *own == name).count() > 1 => {
+            Err(format!("more than one column is named `{name}`: give its number"))
+        }
+        RecordColumn::Name(name) => names.iter().position(|own| own == name).ok_or_else(|| {
+            let like = nearest(name, names.iter().map(String::as_str));
+            let like = like.map_or(String::new(), |like| format!("; did you mean `{like}`?"));
+            format!("there is no column `{name}`: {of_file}{like}")
+        }),
+    });
+    let found = found.collect::<Result<Vec<usize>, String>>()?;
+    match found[..] {
+        [value] if wanted == 1 => Ok(Places { time: None, value }),
+        [time, value] if wanted == 2 => Ok(Places { time: Some(time), value }),
+        _ if wanted == 1 => Err("with `time_step`, `columns` names one column, that of the value".into()),
+        _ => {
+            Err("`columns` names two columns, that of the time and that of the value, or one beside `time_step`".into())
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn select(columns: &[RecordColumn], time_step: Option<f64>) -> RecordSelection {
+        RecordSelection { columns: columns.to_vec(), time_step, rows: None }
+    }
+
+    fn points(text: &str, selection: &RecordSelection) -> Vec<[f64; 2]> {
+        read("r", text.as_bytes(), selection).unwrap().points
+    }
+
+    fn name(name: &str) -> RecordColumn {
+        RecordColumn::Name(name.into())
+    }
+
+    fn faults(text: &str, selection: &RecordSelection) -> Vec<String> {
+        read("r.csv", text.as_bytes(), selection).unwrap_err().into_iter().map(|problem| problem.message).collect()
+    }
+
+    #[test]
+    fn columns_stand_as_they_do() {
+        let wanted = vec![[0.0, 1.0], [0.5, -2.0], [0.5, 3.0]];
+        for text in [
+            "0,1\n0.5,-2\n0.5,3\n",
+            "# a comment\r\n0 1\r\n\r\n5e-1\t-2.0\r\n 0.5  3\r\n",
+            "\u{feff}time; acceleration\n0;1\n0.5;-2\n0.5;3",
+            "t,a\n0.0,1,\n0.5,-2d0,\n0.5,3,",
+        ] {
+            assert_eq!(points(text, &select(&[], None)), wanted, "{text:?}");
+        }
+        let text = "time,\"x\",y\n0,7,1\n1,8,2\n";
+        for columns in [[name("time"), name("y")], [RecordColumn::Number(1), RecordColumn::Number(3)]] {
+            assert_eq!(points(text, &select(&columns, None)), [[0.0, 1.0], [1.0, 2.0]]);
+        }
+        let every = select(&[name("x")], Some(0.25));
+        assert_eq!(points(text, &every), [[0.0, 7.0], [0.25, 8.0]]);
+        assert_eq!(points("3\n4\n5\n", &select(&[], Some(2.0))), [[0.0, 3.0], [2.0, 4.0], [4.0, 5.0]]);
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        let plain = select(&[], None);
+        for (text, selection, said) in [
+            ("", &plain, "no lines of numbers"),
+            ("t,a\n", &plain, "no numbers"),
+            ("0,1\n", &plain, "two values or more"),
+            ("0,1\n1,x\n2,y\n", &plain, "`x` is not a finite number"),
+            ("0,1\n1,inf\n", &plain, "`inf` is not a finite number"),
+            ("0,1\n1,,\n", &plain, "there is a gap: column 2 is empty"),
+            ("0 1\n1\n", &plain, "there is a gap: the line has 1 column"),
+            ("0,1\n2,1\n1,1\n", &plain, "the time falls: 1 comes after 2"),
+            ("0,1\n0,2\n0,3\n", &plain, "more than twice"),
+            ("0,1\n1,2,3\n", &plain, "the line has 3 columns, those before it 2"),
+            ("\"t, s\",x\n0,1\n", &plain, "the line of names has 3 columns, that of numbers 2"),
+            (
+                "0\t1\t2\n1\t\t2\n",
+                &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], None),
+                "there is a gap: column 2 is empty",
+            ),
+            ("nan\n1\n2\n", &select(&[], Some(1.0)), "`nan` is not a finite number"),
+            ("--\n1\n2\n", &select(&[], Some(1.0)), "`--` is not a finite number"),
+            ("1\n\n2\n", &select(&[], Some(1.0)), "there is a gap: the line is empty"),
+            ("t,x,x\n0,1,2\n1,2,3\n", &select(&[name("t"), name("x")], None), "more than one column is named `x`"),
+            ("0\n1\n", &plain, "`time_step` says"),
+            (
+                "0,1,2\n1,2,3\n",
+                &plain,
+                "`columns` says which are the time and the value, or `rows = true` with `time_step`",
+            ),
+            ("t,a,b\n1,2,3\n1,2,3\n", &plain, "`columns` must say which are the time and the value: the file has `t`"),
+            ("t,acc\n0,1\n1,2\n", &select(&[name("t"), name("ac")], None), "did you mean `acc`?"),
+            ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(3)], None), "there is no column 3"),
+            (
+                "0,1\n1,2\n",
+                &select(&[], Some(0.1)),
+                "a line has 2 values: `columns` says which of them is the value, or `rows = true`",
+            ),
+            ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], Some(0.1)), "names one column"),
+            ("0,1\n1,2\n", &select(&[RecordColumn::Number(1)], None), "names two columns"),
+        ] {
+            let found = faults(text, selection);
+            assert!(found[0].contains(said), "{text:?}: {found:?}");
+        }
+        // All that is wrong is said at once, up to a limit.
+        assert_eq!(faults("0,1\n1,x\n2,y\n3,4\n", &plain).len(), 2);
+        let many: String = (0..100).map(|k| format!("{k},x\n")).collect();
+        assert_eq!(faults(&many, &plain).len(), MOST_FAULTS);
+    }
+
+    /// Every dress of the header in which files of the data bases are found, with the same values behind it.
+    #[test]
+    fn headers_are_recognized_by_what_they_say() {
+        let values = "  .1E-01 -.2000000E-01\r\n 3.0D-2\n\n 0.04 0\n";
+        let wanted = vec![[0.0, 0.01], [0.02, -0.02], [0.04, 0.03], [0.06, 0.04], [0.08, 0.0]];
+        let peer = |unit: &str, sizes: &str| {
+            format!("DATA BASE\nSomewhere, 1/1/1940, 180\nACCELERATION {unit}\n{sizes}\n{values}")
+        };
+        let unit = "TIME SERIES IN UNITS OF G";
+        for sizes in [
+            "NPTS=   5, DT=   .0200 SEC,",
+            "5    0.0200    NPTS, DT",
+            "0.0200  5   DT, NPTS",
+            "npts = 5  dt= 2e-2 sec",
+            "NPTS=5,DT=0.02SEC",
+            "DT= .02 SEC, NPTS= 5",
+            "NPTS= 5.0, DT= 2.0D-2 SECONDS",
+            "NPTS: 5 DT: .02 SEC, SCALED DATA, SCALE FACTOR= 2.0",
+        ] {
+            let text = peer(unit, sizes);
+            for path in ["r.AT2", "r.txt"] {
+                let read = read(path, text.as_bytes(), &select(&[], None)).unwrap();
+                assert_eq!(read.points, wanted, "{sizes}");
+                assert_eq!(read.unit, Some(RecordUnit::new("G")), "{sizes}");
+            }
+        }
+        let sizes = "NPTS= 5, DT= .02 SEC";
+        for (unit, name, known) in [
+            ("TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz", "G", Some(9.80665)),
+            ("TIME HISTORY IN UNITS OF G.", "G", Some(9.80665)),
+            ("TIME SERIES IN UNITS OF G (FILTERED)", "G", Some(9.80665)),
+            ("IN UNITS OF CM/SEC**2", "CM/SEC**2", Some(0.01)),
+            ("IN UNITS OF cm/s/s", "cm/s/s", Some(0.01)),
+            ("IN UNITS OF FURLONGS", "FURLONGS", None),
+        ] {
+            let read = read("r.AT2", peer(unit, sizes).as_bytes(), &select(&[], None)).unwrap();
+            assert_eq!(read.points, wanted, "{unit}");
+            let found = read.unit.unwrap();
+            assert_eq!((found.name.as_str(), found.known.map(|(_, si)| si)), (name, known), "{unit}");
+        }
+        // Headers whose lines are empty, fewer or more.
+        for text in [
+            format!("\n\n\nNPTS= 5, DT= .02\n{values}"),
+            format!("NPTS= 5, DT= .02\n{values}"),
+            format!("a\nb\nc\nd\ne NPTS\nNPTS= 5, DT= .02\nUNITS: m/s^2\nmore of it\n{values}"),
+            format!(
+                "Orig = a.acc, Scale factor = 2.4 \n  H1: IMPERIAL VALLEY 10/15/79\n azimuth =   233.0\n  Acceleration in g\n5 0.02 NPTS, DT \n{values}"
+            ),
+            format!("EVENT_NAME: none\nSAMPLING_INTERVAL_S: 0.020000\nNDATA: 5\nUNITS: cm/s^2\nUSER1: \n{values}"),
+        ] {
+            assert_eq!(points(&text, &select(&[], None)), wanted, "{text}");
+        }
+    }
+
+    /// K-NET counts become gal without their offset; CSMIP blocks end at their number of values.
+    #[test]
+    fn instruments_write_counts_and_blocks() {
+        let knet = "Origin Time       2011/03/11 14:46:00\nMag.              9.0\nSampling Freq(Hz) 100Hz\nDir.              N-S\n\
+                    Scale Factor      3920(gal)/6182761\nMax. Acc. (gal)   1.0\nMemo.\n 100 200 300\n 400\n";
+        let read = super::read("r.NS", knet.as_bytes(), &select(&[], None)).unwrap();
+        let gal = 3920.0 / 6182761.0;
+        for (point, (time, count)) in
+            read.points.iter().zip([(0.0, -150.0), (0.01, -50.0), (0.02, 50.0), (0.03, 150.0)])
+        {
+            assert!((point[0] - time).abs() < 1e-15 && (point[1] - count * gal).abs() < 1e-12, "{:?}", read.points);
+        }
+        assert!((read.offset.unwrap() - 250.0 * gal).abs() < 1e-12);
+        let csmip = "CORRECTED ACCELEROGRAM\n 1 2 3\n   5 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)\n\
+                     -1.000000 -2.000000-13.000000\n  4.0 5.0\n   5 points of veloc data equally spaced at .005 sec\n 9 9 9 9 9\n";
+        let read = super::read("r.V2", csmip.as_bytes(), &select(&[], None)).unwrap();
+        assert_eq!(read.points.iter().map(|point| point[1]).collect::<Vec<_>>(), [-1.0, -2.0, -13.0, 4.0, 5.0]);
+        assert_eq!(read.unit.unwrap().known, Some((MotionQuantity::Acceleration, 0.01)));
+        let twice = format!("{csmip}{csmip}");
+        assert!(faults(&twice, &select(&[], None))[0].contains("a second channel"));
+    }
+
+    /// Row by row without a header, whatever separates the values.
+    #[test]
+    fn rows_without_a_header() {
+        let rows = RecordSelection { rows: Some(true), ..select(&[], Some(0.5)) };
+        let wanted = [[0.0, 1.0], [0.5, -2.5], [1.0, 3e-5], [1.5, 4.0]];
+        for text in [
+            "1 -2.5 3e-5\n4\n",
+            "some text\nand more, 5 a line\n1.0,-2.5\n3.0D-5, 4\n",
+            "# 1 2 3\n1;-2.5;3e-5;4;",
+            "1.0-2.5 3.0-05\n\n4.0",
+            "1\n-2.5\n3e-5\n4\n",
+        ] {
+            assert_eq!(points(text, &rows), wanted, "{text:?}");
+        }
+        for (text, said) in [
+            ("1 2 x\n", "`x` is not a finite number"),
+            ("0,1 0,2\n", "`0,1` is not a finite number"),
+            ("text alone\n", "two values or more"),
+            ("1 ****** 2\n", "`******` is not"),
+        ] {
+            assert!(faults(text, &rows)[0].contains(said), "{text:?}");
+        }
+        let no_step = RecordSelection { rows: Some(true), ..select(&[], None) };
+        assert!(faults("1 2 3\n4 5\n", &no_step)[0].contains("needs `time_step`"));
+    }
+
+    /// A column out of a sequence jumps by five steps where the lines go by one; channels beside each other do not look like that.
+    #[test]
+    fn a_column_out_of_a_sequence_is_noticed() {
+        let lines = |value: &dyn Fn(usize, usize) -> f64| -> String {
+            (0..100).map(|line| (0..5).map(|k| format!("{} ", value(line, k))).collect::<String>() + "\n").collect()
+        };
+        let first = select(&[RecordColumn::Number(1)], Some(0.01));
+        let sequence = |text: &str| read("r", text.as_bytes(), &first).unwrap().sequence;
+        assert_eq!(sequence(&lines(&|line, k| (0.05 * (5 * line + k) as f64).sin())), Some(5));
+        assert_eq!(sequence(&lines(&|line, k| (0.05 * line as f64 + k as f64).sin())), None);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_header_is_said() {
+        let file = |sizes: &str, values: &str| {
+            format!("DATA BASE\nSomewhere\nACCELERATION IN UNITS OF G\n{sizes}\n{values}\n")
+        };
+        let sizes = "NPTS= 3, DT= .01 SEC";
+        for (text, said, line) in [
+            (String::new(), "no line says `NPTS", 1),
+            ("a\nb\nc\n".into(), "no line says `NPTS", 1),
+            (file("3 values", "1 2 3"), "no line says `NPTS", 1),
+            (file("NPTS= 3.5, DT= .01", "1 2 3"), "not `3.5`", 4),
+            (file("NPTS= none, DT= .01", "1 2 3"), "not `NONE`", 4),
+            (file("NPTS= 1, DT= .01", "1"), "2 or more", 4),
+            (file("NPTS= 3, DT= 0", "1 2 3"), "above 0, not `0`", 4),
+            (file("NPTS= 3, DT=", "1 2 3"), "no line says `NPTS", 1),
+            (file(sizes, "1 2"), "there are 2 values, and NPTS = 3 says more", 5),
+            (file(sizes, "1 2\n3 4"), "more values than NPTS = 3", 6),
+            (file(sizes, "1 2\nx"), "`x` is not a finite number", 6),
+            (file(sizes, "1 nan 3"), "`nan` is not a finite number", 5),
+        ] {
+            let found = read("r.AT2", text.as_bytes(), &select(&[], None)).unwrap_err();
+            assert!(found[0].message.contains(said), "{text:?}: {:?}", found[0].message);
+            let place = found[0].excerpt.as_ref().map(|excerpt| excerpt.line);
+            assert_eq!(place, Some(line), "{text:?}");
+        }
+        let other = select(&[], Some(0.02));
+        assert!(faults(&file(sizes, "1 2 3"), &other)[0].contains("`time_step` is 0.02, and the header says 0.01"));
+        // A last row that is filled with zeros.
+        assert_eq!(points(&file(sizes, "1 2\n3 0"), &select(&[], None)).len(), 3);
+        // All that is wrong is said at once, up to a limit.
+        let many = file("NPTS= 100, DT= 1", &"x\n".repeat(100));
+        assert_eq!(read("r.AT2", many.as_bytes(), &select(&[], None)).unwrap_err().len(), MOST_FAULTS);
+    }
+
+    #[test]
+    fn a_million_points_take_less_than_a_second() {
+        let text: String =
+            (0..1_000_000).map(|k| format!("{:.4},{:.6}\n", k as f64 * 0.005, (k as f64).sin())).collect();
+        let began = std::time::Instant::now();
+        let points = points(&text, &select(&[], None));
+        assert_eq!((points.len(), points[999_999][0]), (1_000_000, 4999.995));
+        // Half a second would be 0.5 µs a point, three times what it takes; the machine may be busy.
+        assert!(began.elapsed().as_secs_f64() < 3.0);
+    }
+}

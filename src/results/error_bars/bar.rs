@@ -1,0 +1,59 @@
+//! One error bar.
+
+use base::snapshot::keep;
+use serde::Serialize;
+
+/// Of 1240 columns of 19 decks at three tolerances 94 % were within three times the error told at the time of the value itself, ...
+const AT_THE_TIME: f64 = 3.0;
+/// ... or this multiple of the largest at the times of comparison, whichever is larger.
+const ANYWHERE: f64 = 1.5;
+
+/// Where two runs differ by a larger part of a value, no order of convergence is to be relied on: the better one may be as wrong.
+const ASYMPTOTIC: f64 = 0.1;
+
+/// The largest value of a column with the errors that are left in it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ErrorBar {
+    /// The file of the table.
+    pub table: &'static str,
+    /// The column.
+    pub column: &'static str,
+    /// What the row is about; empty where it is about the whole scene.
+    pub at: String,
+    /// The time of the value.
+    pub time: f64,
+    /// The value of largest magnitude in the column, with its sign.
+    pub value: f64,
+    /// The error that the steps leave in the value, a bound by estimate; `None` where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step_error: Option<f64>,
+    /// The error that the mesh leaves in it, likewise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mesh_error: Option<f64>,
+    /// Both together, the largest in the column at any time that was compared and in any row; `None` where the table is too large for that.
+    pub anywhere: Option<f64>,
+}
+
+/// The error of a value as another run tells it.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Told {
+    /// A bound of the error by estimate.
+    pub error: Option<f64>,
+    /// The largest error at any time that was compared.
+    pub anywhere: Option<f64>,
+}
+
+keep!(Told: Default { error, anywhere });
+
+impl Told {
+    /// From the value and that of another run at its time, whose errors are larger by the factor `apart`, and the largest difference at any
+    /// time that was compared.
+    pub fn by(pair: Option<[f64; 2]>, anywhere: Option<f64>, apart: f64) -> Told {
+        let at_the_time = pair.map(|[value, other]| (value - other).abs());
+        let differs = pair.is_some_and(|[value, other]| (value - other).abs() > ASYMPTOTIC * value.abs());
+        let apart = if differs { apart.min(2.0) } else { apart };
+        let [at_the_time, anywhere] = [at_the_time, anywhere].map(|difference| difference.map(|d| d / (apart - 1.0)));
+        let bars = [at_the_time.map(|error| AT_THE_TIME * error), anywhere.map(|error| ANYWHERE * error)];
+        Told { error: bars.into_iter().flatten().filter(|bar| bar.is_finite()).reduce(f64::max), anywhere }
+    }
+}

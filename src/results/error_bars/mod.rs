@@ -1,0 +1,217 @@
+//! Error bars: what error the steps of a run leave in the largest value of every column of its tables, and its mesh.
+//!
+//! Where steps follow a tolerance, two runs of the scene are made anyway, with errors of a known ratio (see
+//! [`solve::StepError`]); for the error of the mesh another is made with a coarser one. So the difference of any number of theirs
+//! tells the error of that number, too. At a single time the difference may pass through zero, so those of the same column at other times
+//! count as well.
+
+mod bar;
+mod extremes;
+mod history;
+mod rows;
+
+pub use self::bar::{ErrorBar, Told};
+pub(super) use self::history::ComparedHistory;
+
+use self::extremes::Extremes;
+use self::rows::CollectedRows;
+use super::table::{TableKind, WriteRows};
+use super::tables::TABLES;
+use base::quantities::Unit;
+use base::snapshot::keep;
+use model::{Model, StepLength};
+use solve::{Frame, Observer, OtherRun};
+use std::io;
+
+/// Keeps what is needed of a run, and of the others that tell its errors.
+pub struct ErrorBars {
+    tables: Vec<WatchedTable>,
+    rounding: f64,
+    /// True where runs are compared at the times of output: their steps do not follow a tolerance, and have the same ends.
+    at_output_times: bool,
+}
+
+keep!(ErrorBars { tables } without { rounding, at_output_times });
+
+/// A table that the run writes.
+struct WatchedTable {
+    kind: &'static TableKind,
+    write: WriteRows,
+    rows: CollectedRows,
+    /// Of the run under way, and of the one before.
+    seen: Account,
+    before: Account,
+    /// Of an unseen run.
+    unseen: ComparedHistory,
+    /// Errors that the steps leave, by column, and errors that the mesh leaves; empty where they are not known.
+    of_steps: Vec<Told>,
+    of_mesh: Vec<Told>,
+}
+
+keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows });
+
+/// What is kept of one run.
+#[derive(Default)]
+struct Account {
+    largest: Extremes,
+    history: ComparedHistory,
+}
+
+keep!(Account { largest, history });
+
+impl ErrorBars {
+    /// Nothing seen yet. Tables of what steps cost have no errors.
+    pub fn new(model: &Model) -> ErrorBars {
+        let written = TABLES.iter().copied().filter(|kind| (kind.wanted)(model) && !kind.every_step);
+        let watch = |kind: &'static TableKind| WatchedTable {
+            kind,
+            write: (kind.rows)(model),
+            rows: CollectedRows::new(kind, model),
+            seen: Account::default(),
+            before: Account::default(),
+            unseen: ComparedHistory::default(),
+            of_steps: Vec::new(),
+            of_mesh: Vec::new(),
+        };
+        ErrorBars {
+            tables: written.map(watch).collect(),
+            rounding: 1e-9 * model.analysis.end_time,
+            at_output_times: !matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }),
+        }
+    }
+
+    /// The times at which a run with another mesh has to be seen.
+    pub fn times_for_mesh(&self) -> Vec<f64> {
+        let all = self.tables.iter().flat_map(|table| table.seen.history.times().iter().copied());
+        all.chain(self.times_to_compare()).collect()
+    }
+
+    /// Receives a frame of a run with another mesh, whose own account writes its rows.
+    ///
+    /// # Errors
+    /// There is none.
+    pub fn on_other_mesh(&mut self, theirs: &mut ErrorBars, frame: &Frame) -> io::Result<()> {
+        for (table, WatchedTable { write, rows, .. }) in self.tables.iter_mut().zip(&mut theirs.tables) {
+            rows.clear();
+            write(rows, frame)?;
+            table.seen.largest.read(rows, frame.state.time, self.rounding, false);
+            table.unseen.keep(frame.state.time, rows.numbers());
+        }
+        Ok(())
+    }
+
+    /// Takes note that the run with another mesh has come to its end, with errors that are larger by this factor.
+    pub fn on_coarser_mesh(&mut self, apart: f64) {
+        for table in &mut self.tables {
+            table.of_mesh = table.told_by(&table.seen, &table.unseen, apart, self.rounding);
+        }
+    }
+
+    /// The error bars, in the order of tables and columns; empty where no other run has told them.
+    pub fn into_bars(self) -> Vec<ErrorBar> {
+        self.tables.iter().flat_map(WatchedTable::bars).collect()
+    }
+}
+
+impl Observer for ErrorBars {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        if !frame.due && !frame.compared {
+            return Ok(());
+        }
+        let time = frame.state.time;
+        for WatchedTable { write, rows, seen, before, .. } in &mut self.tables {
+            rows.clear();
+            write(rows, frame)?;
+            if frame.due {
+                seen.largest.update(rows, time);
+            }
+            if frame.compared {
+                before.largest.read(rows, time, self.rounding, true);
+            }
+            if frame.compared || self.at_output_times {
+                seen.history.keep(time, rows.numbers());
+            }
+        }
+        Ok(())
+    }
+
+    fn restart(&mut self, _: &Model) -> io::Result<()> {
+        for table in &mut self.tables {
+            table.before = std::mem::take(&mut table.seen);
+            table.unseen.clear();
+        }
+        Ok(())
+    }
+
+    fn times_to_compare(&self) -> Vec<f64> {
+        self.tables.iter().flat_map(|table| table.seen.largest.times()).collect()
+    }
+
+    fn begin_trial(&mut self) {
+        for table in &mut self.tables {
+            table.unseen.clear();
+            table.seen.largest.forget_others();
+        }
+    }
+
+    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+        let time = frame.state.time;
+        for WatchedTable { write, rows, seen, unseen, .. } in &mut self.tables {
+            rows.clear();
+            write(rows, frame)?;
+            seen.largest.read(rows, time, self.rounding, true);
+            unseen.keep(time, rows.numbers());
+        }
+        Ok(())
+    }
+
+    fn on_other_run(&mut self, other: Option<OtherRun>) {
+        for table in &mut self.tables {
+            table.of_steps = match other {
+                Some(OtherRun::Trial(apart)) => table.told_by(&table.seen, &table.unseen, apart, self.rounding),
+                Some(OtherRun::Before(apart)) => {
+                    table.told_by(&table.before, &table.before.history, apart, self.rounding)
+                }
+                None => Vec::new(),
+            };
+        }
+    }
+}
+
+impl WatchedTable {
+    /// The errors by column that another run tells, of which this history is known, and what it has at the places of the largest values of
+    /// one of both.
+    fn told_by(&self, compared: &Account, other: &ComparedHistory, apart: f64, rounding: f64) -> Vec<Told> {
+        let anywhere = self.seen.history.largest_differences(other, self.rows.width(), rounding);
+        let told = |(column, largest): (usize, &Option<extremes::Extreme>)| {
+            let pair = largest.as_ref().and_then(|largest| Some([largest.value, largest.other?]));
+            Told::by(pair, anywhere.as_ref().map(|all| all[column]), apart)
+        };
+        compared.largest.0.iter().enumerate().map(told).collect()
+    }
+
+    /// The error bars of all columns of which something is known.
+    fn bars(&self) -> Vec<ErrorBar> {
+        let columns = self.kind.columns().skip(2).filter(|column| column.unit != Unit::Label);
+        let bar = |(index, (column, largest)): (usize, (base::quantities::Column, &Option<extremes::Extreme>))| {
+            let largest = largest.as_ref()?;
+            let (steps, mesh) = (self.of_steps.get(index), self.of_mesh.get(index));
+            let both = |of: fn(&Told) -> Option<f64>| {
+                let known = [steps.and_then(of), mesh.and_then(of)];
+                known.into_iter().flatten().reduce(|one, other| one + other)
+            };
+            let bar = ErrorBar {
+                table: self.kind.file,
+                column: column.name,
+                at: largest.label.clone(),
+                time: largest.time,
+                value: largest.value,
+                step_error: steps.and_then(|told| told.error),
+                mesh_error: mesh.and_then(|told| told.error),
+                anywhere: both(|told| told.anywhere),
+            };
+            (bar.step_error.is_some() || bar.mesh_error.is_some()).then_some(bar)
+        };
+        columns.zip(&self.seen.largest.0).enumerate().filter_map(bar).collect()
+    }
+}

@@ -1,0 +1,248 @@
+//! The files that grow with a run: those the deck asks for are opened, and every accepted step is shown to each.
+
+use super::disk::at;
+use super::expect::needs;
+use super::fields::{Fields, FieldsMark, LISTS};
+use super::result_json;
+use super::table::{TableKind, WriteRows};
+use super::table_file::{EmptyFields, TableFile, TableMark};
+use super::table_size::size_in_words;
+use super::tables::{TABLES, holds_response};
+use base::names::instant;
+use base::snapshot::keep;
+use model::{Cadence, Model, When};
+use solve::plan::Plan;
+use solve::{Frame, Observer, Wanted};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Finished rows reach their files at least this often, and at [`Files::finish`].
+const PATIENCE: Duration = Duration::from_millis(200);
+
+/// A table that is being written.
+struct OpenTable {
+    kind: &'static TableKind,
+    file: TableFile,
+    /// `None` where the stage under way has nothing to put in.
+    write: Option<WriteRows>,
+}
+
+impl OpenTable {
+    fn open(dir: &Path, kind: &'static TableKind, model: &Model) -> io::Result<OpenTable> {
+        let stage = model.analysis.stage.as_ref();
+        let mut file = TableFile::open(dir, kind.file, &kind.header(model))?;
+        if let Some(stage) = stage {
+            file.begin_stage(&stage.name)?;
+        }
+        Ok(OpenTable { kind, file, write: Some((kind.rows)(model)) })
+    }
+}
+
+/// Writes what the deck asks for. [`Files::finish`] ends the run however it went.
+pub struct Files {
+    dir: PathBuf,
+    tables: Vec<OpenTable>,
+    fields: Option<Fields>,
+    flushed: Instant,
+}
+
+/// How far the files of a run had come at a checkpoint.
+#[derive(Debug, Default)]
+pub struct FilesMark {
+    tables: Vec<TableMark>,
+    fields: Option<FieldsMark>,
+}
+
+keep!(FilesMark: Default { tables, fields });
+
+impl Files {
+    /// Creates the folder and its files.
+    ///
+    /// # Errors
+    /// A file cannot be made.
+    pub fn open(dir: &Path, model: &Model) -> io::Result<Files> {
+        fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
+        let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
+        let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
+        let fields = model.output.fields.map(|_| Fields::open(dir, model)).transpose()?;
+        Ok(Files { dir: dir.to_owned(), tables, fields, flushed: Instant::now() })
+    }
+
+    /// No files in a folder that holds those of a checkpoint, until they are opened by [`Files::go_on`].
+    pub fn waiting(dir: &Path) -> Files {
+        Files { dir: dir.to_owned(), tables: Vec::new(), fields: None, flushed: Instant::now() }
+    }
+
+    /// Goes on with the files of a checkpoint in the stage of this model, as they were then.
+    ///
+    /// # Errors
+    /// A file cannot be opened, or is not what it was.
+    pub fn go_on(&mut self, model: &Model, mark: FilesMark) -> io::Result<()> {
+        for mark in mark.tables {
+            let Some(&kind) = TABLES.iter().find(|kind| kind.file == mark.file) else { continue };
+            let file = TableFile::reopen(&self.dir, mark)?;
+            self.tables.push(OpenTable { kind, file, write: (kind.wanted)(model).then(|| (kind.rows)(model)) });
+        }
+        if let Some(mark) = mark.fields {
+            let mut fields = Fields::open(&self.dir, model)?;
+            fields.go_on(mark)?;
+            self.fields = Some(fields);
+        }
+        // The result is that of the part before.
+        let result = self.dir.join(result_json::NAME);
+        match fs::remove_file(&result) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(at(&result, error)),
+            _ => Ok(()),
+        }
+    }
+
+    /// How far all files have come, with their rows safe on the disk.
+    ///
+    /// # Errors
+    /// As for [`Files::finish`].
+    pub fn mark(&mut self) -> io::Result<FilesMark> {
+        let tables = self.tables.iter_mut().map(|table| table.file.mark()).collect::<io::Result<_>>()?;
+        Ok(FilesMark { tables, fields: self.fields.as_ref().map(Fields::mark) })
+    }
+
+    /// Goes on with the next stage, whose model this is.
+    ///
+    /// # Errors
+    /// A file cannot be made, or is no longer what this run has written.
+    pub fn next_stage(&mut self, model: &Model) -> io::Result<()> {
+        self.finish()?;
+        let stage = model.analysis.stage.as_ref().map_or("", |stage| &stage.name);
+        for table in &mut self.tables {
+            table.file.begin_stage(stage)?;
+            table.write = (table.kind.wanted)(model).then(|| (table.kind.rows)(model));
+        }
+        for &kind in TABLES.iter().filter(|kind| (kind.wanted)(model)) {
+            if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
+                self.tables.push(OpenTable::open(&self.dir, kind, model)?);
+            }
+        }
+        if let Some(fields) = &mut self.fields {
+            fields.next_stage(model)?;
+        }
+        Ok(())
+    }
+
+    /// Hands over the rows still waiting, at the end of a run.
+    ///
+    /// # Errors
+    /// A table cannot grow, or is no longer what this run has written.
+    pub fn finish(&mut self) -> io::Result<()> {
+        self.flushed = Instant::now();
+        self.tables.iter_mut().try_for_each(|table| table.file.flush().and_then(|()| table.file.verify()))
+    }
+
+    /// A warning for each table with fields that had to stay empty, in words.
+    pub fn empty_fields(&self) -> Vec<String> {
+        let told = self.tables.iter().filter_map(|table| Some((table.kind.file, table.file.empty_fields()?)));
+        told.map(|(file, EmptyFields { since, count })| {
+            let fields = if count == 1 { "field is" } else { "fields are" };
+            format!(
+                "{count} {fields} empty in {file}, the first at t = {}: what they should hold lies beyond the range of numbers, \
+                 about 1e308; take units in which lengths, masses and times are of ordinary size, and look for a slip in those \
+                 of the deck",
+                instant(since)
+            )
+        })
+        .collect()
+    }
+}
+
+/// Names of the tables and lists that a run of this model writes; grids come with the steps.
+pub fn names(model: &Model) -> Vec<&'static str> {
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file);
+    tables.chain(model.output.fields.iter().flat_map(|_| LISTS)).collect()
+}
+
+impl Observer for Files {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        for OpenTable { kind, file, write } in &mut self.tables {
+            let Some(write) = write else { continue };
+            if frame.due || kind.every_step {
+                write(file, frame)?;
+            }
+        }
+        if let Some(fields) = &mut self.fields {
+            fields.on_step(frame)?;
+        }
+        // The clock is looked at where there is something to write.
+        let writes = frame.due || frame.step.is_multiple_of(64);
+        if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
+    }
+
+    fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
+        for OpenTable { kind, file, write } in &mut self.tables {
+            if let Some(write) = write.as_ref().filter(|_| kind.needs.has(Wanted::MODES)) {
+                write(file, frame)?;
+            }
+        }
+        match &mut self.fields {
+            Some(fields) => fields.on_modes(frame),
+            None => Ok(()),
+        }
+    }
+
+    fn on_response(&mut self, frame: &Frame) -> io::Result<()> {
+        for OpenTable { file, write, .. } in self.tables.iter_mut().filter(|table| holds_response(table.kind)) {
+            if let Some(write) = write {
+                write(file, frame)?;
+            }
+        }
+        if self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
+    }
+
+    fn restart(&mut self, model: &Model) -> io::Result<()> {
+        if let Some(fields) = &mut self.fields {
+            fields.withdraw()?;
+        }
+        if model.analysis.begin > 0.0 {
+            return self.tables.iter_mut().try_for_each(|table| table.file.withdraw_stage());
+        }
+        *self = Files::open(&self.dir, model)?;
+        Ok(())
+    }
+}
+
+/// The files that a run of this model writes, when, and how large they become.
+pub fn listed(model: &Model, plan: &Plan) -> String {
+    let output = &model.output;
+    let names: Vec<&str> = TABLES.iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file).collect();
+    let chosen = output.cadence_is_open && output.cadence != Cadence::Steps(1);
+    let open = if chosen { ", as rows would be many and `[output]` has neither `every` nor `interval`" } else { "" };
+    let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
+    groups.extend(output.fields.map(|cadence| format!("fields ({})", in_words(cadence))));
+    groups.extend(output.checkpoint.map(|apart| format!("a checkpoint every {apart} s of run time")));
+    groups.push(size_in_words(model, plan));
+    groups.join("; ")
+}
+
+fn in_words(cadence: Cadence) -> String {
+    match cadence {
+        Cadence::Steps(0 | 1) => "every step".to_owned(),
+        Cadence::Steps(every) => format!("every {every} steps"),
+        Cadence::Interval(interval) => format!("every {interval} of time"),
+        Cadence::Apart(apart) => format!("at steps {apart} of time or more apart"),
+    }
+}
+
+/// The results that the solver must compute for the tables, fields and expectations of a model.
+pub fn wanted(model: &Model) -> Wanted {
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
+    let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
+    let fields = model.output.fields.map(|_| drawn);
+    let expects = model.expects.iter().map(|expect| match expect.when {
+        // A peak between two rows is one too.
+        When::Max | When::Min | When::Abs => needs(expect.at, &expect.quantity).at_every_step(),
+        When::Time(_) | When::Target(_) | When::End => needs(expect.at, &expect.quantity),
+    });
+    let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
+    let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };
+    let all = if model.has_sections() { all } else { all.without(Wanted::NODAL_RESULTANTS) };
+    if model.has_surfaces() { all } else { all.without(Wanted::SHELLS) }
+}

@@ -1,0 +1,40 @@
+//! The files of the output folder, and what reads them back: comparisons, reports.
+//!
+//! A table is one file of [`tables`] and one line of its list; [`Files`] opens those that the deck asks for and shows them every
+//! accepted step. Errors name the file.
+
+#![warn(missing_docs)]
+
+pub mod checkpoint;
+pub mod compare;
+mod disk;
+pub mod error_bars;
+pub mod expect;
+pub mod extent;
+pub mod fields;
+mod files;
+mod folder;
+mod lock;
+pub mod log;
+pub mod matrix_market;
+pub mod progress;
+pub mod report;
+pub mod result_json;
+mod run_list;
+mod shared_lock;
+pub mod summary;
+pub mod table;
+mod table_file;
+pub mod table_reader;
+pub mod table_size;
+pub mod tables;
+mod vtu;
+
+pub use disk::{at, make_safe, replace};
+pub use files::{Files, FilesMark, listed, wanted};
+pub use folder::claim;
+pub use folder::{holds_run, remove, remove_empty, remove_run};
+pub use lock::{FolderLock, host};
+pub use shared_lock::SharedLock;
+pub use table_size::{expected_sizes, settle_cadence};
+pub use tables::TABLES;

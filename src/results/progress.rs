@@ -1,0 +1,52 @@
+//! The progress bar on standard error, for a person at a terminal.
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use solve::{Frame, Observer};
+use std::io::{self, IsTerminal};
+use std::time::{Duration, Instant};
+
+/// The time between two pictures of the bar: a terminal that is written to at every step would cost more than the steps.
+const PAUSE: Duration = Duration::from_millis(50);
+/// The number of positions of the bar from start to end time.
+const LENGTH: f64 = 1e4;
+
+/// Shows simulated time, steps, iterations and the time left. When quiet or not on a terminal it shows nothing.
+pub struct Progress {
+    bar: Option<ProgressBar>,
+    shown: Instant,
+    iterations: usize,
+}
+
+impl Progress {
+    /// A bar at its beginning, unless `quiet`.
+    pub fn new(quiet: bool) -> Progress {
+        let bar = (!quiet && io::stderr().is_terminal()).then(|| {
+            let style = ProgressStyle::with_template("{bar:32} {percent:>3} %  {msg}  {eta} left");
+            let bar = ProgressBar::with_draw_target(Some(LENGTH as u64), ProgressDrawTarget::stderr());
+            bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+        });
+        Progress { bar, shown: Instant::now(), iterations: 0 }
+    }
+
+    /// Clears the line for what is said next.
+    pub fn finish(&mut self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Observer for Progress {
+    fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
+        let Some(bar) = &self.bar else { return Ok(()) };
+        self.iterations += frame.effort.iterations;
+        if self.shown.elapsed() < PAUSE {
+            return Ok(());
+        }
+        self.shown = Instant::now();
+        let (time, end) = (frame.state.time, frame.model.analysis.end_time);
+        bar.set_message(format!("t = {time:.4e}  step {}  {} iterations", frame.step, self.iterations));
+        bar.set_position((LENGTH * time / end) as u64);
+        Ok(())
+    }
+}

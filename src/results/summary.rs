@@ -1,0 +1,155 @@
+//! Peaks and ends of a result, read back from its folder.
+
+use super::disk::at;
+use super::result_json;
+use super::table_reader::{TableReader, fields, number, text};
+use super::tables::TABLES;
+use base::names::to_digits;
+use base::text_file::read_regular;
+use serde::Serialize;
+use serde_json::Value;
+use std::io;
+use std::path::Path;
+
+/// What a folder of results comes to.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResultSummary {
+    /// The status of the run; "unfinished" where there is no result.json.
+    pub status: String,
+    /// The reason for its end; empty when done.
+    pub reason: String,
+    /// All warnings.
+    pub warnings: Vec<String>,
+    /// The expected values with what became of them, in words.
+    pub expectations: Vec<String>,
+    /// The columns of all tables.
+    pub columns: Vec<ColumnSummary>,
+}
+
+/// The extremes of one column.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ColumnSummary {
+    /// The file of the table.
+    pub table: String,
+    /// The name of the column.
+    pub column: String,
+    /// The least value.
+    #[serde(rename = "min")]
+    pub least: Extremum,
+    /// The largest value.
+    #[serde(rename = "max")]
+    pub largest: Extremum,
+    /// The value of largest magnitude at the last time.
+    pub end: Extremum,
+}
+
+/// A value with its place.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Extremum {
+    /// The value.
+    pub value: f64,
+    /// Its time.
+    pub time: f64,
+    /// What its row is about; empty where it is about the whole scene.
+    pub at: String,
+}
+
+impl ResultSummary {
+    /// Reads a folder of results. What steps cost is left out.
+    ///
+    /// # Errors
+    /// There are no results, or a file cannot be read; the error names it.
+    pub fn of(folder: &Path) -> io::Result<ResultSummary> {
+        let path = folder.join(result_json::NAME);
+        let result: Value = match read_regular(&path) {
+            Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| at(&path, error.into()))?,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Value::Null,
+            Err(error) => return Err(at(&path, error)),
+        };
+        let mut columns = Vec::new();
+        let is_there = |file: &str| folder.join(file).exists();
+        for table in TABLES.iter().filter(|table| !table.every_step && is_there(table.file)) {
+            columns.extend(of_table(folder, table.file)?);
+        }
+        if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
+            return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
+        }
+        let list = |key: &str| result[key].as_array().into_iter().flatten();
+        let word = |key: &str| result[key].as_str().unwrap_or_default().to_owned();
+        Ok(ResultSummary {
+            status: result["status"].as_str().unwrap_or("unfinished").to_owned(),
+            reason: word("reason"),
+            warnings: list("warnings").filter_map(Value::as_str).map(str::to_owned).collect(),
+            expectations: list("expectations").map(expectation).collect(),
+            columns,
+        })
+    }
+}
+
+/// An expected value in words.
+fn expectation(one: &Value) -> String {
+    let mark = if one["passed"].as_bool() == Some(true) { "ok  " } else { "MISS" };
+    let number = |key: &str| one[key].as_f64().map_or("none".to_owned(), |value| to_digits(value, 7));
+    let label = one["label"].as_str().unwrap_or_default();
+    let bars = ["step_error", "mesh_error"].iter().filter_map(|key| one[*key].as_f64());
+    let bars: String = bars.map(|bar| format!(" ± {}", to_digits(bar, 2))).collect();
+    let wanted = one["bound"].as_str().unwrap_or("expected");
+    format!("{mark} {label}: {}{bars}, {wanted} {}", number("value"), number("expected"))
+}
+
+/// The extremes of all columns of numbers of a table; none where it has no rows.
+fn of_table(folder: &Path, file: &str) -> io::Result<Vec<ColumnSummary>> {
+    let mut rows = TableReader::open(&folder.join(file))?;
+    let Some(time_at) = rows.column("time") else { return Ok(Vec::new()) };
+    let is_number = |place: &usize| !rows.is_key(*place) && *place != time_at && rows.header[*place] != "step";
+    let (keys, places): (Vec<usize>, Vec<usize>) = (
+        (0..rows.header.len()).filter(|&place| rows.is_key(place)).collect(),
+        (0..rows.header.len()).filter(is_number).collect(),
+    );
+    let names: Vec<String> = places.iter().map(|&place| rows.header[place].clone()).collect();
+    let width = rows.header.len();
+    let mut found: Vec<Option<[Extremum; 3]>> = vec![None; places.len()];
+    let mut last = f64::NEG_INFINITY;
+    let mut ragged = None;
+    while let Some(row) = rows.next()? {
+        let row: Vec<&[u8]> = fields(row).collect();
+        if row.len() != width {
+            ragged = Some(row.len());
+            break;
+        }
+        let time = number(row[time_at]);
+        // A load that falls is at one time more than once; the last rows are those of the end.
+        let begins = time != last;
+        last = time;
+        let at = || keys.iter().map(|&key| text(row[key]).into_owned()).collect::<Vec<_>>().join(" ");
+        for (extremes, &place) in found.iter_mut().zip(&places) {
+            note(extremes, number(row[place]), time, begins, &at);
+        }
+    }
+    if let Some(count) = ragged {
+        return Err(rows.ragged(count));
+    }
+    let summary = |(name, extremes): (String, Option<[Extremum; 3]>)| {
+        let [least, largest, end] = extremes?;
+        Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end })
+    };
+    Ok(names.into_iter().zip(found).filter_map(summary).collect())
+}
+
+/// Takes account of one number, of the first row of its time or of a later one.
+fn note(extremes: &mut Option<[Extremum; 3]>, value: f64, time: f64, begins: bool, at: &impl Fn() -> String) {
+    if !value.is_finite() {
+        return;
+    }
+    let here = || Extremum { value, time, at: at() };
+    let [least, largest, end] = extremes.get_or_insert_with(|| [here(), here(), here()]);
+    if value < least.value {
+        *least = here();
+    }
+    if value > largest.value {
+        *largest = here();
+    }
+    if begins || time != end.time || value.abs() > end.value.abs() {
+        *end = here();
+    }
+}

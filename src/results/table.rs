@@ -1,0 +1,95 @@
+//! The definition of a table of results: its file, its columns and how a frame becomes rows. Whatever lists, writes, compares
+//! or describes tables reads this and nothing else of them.
+
+use super::extent::{Extent, Rows};
+use base::quantities::{Column, STEP, TIME};
+use model::{ExpectAt, Model};
+use solve::{Frame, Wanted};
+use std::io;
+
+/// The name of the column behind `step` and `time` that tables of a deck with stages have.
+pub const STAGE: &str = "stage";
+
+/// A function that writes the rows of one frame. It is made once a run, so that it may hold what a scene fixes for good.
+pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
+
+/// Whatever takes the rows of a table, field by field: its file, or what keeps an account of its numbers.
+pub trait WriteRow {
+    /// Begins a row with the two columns that every table has.
+    fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow;
+
+    /// Adds a field with a whole number.
+    fn count(&mut self, value: usize) -> &mut dyn WriteRow;
+
+    /// Adds a field with a number; it stays empty where the number is not finite.
+    fn number(&mut self, value: f64) -> &mut dyn WriteRow;
+
+    /// Adds a field for each of several numbers.
+    fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow;
+
+    /// Adds a field with a text.
+    fn text(&mut self, text: &str) -> &mut dyn WriteRow;
+
+    /// Ends a row.
+    ///
+    /// # Errors
+    /// It cannot be kept.
+    fn end(&mut self) -> io::Result<()>;
+}
+
+/// A kind of table: one constant in a file of its own, and one line of [`super::TABLES`].
+pub struct TableKind {
+    /// The name of the file in the output folder.
+    pub file: &'static str,
+    /// What a row is about and when the table is written, in whole sentences.
+    pub about: &'static str,
+    /// The columns behind `step` and `time`, group by group.
+    pub columns: &'static [&'static [Column]],
+    /// Whether the deck asks for it and the scene has something to put in.
+    pub wanted: fn(&Model) -> bool,
+    /// What the solver must compute for its rows.
+    pub needs: Wanted,
+    /// True where its last column is for what may fail, and is not there in a deck in which nothing may.
+    pub tells_failures: bool,
+    /// True where it is shown every accepted step, so that a row may tell of all since the one before.
+    pub every_step: bool,
+    /// What it has at one time, about.
+    pub extent: fn(&Extent) -> Rows,
+    /// Makes the function that writes its rows for one model.
+    pub rows: fn(&Model) -> WriteRows,
+    /// What `[[expect]]` may ask about the things in its rows.
+    pub answers: Option<Answers>,
+}
+
+/// The quantities of the things that a table has rows for, as `[[expect]]` asks for them: at any step, and whether or not the
+/// table is written.
+pub struct Answers {
+    /// The names of the quantities of one thing; empty where the table knows nothing of it.
+    pub quantities: fn(ExpectAt) -> Vec<&'static str>,
+    /// What the solver must compute for them.
+    pub needs: Wanted,
+    /// The value of one of these quantities, given by its index, where the frame has it.
+    pub value: fn(ExpectAt, usize, &Frame) -> Option<f64>,
+}
+
+impl TableKind {
+    /// All columns in their order, `step` and `time` first.
+    pub fn columns(&self) -> impl Iterator<Item = Column> {
+        [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
+    }
+
+    /// Those that a scene has.
+    pub fn columns_of(&self, model: &Model) -> impl Iterator<Item = Column> {
+        let left_out = usize::from(self.tells_failures && !model.output.failures);
+        self.columns().take(self.columns().count() - left_out)
+    }
+
+    /// The header row, without a line break; in a deck of stages, each row says in which it is.
+    pub fn header(&self, model: &Model) -> String {
+        let mut names: Vec<&str> = self.columns_of(model).map(|column| column.name).collect();
+        if model.analysis.stage.is_some() {
+            names.insert(2, STAGE);
+        }
+        names.join(",")
+    }
+}

@@ -1,0 +1,380 @@
+//! A comma separated file that grows by whole rows, without allocating.
+//!
+//! Rows collect in memory and reach the file complete: where the file can grow no more it is cut back to its last whole row, and
+//! of a run that is killed a row is torn only where it crosses a page of the file at that very moment, which readers say. Numbers
+//! are the shortest text that reads back to the same double. The csv crate is for readers: its writer hands over whatever fills
+//! its buffer.
+
+use super::disk::{at, create, is_same};
+use super::table::WriteRow;
+use base::snapshot::keep;
+use std::fs::{File, OpenOptions};
+use std::io::{self, Seek, Write};
+use std::path::{Path, PathBuf};
+
+/// The number of bytes of finished rows that do not wait for the next flush.
+const ENOUGH: usize = 1 << 16;
+/// The number of bytes that the operating system takes at a time, whatever is killed meanwhile.
+const PAGE: usize = 1 << 12;
+
+/// A table of results that is being written.
+pub struct TableFile {
+    path: PathBuf,
+    file: File,
+    /// The number of bytes in the file, all of whole rows.
+    written: u64,
+    /// The rows that wait, and the row that is being written.
+    rows: Vec<u8>,
+    digits: ryu::Buffer,
+    /// The time of the row that is being written.
+    time: f64,
+    /// The stage that rows name; empty in a deck without stages.
+    stage: String,
+    /// The number of bytes before the rows of the stage under way.
+    before_stage: u64,
+    empty: Option<EmptyFields>,
+}
+
+/// Fields that stayed empty because what they should hold is no finite number.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct EmptyFields {
+    /// The time of the first row that has one.
+    pub since: f64,
+    /// How many there are.
+    pub count: usize,
+}
+
+keep!(EmptyFields: Default { since, count });
+
+/// How far a table had come at a checkpoint.
+#[derive(Debug, Clone, Default)]
+pub struct TableMark {
+    /// The name of the file.
+    pub file: String,
+    written: u64,
+    stage: String,
+    before_stage: u64,
+    empty: Option<EmptyFields>,
+}
+
+keep!(TableMark: Default { file, written, stage, before_stage, empty });
+
+impl TableFile {
+    /// Makes a new file with its header row.
+    ///
+    /// # Errors
+    /// The file cannot be opened or written; the error names it.
+    pub fn open(dir: &Path, name: &str, header: &str) -> io::Result<TableFile> {
+        let path = dir.join(name);
+        let file = create(&path).map_err(|e| at(&path, e))?;
+        let mut table = TableFile::of(path, file);
+        let _ = writeln!(table.rows, "{header}");
+        table.flush()?;
+        Ok(table)
+    }
+
+    /// Opens the table of a checkpoint and cuts off what was written after it.
+    ///
+    /// # Errors
+    /// The file cannot be opened or cut, or is not what it was at the checkpoint; the error names it.
+    pub fn reopen(dir: &Path, mark: TableMark) -> io::Result<TableFile> {
+        let TableMark { file: name, written, stage, before_stage, empty } = mark;
+        let path = dir.join(name);
+        let mut file = OpenOptions::new().read(true).append(true).open(&path).map_err(|e| at(&path, e))?;
+        if file.metadata().map_err(|e| at(&path, e))?.len() < written {
+            let what =
+                "the table is shorter than it was at the checkpoint: --overwrite runs the deck from the beginning";
+            return Err(at(&path, io::Error::new(io::ErrorKind::InvalidData, what)));
+        }
+        let cut = file.set_len(written).and_then(|()| file.seek(io::SeekFrom::End(0)));
+        cut.map_err(|e| at(&path, e))?;
+        Ok(TableFile { written, stage, before_stage, empty, ..TableFile::of(path, file) })
+    }
+
+    /// An empty table.
+    fn of(path: PathBuf, file: File) -> TableFile {
+        TableFile {
+            path,
+            file,
+            written: 0,
+            rows: Vec::with_capacity(2 * ENOUGH),
+            digits: ryu::Buffer::new(),
+            time: 0.0,
+            stage: String::new(),
+            before_stage: 0,
+            empty: None,
+        }
+    }
+
+    /// How far the table has come, with all its rows safe on the disk.
+    ///
+    /// # Errors
+    /// As for [`TableFile::flush`].
+    pub fn mark(&mut self) -> io::Result<TableMark> {
+        self.flush()?;
+        self.file.sync_data().map_err(|e| at(&self.path, e))?;
+        let file = self.path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let TableFile { written, stage, before_stage, empty, .. } = self;
+        Ok(TableMark { file, written: *written, stage: stage.clone(), before_stage: *before_stage, empty: *empty })
+    }
+
+    /// Lets all rows to come name this stage.
+    ///
+    /// # Errors
+    /// As for [`TableFile::flush`].
+    pub fn begin_stage(&mut self, name: &str) -> io::Result<()> {
+        self.flush()?;
+        (self.stage, self.before_stage) = (name.to_owned(), self.written);
+        Ok(())
+    }
+
+    /// Takes away the rows of the stage under way.
+    ///
+    /// # Errors
+    /// The file cannot be cut.
+    pub fn withdraw_stage(&mut self) -> io::Result<()> {
+        self.rows.clear();
+        self.written = self.before_stage;
+        let cut = self.file.set_len(self.written).and_then(|()| self.file.seek(io::SeekFrom::End(0)));
+        cut.map(|_| ()).map_err(|e| at(&self.path, e))
+    }
+
+    /// The fields that stayed empty so far, if any did.
+    pub fn empty_fields(&self) -> Option<EmptyFields> {
+        self.empty
+    }
+
+    /// Hands the finished rows to the file, in pieces that end with a row and, but for a row that crosses one, within a page.
+    ///
+    /// # Errors
+    /// The file cannot grow; it then ends with its last whole row, and the rows are lost.
+    pub fn flush(&mut self) -> io::Result<()> {
+        // A file that somebody has cut short would get a hole.
+        if self.file.metadata().map_err(|error| at(&self.path, error))?.len() != self.written {
+            self.rows.clear();
+            return Err(self.spoiled());
+        }
+        let mut from = 0;
+        let mut done = Ok(());
+        while from < self.rows.len() && done.is_ok() {
+            let rest = &self.rows[from..];
+            let room = PAGE - (self.written as usize) % PAGE;
+            let within = rest[..room.min(rest.len())].iter().rposition(|&byte| byte == b'\n');
+            let length =
+                within.or_else(|| rest.iter().position(|&byte| byte == b'\n')).map_or(rest.len(), |end| end + 1);
+            done = self.file.write_all(&rest[..length]);
+            if done.is_ok() {
+                (self.written, from) = (self.written + length as u64, from + length);
+            } else {
+                // The part of a row is cut off; a shorter file always has room.
+                let _ = self.file.set_len(self.written);
+            }
+        }
+        self.rows.clear();
+        done.map_err(|e| at(&self.path, e))
+    }
+
+    /// Makes sure that the file still stands under its name and holds what was written, nothing more.
+    ///
+    /// # Errors
+    /// Somebody has taken it away, put another in its place or written to it.
+    pub fn verify(&self) -> io::Result<()> {
+        let length = self.file.metadata().map_err(|error| at(&self.path, error))?.len();
+        if is_same(&self.file, &self.path) && length == self.written {
+            return Ok(());
+        }
+        Err(self.spoiled())
+    }
+
+    /// The error that somebody else has been at the file.
+    fn spoiled(&self) -> io::Error {
+        let what = "the table was taken away, replaced or changed while the run was writing it; its results are lost";
+        at(&self.path, io::Error::new(io::ErrorKind::NotFound, what))
+    }
+}
+
+impl WriteRow for TableFile {
+    fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow {
+        let _ = write!(self.rows, "{step}"); // a Vec takes every byte
+        self.time = time;
+        self.number(time);
+        if !self.stage.is_empty() {
+            let stage = std::mem::take(&mut self.stage);
+            self.text(&stage);
+            self.stage = stage;
+        }
+        self
+    }
+
+    fn count(&mut self, value: usize) -> &mut dyn WriteRow {
+        let _ = write!(self.rows, ",{value}");
+        self
+    }
+
+    fn number(&mut self, value: f64) -> &mut dyn WriteRow {
+        self.rows.push(b',');
+        if value.is_finite() {
+            self.rows.extend_from_slice(self.digits.format_finite(value).as_bytes());
+        } else {
+            self.empty.get_or_insert(EmptyFields { since: self.time, count: 0 }).count += 1;
+        }
+        self
+    }
+
+    fn numbers(&mut self, values: &[f64]) -> &mut dyn WriteRow {
+        for value in values {
+            self.number(*value);
+        }
+        self
+    }
+
+    fn text(&mut self, text: &str) -> &mut dyn WriteRow {
+        self.rows.push(b',');
+        if text.contains([',', '"', '\n', '\r']) {
+            let _ = write!(self.rows, "\"{}\"", text.replace('"', "\"\""));
+        } else {
+            self.rows.extend_from_slice(text.as_bytes());
+        }
+        self
+    }
+
+    fn end(&mut self) -> io::Result<()> {
+        self.rows.push(b'\n');
+        if self.rows.len() < ENOUGH { Ok(()) } else { self.flush() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rand::{Rng, SeedableRng, rngs::SmallRng};
+
+    fn read(path: &Path) -> Vec<Vec<String>> {
+        let mut reader = csv::ReaderBuilder::new().has_headers(false).from_path(path).unwrap();
+        reader.records().map(|record| record.unwrap().iter().map(String::from).collect()).collect()
+    }
+
+    #[test]
+    fn numbers_read_back_bit_for_bit() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut random = SmallRng::seed_from_u64(5);
+        let mut values = vec![0.0, -0.0, 0.1, 1e-3, 1e300, f64::MIN_POSITIVE, 5e-324, f64::MAX, -1.0 / 3.0];
+        values.extend((0..20_000).map(|_| f64::from_bits(random.next_u64())).filter(|x| x.is_finite()));
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,value").unwrap();
+        for (i, value) in values.iter().enumerate() {
+            table.row(i, *value).number(-value).end().unwrap();
+        }
+        table.flush().unwrap();
+        let rows = read(&dir.path().join("t.csv"));
+        assert_eq!(rows.len(), values.len() + 1);
+        for (row, value) in rows[1..].iter().zip(&values) {
+            assert_eq!(row[1].parse::<f64>().unwrap().to_bits(), value.to_bits());
+            assert_eq!(row[2].parse::<f64>().unwrap().to_bits(), (-value).to_bits());
+        }
+    }
+
+    #[test]
+    fn text_survives_commas_and_quotes() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name,none").unwrap();
+        let names = ["portal[3]", "a, b", "the \"elbow\"", "two\nlines", "Träger"];
+        for name in names {
+            table.row(0, 0.5).text(name).number(f64::NAN).end().unwrap();
+        }
+        assert_eq!(table.empty_fields(), Some(EmptyFields { since: 0.5, count: names.len() }));
+        table.flush().unwrap();
+        let rows = read(&dir.path().join("t.csv"));
+        assert!(rows[1..].iter().zip(names).all(|(row, name)| row[2] == name && row[3].is_empty()));
+    }
+
+    #[test]
+    fn a_resumed_table_ends_where_the_checkpoint_was() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name").unwrap();
+        for step in 0..5 {
+            table.row(step, 0.5).text("first\nline").end().unwrap();
+            table.row(step, 0.5).text("b").end().unwrap();
+        }
+        table.flush().unwrap();
+        let path = dir.path().join("t.csv");
+        let mark = table.mark().unwrap();
+        table.row(9, 0.5).text("lost").end().unwrap();
+        table.flush().unwrap();
+        OpenOptions::new().append(true).open(&path).unwrap().write_all(b"5,0.").unwrap(); // torn
+        let mut table = TableFile::reopen(dir.path(), mark.clone()).unwrap();
+        table.row(3, 0.25).text("c").end().unwrap();
+        table.flush().unwrap();
+        let rows = read(&path);
+        assert_eq!(rows.len(), 1 + 5 * 2 + 1);
+        assert_eq!(rows[10], ["4", "0.5", "b"]);
+        assert_eq!(rows[11], ["3", "0.25", "c"]);
+        OpenOptions::new().write(true).open(&path).unwrap().set_len(mark.written - 1).unwrap();
+        let error = TableFile::reopen(dir.path(), mark).err().unwrap();
+        assert!(error.to_string().contains("t.csv: the table is shorter"), "{error}");
+    }
+
+    #[test]
+    fn a_full_disk_is_an_error() {
+        if !Path::new("/dev/full").exists() {
+            return;
+        }
+        let dir = tempfile::tempdir().unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
+        table.path = PathBuf::from("/dev/full");
+        table.file = OpenOptions::new().write(true).open(&table.path).unwrap();
+        table.written = 0;
+        table.row(0, 0.0).end().unwrap();
+        let error = table.flush().unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::StorageFull);
+        assert!(error.to_string().starts_with("/dev/full: ") && error.to_string().contains("make room"), "{error}");
+    }
+
+    #[test]
+    fn a_table_that_is_gone_or_changed_is_an_error() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("t.csv");
+        let table = || {
+            let mut table = TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
+            table.row(0, 0.0).end().unwrap();
+            table.flush().and_then(|()| table.verify()).unwrap();
+            table
+        };
+        let spoil: [&dyn Fn(); 4] = [
+            &|| std::fs::remove_file(&path).unwrap(),
+            &|| std::fs::rename(&path, dir.path().join("elsewhere")).unwrap(),
+            &|| std::fs::write(&path, "step").unwrap(),
+            &|| OpenOptions::new().append(true).open(&path).unwrap().write_all(b"9,9.0\n").unwrap(),
+        ];
+        for spoil in spoil {
+            let table = table();
+            spoil();
+            let error = table.verify().unwrap_err();
+            assert!(error.to_string().contains("t.csv: the table was taken away"), "{error}");
+        }
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn what_a_link_leads_to_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(dir.path().join("mine"), "kept").unwrap();
+        std::os::unix::fs::symlink("mine", dir.path().join("t.csv")).unwrap();
+        TableFile::open(dir.path(), "t.csv", "step,time").unwrap();
+        assert_eq!(std::fs::read_to_string(dir.path().join("mine")).unwrap(), "kept");
+        assert_eq!(std::fs::read_to_string(dir.path().join("t.csv")).unwrap(), "step,time\n");
+    }
+
+    #[test]
+    fn rows_longer_and_shorter_than_a_page_arrive_whole() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut table = TableFile::open(dir.path(), "t.csv", "step,time,name").unwrap();
+        let mut random = SmallRng::seed_from_u64(9);
+        let lengths: Vec<usize> = (0..300).map(|_| (random.next_u64() % 6000) as usize).collect();
+        for (step, length) in lengths.iter().enumerate() {
+            table.row(step, 0.0).text(&"x".repeat(*length)).end().unwrap();
+        }
+        table.flush().and_then(|()| table.verify()).unwrap();
+        let rows = read(&dir.path().join("t.csv"));
+        assert!(rows.len() == 301 && rows[1..].iter().zip(&lengths).all(|(row, length)| row[2].len() == *length));
+    }
+}

@@ -1,0 +1,54 @@
+//! contacts.csv: clearances and forces of the contacts.
+
+use crate::extent::Rows;
+use crate::table::{Answers, TableKind, WriteRow};
+use base::quantities::{CONTACT, CONTACT_FORCE, Column, names};
+use model::{Contact, ContactRows, ExpectAt, PartKind};
+use solve::{ContactState, Frame, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "contacts.csv",
+    about: "One row for each contact: its least clearance and what all its points together exert on the surface. Written if \
+            `[output] contacts` asks for it and there are contacts.",
+    columns: &[&[Column::key("contact", "name of the contact")], &CONTACT],
+    wanted: |model| {
+        model.output.contacts.is_some_and(|rows| rows != ContactRows::Pairs) && model.has(PartKind::Contact)
+    },
+    needs: Wanted::CONTACTS,
+    tells_failures: false,
+    every_step: false,
+    extent: |extent| {
+        let contacts = || extent.model.each::<Contact>();
+        // Apart there are no forces: the clearance alone.
+        Rows::named(contacts().map(|contact| contact.name.as_str()), 2 * contacts().count())
+    },
+    rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::CONTACTS, value }),
+};
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Part(part) if part.kind == PartKind::Contact => names(&[&CONTACT, &[CONTACT_FORCE]]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Part(part) = at else { return None };
+    let contact = frame.derived.contacts.get(part.index)?;
+    values(contact).get(index).copied()
+}
+
+/// The columns of one contact, and the magnitude of the force, which only `[[expect]]` asks for.
+fn values(contact: &ContactState) -> [f64; 9] {
+    let ContactState { touching, gap, f, m } = *contact;
+    [touching as f64, gap, f.x, f.y, f.z, m.x, m.y, m.z, f.norm()]
+}
+
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+    frame.model.each::<Contact>().zip(&frame.derived.contacts).try_for_each(|(contact, state)| {
+        let row = table.row(frame.step, frame.state.time).text(&contact.name).count(state.touching);
+        row.numbers(&values(state)[1..CONTACT.len()]).end()
+    })
+}

@@ -1,0 +1,93 @@
+//! joints.csv: coordinates of the joints, what acts along them, and what they exert on their first parts.
+
+use crate::extent::Rows;
+use crate::table::{Answers, TableKind, WriteRow};
+use base::quantities::{Column, JOINT_COORDINATE, JOINT_REACTION, names};
+use model::{AnalysisKind, ExpectAt, Joint, JointCoordinate, Model};
+use solve::{Frame, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "joints.csv",
+    about: "One row for each joint. Written if `[output] joints = true` and there are joints. The first three numbers are those of \
+            joints with a coordinate, and empty for others. Forces and moments act on its first part, as those of links \
+            and those in reactions.csv do, which leave out what motors, springs, stops and friction add.",
+    columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
+    wanted: |model| model.output.joints && of_deck(model).next().is_some(),
+    needs: NEEDS,
+    tells_failures: false,
+    every_step: false,
+    extent: |extent| {
+        let [force, moment] = extent.components();
+        let all = of_deck(extent.model).map(|joint| joint.name.as_str());
+        Rows::named(all, (3 + force + moment) * of_deck(extent.model).count())
+    },
+    rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: NEEDS, value }),
+};
+
+/// Springs count the turns, constraints carry the rest.
+const NEEDS: Wanted = Wanted::REACTIONS.with(Wanted::LINKS);
+
+/// The joints that stand in the deck or in its attachments; supports have rows of their own elsewhere.
+fn of_deck(model: &Model) -> impl Iterator<Item = &Joint> {
+    model.constraints.joints.iter().filter(|joint| !joint.supports)
+}
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Joint(_) => names(&[&JOINT_COORDINATE, &JOINT_REACTION]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Joint(joint) = at else { return None };
+    values(joint, frame)?.get(index).copied()
+}
+
+/// The columns of one joint; `None` where the frame does not have it. What a joint has none of is no number.
+fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
+    let (made, held) = (frame.model.constraints.joints.get(joint)?, frame.derived.joints.get(joint)?);
+    let (mut f, mut m) = (held.f, held.m);
+    let [mut q, mut rate, mut effort] = [f64::NAN; 3];
+    if let Some(coordinate) = &made.coordinate {
+        let [from, to] = made.ends.map(|node| &frame.state.nodes[node]);
+        let link = coordinate.spring.and_then(|spring| frame.derived.links.get(spring));
+        let [along, speed, _] = coordinate.lock.gap(from, to);
+        (q, rate) = link.map_or((along, speed), |link| (link.elongation, link.rate));
+        // What acts besides the constraint equations, positive on the second end.
+        let acting = motor(coordinate, frame) - link.map_or(0.0, |link| link.force);
+        effort = held.drive + acting;
+        let [G, _] = coordinate.lock.gradient(from, to);
+        f += acting * G.fixed_rows::<3>(0);
+        m += acting * G.fixed_rows::<3>(3);
+    }
+    Some([q, rate, effort, f.x, f.y, f.z, m.x, m.y, m.z])
+}
+
+/// The effort that the deck gives.
+fn motor(coordinate: &JointCoordinate, frame: &Frame) -> f64 {
+    let Some(effort) = &coordinate.effort else { return 0.0 };
+    let (model, time) = (frame.model, frame.state.time);
+    effort.value
+        * match (effort.amplitude, model.analysis.kind) {
+            (Some(index), _) => model.loading.amplitudes[index].value(time),
+            (None, AnalysisKind::Dynamic) => 1.0,
+            (None, AnalysisKind::Static) => time / model.analysis.end_time,
+        }
+}
+
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+    frame.model.constraints.joints.iter().enumerate().filter(|(_, joint)| !joint.supports).try_for_each(
+        |(index, joint)| {
+            let values = values(index, frame).unwrap_or([f64::NAN; 9]);
+            let mut row = table.row(frame.step, frame.state.time).text(&joint.name);
+            // A joint without a coordinate has none to write, which is no fault of a number.
+            for value in &values[..3] {
+                row = if joint.coordinate.is_none() { row.text("") } else { row.number(*value) };
+            }
+            row.numbers(&values[3..]).end()
+        },
+    )
+}

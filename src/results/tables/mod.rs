@@ -1,0 +1,73 @@
+//! The tables of results, a file each. A new table is one more file and one line of [`TABLES`].
+
+mod bars;
+mod bodies;
+mod contact_pairs;
+mod contacts;
+mod energy;
+mod joints;
+mod layers;
+mod links;
+mod mode_parts;
+mod mode_shapes;
+mod modes;
+mod nodes;
+mod parts;
+mod reactions;
+mod response;
+mod sections;
+mod shell_order;
+mod shells;
+mod steps;
+
+use super::table::TableKind;
+
+/// All tables, in the order in which a reader looks for them.
+pub static TABLES: &[&TableKind] = &[
+    &nodes::TABLE,
+    &bodies::TABLE,
+    &energy::TABLE,
+    &links::TABLE,
+    &contacts::TABLE,
+    &contact_pairs::TABLE,
+    &joints::TABLE,
+    &reactions::TABLE,
+    &sections::TABLE,
+    &bars::TABLE,
+    &shells::TABLE,
+    &layers::TABLE,
+    &parts::TABLE,
+    &modes::TABLE,
+    &mode_parts::TABLE,
+    &mode_shapes::TABLE,
+    &response::TABLE,
+    &steps::TABLE,
+];
+
+/// The table of a file; `None` where the file is no table of a run.
+pub fn of_file(name: &str) -> Option<&'static TableKind> {
+    TABLES.iter().copied().find(|table| table.file == name)
+}
+
+/// True for the table whose rows come in parts, see [`solve::Observer::on_response`].
+pub fn holds_response(table: &TableKind) -> bool {
+    std::ptr::eq(table, &response::TABLE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn every_column_is_described_once() {
+        let files: HashSet<&str> = TABLES.iter().map(|table| table.file).collect();
+        assert_eq!(files.len(), TABLES.len());
+        for table in TABLES {
+            let names: HashSet<&str> = table.columns().map(|column| column.name).collect();
+            assert_eq!(names.len(), table.columns().count(), "{}", table.file);
+            assert!(table.about.ends_with('.'), "{}", table.file);
+            assert!(table.columns().all(|column| !column.meaning.is_empty()), "{}", table.file);
+        }
+    }
+}

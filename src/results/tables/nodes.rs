@@ -1,0 +1,68 @@
+//! nodes.csv: the motion of the chosen nodes, global components.
+
+use crate::extent::Rows;
+use crate::table::{Answers, TableKind, WriteRow};
+use base::math::rotation;
+use base::quantities::{
+    ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, MOTION, POSITION, ROTATION, VELOCITY,
+    names,
+};
+use mechanics::state;
+use model::{self, ExpectAt};
+use solve::{Frame, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "nodes.csv",
+    about: "One row for each node that `[output] nodes` chooses, named points unless it says otherwise.",
+    columns: &[
+        &[Column::key("node", "name of the node; nodes between named points as `part[number]`")],
+        &POSITION,
+        &DISPLACEMENT,
+        &ROTATION,
+        &VELOCITY,
+        &ANGULAR_VELOCITY,
+        &ACCELERATION,
+        &ANGULAR_ACCELERATION,
+    ],
+    wanted: |model| !model.output.nodes.is_empty(),
+    needs: Wanted::NOTHING,
+    tells_failures: false,
+    every_step: false,
+    extent: |extent| {
+        let (model, nodes) = (extent.model, &extent.model.output.nodes);
+        // Positions stay what they are at t = 0 where nothing moves.
+        let positions = |node: usize| extent.moving(node)[..3].iter().filter(|moves| **moves).count();
+        let numbers = nodes.iter().map(|&node| positions(node) + extent.motion(node, [1, 2])).sum();
+        Rows::named(nodes.iter().map(|&node| model.nodes[node].label.as_str()), numbers)
+    },
+    rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::NOTHING, value }),
+};
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Node(_) => names(&MOTION),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Node(i) = at else { return None };
+    let now = frame.state.nodes.get(i)?;
+    values(&frame.model.nodes[i], now).get(index).copied()
+}
+
+/// The motion of one node, in the order of [`MOTION`]. The rotation vector is the shortest, of length at most π.
+fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
+    let vectors = [now.x, now.moved(&start.x), rotation::log(&now.rotation), now.v, now.omega, now.a, now.alpha];
+    std::array::from_fn(|i| vectors[i / 3][i % 3])
+}
+
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+    frame.model.output.nodes.iter().try_for_each(|&i| {
+        let node = &frame.model.nodes[i];
+        table.row(frame.step, frame.state.time).text(&node.label);
+        table.numbers(&values(node, &frame.state.nodes[i])).end()
+    })
+}

@@ -1,0 +1,86 @@
+//! reactions.csv: force or moment on the structure in every restrained direction, and on the first part of every joint.
+
+use crate::extent::Rows;
+use crate::table::{Answers, TableKind, WriteRow};
+use base::quantities::{Axes, Column, REACTION, Unit, names};
+use model::{DIRECTIONS, ExpectAt, Restraint};
+use solve::{Frame, JointState, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "reactions.csv",
+    about: "One row for each restrained or prescribed degree of freedom, also of ends of joints, links and contact surfaces on the \
+            ground (`joint.to`, `link.from`, `contact.surface`); and six rows for each joint between two parts: what the joint \
+            exerts on its first part (`from`), at that end, by its constraints and its drive; joints.csv has what motors, springs, \
+            stops and friction add. Written if `[output] reactions = true`.",
+    columns: &[&[
+        Column::key("node", "name of the supported node, of the end on the ground, or of the joint"),
+        Column::key("direction", "`ux uy uz` for forces, `rx ry rz` for moments; global"),
+        Column::scalar(
+            "value",
+            "reaction: force or moment on the structure, or on the joint's first part",
+            Unit::ForceOrMoment,
+        )
+        .in_axes(Axes::Global),
+    ]],
+    wanted: |model| model.output.reactions,
+    needs: Wanted::REACTIONS,
+    tells_failures: false,
+    every_step: false,
+    extent: |extent| {
+        let model = extent.model;
+        let restraints = &model.constraints.restraints;
+        let joints = model.constraints.joints.iter().filter(|joint| !joint.supports);
+        let supports = restraints
+            .iter()
+            .filter(|held| !model.nodes[held.node].is_number)
+            .map(|restraint| model.nodes[restraint.node].label.as_str());
+        let of_joints = joints.flat_map(|joint| [joint.name.as_str(); DIRECTIONS.len()]);
+        let all = Rows::named(supports.chain(of_joints), 0);
+        let idle = restraints.iter().filter(|restraint| !extent.in_plane(restraint.dof)).count();
+        Rows { letters: all.letters + 2 * all.rows, numbers: all.rows - idle, ..all }
+    },
+    rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::REACTIONS, value }),
+};
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Node(_) => names(&[&REACTION]),
+        _ => Vec::new(),
+    }
+}
+
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Node(node) = at else { return None };
+    let nodes = &frame.model.nodes;
+    // A node that depends on another is held at a point of its name.
+    let is_here =
+        |held: &Restraint| held.dof == index && (held.node == node || nodes[held.node].label == nodes[node].label);
+    let held = frame.model.constraints.restraints.iter().zip(frame.reactions);
+    held.filter(|(restraint, _)| is_here(restraint)).map(|(_, value)| *value).reduce(|sum, value| sum + value)
+}
+
+/// What a joint exerts on its first part, in the order of [`DIRECTIONS`].
+fn of_joint(joint: &JointState) -> [f64; 6] {
+    let [f, m] = [joint.f, joint.m];
+    [f.x, f.y, f.z, m.x, m.y, m.z]
+}
+
+/// The effort of drives stands with their joints.
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+    let Frame { model, step, state, derived, .. } = *frame;
+    let held = model.constraints.restraints.iter().zip(frame.reactions);
+    held.filter(|(restraint, _)| !model.nodes[restraint.node].is_number).try_for_each(|(restraint, value)| {
+        let node = &model.nodes[restraint.node];
+        table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value).end()
+    })?;
+    // A joint that holds a node to its support carries what the support does.
+    model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(
+        |(joint, state_of)| {
+            DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
+                table.row(step, state.time).text(&joint.name).text(direction).number(value).end()
+            })
+        },
+    )
+}

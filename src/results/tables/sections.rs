@@ -1,0 +1,87 @@
+//! sections.csv: stress resultants of the beams at their integration points, section axes.
+
+use crate::extent::Rows;
+use crate::table::{Answers, TableKind, WriteRow};
+use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES, Unit};
+use model::{Beam, ExpectAt, PartKind, SectionPlaces};
+use solve::{Frame, SectionPlace, SectionPoint, Wanted};
+use std::io;
+
+pub static TABLE: TableKind = TableKind {
+    file: "sections.csv",
+    about: "One row for each integration point of each beam element. Forces and moments are those that the part of the beam \
+            beyond the point, on the side of larger `s`, exerts on the part before it; moments are about the centroid. \
+            With { at = \"ends\" } rows are those of both ends of each element, in balance with what acts at the nodes there; with \
+            { at = \"both\" } they come besides. Written if `[output] sections` asks for it and there are beams.",
+    columns: &[
+        &[
+            Column::key("beam", "name of the beam"),
+            Column::key("element", "number of the element along the beam, from 0"),
+            Column::key(
+                "point",
+                "number of the integration point in the element, from 0; `start` and `end` for its ends",
+            ),
+            Column::scalar("s", "distance from the start of the beam, in the initial state", Unit::Length),
+        ],
+        &SECTION_FORCES,
+        &[PLASTIC_STRAIN],
+    ],
+    wanted: |model| model.output.sections.is_some() && model.has(PartKind::Beam),
+    needs: Wanted::SECTIONS,
+    tells_failures: false,
+    every_step: false,
+    extent: |extent| {
+        let beams = || extent.model.each::<Beam>();
+        let places = |beam: &Beam| match extent.model.output.sections.unwrap_or(SectionPlaces::Points) {
+            SectionPlaces::Points => beam.order,
+            SectionPlaces::Ends => 2,
+            SectionPlaces::Both => beam.order + 2,
+        };
+        let points = |beam: &Beam| beam.elements.len() * places(beam);
+        let names = beams().flat_map(|beam| std::iter::repeat_n(beam.name.as_str(), points(beam)));
+        let forces: usize = extent.components().iter().sum();
+        let numbers = |beam: &Beam| points(beam) * (forces + usize::from(beam.yielding.is_some()));
+        Rows::named(names, beams().map(numbers).sum())
+    },
+    rows: |_| Box::new(write),
+    answers: Some(Answers { quantities, needs: Wanted::SECTIONS, value }),
+};
+
+fn quantities(at: ExpectAt) -> Vec<&'static str> {
+    match at {
+        ExpectAt::Sections(_) => SECTION_FORCES.iter().map(|column| column.name).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The value of the largest magnitude over the beam, at ends of elements and at points between, with its sign.
+fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
+    let ExpectAt::Sections(part) = at else { return None };
+    let points = frame.derived.sections.iter().filter(|point| point.part == part);
+    points.map(|point| point.at.forces[index]).reduce(|most, force| if force.abs() > most.abs() { force } else { most })
+}
+
+fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
+    let Some(places) = frame.model.output.sections else { return Ok(()) };
+    let is_listed = |point: &&SectionPoint| match point.place {
+        SectionPlace::Point(_) => places != SectionPlaces::Ends,
+        SectionPlace::Start | SectionPlace::End => places != SectionPlaces::Points,
+    };
+    frame.derived.sections.iter().filter(is_listed).try_for_each(|point| {
+        let at = &point.at;
+        table.row(frame.step, frame.state.time).text(frame.model.parts[point.part].name());
+        table.count(point.element);
+        match point.place {
+            SectionPlace::Start => table.text("start"),
+            SectionPlace::Point(number) => table.count(number),
+            SectionPlace::End => table.text("end"),
+        };
+        table.number(at.s).numbers(&at.forces);
+        // Strains are those of integration points alone.
+        match point.place {
+            SectionPlace::Point(_) => table.number(at.plastic_strain),
+            SectionPlace::Start | SectionPlace::End => table.text(""),
+        };
+        table.end()
+    })
+}

@@ -1,0 +1,329 @@
+//! Linear buckling: the factors λ of loads at which K + λ K' is singular, K the stiffness of the state without them.
+//!
+//! K' is the rate at which the tangent changes with the loads: the stiffness of stresses K(σ) of the linear response, that of loads that
+//! follow and of the forces of joints. It is taken by differences between stresses at small loads and their opposite, in the geometry
+//! without them: what the deflection before buckling changes is left out, for the square of a rotation times the stiffness along a
+//! slender part counts as much as its product with other rotations, and only both together are small.
+
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::mode::Modes;
+use super::pencil::{Pencil, weights};
+use super::rest::multipliers_at_rest;
+use super::shape::Shapes;
+use crate::system::assembly::Assembly;
+use crate::system::{Group, Loading};
+use base::math::rotation::RotationUpdate;
+use base::math::{Vec6, angular, linear};
+use base::names::{joined, short};
+use linear::eigen::{Converged, EigenPair, Lanczos, SymmetricOperator};
+use linear::{Solver, Sparse};
+use mechanics::state::{Configuration, Increment, Node};
+use model::{ModeExtent, ModeKind};
+
+/// Length of residuals relative to their eigenvalues.
+const TOLERANCE: f64 = 1e-9;
+const WIDTH: usize = 2;
+/// Step of the first differences, as a displacement relative to the size of the scene and a rotation.
+const SMALL: f64 = 1e-4;
+/// Step of the final differences, as such a motion at most, and as a part of the lowest factor. The cube of a rotation θ stretches and
+/// shears a part of slenderness s by s² θ² of what the load does, which differences of second order would keep: those of sixth order
+/// leave s² θ⁶, and rounding 1e-15 s²/θ.
+const STEP: f64 = 3e-3;
+/// Weights of the differences of sixth order between the states at 1, 2 and 3 steps and their opposites.
+const DIFFERENCES: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
+/// Factors farther from zero than the nearest by the inverse of this are rounding.
+const FARTHEST: f64 = 1e-8;
+/// Factors of equal size that are taken one by one before the search is given up.
+const CLUSTER: usize = 200;
+/// Largest motion, as that of [`STEP`], up to which bars are judged to be slack.
+const MODERATE: f64 = 0.05;
+/// Searches for factors that pivots show and the iteration has not found.
+const SEARCHES: usize = 8;
+
+/// The operator −K⁻¹ K' in the metric of K; its eigenvalues are 1/λ.
+struct Buckling<'p, 'a> {
+    pencil: &'p mut Pencil<'a>,
+    K: &'p Sparse,
+    rate: &'p Sparse,
+}
+
+impl SymmetricOperator for Buckling<'_, '_> {
+    fn dimension(&self) -> usize {
+        self.K.rows()
+    }
+
+    fn apply(&mut self, x: &[&[f64]]) -> Vec<Vec<f64>> {
+        let mut images = self.rate.products(x);
+        images.iter_mut().flatten().for_each(|y| *y = -*y);
+        self.pencil.solve_all(&mut images);
+        images
+    }
+
+    fn metric(&mut self, x: &[f64], y: &mut [f64]) {
+        self.K.multiply(x, y);
+    }
+
+    fn may_move(&mut self, x: &[f64]) -> bool {
+        self.pencil.may_move(x)
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.pencil.at.is_stopped()
+    }
+}
+
+/// Finds the lowest factors of the loads.
+///
+/// # Errors
+/// The reason why there are none, or why some are missing.
+pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    let is_stage = at.model.analysis.stage.is_some();
+    if !is_stage && at.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()) {
+        return Err(ModesFault::MovedSupport);
+    }
+    let wanted = match at.model.analysis.modes.as_ref().map(|asked| asked.extent) {
+        Some(ModeExtent::Count(count)) => count,
+        _ => 1,
+    };
+    // Of a state that a stage has reached the balance is judged with that of other modes.
+    let rests = is_stage || multipliers_at_rest(at, (&mut *linear.0, &mut *linear.1)).is_some();
+    let mut pencil = Pencil::new(*at, linear);
+    let K = pencil.matrix(weights(0.0, 0.0));
+    match pencil.factor(0.0) {
+        Ok(0) => {}
+        Ok(_) => return Err(ModesFault::UnstableUnloaded),
+        Err(row) => return Err(pencil.singular(row)),
+    }
+    let response = Response::to_factored(&mut pencil);
+    if response.is_nothing() {
+        return Err(ModesFault::NoLoads);
+    }
+    let lowest = {
+        let first = response.rate(SMALL / response.size(&pencil), &mut pencil);
+        factors(&mut pencil, (&K, &first), 1)?
+    };
+    let Some(lowest) = lowest.first().map(|(lowest, _)| lowest.abs()) else { return Err(ModesFault::NoBuckling) };
+    let rate = response.rate((STEP * lowest).min(STEP / response.size(&pencil)), &mut pencil);
+    let found = factors(&mut pencil, (&K, &rate), wanted)?;
+    let Some((lowest, _)) = found.first() else { return Err(ModesFault::NoBuckling) };
+    let shapes = Shapes::new(&pencil);
+    let list = found.iter().map(|(factor, vector)| shapes.buckling(&pencil, *factor, vector)).collect();
+    let mut doubts = doubts(at, rests, (&found, wanted));
+    doubts.extend(response.slackened(lowest.abs(), &pencil));
+    let (factorizations, solves) = (pencil.factorizations, pencil.solves);
+    Ok(Modes {
+        kind: ModeKind::Buckling,
+        list,
+        masses: shapes.masses,
+        unstable: 0,
+        factorizations,
+        solves,
+        doubts,
+        response: None,
+    })
+}
+
+/// What is doubtful about so many factors found of those wanted, in words; the scene may not rest without loads.
+fn doubts(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if !rests {
+        doubts.push(
+            "without the loads the scene is not in equilibrium (prestress): factors are those of the loads on the geometry as it is \
+             given, with the prestress that parts have there"
+                .to_owned(),
+        );
+    }
+    if let Some((nearest, _)) = found.first().filter(|(factor, _)| *factor < 0.0) {
+        doubts.push(format!(
+            "nothing within reach buckles under these loads: factors are negative, those of the reversed loads, which buckle it at {} times \
+             their value",
+            short(-nearest)
+        ));
+    } else if found.len() < wanted {
+        doubts.push(format!(
+            "{} factors were found, and no more within reach: the others lie much farther, or only stiffen",
+            found.len()
+        ));
+    }
+    if !at.loads_have_potential() {
+        doubts.push(
+            "loads that follow, and moments about axes fixed in space, have no potential: factors are those of the symmetric part \
+             of their stiffness, which is what buckles statically where it is not their work that shakes (flutter)"
+                .to_owned(),
+        );
+    }
+    doubts
+}
+
+/// A factor of the loads with its vector.
+type Factor = (f64, Vec<f64>);
+
+/// The lowest positive factors, ascending; where there are none within reach the negative ones, the nearest to zero first. K is
+/// factorised when they are found.
+fn factors(pencil: &mut Pencil, (K, rate): (&Sparse, &Sparse), wanted: usize) -> Result<Vec<Factor>, ModesFault> {
+    let threads = pencil.at.plan.threads > 1;
+    pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
+    let mut operator = Buckling { pencil: &mut *pencil, K, rate };
+    let mut lanczos = Lanczos::new(&mut operator, WIDTH, threads);
+    let mut goal = wanted;
+    let mut searches = 0;
+    while searches < SEARCHES {
+        let mut operator = Buckling { pencil: &mut *pencil, K, rate };
+        let limit = lanczos.applications + 60 * goal + 600;
+        let Converged { thetas, next } =
+            lanczos.converge(&mut operator, goal, TOLERANCE, limit).ok_or_else(|| pencil.not_converged(goal))?;
+        let whole = thetas.len() < goal || next.is_none();
+        let reached = thetas.last().map_or(0.0, |theta| 1.0 / theta.abs());
+        let least = least(thetas.first());
+        let found = thetas.iter().filter(|theta| **theta > least).count();
+        // Factors of reversed loads take places of their own.
+        if found < wanted && !whole && goal < 4 * wanted + 24 {
+            goal += (wanted - found).max(goal / 2);
+            continue;
+        }
+        let next = next.map_or(f64::INFINITY, |theta| 1.0 / theta.abs());
+        if whole {
+            return Ok(lowest(lanczos.into_pairs(), wanted));
+        }
+        if next - reached <= 1e-4 * reached {
+            searches += usize::from(goal > 4 * wanted + CLUSTER);
+            goal += 1;
+            continue;
+        }
+        // The space is the largest thing beside the factor.
+        lanczos.narrow();
+        let there = pencil.factor_along(rate, reached + 0.1 * (next - reached));
+        pencil.factor(0.0).map_err(|row| pencil.singular(row))?;
+        let missing = there.unwrap_or(found).saturating_sub(found);
+        if missing == 0 {
+            return Ok(lowest(lanczos.into_pairs(), wanted));
+        }
+        searches += 1;
+        goal += missing;
+        let mut operator = Buckling { pencil: &mut *pencil, K, rate };
+        lanczos.start(&mut operator, missing);
+    }
+    Err(ModesFault::Missed { found: wanted, there: goal })
+}
+
+/// The size of 1/λ below which it is rounding of the largest.
+fn least(largest: Option<&f64>) -> f64 {
+    FARTHEST * largest.map_or(0.0, |theta| theta.abs())
+}
+
+/// The lowest positive factors of some pairs, or where there are none the negative ones, the nearest to zero first.
+fn lowest(pairs: Vec<EigenPair>, wanted: usize) -> Vec<Factor> {
+    let least = least(pairs.first().map(|pair| &pair.theta));
+    let mut factors: Vec<Factor> =
+        pairs.into_iter().filter(|pair| pair.theta.abs() > least).map(|pair| (1.0 / pair.theta, pair.vector)).collect();
+    factors.sort_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    let (mut found, reversed): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(factor, _)| *factor > 0.0);
+    if found.is_empty() {
+        found = reversed;
+    }
+    found.truncate(wanted);
+    found
+}
+
+/// The linear response to unit loads.
+struct Response {
+    /// Small motions of all nodes.
+    motions: Vec<Vec6>,
+    multipliers: Vec<f64>,
+}
+
+impl Response {
+    /// The response to the loads that have the factor; K is factorised.
+    fn to_factored(pencil: &mut Pencil) -> Response {
+        let forces = |pencil: &mut Pencil, loading: &Loading| -> Vec<f64> {
+            let Pencil { at, nodes, forces, .. } = pencil;
+            let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+            at.system.residual(&now, loading, forces);
+            at.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
+        };
+        let (base, with) = (pencil.at.loading, pencil.at.loading.plus(1.0, pencil.at.factored));
+        let (before, mut f) = (forces(pencil, base), forces(pencil, &with));
+        f.iter_mut().zip(before).for_each(|(f, before)| *f -= before);
+        let multipliers = pencil.respond(&mut f);
+        Response { motions: pencil.at.motions(&pencil.nodes, &f), multipliers }
+    }
+
+    /// True where the loads move nothing and load no joint.
+    fn is_nothing(&self) -> bool {
+        self.motions.iter().all(|motion| *motion == Vec6::zeros()) && self.multipliers.iter().all(|value| *value == 0.0)
+    }
+
+    /// The largest motion, displacements relative to the size of the scene.
+    fn size(&self, pencil: &Pencil) -> f64 {
+        let origin = pencil.nodes.first().map(|node| node.x).unwrap_or_default();
+        let length = pencil.nodes.iter().map(|node| (node.x - origin).norm()).fold(f64::MIN_POSITIVE, f64::max);
+        let size = |motion: &Vec6| (linear(motion).norm() / length).max(angular(motion).norm());
+        self.motions.iter().map(size).fold(f64::MIN_POSITIVE, f64::max)
+    }
+
+    /// The rate of the tangent with the load factor, by differences at multiples of the factors ±ε.
+    fn rate(&self, epsilon: f64, pencil: &mut Pencil) -> Sparse {
+        let mut sum = Vec::new();
+        for (steps, weight) in [1.0, 2.0, 3.0].into_iter().zip(DIFFERENCES) {
+            for sign in [1.0, -1.0] {
+                let factor = sign * steps * epsilon;
+                let loads = pencil.at.loading.plus(factor, pencil.at.factored);
+                let nodes = self.moved(factor, pencil);
+                let base = pencil.at.state.multipliers.iter().zip(&self.multipliers);
+                let multipliers: Vec<f64> = base.map(|(m, rate)| m + rate * factor).collect();
+                pencil.add_stressed(sign * weight / epsilon, (&nodes, &loads, &multipliers), &mut sum);
+            }
+        }
+        pencil.summed(&sum)
+    }
+
+    /// What the loads slacken, and pull taut, up to the lowest factor, in words.
+    fn slackened(&self, lowest: f64, pencil: &Pencil) -> Vec<String> {
+        let factor = lowest.min(MODERATE / self.size(pencil));
+        let moved = self.moved(factor, pencil);
+        let at = |nodes: &[Node], group: &Group, e: usize| {
+            let now = Configuration { nodes, history: &pencil.at.state.history, dt: 0.0, lead: None };
+            group.block.is_inactive(e, &group.configuration(&now))
+        };
+        let mut names = [Vec::new(), Vec::new()];
+        for group in pencil.at.system.groups.iter().filter(|group| !group.kind.is_unilateral()) {
+            for e in 0..group.block.len() {
+                let states = [at(&pencil.nodes, group, e), at(&moved, group, e)];
+                let name = format!("`{}`", group.part_of(e, pencil.at.model).name());
+                if states[0] != states[1] && !names[usize::from(states[0])].contains(&name) {
+                    names[usize::from(states[0])].push(name);
+                }
+            }
+        }
+        let [slack, taut] = names.map(|names| joined(&names.iter().map(String::as_str).collect::<Vec<_>>()));
+        let mut said = Vec::new();
+        if !slack.is_empty() {
+            said.push(format!(
+                "the loads slacken {slack}, whose stiffness counts all the same: factors are too high. Leave out what goes slack, stretch \
+                 cables before (`free_length`), or look for modes about the loaded state (kind = \"modal\")"
+            ));
+        }
+        if !taut.is_empty() {
+            said.push(format!(
+                "{taut} bear nothing without the loads, which strain them: their stiffness is left out, and factors may be too low"
+            ));
+        }
+        said
+    }
+
+    /// The nodes at a load factor.
+    fn moved(&self, factor: f64, pencil: &Pencil) -> Vec<Node> {
+        let start = &pencil.nodes;
+        let mut nodes = start.clone();
+        let of = |motion: &Vec6| Increment { q: motion * factor, ..Increment::ZERO };
+        let mut increments: Vec<Increment> = self.motions.iter().map(of).collect();
+        for ((node, start), increment) in nodes.iter_mut().zip(start).zip(&increments) {
+            node.advance(start, increment, RotationUpdate::Exponential);
+        }
+        for dependent in &pencil.at.system.rigid_links {
+            dependent.move_with_master(&mut nodes, &mut increments, &start[dependent.node]);
+        }
+        nodes
+    }
+}

@@ -1,0 +1,264 @@
+//! Complex modes (K + s C + s² M) φ = 0 with damping and the gyroscopic moments of bodies that spin; K need not be symmetric.
+//!
+//! With z = (φ, s φ) the roots nearest to a shift σ are the largest eigenvalues 1/(s − σ) of
+//!   φ' = −(K + σ C + σ² M)⁻¹ (C φ + M (s φ + σ φ)),   (s φ)' = φ + σ φ',
+//! a real operator for a real shift (F. Tisseur & K. Meerbergen, SIAM Rev. 43 (2001)). The shift is above zero, where motions that
+//! last or decay have no root, so that what has no stiffness is no exception.
+
+use super::fault::ModesFault;
+use super::gyroscopic::Gyroscopic;
+use super::linearized::Linearized;
+use super::modal::{LOW, fewer, lowest_square, natural_pairs};
+use super::mode::{EigenMode, Modes};
+use super::pencil::{Pencil, weights};
+use super::shape::Shapes;
+use crate::system::assembly::Assembly;
+use base::math::Vec6;
+use linear::eigen::{Arnoldi, Complex, ComplexPair, Operator};
+use linear::{Factorization, Solver, Sparse};
+use model::{ModeExtent, ModeKind};
+use std::f64::consts::TAU;
+
+/// Length of residuals relative to eigenvalues.
+const TOLERANCE: f64 = 1e-11;
+/// Starting vectors: pairs of equal roots are found together.
+const WIDTH: usize = 2;
+/// Roots below this part of the shift are zero: those of motions without stiffness are double, and rounding splits a double root by
+/// the square root of its size.
+const ZERO: f64 = 3e-6;
+/// Where motions have no stiffness, roots below this multiple of what the stiffness of rigid motions rounds to are theirs.
+const SPLIT: f64 = 4.0;
+/// Part of the shift from which roots that count as zero may be others.
+const DOUBTFUL: f64 = 0.1;
+
+/// A root grows where its real part is larger than this part of it.
+const GROWS: f64 = 1e-7;
+/// Roots whose distance from the shift is larger than that of the nearest by the inverse of this are at infinity: motions that joints forbid,
+/// or without mass, have such.
+const INFINITE: f64 = 1e-10;
+/// Modes for which there is room where a frequency is given.
+const UP_TO: usize = 100;
+
+/// Where roots are looked for.
+#[derive(Clone, Copy)]
+struct Near {
+    /// The shift σ.
+    shift: f64,
+    /// Roots up to this size are zero.
+    zero: f64,
+}
+
+/// The operator of a shift.
+struct Quadratic<'q, 'a> {
+    pencil: &'q mut Pencil<'a>,
+    damping: &'q Sparse,
+    shift: f64,
+    /// Weights by which motions are measured, and the square of the frequency by which velocities are.
+    diagonal: Vec<f64>,
+    square: f64,
+    scratch: Vec<f64>,
+}
+
+impl Operator for Quadratic<'_, '_> {
+    fn dimension(&self) -> usize {
+        2 * self.diagonal.len()
+    }
+
+    fn apply(&mut self, z: &[f64], out: &mut [f64]) {
+        let n = self.diagonal.len();
+        let ((x, y), (new_x, new_y)) = (z.split_at(n), out.split_at_mut(n));
+        self.scratch.iter_mut().zip(x).zip(y).for_each(|((sum, x), y)| *sum = y + self.shift * x);
+        self.pencil.mass.multiply(&self.scratch, new_x);
+        self.damping.multiply(x, &mut self.scratch);
+        new_x.iter_mut().zip(&self.scratch).for_each(|(b, c)| *b = -(*b + c));
+        self.pencil.solve(new_x);
+        new_y.iter_mut().zip(x).zip(&*new_x).for_each(|((y, x), new)| *y = x + self.shift * new);
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.pencil.at.is_stopped()
+    }
+
+    fn weigh(&self, z: &[f64], out: &mut [f64]) {
+        let n = self.diagonal.len();
+        for i in 0..n {
+            out[i] = self.diagonal[i] * z[i];
+            out[n + i] = self.diagonal[i] / self.square * z[n + i];
+        }
+    }
+}
+
+/// Finds the complex modes that the model asks for.
+///
+/// # Errors
+/// The reason why there are none.
+pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    let gyroscopic = Gyroscopic::of(at);
+    let (near, free, natural) = {
+        let mut pencil = Pencil::new(*at, (&mut *linear.0, &mut *linear.1));
+        if pencil.mass.is_zero() {
+            return Err(ModesFault::NoMass);
+        }
+        let (square, free) = lowest_square(&mut pencil)?;
+        let shift = square.sqrt();
+        let rounding = if free { Shapes::new(&pencil).rounding(&pencil).sqrt() } else { 0.0 };
+        let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
+        let has_potential = at.loads_have_potential();
+        let free = if free && has_potential { Some(free_modes(&mut pencil, near)?) } else { None };
+        (near, free, pencil.factorizations)
+    };
+    let mut own = None;
+    if gyroscopic.acts() || !at.loads_have_potential() {
+        let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
+        let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
+        own = Some((solver, assembly));
+    }
+    let mut pencil = match &mut own {
+        Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
+        None => Pencil::new(*at, linear),
+    };
+    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let shapes = Shapes::new(&pencil);
+    let pairs = allowed(&mut pencil, &gyroscopic, near, extent)?;
+    let mut list =
+        roots(&pairs, near).map(|(root, pair)| shapes.complex(&pencil, root, pair)).collect::<Vec<EigenMode>>();
+    if let Some(free) = free {
+        list.retain(|mode| mode.root != [0.0; 2]);
+        list.extend(free);
+    }
+    list.sort_by(|a, b| size(a.root).total_cmp(&size(b.root)));
+    match extent {
+        ModeExtent::Count(count) => list.truncate(count),
+        ModeExtent::UpTo(frequency) => list.retain(|mode| mode.frequency() <= frequency),
+    }
+    let mut doubts = gyroscopic.doubts;
+    if let (found, ModeExtent::Count(count)) = (list.len(), extent)
+        && found < count
+    {
+        doubts.push(fewer(found, count));
+    }
+    if near.zero > DOUBTFUL * near.shift {
+        doubts.push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
+    }
+    let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
+    let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
+    let (kind, masses) = (ModeKind::Natural, shapes.masses);
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response: None })
+}
+
+/// The motions without stiffness. Each is a root at zero, of however much damping; their roots are multiple ones with too few vectors, of which a
+/// Krylov space holds some.
+fn free_modes(pencil: &mut Pencil, near: Near) -> Result<Vec<EigenMode>, ModesFault> {
+    let up_to = near.zero.max(LOW.sqrt() * near.shift);
+    let pairs = natural_pairs(pencil, ModeExtent::UpTo(up_to / TAU))?;
+    let modes = Shapes::new(pencil).natural(pencil, &pairs).into_iter();
+    let is_free = |mode: &EigenMode| size(mode.root) <= near.zero;
+    let as_complex = |mode: EigenMode| {
+        let quadrature = vec![Vec6::zeros(); mode.shape.len()];
+        EigenMode { root: [0.0; 2], quadrature, modal_mass: 0.0, lost: None, ..mode }
+    };
+    Ok(modes.filter(is_free).map(as_complex).collect())
+}
+
+/// The eigenvalues of as many roots as are asked for, without those that joints forbid and those at infinity. Where these take the places of others the
+/// search is for more.
+fn allowed(
+    pencil: &mut Pencil,
+    gyroscopic: &Gyroscopic,
+    near: Near,
+    extent: ModeExtent,
+) -> Result<Vec<ComplexPair>, ModesFault> {
+    let mut asked = extent;
+    loop {
+        let mut pairs = nearest(pencil, gyroscopic, near, asked)?;
+        let (found, unknowns) = (pairs.len(), pencil.at.unknowns());
+        let largest = pairs.iter().map(|pair| size(pair.theta)).fold(0.0, f64::max);
+        pairs.retain(|pair| {
+            size(pair.theta) > INFINITE * largest
+                && pencil.allows(&[&pair.real[..unknowns], &pair.imaginary[..unknowns]])
+        });
+        let listed = roots(&pairs, near).count();
+        match (extent, asked) {
+            (ModeExtent::Count(count), ModeExtent::Count(so_far)) if listed < count && so_far <= count + found => {
+                asked = ModeExtent::Count(so_far + count - listed);
+            }
+            _ => return Ok(pairs),
+        }
+    }
+}
+
+/// The eigenvalues 1/(s − σ) of the roots nearest to the shift, as many as are asked for.
+fn nearest(
+    pencil: &mut Pencil,
+    gyroscopic: &Gyroscopic,
+    near: Near,
+    extent: ModeExtent,
+) -> Result<Vec<ComplexPair>, ModesFault> {
+    let shift = near.shift;
+    let (unknowns, threads) = (pencil.at.unknowns(), pencil.at.plan.threads > 1);
+    let (plain, with_rates) = (pencil.matrix(weights(0.0, 0.0)), pencil.matrix(weights(1.0, 0.0)));
+    let of_bodies = Sparse::from_entries(unknowns, |visit| gyroscopic.damping(visit));
+    let damping = Sparse::sum(&[(1.0, &with_rates), (-1.0, &plain), (1.0, &of_bodies)]);
+    pencil.factor_quadratic(shift, gyroscopic).map_err(|row| pencil.singular(row))?;
+    let square = shift * shift;
+    let diagonal = |row: usize| {
+        let of = |matrix: &Sparse| {
+            matrix.row(row).filter(|(column, _)| *column == row).map(|(_, value)| value).sum::<f64>().abs()
+        };
+        (of(&plain) + square * of(&pencil.mass)).max(f64::MIN_POSITIVE)
+    };
+    let diagonal: Vec<f64> = (0..unknowns).map(diagonal).collect();
+    let scratch = vec![0.0; unknowns];
+    let mut operator = Quadratic { pencil, damping: &damping, shift, diagonal, square, scratch };
+    let wanted = if let ModeExtent::Count(count) = extent { count } else { UP_TO };
+    let most = 12 * wanted + 240;
+    let mut arnoldi = Arnoldi::new(&mut operator, WIDTH, threads);
+    let enough = |thetas: &[Complex]| enough(thetas, near, extent);
+    let converged = arnoldi.converge(&mut operator, TOLERANCE, most, enough);
+    converged.ok_or_else(|| operator.pencil.not_converged(wanted))
+}
+
+fn size(root: Complex) -> f64 {
+    root[0].hypot(root[1])
+}
+
+/// s = σ + 1/θ.
+fn root(theta: Complex, Near { shift, zero }: Near) -> Complex {
+    let square = theta[0] * theta[0] + theta[1] * theta[1];
+    let s = [shift + theta[0] / square, -theta[1] / square];
+    if size(s) <= zero { [0.0; 2] } else { s }
+}
+
+/// The modes of some roots: of two that are conjugate that above the real axis, of the double root of a motion without stiffness
+/// one.
+fn roots(pairs: &[ComplexPair], near: Near) -> impl Iterator<Item = (Complex, &ComplexPair)> {
+    let mut zeros = 0;
+    pairs.iter().filter_map(move |pair| {
+        let s = root(pair.theta, near);
+        if s == [0.0; 2] {
+            zeros += 1;
+            return (zeros % 2 == 1).then_some((s, pair));
+        }
+        // What lies on the real axis to the digits of a double root does not oscillate.
+        let s = if s[1].abs() <= 1e-9 * s[0].abs() { [s[0], 0.0] } else { s };
+        (s[1] >= 0.0).then_some((s, pair))
+    })
+}
+
+/// The number of roots, the nearest to the shift first, that hold all modes wanted; `None` where there are not enough yet.
+fn enough(thetas: &[Complex], near: Near, extent: ModeExtent) -> Option<usize> {
+    let all: Vec<Complex> = thetas.iter().map(|theta| root(*theta, near)).collect();
+    let distance = |theta: &Complex| 1.0 / size(*theta);
+    let reached = thetas.last().map_or(0.0, distance);
+    // Within this distance of zero everything is nearer to the shift than what has been reached.
+    let radius = reached - near.shift;
+    let there = all.iter().filter(|s| size(**s) <= radius);
+    match extent {
+        ModeExtent::Count(count) => {
+            let zeros = there.clone().filter(|s| **s == [0.0; 2]).count();
+            let others = there.filter(|s| size(**s) > 0.0 && s[1] >= 0.0).count();
+            (zeros.div_ceil(2) + others >= count).then_some(thetas.len())
+        }
+        ModeExtent::UpTo(frequency) => (radius >= TAU * frequency).then_some(thetas.len()),
+    }
+}

@@ -1,0 +1,314 @@
+//! Natural modes K φ = ω² M φ, the lowest first.
+//!
+//! Lanczos' method on (K − σ M)⁻¹ M finds the eigenvalues nearest to the shift σ, which lies below all of them: at zero where K is
+//! positive definite, else below zero, so that motions without stiffness, of frequency zero, are found like all others. The number
+//! of negative pivots of K − s M, with s just above the last mode, is the number of modes that there are (T. Ericsson & A. Ruhe,
+//! Math. Comp. 35 (1980)); where one is missing, the search goes on with new vectors.
+
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::mode::{EigenMode, Modes};
+use super::pencil::Pencil;
+use super::shape::Shapes;
+use crate::system::assembly::Assembly;
+use base::names::short;
+use linear::Solver;
+use linear::eigen::{Converged, EigenPair, Lanczos};
+use model::{ModeExtent, ModeKind};
+use std::f64::consts::TAU;
+
+/// Length of the residual of S φ = θ φ, relative to θ; eigenvalues have an error of its square over the distance to the next.
+const TOLERANCE: f64 = 1e-9;
+/// Starting vectors: pairs of equal frequencies, which symmetry makes, are found together.
+const WIDTH: usize = 2;
+/// Most modes that are computed at once.
+pub(super) const MOST: usize = 2000;
+/// Searches for modes that the pivots show and the iteration has not found.
+const SEARCHES: usize = 8;
+/// Part of the shift below which an eigenvalue is rounding.
+const ROUNDING: f64 = 1e-14;
+/// Expansions after which a shift is judged.
+const PROBE: usize = 12;
+/// Part of a shift below which an eigenvalue is zero, or next to it.
+pub(super) const LOW: f64 = 1e-4;
+/// By what part the eigenvalue up to which modes are counted moves where it meets one.
+const NEAR: f64 = 1e-7;
+/// Shifts that are tried.
+const SHIFTS: usize = 30;
+/// A shift within these multiples of the lowest frequency squared that is not zero serves as well as any other.
+const FITS: [f64; 2] = [0.03, 1e3];
+/// Eigenvalues that are smaller than others by such a factor are zero, or next to it: with a shift at zero the others would have no more digits than
+/// what is left of sixteen.
+const APART: f64 = 1e5;
+
+/// Finds the natural modes that the model asks for.
+///
+/// # Errors
+/// The reason why there are none, or why some are missing.
+pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
+    let mut pencil = Pencil::new(*at, linear);
+    if pencil.mass.is_zero() {
+        return Err(ModesFault::NoMass);
+    }
+    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let pairs = natural_pairs(&mut pencil, extent)?;
+    let shapes = Shapes::new(&pencil);
+    let list = shapes.natural(&pencil, &pairs);
+    let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
+    let (factorizations, solves) = (pencil.factorizations, pencil.solves);
+    let kind = ModeKind::Natural;
+    let mut doubts = left_out(at);
+    doubts.extend(far_apart(&list));
+    match (list.len(), extent) {
+        (0, ModeExtent::UpTo(frequency)) => doubts.push(format!("no mode lies below `up_to` = {frequency}")),
+        (found, ModeExtent::Count(count)) if found < count => {
+            doubts.push(fewer(found, count));
+        }
+        _ => {}
+    }
+    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts, response: None })
+}
+
+/// The natural frequencies up to one, without zeros; what it takes is counted.
+///
+/// # Errors
+/// As for [`natural_modes`].
+pub(super) fn natural_frequencies(
+    at: &Linearized,
+    up_to: f64,
+    linear: (&mut Solver, &mut Assembly),
+    counts: &mut Modes,
+) -> Result<Vec<f64>, ModesFault> {
+    let mut pencil = Pencil::new(*at, linear);
+    if pencil.mass.is_zero() {
+        return Err(ModesFault::NoMass);
+    }
+    let pairs = natural_pairs(&mut pencil, ModeExtent::UpTo(up_to))?;
+    counts.factorizations += pencil.factorizations;
+    counts.solves += pencil.solves;
+    let shapes = Shapes::new(&pencil);
+    Ok(shapes.natural(&pencil, &pairs).iter().map(EigenMode::frequency).filter(|frequency| *frequency > 0.0).collect())
+}
+
+/// The eigenvalues λ = ω², ascending, with vectors of modal mass 1, of the modes that joints allow.
+///
+/// # Errors
+/// The reason why there are none, or why some are missing.
+pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
+    let goal = match extent {
+        ModeExtent::Count(count) => Goal { wanted: count, below: None },
+        ModeExtent::UpTo(frequency) => {
+            let below = (TAU * frequency).powi(2);
+            let there = count_below(pencil, below)?;
+            if there > MOST {
+                return Err(ModesFault::TooMany { there, most: MOST });
+            }
+            Goal { wanted: there, below: Some(below) }
+        }
+    };
+    let mut pairs = match goal.wanted {
+        0 => Vec::new(),
+        _ => complete(pencil, goal)?,
+    };
+    // The shapes that follow need no memory beside the factor more than what the count has left behind.
+    pencil.solver.rest();
+    pairs.retain(|(_, vector)| pencil.allows(&[vector.as_slice()]));
+    Ok(pairs)
+}
+
+/// The doubt of a scene that has fewer modes than are asked for.
+pub(super) fn fewer(found: usize, count: usize) -> String {
+    format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
+}
+
+/// Squares of frequencies that lie farther apart lose digits.
+const FAR_APART: f64 = 1e12;
+
+/// What rounding hides of modes, in words.
+pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
+    let mut doubts = Vec::new();
+    let lost: Vec<f64> = list.iter().filter_map(|mode| mode.lost).collect();
+    if let Some(largest) = lost.iter().copied().reduce(f64::max) {
+        doubts.push(format!(
+            "{} of the frequencies given as 0 have a stiffness that is lost in the rounding of stiffer parts: they lie somewhere below {}",
+            lost.len(),
+            short(largest)
+        ));
+    }
+    let squares = || list.iter().map(|mode| mode.angular_frequency().powi(2)).filter(|square| *square > 0.0);
+    let (least, largest) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
+    if largest > FAR_APART * least {
+        doubts.push(format!(
+            "frequencies from {} to {} are so far apart that the highest have few digits, and some of them may be missing: fewer `modes` \
+             or a lower `up_to` are right",
+            short(least.sqrt() / TAU),
+            short(largest.sqrt() / TAU)
+        ));
+    }
+    doubts
+}
+
+/// What modes without damping leave out, in words.
+pub(super) fn left_out(at: &Linearized) -> Vec<String> {
+    let mut doubts = Vec::new();
+    if !at.loads_have_potential() {
+        doubts.push(
+            "loads that follow, and moments about axes fixed in space, have no potential: modes are those of the symmetric part of \
+             their stiffness; `damped = true` takes all of it, and finds flutter"
+                .to_owned(),
+        );
+    }
+    let spins = |node: usize| at.spins(&at.model.nodes[node].omega);
+    if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
+        doubts.push(format!(
+            "`{}` spins, and its gyroscopic moments are left out: `damped = true` takes them in",
+            at.model.nodes[body.node].label
+        ));
+    }
+    doubts
+}
+
+/// An estimate of the lowest ω² that is not zero, and whether others are, or next to it.
+///
+/// # Errors
+/// The matrix is singular whatever the shift.
+pub(super) fn lowest_square(pencil: &mut Pencil) -> Result<(f64, bool), ModesFault> {
+    let mut lanczos = settle(pencil)?;
+    let thetas = lanczos.probe(pencil, PROBE);
+    let shift = pencil.shift;
+    let values = || thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta);
+    let least = LOW * shift.abs();
+    let square = values().find(|lambda| *lambda > least).unwrap_or(if least > 0.0 { shift.abs() } else { 1.0 });
+    Ok((square, values().any(|lambda| lambda <= least)))
+}
+
+/// The modes that are to be found.
+#[derive(Clone, Copy)]
+struct Goal {
+    wanted: usize,
+    /// The eigenvalue below which they lie, where that was asked for.
+    below: Option<f64>,
+}
+
+/// The number of eigenvalues below `s`, which moves a little where it meets one.
+fn count_below(pencil: &mut Pencil, s: f64) -> Result<usize, ModesFault> {
+    let mut row = 0;
+    for moved in [1.0, 1.0 + 1e-9, 1.0 + NEAR] {
+        pencil.at.check_stop()?;
+        match pencil.count_below(s * moved) {
+            Ok(count) => return Ok(count),
+            Err(at) => row = at,
+        }
+    }
+    Err(pencil.singular(row))
+}
+
+/// The modes wanted by their eigenvalues λ = ω², ascending, with vectors of modal mass 1.
+fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f64, Vec<f64>)>, ModesFault> {
+    let mut lanczos = settle(pencil)?;
+    pencil.solver.rest();
+    let shift = pencil.shift;
+    let mut goal = wanted;
+    for _ in 0..SEARCHES {
+        let limit = lanczos.applications + 40 * goal + 400;
+        let converged = lanczos.converge(pencil, goal, TOLERANCE, limit);
+        let Converged { thetas, next } = converged.ok_or_else(|| pencil.not_converged(goal))?;
+        let value = |theta: f64| shift + 1.0 / theta;
+        let found: Vec<f64> = thetas.into_iter().map(value).collect();
+        let last = found.iter().copied().fold(shift, f64::max);
+        let missing = match (below, next.map(value)) {
+            (Some(below), _) => wanted - found.iter().filter(|lambda| **lambda <= below).count().min(wanted),
+            // Modes of equal frequency are counted together.
+            (None, Some(next)) if next - last <= 1e-4 * (last - shift) => {
+                goal += 1;
+                continue;
+            }
+            (None, next) => {
+                // The space is the largest thing beside the factor.
+                lanczos.narrow();
+                let above = next.map_or(0.5 * (last - shift), |next| 0.1 * (next - last));
+                let there = count_below(pencil, last + above)?;
+                let missing = there.saturating_sub(found.len());
+                if missing > 0 {
+                    pencil.factor(shift).map_err(|row| pencil.singular(row))?;
+                }
+                missing
+            }
+        };
+        goal = found.len() + missing;
+        // What new vectors would find may lie in those that have not been expanded yet.
+        if missing == 0 || !lanczos.start(pencil, missing) && lanczos.is_expanded() {
+            let mut pairs = sorted(lanczos.into_pairs(), shift, wanted);
+            pairs.retain(|(lambda, _)| below.is_none_or(|below| *lambda <= below * (1.0 + NEAR)));
+            return Ok(pairs);
+        }
+    }
+    Err(ModesFault::Missed { found: wanted, there: goal })
+}
+
+fn sorted(pairs: Vec<EigenPair>, shift: f64, wanted: usize) -> Vec<(f64, Vec<f64>)> {
+    let value = |theta: f64| {
+        let lambda = shift + 1.0 / theta;
+        // The sum rounds.
+        if lambda.abs() <= ROUNDING * shift.abs() { 0.0 } else { lambda }
+    };
+    let mut all: Vec<(f64, Vec<f64>)> = pairs.into_iter().map(|pair| (value(pair.theta), pair.vector)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    all.truncate(wanted);
+    all
+}
+
+/// Factorises at a shift below all eigenvalues, near the first that is not zero, and begins the iteration there.
+fn settle(pencil: &mut Pencil) -> Result<Lanczos, ModesFault> {
+    let threads = pencil.at.plan.threads > 1;
+    let mut shift = 0.0;
+    let mut row = 0;
+    for _ in 0..SHIFTS {
+        pencil.at.check_stop()?;
+        match pencil.factor(shift) {
+            Ok(0) => {}
+            // Some eigenvalues lie below the shift, or K is singular.
+            judged => {
+                row = judged.err().unwrap_or(row);
+                shift = if shift < 0.0 { 16.0 * shift } else { -1e-6 * pencil.least_ratio() };
+                continue;
+            }
+        }
+        let mut lanczos = Lanczos::new(pencil, WIDTH, threads);
+        let thetas = lanczos.probe(pencil, PROBE);
+        if shift == 0.0 && (thetas.len() < PROBE || thetas[0] < 0.0) && is_drowned(pencil, &thetas) {
+            shift = -1e-6 * pencil.least_ratio();
+            continue;
+        }
+        match better_shift(shift, &thetas) {
+            Some(better) if better != shift => shift = better,
+            _ => return Ok(lanczos),
+        }
+    }
+    Err(pencil.singular(row))
+}
+
+/// True for values of 1/λ, the largest first, of which that is of a motion which nothing but rounding resists: beside it others are lost. Rounding may
+/// make it negative where the pivots are not.
+fn is_drowned(pencil: &Pencil, thetas: &[f64]) -> bool {
+    /// Times the rounding of rigid motions.
+    const NEXT_TO: f64 = 1e4;
+    let rounding = Shapes::new(pencil).rounding(pencil);
+    thetas.first().is_none_or(|theta| *theta < 0.0 || 1.0 / theta <= NEXT_TO * rounding)
+}
+
+/// A shift that suits the first estimates of 1/(λ − σ), the largest first, better; `None` where this one will do.
+fn better_shift(shift: f64, thetas: &[f64]) -> Option<f64> {
+    let values: Vec<f64> = thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta).collect();
+    if shift == 0.0 {
+        // What follows a wide gap is the first motion with stiffness.
+        let gap = values.windows(2).position(|pair| pair[1] > APART * pair[0].abs())?;
+        return Some(-values[gap + 1]);
+    }
+    let elastic = values.iter().copied().find(|lambda| lambda.abs() > LOW * shift.abs())?;
+    if elastic < 0.0 {
+        return None;
+    }
+    let ratio = elastic / shift.abs();
+    (!(FITS[0]..=FITS[1]).contains(&ratio)).then_some(-elastic)
+}

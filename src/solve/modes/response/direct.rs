@@ -1,0 +1,273 @@
+//! The response by the equations themselves: (K + iωC − ω²M) x = f is solved at each frequency.
+
+use super::super::fault::ModesFault;
+use super::super::gyroscopic::Gyroscopic;
+use super::super::linearized::Linearized;
+use super::super::modal::{natural_frequencies, natural_pairs};
+use super::super::mode::Modes;
+use super::super::pencil::Pencil;
+use super::super::shape::Shapes;
+use super::super::steady::{Response, ResponseRow, ResponseSoFar, Search};
+use super::dynamic_stiffness::DynamicStiffness;
+use super::excitation::{C64, HarmonicExcitation};
+use super::frequencies::frequencies;
+use super::look_up::look_up;
+use super::matrices::Matrices;
+use super::resonance::resonances_in_words;
+use crate::system::assembly::Assembly;
+use base::math::Vec6;
+use base::names::short;
+use linear::{Factorization, Solver};
+use model::{ModeExtent, ModeKind, ResponseAsked};
+use std::f64::consts::TAU;
+
+/// What is left of the equations from which a solution is in doubt.
+const DOUBTFUL: f64 = 1e-8;
+/// Penalties of joints are those of the stiffness and of the inertia at this multiple of the highest frequency, which no inertia below
+/// it cancels.
+const BEYOND: f64 = 2.0;
+/// Part of the least ratio of stiffness and inertia below which a motion without stiffness counts as one.
+const NEXT_TO_ZERO: f64 = 1e-6;
+/// Solutions after which gaps of joints, of which each leaves a small part, have closed.
+const CLOSINGS: usize = 3;
+
+/// Finds the response.
+///
+/// # Errors
+/// The reason why there is none.
+pub fn response(
+    at: &Linearized,
+    asked: &ResponseAsked,
+    linear: (&mut Solver, &mut Assembly),
+    search: &mut Search,
+) -> Result<Modes, ModesFault> {
+    let mut found = Modes { kind: ModeKind::Natural, ..Modes::default() };
+    let natural = match asked.resonances {
+        Some(around) => natural_frequencies(at, around.range[1], (&mut *linear.0, &mut *linear.1), &mut found)?,
+        None => Vec::new(),
+    };
+    let all = frequencies(asked, &natural);
+    let gyroscopic = Gyroscopic::of(at);
+    let unsymmetric = gyroscopic.acts() || !at.loads_have_potential();
+    let mut own = None;
+    if unsymmetric {
+        let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
+        let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
+        own = Some((solver, assembly));
+    }
+    let mut pencil = match &mut own {
+        Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
+        None => Pencil::new(*at, linear),
+    };
+    let excitation = HarmonicExcitation::of(&pencil, unsymmetric)?;
+    if excitation.is_nothing() {
+        return Err(ModesFault::NothingExcites);
+    }
+    // Next to zero, where what is only held by joints has no pivot that vanishes.
+    let shift = -NEXT_TO_ZERO * pencil.least_ratio();
+    let unstable = !unsymmetric && is_unstable(&mut pencil, shift);
+    let matrices = Matrices::of(&mut pencil, &gyroscopic);
+    let highest = TAU * all.last().copied().unwrap_or(0.0);
+    let joints = pencil.joints_at((BEYOND * highest).powi(2));
+    let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
+    let mut direct = Direct { pencil, excitation, stiffness, so_far: &mut *search.so_far, natural };
+    let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
+    if let Err(stopped) = direct.find(at, &all, &mut *search.pauses, &mut response) {
+        direct.so_far.rows = response.rows;
+        return Err(stopped);
+    }
+    found.factorizations += all.len();
+    found.solves += all.len();
+    found.doubts.extend(gyroscopic.doubts);
+    found.doubts.extend(unjudged(at));
+    if unstable {
+        found.doubts.push("the state is unstable: no steady motion about it lasts".to_owned());
+    }
+    found.doubts.extend(direct.doubts());
+    found.response = Some(response);
+    Ok(found)
+}
+
+/// True where the lowest mode grows. Where equations of joints are redundant, signs of pivots below the shift may be those of rounding alone.
+fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
+    pencil.factor(shift).is_ok_and(|below| below > 0)
+        && natural_pairs(pencil, ModeExtent::Count(1)).map_or(true, |pairs| {
+            let shapes = Shapes::new(pencil);
+            shapes.natural(pencil, &pairs).iter().any(|mode| mode.root[0] > 0.0)
+        })
+}
+
+/// What is not judged of a state whose loads have no potential, in words.
+fn unjudged(at: &Linearized) -> Option<String> {
+    (!at.loads_have_potential()).then(|| {
+        "loads that follow, and moments about axes fixed in space, have no potential: whether the state is stable, and the steady motion \
+         lasts, is not judged here; `kind = \"modal\"` with `damped = true` tells (flutter)"
+            .to_owned()
+    })
+}
+
+/// True for motions beside a frequency that are the same to what the frequencies differ by, many times over: near a resonance they are
+/// opposite.
+fn agree([before, after]: &[[Vec<Vec6>; 2]; 2]) -> bool {
+    const SAME: f64 = 1e-4;
+    let pairs = || before.iter().flatten().zip(after.iter().flatten());
+    let largest = pairs().map(|(a, b)| a.amax().max(b.amax())).fold(0.0, f64::max);
+    pairs().all(|(a, b)| (a - b).amax() <= SAME * largest)
+}
+
+/// A direct solution under way.
+struct Direct<'a> {
+    pencil: Pencil<'a>,
+    excitation: HarmonicExcitation,
+    stiffness: DynamicStiffness,
+    so_far: &'a mut ResponseSoFar,
+    /// Natural frequencies, where they are known.
+    natural: Vec<f64>,
+}
+
+impl Direct<'_> {
+    /// Solves the equations at the frequencies that are not known yet, and finds the resonances.
+    ///
+    /// # Errors
+    /// [`ModesFault::Stopped`] where a signal or a checkpoint is due; the rows so far are in `response`.
+    fn find(
+        &mut self,
+        at: &Linearized,
+        all: &[f64],
+        pauses: &mut dyn FnMut() -> bool,
+        response: &mut Response,
+    ) -> Result<(), ModesFault> {
+        let known = response.rows.len().min(all.len());
+        for frequency in &all[known..] {
+            look_up(at, response.rows.len() > known, pauses)?;
+            self.solve(*frequency, response);
+        }
+        self.find_resonances(response)
+    }
+
+    /// Adds the motion at a frequency.
+    fn solve(&mut self, frequency: f64, response: &mut Response) {
+        /// Part of a frequency by which it is left on either side where its own equations cannot be solved.
+        const ASIDE: f64 = 1e-9;
+        let found = self.motions(frequency).or_else(|| {
+            // A part that would resonate alone makes a pivot vanish, but the whole may not.
+            let sides = [self.motions(frequency * (1.0 - ASIDE))?, self.motions(frequency * (1.0 + ASIDE))?];
+            agree(&sides).then(|| sides[0].clone())
+        });
+        match found {
+            Some([real, imaginary]) => response.keep(frequency, [&real, &imaginary]),
+            None => {
+                self.note(frequency);
+                let infinite = vec![Vec6::repeat(f64::INFINITY); self.pencil.nodes.len()];
+                response.keep(frequency, [&infinite, &infinite]);
+            }
+        }
+    }
+
+    /// Notes a frequency at which nothing limits the motion.
+    fn note(&mut self, frequency: f64) {
+        /// Part of a frequency by which a natural one may differ to be the same.
+        const SAME: f64 = 1e-6;
+        let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME * frequency);
+        self.so_far.resonances.push((frequency, mode));
+    }
+
+    /// Looks for resonances that rounding makes very large, not infinite: such a motion falls off within a part of its frequency in which no
+    /// damping that anything has would let it.
+    ///
+    /// # Errors
+    /// [`ModesFault::Stopped`] where a signal ends the search.
+    fn find_resonances(&mut self, response: &mut Response) -> Result<(), ModesFault> {
+        /// The ratio to the least motion from which one is looked at.
+        const LARGE: f64 = 1e6;
+        /// Part of a frequency by which it is left, and the part of the motion that remains there at a resonance without damping.
+        const ASIDE: [f64; 2] = [1e-6, 0.02];
+        let motions: Vec<f64> = response.rows.iter().map(ResponseRow::largest).collect();
+        let least = motions.iter().copied().filter(|motion| *motion > 0.0).fold(f64::INFINITY, f64::min);
+        for (place, motion) in motions.into_iter().enumerate() {
+            let frequency = response.rows[place].frequency;
+            if !motion.is_finite() || motion <= LARGE * least {
+                continue;
+            }
+            self.pencil.at.check_stop()?;
+            let Some([real, imaginary]) = self.motions(frequency * (1.0 + ASIDE[0])) else { continue };
+            let mut beside = Response { nodes: response.nodes.clone(), rows: Vec::new() };
+            beside.keep(frequency, [&real, &imaginary]);
+            if beside.rows[0].largest() < ASIDE[1] * motion {
+                self.note(frequency);
+                let infinite = [[f64::INFINITY; 2]; 6];
+                response.rows[place].motions.fill(infinite);
+            }
+        }
+        Ok(())
+    }
+
+    /// The motions of all nodes at a frequency, real and imaginary parts; `None` where the equations are singular.
+    fn motions(&mut self, frequency: f64) -> Option<[Vec<Vec6>; 2]> {
+        let omega = TAU * frequency;
+        let at = self.pencil.at;
+        if !self.stiffness.factor(omega) {
+            return None;
+        }
+        let n = at.unknowns();
+        let mut f = vec![C64::new(0.0, 0.0); at.plan.dofs.unknowns()];
+        for (factor, force) in &self.excitation.loads {
+            f.iter_mut().zip(force).for_each(|(f, force)| *f += factor * force);
+        }
+        let weights = [C64::new(1.0, 0.0), C64::new(0.0, omega), C64::new(-omega * omega, 0.0)];
+        for motion in &self.excitation.motions {
+            let factor = motion.factor(omega);
+            for (weight, force) in weights.iter().zip(&motion.forces) {
+                f.iter_mut().zip(force).for_each(|(f, force)| *f -= factor * weight * force);
+            }
+        }
+        let mut sum = vec![C64::new(0.0, 0.0); n];
+        let mut x = vec![C64::new(0.0, 0.0); f.len()];
+        let mut motions = self.driven(omega);
+        for closing in 0..CLOSINGS {
+            self.pencil.close_gaps(&motions, |tail, [real, imaginary]| f[n + tail] = C64::new(real, imaginary));
+            let left = self.stiffness.solve(&f, &mut x);
+            if closing == 0 && left > self.so_far.worst.0 {
+                self.so_far.worst = (left, frequency);
+            }
+            sum.iter_mut().zip(&x).for_each(|(sum, x)| *sum += x);
+            motions = self.driven(omega);
+            let parts = [sum.iter().map(|x| x.re).collect::<Vec<_>>(), sum.iter().map(|x| x.im).collect()];
+            for (motions, part) in motions.iter_mut().zip(parts) {
+                let more = at.motions(&self.pencil.nodes, &part);
+                motions.iter_mut().zip(more).for_each(|(motion, more)| *motion += more);
+            }
+            if n == f.len() {
+                break;
+            }
+            f[..n].fill(C64::new(0.0, 0.0));
+        }
+        Some(motions)
+    }
+
+    /// The motions of all nodes that supports prescribe, real and imaginary parts.
+    fn driven(&self, omega: f64) -> [Vec<Vec6>; 2] {
+        let mut motions = [0, 1].map(|_| vec![Vec6::zeros(); self.pencil.nodes.len()]);
+        for motion in &self.excitation.motions {
+            let factor = motion.factor(omega);
+            for (motions, factor) in motions.iter_mut().zip([factor.re, factor.im]) {
+                motions.iter_mut().zip(&motion.moved).for_each(|(sum, moved)| *sum += factor * moved);
+            }
+        }
+        motions
+    }
+
+    /// What is doubtful about the response, in words.
+    fn doubts(&self) -> Vec<String> {
+        let mut doubts = Vec::new();
+        doubts.extend(resonances_in_words(&self.so_far.resonances));
+        if self.so_far.worst.0 > DOUBTFUL {
+            let (left, frequency) = self.so_far.worst;
+            doubts.push(format!(
+                "near frequency {} the equations are next to singular: {left:.1e} of the excitation is left unbalanced",
+                short(frequency)
+            ));
+        }
+        doubts
+    }
+}

@@ -1,0 +1,38 @@
+//! The steady motion that harmonic loads and motions of supports cause about a state: amplitude and phase at each frequency.
+//!
+//! Every motion is the real part of a complex one times exp(iωt). [`direct`] solves (K + iωC − ω²M) x = f at each frequency, with
+//! the matrices as they are; [`modal`] takes natural modes.
+
+mod damped_rest;
+mod direct;
+mod dynamic_stiffness;
+mod excitation;
+mod frequencies;
+mod look_up;
+mod matrices;
+mod modal;
+mod resonance;
+
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::mode::Modes;
+use super::steady::Search;
+use crate::system::assembly::Assembly;
+use linear::Solver;
+use model::{ResponseAsked, ResponseMethod};
+
+/// Finds the response that a model asks for about a state. The solver is symmetric; it and its assembly are overwritten.
+///
+/// # Errors
+/// The reason why there is none.
+pub fn find_response(
+    at: &Linearized,
+    asked: &ResponseAsked,
+    linear: (&mut Solver, &mut Assembly),
+    mut search: Search,
+) -> Result<Modes, ModesFault> {
+    match asked.method {
+        ResponseMethod::Direct => direct::response(at, asked, linear, &mut search),
+        ResponseMethod::Modal => modal::response(at, asked, linear, &mut search),
+    }
+}

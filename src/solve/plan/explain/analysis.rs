@@ -1,0 +1,66 @@
+//! The analysis and its integration scheme in words.
+
+use super::explanation::Explanation;
+use super::response;
+use model::{AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
+
+/// Adds lines about the analysis.
+pub fn explain(text: &mut Explanation, model: &Model) {
+    let analysis = &model.analysis;
+    let steps = (analysis.duration() / analysis.nominal_step() - 1e-9).ceil().max(1.0);
+    let end = analysis.end_time;
+    match (analysis.kind, &analysis.step_length) {
+        (AnalysisKind::Static, _) if analysis.modes.is_some() => {
+            let said = |asked: &ModesAsked| match &asked.response {
+                Some(of) => response::explain(of, asked, model),
+                None => modes(asked, analysis.stage.is_some()),
+            };
+            analysis.modes.iter().for_each(|asked| text.add("analysis", said(asked)));
+        }
+        (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
+        (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
+        (AnalysisKind::Dynamic, step_length) => {
+            let how = match step_length {
+                StepLength::StabilityLimited { fraction } => {
+                    format!("in steps of {fraction} of the critical time step")
+                }
+                StepLength::ErrorControlled { tolerance, .. } => {
+                    format!("in automatic steps, for a relative error of {tolerance} at the end")
+                }
+                _ => format!("in {steps} steps of {}", analysis.nominal_step()),
+            };
+            text.add("analysis", format!("dynamic, to t = {end} {how}"));
+            let chosen = if model.solution.scheme_is_chosen { ", chosen for automatic steps" } else { "" };
+            text.add("scheme", format!("{}{chosen}", model.solution.scheme.in_words()));
+            text.notes.extend(model.solution.scheme.note().map(str::to_owned));
+        }
+    }
+}
+
+fn modes(asked: &ModesAsked, is_stage: bool) -> String {
+    let state = if is_stage { "the state that has been reached" } else { "the equilibrium under what acts at t = 0" };
+    let which = match asked.extent {
+        ModeExtent::Count(1) => "the lowest".to_owned(),
+        ModeExtent::Count(count) => format!("the {count} lowest"),
+        ModeExtent::UpTo(frequency) => format!("all up to {frequency} per time"),
+    };
+    match (asked.kind, asked.damped) {
+        (ModeKind::Natural, false) => format!("natural modes, {which}, about {state}"),
+        (ModeKind::Natural, true) => {
+            format!("complex modes, {which}, with damping and gyroscopic moments, about {state}")
+        }
+        (ModeKind::Buckling, _) if is_stage => {
+            format!("linear buckling about {state}, {which} factors of the loads that first act here")
+        }
+        (ModeKind::Buckling, _) => format!("linear buckling, {which} factors of what acts at t = 0"),
+    }
+}
+
+fn path(model: &Model, control: &ArcLength) -> String {
+    let stop = control.stop.as_ref().map_or(String::new(), |stop| {
+        let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+        format!(", or until {direction} of {node} = {}", stop.value)
+    });
+    let end = model.analysis.end_time;
+    format!("static, by arc length to load factor t = {end}{stop}; the first increment of t is {}", control.first)
+}

@@ -1,0 +1,125 @@
+//! Mass scaling in words: what it adds, to what, and what comes of it.
+
+use super::explanation::Explanation;
+use crate::system::{MassScaling, ScaledPart, System};
+use base::diagnostic::Diagnostic;
+use base::names::{short, to_digits};
+use model::Model;
+
+/// Share of the mass of a part from which what is added is warned of: where it is spread, frequencies fall by 2.4 %; in a few elements at the
+/// end of a cantilever it is 8 %. Guides to crash analysis draw the line there too, for each part.
+const MUCH: f64 = 0.05;
+/// Number of parts that are listed.
+const LISTED: usize = 5;
+
+/// Adds lines about what mass scaling adds.
+pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
+    let Some(scaling) = system.mass_scaling() else { return };
+    mass_added(scaling).into_iter().for_each(|(label, line)| text.add(label, line));
+    let [_, heavier, turning] = counts(scaling);
+    if heavier > 0 && model.loading.gravity.norm() > 0.0 {
+        text.notes
+            .push(
+                "weight is that of the true masses: the center of what falls freely falls slower by the share that is added, and where that is \
+                 uneven weight turns and bends what falls"
+                    .into(),
+            );
+    }
+    if heavier + turning > 0 && bound_by_others(model) {
+        text.notes.push(
+            "mass scaling raises the step of elements: links, contacts and joints may ask for shorter ones".into(),
+        );
+    }
+}
+
+/// What mass scaling adds, in lines with their labels.
+pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
+    let [elements, heavier, turning] = counts(scaling);
+    let step = short(scaling.critical_step);
+    if heavier + turning == 0 {
+        let what = format!(
+            "none: each of the {elements} elements has a critical time step of {step} or more, those that are slack or have no mass aside"
+        );
+        return vec![("mass added", what)];
+    }
+    let mut lines = Vec::new();
+    if heavier > 0 {
+        lines.push(("mass added", heavier_in_words(scaling, heavier, elements)));
+        lines.extend(parts_in_words(scaling).into_iter().map(|line| ("", line)));
+    }
+    if turning > 0 {
+        let what = format!(
+            "inertia of {turning} of {elements} elements is raised for a critical time step of {step}, to radii of gyration of at most \
+             0.35 of the distances of nodes, which adds no mass"
+        );
+        lines.push(("rotary", what));
+    }
+    lines
+}
+
+/// The numbers of elements, of those that are given mass, and of those that are given rotary inertia.
+fn counts(scaling: &MassScaling) -> [usize; 3] {
+    let sum = |of: fn(&ScaledPart) -> usize| scaling.parts.iter().map(of).sum();
+    [sum(|part| part.elements), sum(|part| part.heavier), sum(|part| part.turning)]
+}
+
+/// True where something besides elements may bound the step.
+fn bound_by_others(model: &Model) -> bool {
+    model.parts.iter().any(|part| !part.kind().is_deformable())
+}
+
+fn heavier_in_words(scaling: &MassScaling, heavier: usize, elements: usize) -> String {
+    let factor = scaling.parts.iter().map(|part| part.factor).fold(1.0, f64::max);
+    format!(
+        "{}, {} % of the mass of the scene: to {heavier} of {elements} elements, up to {} times theirs, so that each has a critical time \
+         step of {}",
+        to_digits(scaling.added(), 4),
+        percent(scaling.added() / scaling.mass),
+        to_digits(factor, 4),
+        short(scaling.critical_step)
+    )
+}
+
+/// The parts with the largest shares.
+fn parts_in_words(scaling: &MassScaling) -> Vec<String> {
+    let given = by_share(scaling);
+    let line = |part: &&ScaledPart| {
+        let (name, elements) = (&part.name, part.elements);
+        let (added, share) = (to_digits(part.added, 4), percent(part.share()));
+        format!("`{name}`: {added}, {share} % of its mass, to {} of {elements} elements", part.heavier)
+    };
+    let mut lines: Vec<String> = given.iter().take(LISTED).map(line).collect();
+    if given.len() > LISTED {
+        lines.push(format!("and {} more parts, each by a smaller share", given.len() - LISTED));
+    }
+    lines
+}
+
+/// The parts that are given mass, the one with the largest share first.
+fn by_share(scaling: &MassScaling) -> Vec<&ScaledPart> {
+    let mut given: Vec<&ScaledPart> = scaling.parts.iter().filter(|part| part.heavier > 0).collect();
+    given.sort_by(|a, b| b.share().total_cmp(&a.share()));
+    given
+}
+
+fn percent(share: f64) -> String {
+    to_digits(100.0 * share, 3)
+}
+
+/// A warning where much mass is added to a part.
+pub fn much_mass_added(system: &System) -> Option<Diagnostic> {
+    let scaling = system.mass_scaling()?;
+    let most = *by_share(scaling).first()?;
+    (most.share() > MUCH).then(|| {
+        let message = format!(
+            "mass scaling adds {} % to the mass of `{}`, {} % to that of the scene: its frequencies are lower by {} % where that is spread \
+             over it, by several times as much where it sits where a mode moves most, and momentum, impacts and what moves freely are \
+             those of the larger mass",
+            percent(most.share()),
+            most.name,
+            percent(scaling.added() / scaling.mass),
+            percent(1.0 - (1.0 + most.share()).sqrt().recip())
+        );
+        Diagnostic::warning(message).hint("a smaller `mass_scaling_step`, or a mesh without elements that are much smaller than others")
+    })
+}

@@ -1,0 +1,45 @@
+//! The redundant constraints of joints in words.
+
+use crate::plan::Plan;
+use crate::system::System;
+use base::names::joined;
+use mechanics::constraints::joint::ConstraintEquation;
+use model::{DIRECTIONS, JointOrigin, Model};
+
+/// The redundant constraint equations, a line for each joint.
+pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
+    let Some(redundant) = &plan.redundant_constraints else {
+        return vec!["too many joints to search for redundant constraints".to_string()];
+    };
+    let mut lines: Vec<(usize, Vec<&str>)> = Vec::new();
+    for (joint, row) in redundant.iter().filter_map(|&number| system.row(number)) {
+        let word = word(row, model.constraints.joints[joint].origin);
+        match lines.last_mut().filter(|(last, _)| *last == joint) {
+            Some((_, words)) => words.push(word),
+            None => lines.push((joint, vec![word])),
+        }
+    }
+    let line = |(joint, words): (usize, Vec<&str>)| {
+        let of = &model.constraints.joints[joint];
+        let node = &model.nodes[of.ends[0]].label;
+        let (what, all) = match of.origin {
+            JointOrigin::Deck => (format!("joint `{}`", of.name), "joints"),
+            JointOrigin::Support => (format!("the support of `{node}`"), "supports"),
+            JointOrigin::Attachment => (format!("the attachment of `{node}`"), "attachments"),
+        };
+        let (are, these) = if words.len() == 1 { ("is", "this reaction") } else { ("are", "these reactions") };
+        format!(
+            "{what}: {} {are} redundant; the {all} share {these} by least norm, weighted by the masses that they move",
+            joined(&words)
+        )
+    };
+    lines.into_iter().map(line).collect()
+}
+
+/// The word of an equation; supports and attachments are written about global axes.
+fn word(row: &ConstraintEquation, origin: JointOrigin) -> &'static str {
+    match row {
+        ConstraintEquation::Perpendicular { p, s } if origin != JointOrigin::Deck => DIRECTIONS[3 + p.cross(s).iamax()],
+        _ => row.word(),
+    }
+}

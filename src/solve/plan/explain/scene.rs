@@ -1,0 +1,81 @@
+//! The scene in words, and its unknowns.
+
+use super::explanation::Explanation;
+use super::{bars, beams, contacts, links, shells};
+use crate::plan::Plan;
+use crate::system::System;
+use base::names::{joined, short};
+use model::{Joint, JointCoordinate, MeshFile, Model, Part, PartKind};
+
+/// The lines about the parts of each kind.
+const PARTS: [fn(&mut Explanation, &Model, &System); 5] =
+    [beams::explain, bars::explain, shells::explain, links::explain, contacts::explain];
+
+/// Adds lines about the scene.
+pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &System) {
+    text.add("scene", counts(model));
+    if let Some(MeshFile { path, nodes, elements, used, .. }) = &model.origin.mesh {
+        text.add("mesh", format!("`{path}`: {nodes} nodes, {elements} elements, {used} of them in parts"));
+    }
+    for rigid in &model.origin.rigid {
+        let body = &model.bodies[rigid.body];
+        let words: Vec<&str> = rigid.parts.iter().map(String::as_str).collect();
+        let (of, mass, elements) = (joined(&words), short(body.mass), rigid.elements);
+        text.add("rigid", format!("{of} as body `{}`, mass {mass}, in place of its {elements} elements", body.name));
+    }
+    text.add("unknowns", plan.dofs.unknowns().to_string());
+    let multipliers = system.multipliers();
+    if multipliers > 0 {
+        let what = "constraint equations with Lagrange multipliers, projected onto at the end of each step";
+        text.add("joints", format!("{multipliers} {what}"));
+    }
+    explain_coordinates(text, model);
+    PARTS.iter().for_each(|explain| explain(text, model, system));
+}
+
+/// The note on a scene that lies in a plane, out of which its modes may lead.
+pub fn plane_modes(model: &Model, system: &System) -> Option<String> {
+    let asked = model.analysis.modes.as_ref()?;
+    let normal = system.plane_that_holds(model).filter(|_| !model.analysis.plane && asked.response.is_none())?;
+    let axis = ["x", "y", "z"][normal];
+    Some(format!(
+        "the scene lies in a plane normal to {axis}, and its modes may lead out of it: `plane = \"auto\"` in [analysis] finds those in the plane alone"
+    ))
+}
+
+/// Adds a line about the joints along whose coordinates something acts.
+fn explain_coordinates(text: &mut Explanation, model: &Model) {
+    let along = |joint: &Joint| {
+        let JointCoordinate { drive, effort, spring, .. } = joint.coordinate.as_ref()?;
+        let acts = [
+            (drive.is_some_and(|drive| !drive.is_free), "driven"),
+            (drive.is_some_and(|drive| drive.is_free), "geared"),
+            (effort.is_some(), "motor"),
+            (spring.is_some(), "coordinate counted"),
+        ];
+        let words: Vec<&str> = acts.iter().filter(|(acts, _)| *acts).map(|(_, word)| *word).collect();
+        (!words.is_empty()).then(|| format!("`{}` ({})", joint.name, words.join(", ")))
+    };
+    let acting: Vec<String> = model.constraints.joints.iter().filter_map(along).collect();
+    match acting.len() {
+        0 => {}
+        1..=6 => text.add("along", acting.join(", ")),
+        many => text.add("along", format!("{many} joints: {}, …", acting[..6].join(", "))),
+    }
+}
+
+/// The number of things of each kind.
+fn counts(model: &Model) -> String {
+    let parts = PartKind::ALL.map(|kind| {
+        let of_kind = model.parts.iter().filter(|part| part.kind() == kind && part.is_listed());
+        (of_kind.map(Part::counted).sum(), kind.counted_as())
+    });
+    let before = [(model.nodes.len(), ["node", "nodes"]), (model.bodies.len(), ["body", "bodies"])];
+    let after = [
+        (model.constraints.dependents.len(), ["dependent node", "dependent nodes"]),
+        (model.constraints.joints.len(), ["joint", "joints"]),
+    ];
+    let all = [&before[..], &parts, &after].concat();
+    let counted = |(count, [one, more]): (usize, [&str; 2])| format!("{count} {}", if count == 1 { one } else { more });
+    all.into_iter().filter(|(count, _)| *count > 0).map(counted).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,144 @@
+//! Finds constraint equations of joints that are redundant at t = 0: a closed planar loop of revolute joints constrains
+//! the motion out of the plane many times.
+
+use crate::system::dependents;
+use crate::system::{DofMap, System};
+use base::math::Vec3;
+use mechanics::state::Node;
+use model::Model;
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+/// An equation is redundant where less than this fraction of its gradient is linearly independent of earlier ones.
+const NEW: f64 = 1e-8;
+/// Largest number of operations for the search; larger sets of joints are not searched.
+const MOST: f64 = 5e7;
+
+/// The largest distance of a node from the center of all; 1 where they are at one place, to rounding.
+fn size(nodes: &[Node]) -> f64 {
+    const ROUNDING: f64 = 1e-9;
+    let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
+    let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
+    let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max);
+    if length > ROUNDING * reach { length } else { 1.0 }
+}
+
+/// Numbers of the multipliers whose equations depend linearly on those before them; `None` where there are too many to
+/// search.
+pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
+    let directions = dofs.nodal_dofs().len();
+    let count = dofs.unknowns() - directions;
+    let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
+    let independent_nodes = dependents::independent_nodes(&system.rigid_links, nodes.len());
+    let projections = dependents::projections(&system.rigid_links, &nodes, &independent_nodes);
+    // The size of the scene makes rotations comparable with translations.
+    let length = size(&nodes);
+
+    // The columns are the degrees of freedom on which joints act, numbered as they are met.
+    let mut column = vec![None; directions];
+    let mut columns = 0;
+    let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
+    let mut joints: Vec<Range<usize>> = Vec::with_capacity(system.joints.len());
+    for joint in &system.joints {
+        joints.push(sparse.len()..sparse.len() + joint.equations.len());
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        for (k, row) in joint.equations.iter().enumerate() {
+            let mut entries = Vec::new();
+            let mut add = |row: usize, value: f64| {
+                let at = *column[row].get_or_insert_with(|| {
+                    columns += 1;
+                    columns - 1
+                });
+                entries.push((at, value));
+            };
+            if let Some(drive) = joint.shared().filter(|_| joint.is_driven(k))
+                && let Some(row) = dofs.row(drive.node, 0)
+            {
+                add(row, -drive.ratio);
+            }
+            for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
+                for (&independent, T) in independent_nodes[node].iter().zip(&projections[node]) {
+                    let G = T.tr_mul(&G);
+                    for dof in 0..6 {
+                        let Some(row) = dofs.row(independent, dof) else { continue };
+                        add(row, if dof < 3 { G[dof] } else { G[dof] / length });
+                    }
+                }
+            }
+            sparse.push(entries);
+        }
+    }
+    let rows = without_branches(&sparse, &joints, columns);
+    if (rows.len() * rows.len()) as f64 * columns as f64 > MOST {
+        return None;
+    }
+    let loops: Vec<&[(usize, f64)]> = rows.iter().map(|&row| &sparse[row][..]).collect();
+    Some(dependent_rows(&loops, columns).into_iter().map(|row| rows[row]).collect())
+}
+
+/// The rows that may depend on each other. A joint whose equations are independent in the degrees of freedom on which no other joint acts, as
+/// that at the end of a chain, has no part in what depends on what; without it the next one is at the end.
+fn without_branches(sparse: &[Vec<(usize, f64)>], joints: &[Range<usize>], columns: usize) -> Vec<usize> {
+    let columns_of = |joint: &Range<usize>| -> BTreeSet<usize> {
+        sparse[joint.clone()].iter().flatten().map(|&(column, _)| column).collect()
+    };
+    let touched: Vec<BTreeSet<usize>> = joints.iter().map(columns_of).collect();
+    let mut acting: Vec<Vec<usize>> = vec![Vec::new(); columns];
+    for (joint, touched) in touched.iter().enumerate() {
+        touched.iter().for_each(|&column| acting[column].push(joint));
+    }
+    let mut left: Vec<usize> = acting.iter().map(Vec::len).collect();
+    let mut kept = vec![true; joints.len()];
+    let mut todo: Vec<usize> = (0..joints.len()).collect();
+    while let Some(joint) = todo.pop() {
+        let own: Vec<usize> = touched[joint].iter().copied().filter(|&column| left[column] == 1).collect();
+        let in_own = |row: &Vec<(usize, f64)>| -> Vec<(usize, f64)> {
+            let rounding = NEW * row.iter().map(|(_, value)| value.abs()).fold(0.0, f64::max);
+            let entries = row.iter().filter(|(_, value)| value.abs() > rounding);
+            entries.filter_map(|&(column, value)| Some((own.binary_search(&column).ok()?, value))).collect()
+        };
+        let rows: Vec<Vec<(usize, f64)>> = sparse[joints[joint].clone()].iter().map(in_own).collect();
+        let rows: Vec<&[(usize, f64)]> = rows.iter().map(|row| &row[..]).collect();
+        if !kept[joint] || rows.len() > own.len() || !dependent_rows(&rows, own.len()).is_empty() {
+            continue;
+        }
+        kept[joint] = false;
+        for &column in &touched[joint] {
+            left[column] -= 1;
+            if left[column] == 1 {
+                todo.extend(acting[column].iter().filter(|other| kept[**other]));
+            }
+        }
+    }
+    joints.iter().zip(kept).filter(|(_, kept)| *kept).flat_map(|(joint, _)| joint.clone()).collect()
+}
+
+/// The numbers of rows that depend linearly on those before them.
+fn dependent_rows(sparse: &[&[(usize, f64)]], columns: usize) -> Vec<usize> {
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut redundant = Vec::new();
+    for (number, entries) in sparse.iter().enumerate() {
+        let mut v = vec![0.0; columns];
+        entries.iter().for_each(|&(at, value)| v[at] += value);
+        let whole = entries.iter().map(|(_, value)| value * value).sum::<f64>().sqrt();
+        // Orthogonalizing twice is enough (Kahan).
+        for _ in 0..2 {
+            for b in &basis {
+                let part: f64 = v.iter().zip(b).map(|(v, b)| v * b).sum();
+                v.iter_mut().zip(b).for_each(|(v, b)| *v -= part * b);
+            }
+        }
+        let rest = norm(&v);
+        if rest <= NEW * whole || whole == 0.0 {
+            redundant.push(number);
+        } else {
+            v.iter_mut().for_each(|v| *v /= rest);
+            basis.push(v);
+        }
+    }
+    redundant
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|v| v * v).sum::<f64>().sqrt()
+}

@@ -1,0 +1,61 @@
+//! Builds the masses of nodes, the blocks of like elements, and the joints from the model.
+
+use super::group::Group;
+use super::inertia::{ConsistentMass, Inertia};
+use super::parts::{NodalMasses, Setting, assembled};
+use base::math::Vec3;
+use mechanics::constraints::joint::{ConstraintEquation, Joint};
+use model::{self, Model};
+
+/// Lumped and consistent masses of bodies, point masses and deformable parts; `x` are the initial positions of all
+/// nodes.
+pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
+    let mut masses = NodalMasses::new(model, x);
+    let damping = &model.damping;
+    if model.parts.iter().any(|part| part.own_damping().alpha.is_some()) {
+        masses.lumped.with_drags();
+    }
+    masses.lumped.set_alpha(damping.mass_factor);
+    model.bodies.iter().for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));
+    model.masses.iter().for_each(|mass| masses.lumped.add(mass.node, mass.mass, &mass.inertia));
+    for part in &model.parts {
+        let (first, alpha) = (masses.consistent.len(), damping.alpha(&part.own_damping()));
+        masses.lumped.set_alpha(alpha);
+        assembled(part).add_masses(&model.stiffnesses, &mut masses);
+        masses.consistent[first..].iter_mut().for_each(|mass| mass.alpha = alpha);
+    }
+    (masses.lumped.finish(), masses.consistent)
+}
+
+/// The blocks of like elements in the order of the parts. `plane` is the normal of a plane motion.
+pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Group> {
+    let setting = Setting { model, x, plane };
+    let mut groups = Vec::new();
+    let mut end = 0;
+    for (place, part) in model.parts.iter().enumerate() {
+        for (block, first) in assembled(part).blocks(&setting) {
+            if !block.is_empty() {
+                let history = end..end + block.history();
+                end = history.end;
+                groups.push(Group { block, kind: part.kind(), part: place, first, history });
+            }
+        }
+    }
+    groups
+}
+
+/// The joints with the constraint equations that a plane motion needs.
+pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
+    let joint = |joint: &model::Joint| {
+        let d = x[joint.ends[0]] - x[joint.ends[1]];
+        let says = |row: &&ConstraintEquation| plane.is_none_or(|normal| row.in_plane(normal, &d) != Some(false));
+        let drive = joint.coordinate.as_ref().and_then(|coordinate| coordinate.drive.as_ref());
+        Joint {
+            nodes: joint.ends,
+            equations: joint.equations.iter().filter(says).copied().collect(),
+            supports: joint.supports,
+            drive: drive.map(|drive| drive.at(x)),
+        }
+    };
+    model.constraints.joints.iter().map(joint).collect()
+}

@@ -1,0 +1,233 @@
+//! Joints between nodes that are rigid bodies of their own (see [`Masses`]), by the Schur complement of the constraint
+//! equations: (G M⁻¹ Gᵀ) λ = c. It gives accelerations that the joints allow, and closes gaps by
+//! the least change of positions in the norm of the masses.
+
+use super::equations::System;
+use super::independent_rows::IndependentRows;
+use super::masses::Masses;
+use super::multipliers::REGULARIZATION;
+use super::schur_factor::SchurFactor;
+use base::math::{Vec3, Vec6, angular, linear, stack};
+use base::snapshot::keep;
+use mechanics::elements::Force;
+use mechanics::state::Node;
+use std::ops::Range;
+
+/// An entry counts as zero below this fraction of the largest in its equation.
+const NEGLIGIBLE: f64 = 1e-12;
+
+/// The system of the constraint equations. It is allocated once, before the first step.
+pub struct ConstraintSchur {
+    /// For each constraint equation, the independent nodes that move the two ends of its joint; `None` where a node has
+    /// no unknown.
+    rows: Vec<[Option<usize>; 2]>,
+    /// True where constraint equations may be redundant.
+    shares: bool,
+    /// The translations, and the rotations, of each joint. Loads that redundant equations share would depend on the axes in which these are
+    /// written, were the diagonal of each raised by a part of its own.
+    alike: Vec<Range<usize>>,
+    /// How much loads of each equation weigh where redundant ones share them.
+    weights: Vec<f64>,
+    /// By how much the diagonal of a sparse system is raised.
+    raised: Vec<f64>,
+    /// The equations of a dense system that are solved for, where some may be redundant.
+    independent: Option<IndependentRows>,
+    /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit multiplier causes at them.
+    G: Vec<[Vec6; 2]>,
+    W: Vec<[Vec6; 2]>,
+    /// Equations that act on restrained degrees of freedom only, such as those out of the plane of a plane motion: no
+    /// acceleration responds to them, and their multipliers stay zero.
+    inert: Vec<bool>,
+    /// G M⁻¹ Gᵀ and its factor.
+    factor: SchurFactor,
+    /// Right-hand side on entry of [`ConstraintSchur::solve`], then the solution; `scratch` holds a copy.
+    pub x: Vec<f64>,
+    scratch: Vec<f64>,
+}
+
+keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, weights, raised, independent });
+
+/// What an equation moves by a unit force: of translations that of forces alone, without the turns that arms make, by which joints of one body that sit
+/// elsewhere would share otherwise.
+fn same_kind(G: &[Vec6; 2], W: &[Vec6; 2]) -> f64 {
+    let of = |part: fn(&Vec6) -> Vec3| G.iter().zip(W).map(|(G, W)| part(G).dot(&part(W))).sum::<f64>();
+    let translations = of(linear);
+    if translations > 0.0 { translations } else { of(angular) }
+}
+
+/// The translations, and the rotations, of each joint.
+fn alike(system: &System) -> Vec<Range<usize>> {
+    let mut all: Vec<Range<usize>> = Vec::new();
+    for (joint, first) in system.numbered() {
+        let kinds = joint.equations.chunk_by(|a, b| a.is_rotational() == b.is_rotational());
+        all.extend(kinds.scan(first, |begin, kind| {
+            let from = *begin;
+            *begin += kind.len();
+            Some(from..*begin)
+        }));
+    }
+    all
+}
+
+impl ConstraintSchur {
+    /// Returns `None` where there is no memory, where an end depends on its master in some directions only, or where gears
+    /// share an unknown that has no mass.
+    pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<ConstraintSchur> {
+        let count = system.multipliers();
+        if system.joints.iter().any(|joint| joint.shared().is_some()) {
+            return None;
+        }
+        let master = |node: usize| {
+            let mut node = node;
+            while let Some(dependent) = system.rigid_links.iter().find(|dependent| dependent.node == node) {
+                if !dependent.rigid {
+                    return None;
+                }
+                node = dependent.master;
+            }
+            Some(node)
+        };
+        let mut rows = Vec::with_capacity(count);
+        for joint in &system.joints {
+            let mut ends = [None; 2];
+            for (end, &node) in ends.iter_mut().zip(&joint.nodes) {
+                let master = master(node)?;
+                *end = masses.of(master).map(|_| master);
+            }
+            rows.extend(joint.equations.iter().map(|_| ends));
+        }
+        let zeros = vec![[Vec6::zeros(); 2]; count];
+        let factor = SchurFactor::new(system, &rows)?;
+        let x = vec![0.0; count];
+        let inert = vec![false; count];
+        let (alike, raised) = (alike(system), vec![0.0; count]);
+        let independent = (shares && !factor.is_sparse()).then(|| IndependentRows::new(&rows));
+        Some(ConstraintSchur {
+            rows,
+            shares,
+            alike,
+            weights: raised.clone(),
+            raised,
+            independent,
+            G: zeros.clone(),
+            W: zeros,
+            inert,
+            factor,
+            scratch: x.clone(),
+            x,
+        })
+    }
+
+    /// Forms and factorizes G M⁻¹ Gᵀ at the given configuration. Returns false where it is singular: the joints cannot
+    /// be closed.
+    pub fn form(&mut self, system: &System, masses: &Masses, nodes: &[Node]) -> bool {
+        let mut k = 0;
+        for joint in &system.joints {
+            let [a, b] = joint.nodes.map(|node| &nodes[node]);
+            for row in &joint.equations {
+                let gradient = row.gradient(a, b);
+                let (mut whole, mut moving) = (0.0f64, 0.0f64);
+                for end in 0..2 {
+                    let Some(master) = self.rows[k][end] else { continue };
+                    let (f, m) = (linear(&gradient[end]), angular(&gradient[end]));
+                    let arm = nodes[joint.nodes[end]].x - nodes[master].x;
+                    let G = stack(&f, &(m + arm.cross(&f)));
+                    self.G[k][end] = G;
+                    let Some(block) = masses.of(master) else { continue };
+                    self.W[k][end] = block.accelerate(&nodes[master], G.as_ref());
+                    whole = whole.max(G.amax());
+                    let free = G.iter().zip(block.free).filter(|(_, free)| *free);
+                    moving = free.map(|(g, _)| g.abs()).fold(moving, f64::max);
+                }
+                self.inert[k] = moving <= NEGLIGIBLE * whole;
+                k += 1;
+            }
+        }
+        self.factor(masses)
+    }
+
+    fn factor(&mut self, masses: &Masses) -> bool {
+        let ConstraintSchur { rows, G, W, inert, factor, shares, alike, weights, raised, independent, .. } = self;
+        let entry = |k: usize, l: usize| {
+            let mut sum = 0.0;
+            for (i, master) in rows[k].iter().enumerate() {
+                for (j, other) in rows[l].iter().enumerate() {
+                    if master.is_some() && master == other {
+                        sum += G[k][i].dot(&W[l][j]);
+                    }
+                }
+            }
+            sum
+        };
+        if *shares {
+            for range in alike.iter() {
+                let own = || range.clone().filter(|&k| !inert[k]);
+                let count = own().count().max(1) as f64;
+                let without_arms = own().map(|k| same_kind(&G[k], &W[k])).sum::<f64>();
+                let sum = if without_arms > 0.0 { without_arms } else { own().map(|k| entry(k, k)).sum::<f64>() };
+                weights[range.clone()].fill(sum / count);
+            }
+        }
+        if let Some(independent) = independent {
+            independent.find(rows, G, inert, masses);
+            let is_regular = factor.factor(&independent.idle, raised, entry);
+            if is_regular {
+                independent.find_shares(factor, inert, weights, entry);
+            }
+            return is_regular;
+        }
+        raised.iter_mut().zip(weights).for_each(|(raised, weight)| *raised = REGULARIZATION * *weight);
+        factor.factor(inert, raised, entry)
+    }
+
+    /// True where the system is sparse.
+    pub fn is_sparse(&self) -> bool {
+        self.factor.is_sparse()
+    }
+
+    /// Solves x ← (G M⁻¹ Gᵀ)⁻¹ x. Redundant equations share the load by least norm.
+    pub fn solve(&mut self) {
+        self.x.iter_mut().zip(&self.inert).filter(|(_, inert)| **inert).for_each(|(x, _)| *x = 0.0);
+        if !self.shares {
+            return self.factor.substitute(&mut self.x);
+        }
+        if let Some(independent) = &self.independent {
+            self.x.iter_mut().zip(&independent.idle).filter(|(_, idle)| **idle).for_each(|(x, _)| *x = 0.0);
+        }
+        // The regularization leaves the fraction ε of the right-hand side; one iterative refinement leaves ε².
+        self.scratch.copy_from_slice(&self.x);
+        self.factor.refine(&mut self.x, &mut self.scratch);
+        if let Some(independent) = &self.independent {
+            independent.share(&mut self.x, &self.weights);
+        }
+    }
+
+    /// Adds the constraint rates: x ← x + G δ, with δ by node.
+    pub fn add_rates(&mut self, motion: &[Vec6]) {
+        for ((x, ends), G) in self.x.iter_mut().zip(&self.rows).zip(&self.G) {
+            *x += ends.iter().zip(G).filter_map(|(master, G)| master.map(|master| G.dot(&motion[master]))).sum::<f64>();
+        }
+    }
+
+    /// Subtracts the constraint forces on independent nodes: F ← F − Gᵀ x.
+    pub fn subtract_forces(&self, F: &mut [Force]) {
+        for ((x, ends), G) in self.x.iter().zip(&self.rows).zip(&self.G) {
+            for (master, G) in ends.iter().zip(G) {
+                if let Some(master) = master {
+                    F[*master].iter_mut().zip(G).for_each(|(f, G)| *f -= G * x);
+                }
+            }
+        }
+    }
+
+    /// Subtracts the response to the constraint forces: δ ← δ − M⁻¹ Gᵀ x, by node.
+    pub fn subtract_response(&self, motion: &mut [Vec6]) {
+        for ((x, ends), W) in self.x.iter().zip(&self.rows).zip(&self.W) {
+            for (master, W) in ends.iter().zip(W) {
+                if let Some(master) = master {
+                    motion[*master] -= W * *x;
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! The energies and momenta of a state.
+
+use super::equations::System;
+use super::parts::{Storage, storage};
+use super::thread_partition;
+use base::math::Vec3;
+use base::snapshot::{Keep, Snapshot, keep};
+use mechanics::state::{Configuration, Node, State};
+use model::{Load, Loading, Model, Part};
+
+/// Energies and momenta at the end of a step: the columns of energy.csv.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energy {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy of beams, bars and shells, with the energy stored by kinematic hardening.
+    pub strain: f64,
+    /// Energy dissipated so far by plastic flow.
+    pub plastic: f64,
+    /// Energy dissipated so far by viscoplastic overstress.
+    pub viscoplastic: f64,
+    /// Energy dissipated so far by dampers, nodal and Rayleigh damping.
+    pub damping: f64,
+    /// Elastic energy of links.
+    pub links: f64,
+    /// Work done so far by loads, gravity and prescribed motion.
+    pub external: f64,
+    /// Algorithmic dissipation, the remainder of the balance: initial energy + external − dissipated − stored.
+    pub numerical: f64,
+    /// Mechanical energy: kinetic + strain + links + contact.
+    pub mechanical: f64,
+    /// Linear momentum.
+    pub p: Vec3,
+    /// Angular momentum about the origin.
+    pub l: Vec3,
+    /// Elastic energy of contacts.
+    pub contact: f64,
+    /// Energy dissipated so far by friction.
+    pub friction: f64,
+    /// Energy dissipated so far in impacts.
+    pub impact: f64,
+    /// Energy that what has failed had stored.
+    pub eroded: f64,
+    /// Offset of the energies of velocity Verlet, [`mechanics::state::Work::verlet_energy_offset`]. It is not a column.
+    pub verlet_energy_offset: f64,
+}
+
+impl Energy {
+    /// Energies and momenta of a state. `initial` is the mechanical energy at t = 0, from which the balance is drawn;
+    /// `None` at t = 0.
+    pub fn of(system: &System, state: &State, initial: Option<f64>, threads: usize) -> Energy {
+        let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
+        let stored = |column: Storage| -> f64 {
+            thread_partition::sum(&system.groups, system.uses_threads(threads), &|group| match storage(group.kind)
+                == column
+            {
+                true => group.block.energy(&group.configuration(&now)),
+                false => 0.0,
+            })
+        };
+        let strain = stored(Storage::Strain) + work.material.stored;
+        let links = stored(Storage::Links);
+        let contact = if system.has_contacts() { stored(Storage::Contacts) } else { 0.0 };
+        let (kinetic, p, l) = if system.dynamic { motion(system, nodes) } else { (0.0, Vec3::zeros(), Vec3::zeros()) };
+        let mechanical = kinetic + strain + links + contact;
+        Energy {
+            kinetic,
+            strain,
+            plastic: work.material.plastic,
+            viscoplastic: work.material.viscous,
+            damping: work.damping,
+            links,
+            external: work.external,
+            numerical: initial.unwrap_or(mechanical) + work.external
+                - work.damping
+                - work.material.plastic
+                - work.material.viscous
+                - work.material.friction
+                - work.material.impact
+                - work.material.eroded
+                - mechanical,
+            mechanical,
+            p,
+            l,
+            contact,
+            friction: work.material.friction,
+            impact: work.material.impact,
+            eroded: work.material.eroded,
+            verlet_energy_offset: work.verlet_energy_offset,
+        }
+    }
+
+    /// Algorithmic dissipation without the oscillation that velocity Verlet has by itself. In linear motion it
+    /// conserves ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa, so the energy at a step oscillates by the last term: up to a factor 1/(1
+    /// − (ωΔt/2)²), nearly three at 0.8 of the stability limit.
+    pub fn numerical_dissipation(&self) -> f64 {
+        self.numerical + self.verlet_energy_offset
+    }
+}
+
+/// The energy of motions that positions do not hold: the work of weight and of all loads on nodes at their full size along a part of the largest
+/// coordinate, and the kinetic energy of velocities that come so far within the `duration`.
+pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], duration: f64) -> f64 {
+    /// Some thousand times the rounding of a position, which steps add up.
+    const ROUNDING: f64 = 1e-12;
+    let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
+    let of_inertias = system.inertias.iter().map(|inertia| inertia.mass).sum::<f64>();
+    let mass = of_inertias + system.consistent.iter().flat_map(|mass| &mass.m).sum::<f64>();
+    let of_load = |load: &Load| load.force.norm() * reach + load.moment.norm();
+    let of_loads = mass * loading.gravity.norm() * reach + loading.nodal.iter().map(of_load).sum::<f64>();
+    let speed = if duration > 0.0 { ROUNDING * reach / duration } else { 0.0 };
+    ROUNDING * of_loads + 0.5 * mass * speed * speed
+}
+
+/// The kinetic energy of a motion.
+pub fn kinetic_energy(system: &System, nodes: &[Node]) -> f64 {
+    motion(system, nodes).0
+}
+
+/// Kinetic energy, linear momentum, and angular momentum about the origin.
+fn motion(system: &System, nodes: &[Node]) -> (f64, Vec3, Vec3) {
+    let mut kinetic = 0.0;
+    let (mut p, mut l) = (Vec3::zeros(), Vec3::zeros());
+    for inertia in &system.inertias {
+        let node = &nodes[inertia.node];
+        kinetic += inertia.kinetic_energy(node);
+        let momentum = inertia.mass * node.v;
+        p += momentum;
+        l += node.x.cross(&momentum);
+        if inertia.rotary {
+            l += inertia.J(node) * node.omega;
+        }
+    }
+    for mass in &system.consistent {
+        kinetic += mass.kinetic_energy(nodes);
+        let (dp, dl) = mass.momentum(nodes);
+        p += dp;
+        l += dl;
+    }
+    (kinetic, p, l)
+}
+
+/// The largest departures from the balance of energy over a run.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Balance {
+    /// Largest algorithmic dissipation so far.
+    pub dissipated: f64,
+    /// Largest energy growth so far.
+    pub generated: f64,
+    /// Largest energy of any form so far.
+    pub peak: f64,
+    /// Initial energy plus the largest external work and the largest release from preloads: the motion cannot have
+    /// more.
+    pub available: f64,
+    /// Energy dissipated by plastic flow.
+    pub plastic: f64,
+    /// Energy dissipated by dampers, nodal and Rayleigh damping.
+    pub damping: f64,
+    /// Largest mechanical energy beyond what is available: this the time integration has added for sure.
+    pub raised: f64,
+    /// The energy that rounding may make, see [`work_of_rounding`]: of less nothing is said.
+    pub rounding: f64,
+    /// What stages before have missed, and the work done in them.
+    before: [f64; 2],
+    start: Option<f64>,
+    external: f64,
+    released: f64,
+    lost: f64,
+    /// What the motion has exchanged: kinetic energy before numerical losses, stored energy, external work.
+    exchanged: [Range; 3],
+}
+
+keep!(Balance {
+    dissipated,
+    generated,
+    peak,
+    available,
+    plastic,
+    damping,
+    raised,
+    rounding,
+    before,
+    start,
+    external,
+    released,
+    lost,
+    exchanged
+});
+
+/// The least and the largest value so far.
+#[derive(Debug, Clone, Copy, Default)]
+struct Range(Option<[f64; 2]>);
+
+impl Keep for Range {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.0.keep(snapshot);
+    }
+}
+
+impl Range {
+    fn update(&mut self, value: f64) {
+        let [low, high] = self.0.unwrap_or([value; 2]);
+        self.0 = Some([low.min(value), high.max(value)]);
+    }
+
+    fn width(&self) -> f64 {
+        self.0.map_or(0.0, |[low, high]| high - low)
+    }
+}
+
+impl Balance {
+    /// A balance of a stage before which so much has been missed, and so much work done.
+    pub fn after(missed: f64, external: f64) -> Balance {
+        Balance { before: [missed, external], ..Balance::default() }
+    }
+
+    /// True where energy is missing in the balance, and no more than dampers account for, while the motion has not gained any: their work
+    /// is summed from its power at the ends of steps, which is too much where they stop a motion within a step.
+    pub fn is_work_of_dampers(&self, missing: f64) -> bool {
+        missing <= self.damping && self.raised < 0.5 * missing
+    }
+
+    /// Takes account of the external work of a step. Energies are summed at some steps only, and by then the work may
+    /// have been given back.
+    pub fn update_work(&mut self, external: f64) {
+        let external = external - self.before[1];
+        self.external = self.external.max(external.abs());
+        self.peak = self.peak.max(external.abs());
+    }
+
+    /// The energy of the motion, against which losses count: the largest that has changed its form, or come or gone as work. A
+    /// rigid motion at constant speed has nothing of it, or it would hide that a vibration dies away. Where more is lost than
+    /// has ever changed its form, it is the steady motion itself that loses, and all energy counts.
+    pub fn motion(&self) -> f64 {
+        /// Of the largest energy, at least: a steady motion that keeps its speed to 3e-5 is as good as the results are.
+        const OF_PEAK: f64 = 3e-3;
+        /// Times what has changed its form: a vibration that no step resolves is gone before its energy was stored once.
+        const GONE: f64 = 5.0;
+        let exchanged = self.exchanged.iter().map(Range::width).fold(0.0, f64::max);
+        if self.lost > GONE * exchanged { self.peak } else { exchanged.max(OF_PEAK * self.peak) }
+    }
+
+    /// What the work of a static analysis lacks, or has too much, for what is stored and dissipated at its end, and the energy to which
+    /// that is compared: the largest work, or the change of what is stored.
+    pub fn missed_in_statics(&self) -> (f64, f64) {
+        /// Of the largest energy: what is less is rounding of it, in a stage in which nothing happens.
+        const OF_PEAK: f64 = 1e-9;
+        (self.lost, self.external.max(self.exchanged[1].width()).max(OF_PEAK * self.peak).max(self.rounding))
+    }
+
+    /// Algorithmic dissipation up to now. In the middle of an impact it may have been larger: schemes that take equilibrium
+    /// between the ends of steps give some of it back.
+    pub fn lost(&self) -> f64 {
+        self.lost
+    }
+
+    /// Takes account of the energies of a step.
+    pub fn update(&mut self, energy: &Energy) {
+        let stored = energy.strain + energy.links + energy.contact;
+        let sizes = energy.strain.abs() + energy.links.abs() + energy.contact.abs();
+        let start = *self.start.get_or_insert(energy.kinetic + stored.abs());
+        self.update_work(energy.external);
+        // The stored energy is negative where preloads are released.
+        self.released = self.released.max(-stored);
+        self.available = start + self.external + self.released;
+        self.plastic = energy.plastic;
+        self.damping = energy.damping;
+        self.raised = self.raised.max(energy.mechanical - self.available);
+        let dissipated = energy.numerical_dissipation() - self.before[0];
+        (self.dissipated, self.lost) = (self.dissipated.max(dissipated), dissipated);
+        // A mode beyond the stability limit may conserve the energy of central differences and still grow: then the
+        // kinetic energy shows it.
+        self.generated = self.generated.max(-dissipated).max(energy.kinetic - self.available);
+        for (range, value) in
+            self.exchanged.iter_mut().zip([energy.kinetic + dissipated, stored, energy.external - self.before[1]])
+        {
+            range.update(value);
+        }
+        // The sum may vanish by chance while its terms do not.
+        self.peak = self.peak.max(energy.mechanical.abs()).max(energy.kinetic).max(sizes);
+    }
+}
+
+/// The elastic energy of a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PartEnergy {
+    /// The part's index in [`Model::parts`]; a shell with triangles and quadrilaterals has that of the first of the
+    /// two.
+    pub part: usize,
+    /// Elastic energy.
+    pub strain: f64,
+}
+
+impl PartEnergy {
+    /// The part itself.
+    pub fn of<'m>(&self, model: &'m Model) -> &'m Part {
+        &model.parts[self.part]
+    }
+}
+
+/// Writes the elastic energy of each beam, bar and shell in deck order, without the energy stored by kinematic
+/// hardening.
+pub fn part_energies(system: &System, model: &Model, now: &Configuration, parts: &mut Vec<PartEnergy>) {
+    for group in system.groups.iter().filter(|group| group.kind.is_deformable()) {
+        let energy = group.block.energy(&group.configuration(now));
+        let part = &model.parts[group.part];
+        match parts.last_mut() {
+            Some(last) if last.of(model).is_one_with(part) => last.strain += energy,
+            _ => parts.push(PartEnergy { part: group.part, strain: energy }),
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Blocks of like elements, each with the part that it belongs to.
+
+use mechanics::elements::ElementBlock;
+use mechanics::state::Configuration;
+use model::{Model, Part, PartKind};
+use std::ops::Range;
+
+/// A group of like elements of one part: all of them, or a contiguous range where they are many.
+pub struct Group {
+    /// The elements with their formulation.
+    pub block: Box<dyn ElementBlock>,
+    /// The kind of the part, which says to which energy the elements contribute.
+    pub kind: PartKind,
+    /// The part's index in [`model::Model::parts`]. Links share one group; it has the index of the first link.
+    pub part: usize,
+    /// Number, within the part, of the group's first element.
+    pub first: usize,
+    /// The group's range of [`mechanics::state::State::history`].
+    pub history: Range<usize>,
+}
+
+impl Group {
+    /// The configuration with this group's range of the history variables alone.
+    #[inline]
+    pub fn configuration<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {
+        Configuration { history: &now.history[self.history.clone()], ..*now }
+    }
+
+    /// The part of element `e`. Springs share one group and bushings another, so a link is known by its ends.
+    pub fn part_of<'m>(&self, e: usize, model: &'m Model) -> &'m Part {
+        let parts = &model.parts[self.part..];
+        let own = |part: &&Part| part.kind() == self.kind && self.block.nodes(e).starts_with(part.nodes(0));
+        let first = &parts[0];
+        if self.kind.is_deformable() || self.kind.is_unilateral() {
+            first
+        } else {
+            parts.iter().find(own).unwrap_or(first)
+        }
+    }
+}

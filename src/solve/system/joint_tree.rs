@@ -1,0 +1,39 @@
+//! Whether joints form a tree with the ground, in which no constraint equation can be redundant.
+
+use mechanics::constraints::joint::Joint;
+use mechanics::constraints::rigid_link::RigidLink;
+use model::Model;
+use std::collections::HashSet;
+
+/// True where no way over joints, attachments and supports leads from a node back to it. Then every constraint equation is independent of all
+/// others, wherever the scene goes.
+pub fn is_tree(model: &Model, joints: &[Joint], links: &[RigidLink]) -> bool {
+    let ground = model.nodes.len();
+    let mut sets = Sets((0..=ground).collect());
+    let drives: HashSet<usize> = joints.iter().filter_map(|joint| Some(joint.drive.as_ref()?.node)).collect();
+    let held: HashSet<usize> = model.constraints.restraints.iter().map(|restraint| restraint.node).collect();
+    // What a support holds belongs to the ground; one edge stands for all its directions.
+    held.into_iter().filter(|node| !drives.contains(node)).all(|node| sets.join(node, ground))
+        && links.iter().all(|link| sets.join(link.node, link.master))
+        && joints.iter().all(|joint| sets.join(joint.nodes[0], joint.nodes[1]))
+}
+
+/// Disjoint sets of nodes: each node names another one of its set, the last itself.
+struct Sets(Vec<usize>);
+
+impl Sets {
+    fn last(&mut self, mut node: usize) -> usize {
+        while self.0[node] != node {
+            self.0[node] = self.0[self.0[node]];
+            node = self.0[node];
+        }
+        node
+    }
+
+    /// Unites the sets of two nodes; false where they were one already.
+    fn join(&mut self, a: usize, b: usize) -> bool {
+        let [a, b] = [self.last(a), self.last(b)];
+        self.0[a] = b;
+        a != b
+    }
+}

@@ -1,0 +1,52 @@
+//! The contributions of a part to the equation of motion: the interface of every kind, each in the file of its kind.
+
+use super::masses::{LumpedElement, NodalMasses};
+use crate::system::plane::MotionPlane;
+use crate::system::thread_partition::MOST_IN_GROUP;
+use base::math::{Mat3, Vec3};
+use mechanics::elements::ElementBlock;
+use mechanics::sections::Stiffness;
+use model::Model;
+use std::ops::Range;
+
+/// The data from which the blocks of a scene are made.
+pub struct Setting<'s> {
+    /// The model.
+    pub model: &'s Model,
+    /// Initial positions of all nodes.
+    pub x: &'s [Vec3],
+    /// Normal of a plane motion; `None` for a motion in space.
+    pub plane: Option<usize>,
+}
+
+/// A block of like elements, and the number of its first element within its part.
+pub type NumberedBlock = (Box<dyn ElementBlock>, usize);
+
+/// The contributions of a part while a system is built.
+pub trait Assembled {
+    /// Adds the mass of the part at its nodes or over its elements; a part may have none.
+    fn add_masses(&self, _stiffnesses: &[Stiffness], _masses: &mut NodalMasses) {}
+
+    /// The lumped mass of an element; `None` for what has none, or does not deform.
+    fn lumped(&self, _element: usize, _stiffnesses: &[Stiffness], _masses: &NodalMasses) -> Option<LumpedElement> {
+        None
+    }
+
+    /// The squares of the distances of neighbouring nodes of an element that deforms, at t = 0, as a tensor S, global components: aᵀ S a is
+    /// that along which waves run that turn the element about the unit vector a, and zero where none do.
+    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> Mat3 {
+        Mat3::zeros()
+    }
+
+    /// The blocks of the part; some may be empty.
+    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock>;
+
+    /// True where a motion in the plane drives nothing of the part out of it.
+    fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool;
+}
+
+/// Divides elements into ranges for a group each, as equal as possible.
+pub fn pieces(elements: usize) -> impl Iterator<Item = Range<usize>> {
+    let count = elements.div_ceil(MOST_IN_GROUP);
+    (0..count).map(move |k| k * elements / count..(k + 1) * elements / count)
+}

@@ -1,0 +1,141 @@
+//! Resultants at both ends of each element of the beams, by its equilibrium: internal forces on its end nodes, less the shares there of
+//! loads along it, of weight and of inertia. They balance joints, supports and what else acts at the node to what the iteration leaves.
+
+use super::beams::{in_section, lumped};
+use super::masses::NodalMasses;
+use crate::system::inertia::{ConsistentMass, Inertia, OwnDrag};
+use crate::system::loads::{Loading, load_on};
+use crate::system::mass_damping::MassDamping;
+use crate::system::mass_scaling::MassScaling;
+use crate::system::scale::Scale;
+use base::math::{Mat3, Vec3};
+use mechanics::elements::{Force, IntegrationPoint, subtract};
+use mechanics::state::Configuration;
+use model::{AnalysisKind, Beam, ExpectAt, LoadAlong, MassKind, Model, PartType, SectionPlaces};
+use std::collections::HashMap;
+
+/// The ends of all elements of all beams, in deck order.
+pub struct BeamEnds {
+    ends: Vec<[BeamEnd; 2]>,
+    dynamic: bool,
+}
+
+/// An end of an element.
+struct BeamEnd {
+    /// The node there, with the lumped mass that is the element's.
+    lumped: Inertia,
+    /// The row of the consistent mass matrix: each node of the element with its mass.
+    row: Vec<(usize, f64)>,
+    /// Rayleigh factor on the mass, per time.
+    alpha: f64,
+    /// Axes of the section, columns, global components at t = 0.
+    frame: Mat3,
+    /// Loads that are shares of one along the element, by their index in the model.
+    loads: Vec<usize>,
+}
+
+impl BeamEnds {
+    /// True where a table or an expected value asks for resultants at ends.
+    pub fn wanted(model: &Model) -> bool {
+        let listed = model.output.sections.is_some_and(|places| places != SectionPlaces::Points);
+        listed || model.expects.iter().any(|expect| matches!(expect.at, ExpectAt::Sections(_)))
+    }
+
+    /// The ends of the beams of a model at its initial positions, with what is added to their masses.
+    pub fn new(model: &Model, x: &[Vec3], mass_scaling: Option<&MassScaling>) -> BeamEnds {
+        let mut loads: HashMap<(usize, usize, usize), Vec<usize>> = HashMap::new();
+        for (index, load) in model.loading.nodal.iter().enumerate() {
+            if let Some(LoadAlong::Element(part, element)) = load.along {
+                loads.entry((part, element, load.node)).or_default().push(index);
+            }
+        }
+        let masses = NodalMasses::new(model, x);
+        let mut ends = Vec::new();
+        for (part, beam) in model.parts.iter().enumerate().filter_map(|(part, of)| Some((part, Beam::of(of)?))) {
+            for (element, spec) in beam.elements.iter().enumerate() {
+                let nodes = &spec.nodes[..=beam.order];
+                let consistent = (beam.mass == MassKind::Consistent).then(|| {
+                    let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
+                    ConsistentMass::new(nodes, length * model.stiffnesses[spec.section].mass_per_length)
+                });
+                let alpha = model.damping.alpha(&beam.damping);
+                let own = lumped(beam, element, &model.stiffnesses, &masses);
+                let scaling = mass_scaling.map(|scaling| scaling.of(part, element));
+                ends.push([0, beam.order].map(|a| {
+                    let share = &own.0[a];
+                    let (mass, J0) = scaling.map_or((share.mass, share.J0), |scaling| scaling.of(share));
+                    let node = nodes[a];
+                    let row = consistent.iter().flat_map(ConsistentMass::pairs).filter(|&(row, ..)| row == node);
+                    BeamEnd {
+                        lumped: Inertia {
+                            node,
+                            mass,
+                            weighing: share.mass,
+                            J0,
+                            rotary: J0 != Mat3::zeros(),
+                            turns: false,
+                            own: None,
+                            drag: Some(Box::new(OwnDrag { mass: alpha * mass, J0: alpha * J0 })),
+                        },
+                        row: row.map(|(_, column, m)| (column, m)).collect(),
+                        alpha,
+                        frame: spec.frame,
+                        loads: loads.remove(&(part, element, node)).unwrap_or_default(),
+                    }
+                }));
+            }
+        }
+        BeamEnds { ends, dynamic: model.analysis.kind == AnalysisKind::Dynamic }
+    }
+
+    /// The resultants at the ends of an element, counted over all beams, from the internal forces on its nodes there.
+    pub fn resultants(
+        &self,
+        element: usize,
+        internal: [Force; 2],
+        loads: (&[model::Load], &Loading),
+        damping: &MassDamping,
+        now: &Configuration,
+    ) -> [IntegrationPoint; 2] {
+        let ends = &self.ends[element];
+        [0, 1].map(|k| {
+            let (end, internal) = (&ends[k], internal[k]);
+            let outer = self.distributed(end, loads, damping, now);
+            // On the first node the section acts from the other side.
+            let sign = if k == 0 { -1.0 } else { 1.0 };
+            let sum: Force = std::array::from_fn(|i| internal[i] - outer[i]);
+            let axes = now.nodes[end.lumped.node].R() * end.frame;
+            IntegrationPoint { s: 0.0, forces: in_section(&sum, &axes, sign), plastic_strain: 0.0 }
+        })
+    }
+
+    /// The share of an end in what acts along the element: loads, weight less inertia, and damping of the mass.
+    fn distributed(
+        &self,
+        end: &BeamEnd,
+        (loads, loading): (&[model::Load], &Loading),
+        damping: &MassDamping,
+        now: &Configuration,
+    ) -> Force {
+        let node = &now.nodes[end.lumped.node];
+        let mut sum = end.lumped.force(node, &loading.field, self.dynamic, &mut Scale::default());
+        let drags = self.dynamic && end.alpha > 0.0;
+        if drags {
+            damping.add(&end.lumped, now.nodes, &mut sum);
+        }
+        for &(column, m) in &end.row {
+            let other = &now.nodes[column];
+            let mut inertia = if self.dynamic { other.a } else { Vec3::zeros() };
+            if drags {
+                inertia += end.alpha * damping.relative(column, now.nodes)[0];
+            }
+            subtract(&mut sum, 0, &(m * (inertia - loading.field)));
+        }
+        for &index in &end.loads {
+            let (f, m) = load_on(&loads[index], loading.factors[index], now.nodes);
+            subtract(&mut sum, 0, &-f);
+            subtract(&mut sum, 3, &-m);
+        }
+        sum
+    }
+}

@@ -1,0 +1,91 @@
+//! Resultants in the sections of beams for output: at integration points, and at the ends of elements.
+
+use super::beam_ends::BeamEnds;
+use crate::system::group::Group;
+use crate::system::loads::Loading;
+use crate::system::mass_damping::MassDamping;
+use base::math::Mat3;
+use mechanics::elements::IntegrationPoint;
+use mechanics::state::Configuration;
+use model::{Beam, Load, Model, PartType};
+
+/// The state of an integration point of a beam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionPoint {
+    /// The beam's index in [`Model::parts`].
+    pub part: usize,
+    /// Number of the element within the beam.
+    pub element: usize,
+    /// The place in the element.
+    pub place: SectionPlace,
+    /// Resultants and strains at the arc length `s` from the beam's start.
+    pub at: IntegrationPoint,
+}
+
+/// A place in an element of a beam.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SectionPlace {
+    /// The first node of the element.
+    Start,
+    /// An integration point by its number.
+    Point(usize),
+    /// The last node of the element.
+    End,
+}
+
+/// What acts along beams, from which the resultants at the ends of their elements follow.
+pub struct EndForces<'a> {
+    /// The ends.
+    pub ends: &'a BeamEnds,
+    /// The loads of the model, ...
+    pub loads: &'a [Load],
+    /// ... and what they are at the instant.
+    pub loading: &'a Loading,
+    /// Rayleigh damping of their masses.
+    pub damping: &'a MassDamping,
+}
+
+/// Writes the stress resultants of all beams into `out`, in deck order: those at their integration points, and with what acts along the
+/// beams those at the ends of their elements too.
+pub fn section_points(
+    groups: &[Group],
+    model: &Model,
+    now: &Configuration,
+    acting: Option<EndForces>,
+    out: &mut Vec<SectionPoint>,
+) {
+    out.clear();
+    let (mut start, mut count) = (0.0, 0);
+    for group in groups {
+        let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
+        let now = group.configuration(now);
+        if group.first == 0 {
+            start = 0.0;
+        }
+        for e in 0..group.block.len() {
+            let element = group.first + e;
+            let spec = &beam.elements[element];
+            let frame: &Mat3 = &spec.frame;
+            let nodes = (spec.nodes[0], spec.nodes[beam.order]);
+            let end = start + (model.nodes[nodes.1].x - model.nodes[nodes.0].x).norm();
+            let ends = acting.as_ref().and_then(|acting| {
+                let internal = group.block.end_forces(e, &now)?;
+                Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), acting.damping, &now))
+            });
+            let mut push = |place, s: f64, at: IntegrationPoint| {
+                out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, ..at } });
+            };
+            if let Some([at, _]) = ends {
+                push(SectionPlace::Start, start, at);
+            }
+            for point in 0..group.block.points() {
+                let Some(at) = group.block.point(e, point, frame, &now) else { continue };
+                push(SectionPlace::Point(point), at.s + start, at);
+            }
+            if let Some([_, at]) = ends {
+                push(SectionPlace::End, end, at);
+            }
+            (start, count) = (end, count + 1);
+        }
+    }
+}

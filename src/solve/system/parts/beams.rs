@@ -1,0 +1,151 @@
+//! Beams in the equation of motion: their masses and blocks, and the resultants in their sections.
+
+use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::masses::{LumpedElement, NodalMasses, NodalShare};
+use crate::system::group::Group;
+use crate::system::inertia::ConsistentMass;
+use crate::system::plane::{MotionPlane, SMALL};
+use base::math::{Mat3, Vec3, quadrature};
+use mechanics::elements::beam::{BeamGeometry, Beams, FibreModel};
+use mechanics::elements::{ElementBlock, Force, IntegrationPoint};
+use mechanics::sections::{self, Stiffness};
+use mechanics::state::Configuration;
+use model::{Beam, MassKind, Model, PartType};
+use std::ops::Range;
+
+impl Assembled for Beam {
+    fn add_masses(&self, stiffnesses: &[Stiffness], masses: &mut NodalMasses) {
+        for (index, element) in self.elements.iter().enumerate() {
+            let nodes = &element.nodes[..=self.order];
+            masses.add(&lumped(self, index, stiffnesses, masses));
+            if self.mass == MassKind::Consistent {
+                let section = &stiffnesses[element.section];
+                let length = (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm();
+                masses.consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
+            }
+        }
+    }
+
+    fn lumped(&self, element: usize, stiffnesses: &[Stiffness], masses: &NodalMasses) -> Option<LumpedElement> {
+        Some(lumped(self, element, stiffnesses, masses))
+    }
+
+    /// Torsion has the rotary inertia of the section, as it is.
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
+        let nodes = &self.elements[element].nodes;
+        let along = (masses.x[nodes[self.order]] - masses.x[nodes[0]]) / self.order as f64;
+        along.norm_squared() * Mat3::identity() - along * along.transpose()
+    }
+
+    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
+        let block = |piece: Range<usize>| match self.order {
+            1 => block::<2>(self, piece, setting),
+            2 => block::<3>(self, piece, setting),
+            3 => block::<4>(self, piece, setting),
+            _ => block::<5>(self, piece, setting),
+        };
+        pieces(self.elements.len()).map(|piece| (block(piece.clone()), piece.start)).collect()
+    }
+
+    fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool {
+        self.elements.iter().all(|e| section_stays_in(plane, &e.frame, &stiffnesses[e.section]))
+    }
+}
+
+fn block<const N: usize>(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn ElementBlock> {
+    let &Setting { model, x, plane } = setting;
+    let beta = model.damping.beta(&part.damping);
+    let elements = part.elements[piece].iter().map(|e| BeamGeometry {
+        nodes: &e.nodes,
+        frame: &e.frame,
+        stiffness: &model.stiffnesses[e.section],
+    });
+    match &part.yielding {
+        None => Box::new(Beams::<N>::new(elements, x, beta)),
+        Some(yielding) => {
+            let fibres = match in_plane(part, plane) {
+                Some(along_z) => sections::flattened(&yielding.fibres, along_z),
+                None => yielding.fibres.clone(),
+            };
+            FibreModel { fibres, ..yielding.clone() }.beams::<N>(elements, x, beta)
+        }
+    }
+}
+
+/// True where a plane motion bends all elements of a part along local z, false where along local y; `None` if it does
+/// neither.
+fn in_plane(part: &Beam, plane: Option<usize>) -> Option<bool> {
+    let normal = plane?;
+    let across = |axis: usize| part.elements.iter().all(|e| e.frame[(normal, axis)].abs() > 1.0 - 1e-12);
+    if across(1) { Some(true) } else { across(2).then_some(false) }
+}
+
+/// True where fibres of a yielding beam with the same strain in a plane motion are merged into one. `plane` is the normal of the
+/// motion.
+pub fn merges_fibres(beam: &Beam, plane: Option<usize>) -> bool {
+    beam.yielding.is_some() && in_plane(beam, plane).is_some()
+}
+
+/// True for a section that bending and stretching in the plane neither bend nor twist out of it.
+fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
+    let turn = |K: &Mat3| frame * K * frame.transpose();
+    // The coupling of forces and curvatures may be nothing but rounding, that of a shear centre at the centroid: it
+    // is small beside the geometric mean of the stiffnesses of forces and moments.
+    let rest = turn(&C.NM);
+    let paired = rest.amax() > SMALL * C.N.amax().sqrt() * C.M.amax().sqrt();
+    plane.decouples(&turn(&C.N)) && plane.decouples(&turn(&C.M)) && (!paired || plane.decouples_rotations(&rest))
+}
+
+/// Lumped masses and inertia tensors of an element at its nodes.
+pub(super) fn lumped(beam: &Beam, element: usize, stiffnesses: &[Stiffness], masses: &NodalMasses) -> LumpedElement {
+    let (_, weights) = quadrature::lobatto(beam.order + 1);
+    let element = &beam.elements[element];
+    let section = &stiffnesses[element.section];
+    let length = (masses.x[element.nodes[beam.order]] - masses.x[element.nodes[0]]).norm();
+    let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
+    let share = |(&node, weight): (&usize, &f64)| {
+        let share = 0.5 * weight * length;
+        let mass = if masses.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
+        let keep = beam.rotary_inertia && masses.has_rotary_inertia(beam.mass, node);
+        NodalShare { node, mass, J0: if keep { rotary * share } else { Mat3::zeros() } }
+    };
+    LumpedElement(element.nodes[..=beam.order].iter().zip(weights).map(share).collect())
+}
+
+/// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order: polynomials through the
+/// integration points, or through both ends where there is one point.
+pub fn nodal_resultants(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
+    out.clear();
+    for group in groups {
+        let Some(beam) = Beam::of(&model.parts[group.part]) else { continue };
+        let now = group.configuration(now);
+        let (at, _) = quadrature::lobatto(beam.order + 1);
+        for e in 0..group.block.len() {
+            let spec = &beam.elements[group.first + e];
+            if beam.order == 1 {
+                let internal = group.block.end_forces(e, &now).unwrap_or_default();
+                out.extend([0, 1].map(|k| {
+                    let axes = now.nodes[spec.nodes[k]].R() * spec.frame;
+                    in_section(&internal[k], &axes, if k == 0 { -1.0 } else { 1.0 })
+                }));
+                continue;
+            }
+            let half = 0.5 * (model.nodes[spec.nodes[beam.order]].x - model.nodes[spec.nodes[0]].x).norm();
+            let points = (0..group.block.points()).filter_map(|point| group.block.point(e, point, &spec.frame, &now));
+            let points: Vec<IntegrationPoint> = points.collect();
+            let xi: Vec<f64> = points.iter().map(|point| point.s / half - 1.0).collect();
+            for &node in at {
+                let weights = quadrature::lagrange(&xi, node);
+                let value = |i: usize| points.iter().zip(&weights).map(|(point, w)| w * point.forces[i]).sum();
+                out.push(std::array::from_fn(value));
+            }
+        }
+    }
+}
+
+/// A force and a moment times `sign` in the axes of a section, columns.
+pub(super) fn in_section(sum: &Force, axes: &Mat3, sign: f64) -> [f64; 6] {
+    let n = axes.tr_mul(&Vec3::new(sum[0], sum[1], sum[2])) * sign;
+    let m = axes.tr_mul(&Vec3::new(sum[3], sum[4], sum[5])) * sign;
+    [n.x, n.y, n.z, m.x, m.y, m.z]
+}

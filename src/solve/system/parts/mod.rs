@@ -1,0 +1,50 @@
+//! The parts of a scene in the equation of motion: a file for each kind, which answers the questions of [`Assembled`].
+
+mod assembled;
+mod bars;
+pub mod beam_ends;
+pub mod beam_sections;
+pub mod beams;
+mod contacts;
+pub mod coordinate_springs;
+pub mod links;
+mod masses;
+pub mod shell_shear;
+pub mod shells;
+
+pub use assembled::{Assembled, Setting};
+pub use masses::{LumpedElement, NodalMasses, NodalShare};
+
+use model::{Part, PartKind};
+
+/// A part as a contribution to the system.
+pub fn assembled(part: &Part) -> &dyn Assembled {
+    match part {
+        Part::Beam(beam) => beam,
+        Part::Bar(bar) => bar,
+        Part::Shell(shell) => shell,
+        Part::Link(link) => link,
+        Part::Contact(contact) => contact,
+    }
+}
+
+/// The column of the table of energies to which the elements of a part add what they store.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Storage {
+    /// Elastic energy of deformable parts.
+    Strain,
+    /// Energy of links.
+    Links,
+    /// Energy of contacts.
+    Contacts,
+}
+
+/// The column in which parts of a kind store energy.
+#[inline]
+pub fn storage(kind: PartKind) -> Storage {
+    match kind {
+        PartKind::Beam | PartKind::Bar | PartKind::Shell => Storage::Strain,
+        PartKind::Link => Storage::Links,
+        PartKind::Contact => Storage::Contacts,
+    }
+}

@@ -1,0 +1,144 @@
+//! Shells in the equation of motion: their masses and blocks, and the resultants of their elements.
+
+use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::masses::{LumpedElement, NodalMasses, NodalShare};
+use crate::system::group::Group;
+use crate::system::inertia::ConsistentMass;
+use crate::system::plane::MotionPlane;
+use base::math::{Mat3, Vec3};
+use mechanics::elements::shell::{
+    self, CurvedQuadrilaterals, CurvedTriangles, NineNodes, Quadrilateral, Quadrilaterals, SixNodes, Triangle,
+    Triangles,
+};
+use mechanics::elements::{ElementBlock, ShellResultants};
+use mechanics::sections::Stiffness;
+use mechanics::state::Configuration;
+use model::{MassKind, Model, PartType, Shell};
+use std::ops::Range;
+
+/// The state of a shell element.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShellState {
+    /// The shell's index in [`Model::parts`].
+    pub part: usize,
+    /// The element's number in the deck's part.
+    pub element: usize,
+    /// Stress resultants, and the stresses of layers.
+    pub at: ShellResultants,
+}
+
+impl ShellState {
+    /// Von Mises stress in the lowest layer and in the highest.
+    pub fn outer_von_mises(&self) -> [f64; 2] {
+        let layers = self.at.layers();
+        [layers.first(), layers.last()].map(|layer| layer.map_or(0.0, |layer| layer.von_mises()))
+    }
+
+    /// Von Mises stress, the largest over the layers.
+    pub fn von_mises(&self) -> f64 {
+        self.at.layers().iter().map(|layer| layer.von_mises()).fold(0.0, f64::max)
+    }
+
+    /// Accumulated plastic strain, the largest over the layers.
+    pub fn plastic_strain(&self) -> f64 {
+        self.at.layers().iter().map(|layer| layer.plastic_strain).fold(0.0, f64::max)
+    }
+}
+
+impl Assembled for Shell {
+    fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
+        for element in &self.elements {
+            let nodes = &element.nodes[..self.size()];
+            masses.add(&lumped(self, nodes, masses));
+            if self.mass == MassKind::Consistent {
+                let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
+                masses.consistent.push(ConsistentMass::of_shell(nodes, &corners, self.density * self.plate.thickness));
+            }
+        }
+    }
+
+    fn lumped(&self, element: usize, _: &[Stiffness], masses: &NodalMasses) -> Option<LumpedElement> {
+        Some(lumped(self, &self.elements[element].nodes[..self.size()], masses))
+    }
+
+    /// Half the sum of the squares of its sides: of rectangles and of triangles with a right angle the sides themselves, of triangles with
+    /// equal ones their heights. Elements of order 2 have a node on each side.
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
+        let (corners, parts) = match self.size() {
+            size @ (3 | 4) => (size, 1.0),
+            6 => (3, 2.0),
+            _ => (4, 2.0),
+        };
+        let corner = |k: usize| masses.x[self.elements[element].nodes[k % corners]];
+        let sides = (0..corners).map(|k| (corner(k + 1) - corner(k)) / parts);
+        let squares: Mat3 = sides.map(|side| 0.5 * side * side.transpose()).sum();
+        let across = squares.symmetric_eigen();
+        // Of the three the least is that along the normal. Turns about the normal bulge the longer side.
+        let normal = across.eigenvectors.column(across.eigenvalues.imin()).into_owned();
+        let long = across.eigenvalues.max();
+        let short = across.eigenvalues.sum() - long - across.eigenvalues.min();
+        (long + short) * Mat3::identity() - squares - short * normal * normal.transpose()
+    }
+
+    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
+        pieces(self.elements.len()).map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
+    }
+
+    /// Shells bend out of any plane they lie in.
+    fn stays_in(&self, _: &MotionPlane, _: &[Stiffness]) -> bool {
+        self.elements.is_empty()
+    }
+}
+
+fn lumped(part: &Shell, nodes: &[usize], masses: &NodalMasses) -> LumpedElement {
+    let h = part.plate.thickness;
+    let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
+    let areas = shell::lumped_shares(&corners);
+    let share = |(&node, area): (&usize, f64)| {
+        let mass = if masses.has_mass(part.mass, node) { part.density * h * area } else { 0.0 };
+        // The inertia about the normal is the same, where a director has none, so that no direction is without inertia.
+        let rotary =
+            if masses.has_rotary_inertia(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
+        NodalShare { node, mass, J0: rotary * Mat3::identity() }
+    };
+    LumpedElement(nodes.iter().zip(areas).map(share).collect())
+}
+
+fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
+    let beta = model.damping.beta(&part.damping);
+    let size = part.size();
+    let elements = part.elements[piece].iter().map(|e| shell::ShellGeometry {
+        nodes: &e.nodes[..size],
+        normals: &e.normals[..size],
+        bulge: e.bulge,
+    });
+    match (&part.yielding, size) {
+        (None, 6) => Box::new(CurvedTriangles::new(elements, x, &part.plate, beta)),
+        (None, 9) => Box::new(CurvedQuadrilaterals::new(elements, x, &part.plate, beta)),
+        (Some(yielding), 6) => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(elements, x, &part.plate, beta),
+        (Some(yielding), 9) => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(elements, x, &part.plate, beta),
+        (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
+        (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),
+        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, &part.plate, beta),
+        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(elements, x, &part.plate, beta),
+    }
+}
+
+/// Writes the stress resultants of all elements of all shells into `out`, in deck order.
+pub fn shell_states(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<ShellState>) {
+    out.clear();
+    for group in groups {
+        let Some(shell) = Shell::of(&model.parts[group.part]) else { continue };
+        let now = group.configuration(now);
+        for e in 0..group.block.len() {
+            let element = group.first + e;
+            let start = shell.elements[element].nodes.map(|node| model.nodes[node].x);
+            let resultants = group.block.resultants(e, &shell.axis, &start[..shell.size()], &now);
+            let Some(mut at) = resultants else { continue };
+            if at.layers().is_empty() {
+                at.set_elastic_layers(shell.plate.thickness);
+            }
+            out.push(ShellState { part: group.part, element: shell.number(element), at });
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! The penalty factors of the constraint equations of joints: what the forces of a unit gap are in the matrix; see [`super::joints`].
+
+use super::dofs::DofMap;
+use super::equations::System;
+use super::multipliers::Multipliers;
+use base::math::{Mat6, Vec3, Vec6, angular, linear};
+use linear::Solver;
+use mechanics::constraints::joint::{ConstraintEquation, Joint};
+use mechanics::state::Node;
+
+/// What the penalty factors of all joints rest on.
+pub(super) struct Diagonals {
+    joints: Vec<Diagonal>,
+    /// By node: the sum of [`Diagonal::moment`] over the joints that act on it, and the longest of their arms. Written where no inertia is in
+    /// the matrix.
+    on_nodes: Vec<[f64; 2]>,
+    /// By node: what rounding leaves of the stiffness against rotations that forces on dependent nodes have, where they cancel. Zero
+    /// where inertia is in the matrix.
+    rounding: Vec<f64>,
+    /// By constraint equation: its force, or zero where that is rounding.
+    forces: Vec<f64>,
+    /// The size of the scene.
+    extent: f64,
+}
+
+impl Diagonals {
+    /// The slots of the diagonals of all joints.
+    pub fn new(system: &System, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
+        let of = |joint| Diagonal::new(joint, independent_nodes, dofs, solver);
+        Diagonals {
+            joints: system.joints.iter().map(of).collect(),
+            on_nodes: vec![[0.0; 2]; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
+            rounding: vec![0.0; if system.joints.is_empty() { 0 } else { independent_nodes.len() }],
+            forces: vec![0.0; system.multipliers()],
+            extent: 0.0,
+        }
+    }
+
+    /// Takes the forces of the equations where something rests on them, a drive or a scene `at_rest`, without what rounding makes: of a gap that
+    /// the penalty factor of before has answered, and of a moment beside the force of the same joint.
+    fn take(&mut self, system: &System, nodes: &[Node], multipliers: &Multipliers, at_rest: bool) {
+        if !at_rest && !system.joints.iter().any(|joint| joint.drive.is_some()) || system.joints.is_empty() {
+            return;
+        }
+        let farthest = |from: &Vec3| nodes.iter().map(|node| (node.x - from).amax()).fold(0.0, f64::max);
+        let (reach, extent) = (farthest(&Vec3::zeros()), nodes.first().map_or(0.0, |node| farthest(&node.x)));
+        self.extent = extent;
+        for (joint, first) in system.numbered() {
+            let rows = first..first + joint.equations.len();
+            let all = || joint.equations.iter().zip(&multipliers.values[rows.clone()]);
+            let translations = all().filter(|(row, _)| !row.is_rotational());
+            let force = translations.map(|(_, lambda)| lambda.abs()).fold(0.0, f64::max);
+            let to = self.forces[rows.clone()].iter_mut().zip(&multipliers.penalties[rows.clone()]);
+            for ((row, lambda), (to, penalty)) in all().zip(to) {
+                let rounding = match row.is_rotational() {
+                    true => f64::max(NOTHING * penalty.max(reach * force), FAINT * extent * force),
+                    false => NOTHING * penalty * reach,
+                };
+                *to = if lambda.abs() > rounding { *lambda } else { 0.0 };
+            }
+        }
+    }
+
+    /// Measures the rounding of what forces on dependent nodes add to the stiffness of their masters: under an even load on a rigid part their sum
+    /// is zero. Beside inertia, where the scene is not `at_rest`, no entry counts as rounding.
+    pub fn round(&mut self, system: &System, nodes: &[Node], on_dependents: &[Vec3], at_rest: bool) {
+        self.rounding.fill(0.0);
+        if system.joints.is_empty() || !at_rest {
+            return;
+        }
+        for (dependent, f) in system.rigid_links.iter().zip(on_dependents) {
+            let arm = dependent.arm(&nodes[dependent.master]);
+            self.rounding[dependent.master] += NOTHING * f.norm() * arm.norm();
+        }
+    }
+
+    /// Measures the stiffness that the forces of joints have.
+    fn measure(&mut self, system: &System, nodes: &[Node], projections: &[Vec<Mat6>]) {
+        self.on_nodes.fill([0.0; 2]);
+        for ((joint, first), diagonal) in system.numbered().zip(&self.joints) {
+            let [moment, arm] = diagonal.moment(joint, nodes, projections, (&self.forces[first..], self.extent));
+            for place in &diagonal.0 {
+                let [sum, longest] = &mut self.on_nodes[place.independent];
+                *sum += moment;
+                *longest = longest.max(arm);
+            }
+        }
+    }
+
+    /// The penalty factors for translations and rotations of the `j`-th joint where it holds weights by itself: where nothing at its ends
+    /// resists translations, so that what is stiff against rotations there are forces at arms, or nothing is as stiff as the forces of the
+    /// joints there. No other stiffness then tells what these would overturn. `None` for other joints. `values`: the matrix.
+    fn firm(&self, j: usize, values: &[f64]) -> Option<[f64; 2]> {
+        let places = &self.joints[j].0;
+        let on_nodes = places.iter().map(|place| self.on_nodes[place.independent]);
+        let [moment, arm] = on_nodes.fold([0.0f64; 2], |most, of| [most[0].max(of[0]), most[1].max(of[1])]);
+        let mut stiff = [0.0f64; 2];
+        for (dof, size) in places.iter().flat_map(|place| place.sizes(values, &self.rounding).into_iter().enumerate()) {
+            let stiff = &mut stiff[usize::from(dof > 2)];
+            *stiff = size.map_or(*stiff, |size| stiff.max(size));
+        }
+        let [translations, rotations] = stiff;
+        let moment = match translations == 0.0 {
+            true => moment.max(rotations),
+            false if rotations.max(translations * arm * arm) <= moment => moment,
+            false => return None,
+        };
+        (moment > 0.0).then_some(firm_factors(moment, arm))
+    }
+}
+
+/// The places of the diagonal of the matrix on which a joint acts.
+struct Diagonal(Vec<Place>);
+
+/// The place of an independent node that an end of a joint moves with.
+struct Place {
+    end: usize,
+    /// The node of the end.
+    node: usize,
+    /// The index in [`super::dependents::independent_nodes`] of the independent node, and that node.
+    index: usize,
+    independent: usize,
+    /// The slots of its six degrees of freedom on the diagonal.
+    slots: [Option<u32>; 6],
+}
+
+impl Place {
+    /// The sizes of the numbers on the diagonal, zero where they are rounding.
+    fn sizes(&self, values: &[f64], rounding: &[f64]) -> [Option<f64>; 6] {
+        std::array::from_fn(|dof| {
+            let entry = values[self.slots[dof]? as usize];
+            Some(if dof > 2 && entry.abs() <= rounding[self.independent] { 0.0 } else { outweighing(entry) })
+        })
+    }
+}
+
+impl Diagonal {
+    /// The slots of a joint's diagonal.
+    fn new(joint: &Joint, independent_nodes: &[Vec<usize>], dofs: &DofMap, solver: &Solver) -> Self {
+        let slot = |node: usize, dof: usize| {
+            let row = dofs.row(node, dof)?;
+            solver.slot(row, row).map(|slot| slot as u32)
+        };
+        let of = |(end, &node): (usize, &usize)| {
+            let places = independent_nodes[node].iter().enumerate();
+            let place = move |(index, &independent): (usize, &usize)| Place {
+                end,
+                node,
+                index,
+                independent,
+                slots: std::array::from_fn(|dof| slot(independent, dof)),
+            };
+            places.map(place).collect::<Vec<_>>()
+        };
+        Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
+    }
+
+    /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
+    /// the largest K g² of translations, or of rotations for an equation between these. With `even`, K is the mean of the translations of a node,
+    /// or of its rotations, which does not depend on axes, and arms are left out where the equation acts on more: joints of one body then share alike
+    /// wherever they sit.
+    fn stiffness(
+        &self,
+        G: &[Vec6; 2],
+        (rotational, even): (bool, bool),
+        projections: &[Vec<Mat6>],
+        (values, rounding): (&[f64], &[f64]),
+    ) -> [f64; 2] {
+        let (mut compliance, mut of_kind, mut largest) = (0.0, 0.0, 0.0f64);
+        for place in &self.0 {
+            let &Place { end, node, index, .. } = place;
+            let g = projections[node][index].tr_mul(&G[end]);
+            let sizes = place.sizes(values, rounding);
+            let mean = |dofs: &[Option<f64>]| {
+                let known = || dofs.iter().flatten();
+                known().sum::<f64>() / known().count().max(1) as f64
+            };
+            let means = if even { [mean(&sizes[..3]), mean(&sizes[3..])] } else { [0.0; 2] };
+            for (dof, (g, own)) in g.iter().zip(sizes).enumerate() {
+                let Some(own) = own else { continue };
+                let K = if even { means[usize::from(dof > 2)] } else { own };
+                if K > 0.0 {
+                    compliance += g * g / K;
+                }
+                if rotational == (dof > 2) {
+                    of_kind += if K > 0.0 { g * g / K } else { 0.0 };
+                    largest = largest.max(K * g * g);
+                }
+            }
+        }
+        if even && of_kind > 0.0 {
+            compliance = of_kind;
+        }
+        [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
+    }
+
+    /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
+    /// signs, that its equations exert on independent nodes. And the longest of these arms.
+    fn moment(
+        &self,
+        joint: &Joint,
+        nodes: &[Node],
+        projections: &[Vec<Mat6>],
+        (values, extent): (&[f64], f64),
+    ) -> [f64; 2] {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
+        let longest = self.0.iter().map(|place| arm(place.node, place.index)).fold(0.0, f64::max);
+        let of = |(row, lambda): (&ConstraintEquation, &f64)| {
+            let G = row.gradient(a, b);
+            let on = |&Place { end, node, index, .. }: &Place| {
+                arm(node, index) * linear(&G[end]).amax() + angular(&G[end]).amax()
+            };
+            let lever = self.0.iter().map(on).fold(0.0, f64::max);
+            // The lever of a force that goes through a node is rounding.
+            let is_one = row.is_rotational() || lever > FAINT * extent;
+            if is_one { lambda.abs() * lever } else { 0.0 }
+        };
+        [joint.equations.iter().zip(values).map(of).sum(), longest]
+    }
+}
+
+/// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
+const MODERATE: f64 = 1e4;
+
+/// Forces of joints whose factor is this part of the largest are rounding: such a joint bears nothing. And so are forces that are this part of
+/// what a gap as large as the scene, or a turn of one, would be answered with.
+const NOTHING: f64 = 1e-12;
+
+/// A moment of a joint that is this part of its force along the scene gives no measure of its stiffness, whatever the iteration has made of it.
+const FAINT: f64 = 1e-6;
+
+/// Finds the penalty factors, which rest on the matrix before any joint has added to it.
+///
+/// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
+/// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
+/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
+/// An equation on which nothing acts has the largest factor, and 1 where nothing acts on any. `at_rest`: no inertia is in the matrix.
+pub(super) fn set(
+    system: &System,
+    nodes: &[Node],
+    (diagonals, projections): (&mut Diagonals, &[Vec<Mat6>]),
+    multipliers: &mut Multipliers,
+    values: &[f64],
+    at_rest: bool,
+) {
+    diagonals.take(system, nodes, multipliers, at_rest);
+    if at_rest {
+        diagonals.measure(system, nodes, projections);
+    }
+    let firm = |j: usize| if at_rest { diagonals.firm(j, values) } else { None };
+    let (mut largest, mut firmest) = ([0.0f64; 2], [0.0f64; 2]);
+    let mut first = 0;
+    for (j, (joint, diagonal)) in system.joints.iter().zip(&diagonals.joints).enumerate() {
+        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let firm = firm(j);
+        let [translations, rotations] = firm.unwrap_or_default();
+        firmest = [firmest[0].max(translations), firmest[1].max(rotations)];
+        for (k, row) in joint.equations.iter().enumerate().filter(|_| firm.is_none()) {
+            let how = (row.is_rotational(), multipliers.may_share());
+            let [s, heaviest] =
+                diagonal.stiffness(&row.gradient(a, b), how, projections, (values, &diagonals.rounding));
+            let s = match joint.is_driven(k) {
+                true => drive_penalty(
+                    s,
+                    row,
+                    diagonal.moment(joint, nodes, projections, (&diagonals.forces[first..], diagonals.extent))[0],
+                ),
+                false => s,
+            };
+            multipliers.penalties[first + k] = s;
+            let largest = &mut largest[usize::from(row.is_rotational())];
+            *largest = largest.max(s).max(heaviest);
+        }
+        if multipliers.may_share() && firm.is_none() {
+            make_even(joint, &mut multipliers.penalties[first..]);
+        }
+        first += joint.equations.len();
+    }
+    let mut first = 0;
+    for (j, joint) in system.joints.iter().enumerate() {
+        let firm = firm(j);
+        for (s, row) in multipliers.penalties[first..].iter_mut().zip(&joint.equations) {
+            let kind = usize::from(row.is_rotational());
+            *s = beside(*s, firm.map(|firm| firm[kind]), largest[kind], firmest[kind]);
+        }
+        first += joint.equations.len();
+    }
+}
+
+/// The penalty factor of an equation by what it acts against, `s`, or by that of a joint that holds weights by itself, beside the largest of both.
+fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
+    let s = match firm {
+        Some(firm) if firm > NOTHING * heaviest => return firm,
+        Some(_) => 0.0,
+        None => s,
+    };
+    match heaviest > 0.0 {
+        _ if s * MODERATE >= heaviest && s > 0.0 => s,
+        _ if s > 0.0 => heaviest * (s / heaviest).sqrt().sqrt(),
+        true => heaviest,
+        false if firmest > 0.0 => firmest,
+        false => 1.0,
+    }
+}
+
+/// The size of an entry of the diagonal by which a penalty factor is chosen: a factor as large as a negative entry would cancel it to zero.
+fn outweighing(entry: f64) -> f64 {
+    if entry < 0.0 { -INDEFINITE * entry } else { entry }
+}
+
+/// Gives the translations of a joint one penalty factor, and its rotations one, by their mean compliance. Redundant equations share loads in
+/// proportion to the factors: with one of each its own, loads would depend on the axes in which equations are written.
+fn make_even(joint: &Joint, penalties: &mut [f64]) {
+    for rotational in [false, true] {
+        let is_one = |k: &usize| joint.equations[*k].is_rotational() == rotational && !joint.is_driven(*k);
+        let rows = || (0..joint.equations.len()).filter(is_one);
+        let compliance = rows().map(|k| penalties[k].recip()).sum::<f64>() / rows().count().max(1) as f64;
+        if compliance > 0.0 && compliance.is_finite() {
+            rows().for_each(|k| penalties[k] = compliance.recip());
+        }
+    }
+}
+
+/// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
+/// and directions make less of the factor.
+const FIRM: f64 = 100.0;
+
+/// The penalty factors for translations and rotations of a joint whose forces have this stiffness, at arms of this length.
+fn firm_factors(moment: f64, arm: f64) -> [f64; 2] {
+    // Without an arm translations turn nothing over.
+    [if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM }, FIRM * moment]
+}
+
+/// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
+/// cancel it to zero, and no simple ratio of masses makes this factor 1.
+pub(super) const INDEFINITE: f64 = 2.618_033_988_749_895;
+
+/// The penalty factor of a drive from that of any equation: it holds even where what it carries has no stiffness of its own, or a
+/// negative one, as a weight that is turned upright. `moment` is of the size of the stiffness that the forces of the joint have.
+fn drive_penalty(s: f64, row: &ConstraintEquation, moment: f64) -> f64 {
+    INDEFINITE * if row.is_rotational() { s.max(moment) } else { s }
+}

@@ -1,0 +1,289 @@
+//! The factorization of G M⁻¹ Gᵀ: dense for few constraint equations, sparse for many, where two of them are coupled only by a body that
+//! both joints hold.
+
+use super::equations::System;
+use base::math::lanes::LANES;
+use base::snapshot::{keep, keep_either};
+use linear::{Factorization, Solver, Structure};
+
+/// The largest number of constraint equations of a dense system.
+const MOST_DENSE: usize = 64;
+
+/// The matrix and its factor.
+pub enum SchurFactor {
+    /// Few equations.
+    Dense(DenseFactor),
+    /// Many equations.
+    Sparse(SparseFactor),
+}
+
+keep_either!(SchurFactor { 0 => Dense(factor), 1 => Sparse(factor) });
+
+/// The matrix and its Cholesky factor, row-major.
+pub struct DenseFactor {
+    count: usize,
+    S: Vec<f64>,
+    L: Vec<f64>,
+}
+
+keep!(DenseFactor { S, L } without { count });
+
+/// The entries of one triangle and a sparse factorization.
+pub struct SparseFactor {
+    /// Rows and columns of the entries, rows not below columns.
+    pairs: Vec<[u32; 2]>,
+    /// Their values.
+    values: Vec<f64>,
+    /// Their places in the solver's matrix, and those of their mirror images.
+    slots: Vec<[usize; 2]>,
+    solver: Solver,
+}
+
+keep!(SparseFactor { values, solver } without { pairs, slots });
+
+impl SchurFactor {
+    /// Room for the system of the joints, whose constraint equations move the nodes `rows`. `None` where there is no memory.
+    pub fn new(system: &System, rows: &[[Option<usize>; 2]]) -> Option<SchurFactor> {
+        let count = rows.len();
+        if count > MOST_DENSE {
+            return SparseFactor::new(system, rows).map(SchurFactor::Sparse);
+        }
+        let square = vec![0.0; count * count];
+        Some(SchurFactor::Dense(DenseFactor { count, S: square.clone(), L: square }))
+    }
+
+    /// True where the system is sparse.
+    pub fn is_sparse(&self) -> bool {
+        matches!(self, SchurFactor::Sparse(_))
+    }
+
+    /// Writes the entries, which `entry` gives by row and column, and factorizes. Equations that are `inert` stay by themselves; the
+    /// diagonal is `raised` by so much. Returns false where the matrix is singular.
+    pub fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
+        match self {
+            SchurFactor::Dense(factor) => factor.factor(inert, raised, entry),
+            SchurFactor::Sparse(factor) => factor.factor(inert, raised, entry),
+        }
+    }
+
+    /// Solves with the factor; `x` holds the right-hand side on entry.
+    pub fn substitute(&mut self, x: &mut [f64]) {
+        match self {
+            SchurFactor::Dense(factor) => substitute(&factor.L, x),
+            SchurFactor::Sparse(factor) => factor.solver.solve(x),
+        }
+    }
+
+    /// Solves with one iterative refinement; `x` and `scratch` hold the right-hand side on entry.
+    pub fn refine(&mut self, x: &mut [f64], scratch: &mut [f64]) {
+        self.substitute(x);
+        self.subtract_product(x, scratch);
+        self.substitute(scratch);
+        x.iter_mut().zip(&*scratch).for_each(|(x, more)| *x += more);
+    }
+
+    /// Subtracts the product of the matrix and `x`.
+    pub fn subtract_product(&self, x: &[f64], from: &mut [f64]) {
+        match self {
+            SchurFactor::Dense(DenseFactor { count: n, S, .. }) => {
+                for (k, from) in from.iter_mut().enumerate() {
+                    let done: f64 = S[k * n..(k + 1) * n].iter().zip(x).map(|(s, x)| s * x).sum();
+                    *from -= done;
+                }
+            }
+            SchurFactor::Sparse(SparseFactor { pairs, values, .. }) => {
+                for ([k, l], value) in pairs.iter().map(|pair| pair.map(|index| index as usize)).zip(values) {
+                    from[k] -= value * x[l];
+                    if k != l {
+                        from[l] -= value * x[k];
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl DenseFactor {
+    fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
+        let n = self.count;
+        for k in 0..n {
+            for l in 0..=k {
+                let sum = if inert[k] || inert[l] { 0.0 } else { entry(k, l) };
+                self.S[k * n + l] = sum;
+                self.S[l * n + k] = sum;
+            }
+        }
+        self.L.copy_from_slice(&self.S);
+        let L = &mut self.L;
+        for k in 0..n {
+            L[k * n + k] += raised[k];
+            for l in 0..k {
+                let sum = scalar_product(&L[k * n..k * n + l], &L[l * n..l * n + l]);
+                L[k * n + l] = (L[k * n + l] - sum) / L[l * n + l];
+            }
+            if inert[k] {
+                L[k * n + k] = 1.0;
+                continue;
+            }
+            let row = &L[k * n..k * n + k];
+            let pivot = L[k * n + k] - scalar_product(row, row);
+            if pivot <= 0.0 || pivot.is_nan() {
+                return false;
+            }
+            L[k * n + k] = pivot.sqrt();
+        }
+        true
+    }
+}
+
+impl SparseFactor {
+    fn new(system: &System, rows: &[[Option<usize>; 2]]) -> Option<SparseFactor> {
+        let sizes: Vec<usize> =
+            system.joints.iter().map(|joint| joint.equations.len()).filter(|&equations| equations > 0).collect();
+        let firsts: Vec<usize> =
+            sizes.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size))).collect();
+        let mut of_node: Vec<Vec<usize>> = Vec::new();
+        for (joint, &first) in firsts.iter().enumerate() {
+            for node in rows[first].into_iter().flatten() {
+                if of_node.len() <= node {
+                    of_node.resize(node + 1, Vec::new());
+                }
+                of_node[node].push(joint);
+            }
+        }
+        // A joint between points of one body meets it twice.
+        of_node.iter_mut().for_each(|joints| joints.dedup());
+        let alone = (0..sizes.len()).map(|joint| vec![joint]);
+        let connectivity: Vec<Vec<usize>> =
+            of_node.into_iter().filter(|joints| joints.len() > 1).chain(alone).collect();
+        let mut pairs: Vec<[u32; 2]> = Vec::new();
+        for joints in &connectivity {
+            for &a in joints {
+                for &b in joints.iter().filter(|&&b| b <= a) {
+                    for k in firsts[a]..firsts[a] + sizes[a] {
+                        let last = if a == b { k + 1 } else { firsts[b] + sizes[b] };
+                        pairs.extend((firsts[b]..last).map(|l| [k as u32, l as u32]));
+                    }
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        let structure = Structure { sizes, connectivity, multipliers: 0, positions: Vec::new() };
+        let solver = Solver::new(&structure, Factorization::choose(&structure), 1).ok()?;
+        let place = |row: u32, col: u32| solver.slot(row as usize, col as usize).unwrap_or(solver.spare());
+        let slots = pairs
+            .iter()
+            .map(|&[k, l]| match solver.is_symmetric() || k == l {
+                true => [place(k, l), solver.spare()],
+                false => [place(k, l), place(l, k)],
+            })
+            .collect();
+        Some(SparseFactor { values: vec![0.0; pairs.len()], pairs, slots, solver })
+    }
+
+    fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
+        let matrix = self.solver.values();
+        matrix.fill(0.0);
+        for ((&[k, l], value), [slot, mirror]) in self.pairs.iter().zip(&mut self.values).zip(&self.slots) {
+            let (k, l) = (k as usize, l as usize);
+            *value = if inert[k] || inert[l] { 0.0 } else { entry(k, l) };
+            let entry = match (k == l, inert[k]) {
+                (true, true) => 1.0,
+                (true, false) => *value + raised[k],
+                _ => *value,
+            };
+            matrix[*slot] += entry;
+            matrix[*mirror] += entry;
+        }
+        self.solver.factor().is_ok() && self.solver.negative_eigenvalues() == 0
+    }
+}
+
+/// Solves L Lᵀ x = b; `x` holds b on entry.
+fn substitute(L: &[f64], x: &mut [f64]) {
+    let n = x.len();
+    for k in 0..n {
+        let sum = scalar_product(&L[k * n..k * n + k], &x[..k]);
+        x[k] = (x[k] - sum) / L[k * n + k];
+    }
+    for k in (0..n).rev() {
+        let (above, rest) = x.split_at_mut(k);
+        rest[0] /= L[k * n + k];
+        above.iter_mut().zip(&L[k * n..k * n + k]).for_each(|(x, l)| *x -= l * rest[0]);
+    }
+}
+
+/// Σ aᵢ bᵢ, in sums of its own for each of eight lanes: one sum alone waits for each product.
+#[inline]
+fn scalar_product(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (a, b) in a.iter().zip(b) {
+        for i in 0..LANES {
+            sums[i] += a[i] * b[i];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A chain of joints: what the sparse factor solves is what the dense one solves, sharing and inert equations included.
+    #[test]
+    fn sparse_and_dense_agree() {
+        let text = |bodies: usize| {
+            let body = |k: usize| {
+                format!(
+                    "[[bodies]]\nname = \"b{k}\"\ncenter = [{}, 0.0, 0.0]\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\n[[joints]]\n\
+                     name = \"j{k}\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.3]\nfrom = {}\n\
+                     to = {{ body = \"b{k}\", point = [{k}.0, 0.0, 0.0] }}\n",
+                    k as f64 + 0.5,
+                    match k {
+                        0 => "{ ground = [0.0, 0.0, 0.0] }".to_owned(),
+                        _ => format!("{{ body = \"b{}\", point = [{k}.0, 0.0, 0.0] }}", k - 1),
+                    }
+                )
+            };
+            let bodies: String = (0..bodies).map(body).collect();
+            format!("[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.1\n{bodies}")
+        };
+        let source = base::diagnostic::Source::new("chain.toml", text(7), &[]);
+        let model = model::read(&source).0.unwrap();
+        let system = System::new(&model).unwrap();
+        // Each joint of five equations moves the body before it and its own.
+        let body = |k: usize| model.bodies[k].node;
+        let rows: Vec<[Option<usize>; 2]> =
+            (0..35).map(|row| [(row >= 5).then(|| body(row / 5 - 1)), Some(body(row / 5))]).collect();
+        let mut dense = SchurFactor::new(&system, &rows).unwrap();
+        let mut sparse = SchurFactor::Sparse(SparseFactor::new(&system, &rows).unwrap());
+        assert!(!dense.is_sparse());
+        let mut inert = vec![false; 35];
+        inert[11] = true;
+        let entry = |k: usize, l: usize| match (k / 5).abs_diff(l / 5) {
+            0 if k == l => 20.0 + k as f64,
+            0 | 1 => ((k * l) as f64).sin(),
+            _ => 0.0,
+        };
+        for raised in [[0.0; 35], [1e-6; 35]] {
+            assert!(dense.factor(&inert, &raised, entry) && sparse.factor(&inert, &raised, entry));
+            let given: Vec<f64> = (0..35).map(|i| (i as f64).cos()).collect();
+            let solved = |factor: &mut SchurFactor| {
+                let (mut x, mut rest) = (given.clone(), given.clone());
+                factor.substitute(&mut x);
+                factor.subtract_product(&x, &mut rest);
+                [x, rest]
+            };
+            let [both, other] = [solved(&mut dense), solved(&mut sparse)];
+            for (a, b) in both.iter().flatten().zip(other.iter().flatten()) {
+                assert!((a - b).abs() < 1e-14, "{a} {b}"); // rounding of numbers near 1/20
+            }
+        }
+        // What is not positive definite is refused by both.
+        let flat = |_: usize, _: usize| 1.0;
+        assert!(!dense.factor(&[false; 35], &[0.0; 35], flat) && !sparse.factor(&[false; 35], &[0.0; 35], flat));
+    }
+}
