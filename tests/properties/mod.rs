@@ -6,6 +6,7 @@ pub mod scene;
 mod balance;
 mod energy;
 mod equivalence;
+mod every_scheme;
 mod motion;
 mod objectivity;
 mod omission;
