@@ -103,6 +103,12 @@ impl<'d> Names<'d> {
         let parts: Vec<&str> = deck.parts().filter_map(|part| part.table.group()).map(|at| at.as_str()).collect();
         // A part may be called like the group it is made of.
         let made: HashSet<u32> = parts.iter().flat_map(|name| input.mesh.named(name)).copied().collect();
+        let of_own_group = |part: &DeckPart<'d>| {
+            let name = part.name()?.as_str();
+            let groups = input.mesh.named(part.table.group()?.as_str());
+            input.mesh.named(name).iter().any(|group| groups.contains(group)).then_some(name)
+        };
+        let own: HashSet<&str> = deck.parts().filter_map(|part| of_own_group(&part)).collect();
         let mut seen = HashSet::new();
         for group in input.mesh.groups.iter().filter(|group| seen.insert(&group.name)) {
             let name = group.name.as_str();
@@ -121,7 +127,7 @@ impl<'d> Names<'d> {
                     let place = group_names::place(&input.mesh, name).map(Place::Group);
                     self.places.extend(place.map(|place| (name, (place, &file.span))));
                 }
-                Some(_) if is_part() => {}
+                Some(_) if own.contains(name) => {}
                 Some((place, span)) => {
                     let message = format!("{} `{name}` has the name of a group of the mesh", place.noun());
                     report.error_with::<()>(span, message, "rename it, here or in the mesh");

@@ -124,6 +124,9 @@ fn parts() {
         "name_of_a_group",
         said(&[("p = [0.0", "tip = [0.0"), ("path = [\"p\"", "path = [\"tip\""), ("at = \"p\"", "at = \"tip\"")], &[])
     );
+    let body = "[[bodies]]\nname = \"plate\"\ncenter = [0.0, 0.0, 9.0]\nmass = 1.0\ninertia = [1.0, 1.0, 1.0]\n";
+    let sheet = format!("{body}\n[[shells]]\nname = \"sheet\"\ngroup = \"plate\"");
+    assert_snapshot!("name_of_a_group_of_another_part", said(&[("[[shells]]\ngroup = \"plate\"", &sheet)], &[]));
     assert_snapshot!("turned_round", said(&[], &[("9 5 6 9 8 ", "9 8 9 6 5 ")]));
     assert_snapshot!(
         "left_out",
