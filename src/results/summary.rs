@@ -111,7 +111,7 @@ fn of_table(folder: &Path, file: &str) -> io::Result<Vec<ColumnSummary>> {
     let mut found: Vec<Option<[Extremum; 3]>> = vec![None; places.len()];
     let mut last = f64::NEG_INFINITY;
     let mut ragged = None;
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let row: Vec<&[u8]> = fields(row).collect();
         if row.len() != width {
             ragged = Some(row.len());

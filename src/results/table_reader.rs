@@ -88,7 +88,7 @@ impl TableReader {
     ///
     /// # Errors
     /// The file cannot be read; the error names it.
-    pub fn next(&mut self) -> io::Result<Option<&[u8]>> {
+    pub fn next_row(&mut self) -> io::Result<Option<&[u8]>> {
         if !self.read()? {
             return Ok(None);
         }
@@ -186,17 +186,18 @@ mod tests {
         std::fs::write(&path, "step,name,x\n0,\"a, \"\"b\"\"\nc\",1.5\r\n1,d,\n2,e,3").unwrap();
         let mut rows = TableReader::open(&path).unwrap();
         assert_eq!(rows.header, ["step", "name", "x"]);
-        let read: Vec<String> = fields(rows.next().unwrap().unwrap()).map(|field| text(field).into_owned()).collect();
+        let read: Vec<String> =
+            fields(rows.next_row().unwrap().unwrap()).map(|field| text(field).into_owned()).collect();
         assert_eq!(read, ["0", "a, \"b\"\nc", "1.5"]);
-        assert!(number(fields(rows.next().unwrap().unwrap()).nth(2).unwrap()).is_nan());
-        assert!(rows.next().unwrap().is_none());
+        assert!(number(fields(rows.next_row().unwrap().unwrap()).nth(2).unwrap()).is_nan());
+        assert!(rows.next_row().unwrap().is_none());
         assert!(rows.truncated && rows.count == 2);
         std::fs::write(&path, "step\n").unwrap();
         assert!(!TableReader::open(&path).unwrap().truncated);
         // A table may end within a name of two lines, and before its header is whole.
         std::fs::write(&path, "step,name\n0,\"a\n").unwrap();
         let mut rows = TableReader::open(&path).unwrap();
-        assert!(rows.next().unwrap().is_none() && rows.truncated);
+        assert!(rows.next_row().unwrap().is_none() && rows.truncated);
         for torn in ["", "step,na"] {
             std::fs::write(&path, torn).unwrap();
             assert!(TableReader::open(&path).is_err_and(|error| error.to_string().contains("cut short")));

@@ -70,6 +70,9 @@ struct Judged {
 
 keep!(Judged { run, state, recorder, warnings, seen, stopped });
 
+/// What is shown of another run, by the factor between the errors of both.
+type TellOther = fn(f64) -> OtherRun;
+
 impl Run<'_> {
     /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
     /// not start. Where steps follow a tolerance, their error is estimated by a second run, and the run is made again where it is
@@ -182,7 +185,7 @@ impl Run<'_> {
     fn judge(
         &mut self,
         search: &mut Search,
-        other: Option<(fn(f64) -> OtherRun, Kept)>,
+        other: Option<(TellOther, Kept)>,
         observer: &mut dyn Observer,
     ) -> Option<(Outcome, Option<State>)> {
         let Search { error, pieces, judged, .. } = search;

@@ -117,7 +117,7 @@ fn read_table(
     };
     let mut starts: HashMap<String, Vec3> = HashMap::new();
     let mut numbers = Vec::new();
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let mut name = String::new();
         numbers.clear();
         for (i, field) in fields(row).enumerate() {

@@ -223,7 +223,7 @@ fn read_shares(path: &Path) -> io::Result<Shares> {
     let mut peaks: Shares = HashMap::new();
     // The step at hand, the energy of all parts in it, the largest such energy so far, and the sum over all steps.
     let (mut step, mut now, mut largest, mut sum) = (Vec::new(), 0.0, 0.0f64, 0.0);
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let cells: Vec<&[u8]> = fields(row).collect();
         let [of, _, kind, part, strain] = cells[..] else { continue };
         if of != step {

@@ -62,7 +62,7 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
     let last = looked_at.chain(stages).max().unwrap_or(0);
     // The ends of the fields of a row, so far as they are looked at.
     let mut ends: Vec<(usize, usize)> = Vec::new();
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let mut from = 0;
         ends.clear();
         ends.extend(fields(row).take(last + 1).map(|field| {

@@ -346,7 +346,7 @@ fn turns(folder: &Path) -> io::Result<bool> {
     let mut rows = TableReader::open(&path)?;
     let (Some(dt), Some(time)) = (rows.column("dt"), rows.column("time")) else { return Ok(false) };
     let mut before = f64::NEG_INFINITY;
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let row: Vec<f64> = fields(row).map(number).collect();
         // A row may stand for several steps.
         let now = row.get(time).copied().unwrap_or(f64::NAN);

@@ -155,7 +155,7 @@ fn send(rows: &mut TableReader, pick: &Pick, sender: &SyncSender<Message>) -> io
     let mut ranges = vec![Range::NONE; width];
     let mut block = Block::default();
     let mut before = [0.0, f64::NEG_INFINITY];
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let (mut when, first, mut count) = ([0.0; 2], block.values.len(), 0);
         block.values.resize(first + width, f64::NAN);
         for (field, role) in fields(row).zip(roles.iter().chain(std::iter::repeat(&Role::Nothing))) {

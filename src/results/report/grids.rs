@@ -151,7 +151,7 @@ fn kinds(path: &Path) -> io::Result<Vec<u8>> {
     }
     let mut rows = TableReader::open(path)?;
     let mut kinds = Vec::new();
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let kind = fields(row).nth(1).map(text).unwrap_or_default();
         kinds.push(KINDS.iter().position(|other| *other == kind).unwrap_or_default() as u8);
     }

@@ -70,7 +70,7 @@ fn each(rows: &mut TableReader, places: &Places, see: &mut dyn FnMut(usize, &[&[
     let columns = rows.header.len();
     let (mut frames, mut before) = (0, Vec::new());
     let mut wrong = None;
-    while let Some(row) = rows.next()? {
+    while let Some(row) = rows.next_row()? {
         let row: Vec<&[u8]> = fields(row).collect();
         if row.len() != columns {
             wrong = Some(row.len());

@@ -314,7 +314,6 @@ mod tests {
     use crate::start::start;
     use crate::system::System;
     use base::diagnostic::Source;
-    use model;
     use std::sync::atomic::AtomicBool;
 
     static NEVER: AtomicBool = AtomicBool::new(false);
