@@ -1,7 +1,7 @@
-//! What the program says about a deck: a message, the place it speaks of, and hints.
+//! Messages about a deck: text, place and hints.
 //!
-//! A [`Source`] is the deck's text followed by the `--set` arguments, each at offsets of its own, so that one range of
-//! bytes says both in which of them a value stands and where.
+//! A [`Source`] holds the text of the deck followed by the `--set` arguments. Each has its own offsets, so one byte range identifies the
+//! text and the position.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -59,7 +59,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
     }
 }
 
-/// Gives a wrapper the schema of what it wraps: a reader of the schema is not to see the wrapper.
+/// Gives a wrapper the schema of its content, so the wrapper does not appear in the schema.
 #[macro_export]
 macro_rules! schema_of_inner {
     ($Wrapper:ident) => {
@@ -127,8 +127,8 @@ impl Excerpt {
     }
 }
 
-/// A text for a terminal, which takes some characters for commands: all that control it or turn the direction of writing become
-/// U+FFFD; line ends and tabs stay.
+/// Makes a text safe for a terminal: control characters and characters that change the writing direction become U+FFFD. Line ends and tabs
+/// stay.
 pub fn plain(text: &str) -> Cow<'_, str> {
     let is_command = |c: char| {
         (c.is_control() && c != '\n' && c != '\t') || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
@@ -144,8 +144,8 @@ pub fn composed(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// [`plain`] for a text in which places are marked: each character becomes one of as many bytes. The renderer shows those of one
-/// byte as pictures.
+/// Like [`plain`], for a text with marked places: each character keeps its length in bytes. The renderer shows those of one byte as
+/// pictures.
 fn in_place(text: &str) -> Cow<'_, str> {
     let is_command = |c: char| matches!(c, '\u{80}'..='\u{9f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
     if !text.contains(is_command) {
@@ -162,13 +162,13 @@ fn in_place(text: &str) -> Cow<'_, str> {
 /// One thing to say about a deck.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diagnostic {
-    /// The weight of what is said.
+    /// Severity of the message.
     pub severity: Severity,
     /// The message: one sentence without a full stop that names the thing.
     pub message: String,
     /// The place in the deck; `None` where the deck as a whole is meant.
     pub place: Option<Span>,
-    /// The line of another file that is meant. It is shown instead of the place, which is then where the deck names that file.
+    /// The line of another file that is meant. The excerpt replaces the place, which is then the entry of the deck that names the file.
     pub excerpt: Option<Box<Excerpt>>,
     /// The remedies: the first one stands at the caret, the others below the line.
     pub hints: Vec<String>,
@@ -190,19 +190,19 @@ impl Diagnostic {
         Diagnostic { severity: Severity::Note, ..Diagnostic::error(message) }
     }
 
-    /// The same about a place in the deck.
+    /// Returns the message with a place in the deck.
     pub fn at(mut self, place: &Span) -> Self {
         self.place = Some(place.clone());
         self
     }
 
-    /// The same about a line of another file.
+    /// Returns the message with a line of another file.
     pub fn of(mut self, excerpt: Excerpt) -> Self {
         self.excerpt = Some(Box::new(excerpt));
         self
     }
 
-    /// The same with one more hint.
+    /// Returns the message with one more hint.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hints.push(hint.into());
         self
@@ -275,7 +275,7 @@ impl Diagnostic {
     }
 }
 
-/// The length in bytes up to which a text is handed over whole.
+/// Longer texts are cut to an excerpt, length in bytes.
 const SHORT: usize = 1 << 14;
 
 /// The lines of a range and the number of the first: a renderer that gets a long text goes through all of it, every time.
@@ -296,9 +296,9 @@ pub struct Source {
     pub path: String,
     /// The text of the deck, whose spans begin at 0.
     pub text: String,
-    /// The arguments, each with the offset at which its spans begin.
+    /// Arguments, each with the offset of its spans.
     pub sets: Vec<(usize, String)>,
-    /// The names of the options for which the last arguments stand.
+    /// Options that produced the last arguments.
     pub options: Vec<String>,
 }
 
@@ -319,7 +319,7 @@ impl Source {
         Source { path: path.into(), sets: sets.iter().map(place).collect(), text, options: Vec::new() }
     }
 
-    /// The same with the names of the options for which the last of the `--set` arguments stand.
+    /// Returns the source with the options that produced the last of the `--set` arguments.
     pub fn with_options(self, options: Vec<String>) -> Self {
         Source { options, ..self }
     }
@@ -330,7 +330,7 @@ impl Source {
         self.sets.get(first).is_some_and(|(offset, _)| *offset <= place.start)
     }
 
-    /// Name and text of the file or argument in which `span` lies, and the range within it.
+    /// Name and text of the file or argument of `span`, and the range within it.
     fn locate(&self, span: &Span) -> (&str, &str, Range<usize>) {
         let argument = self.sets.iter().enumerate().rev().find(|(_, (offset, _))| *offset <= span.start);
         let (name, text, offset) = match argument {

@@ -1,4 +1,4 @@
-//! Numbers, names, words and texts: what every other crate builds on, and what knows none of them.
+//! Numbers, names, words and texts: the crate below all others.
 
 #![warn(missing_docs)]
 

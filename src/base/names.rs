@@ -1,7 +1,6 @@
-//! What the user may have meant.
+//! Suggestions for misspelled names.
 
-/// The candidate nearest to `word`, if it is near enough to be a slip of the pen: one edit in three letters, or in two
-/// if there are no more.
+/// The candidate nearest to `word`, if it is a likely misspelling: one edit in three letters, or two if there are no more.
 pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let (lower, length) = (word.to_lowercase(), word.chars().count());
     let edits = |candidate: &str| strsim::damerau_levenshtein(&lower, &candidate.to_lowercase());
@@ -52,7 +51,7 @@ pub fn short(number: f64) -> String {
     to_digits(number, 4)
 }
 
-/// A time to nine digits, for messages: without those that rounding leaves behind.
+/// A time to nine digits for messages, without trailing rounding.
 pub fn instant(time: f64) -> String {
     to_digits(time, 9)
 }

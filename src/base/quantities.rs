@@ -1,14 +1,14 @@
-//! The quantities that results are told in: what a column means, in which unit and axes, and with which sign.
+//! Quantities of results: meaning, unit, axes and sign of columns.
 //!
-//! Decks, files, comparisons and the generated page of results all read these lists, so a name has one meaning. A table of
-//! results is a row of such lists; what only one table has stands with that table.
+//! Decks, files, comparisons and the generated page of results all read these lists, so a name has one meaning. A table of results is a row
+//! of such lists; columns of one table stand with that table.
 
 use std::fmt;
 
-/// The unit of a column, in any consistent system of units; what is printed is made of force, length, mass and time.
+/// Unit of a column in any consistent system: a product of force, length, mass and time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unit {
-    /// A name or a number that says what a row is about.
+    /// Name or number of a row.
     Label,
     /// A whole number of things.
     Count,
@@ -127,47 +127,47 @@ pub struct Column {
     pub unit: Unit,
     /// The axes that a component refers to.
     pub axes: Axes,
-    /// The meaning of a positive number, where that is not plain; else empty.
+    /// Meaning of a positive number, if it is not obvious; otherwise empty.
     pub sign: &'static str,
-    /// Columns of one kind are components of one thing, or amounts that are exchanged with each other; one that does not vary
-    /// is measured against the largest of its kind.
+    /// Columns of one kind are components of one vector or amounts of one balance. A constant column is measured against the largest of its
+    /// kind.
     pub kind: &'static str,
     /// A name that the column had in earlier versions.
     pub old_name: Option<&'static str>,
 }
 
 impl Column {
-    /// A column that says what a row is about.
+    /// A label column of the rows.
     pub const fn key(name: &'static str, meaning: &'static str) -> Column {
         Column::scalar(name, meaning, Unit::Label)
     }
 
-    /// A number without axes, of a kind of its own.
+    /// A number without axes, of its own kind.
     pub const fn scalar(name: &'static str, meaning: &'static str, unit: Unit) -> Column {
         Column { name, meaning, unit, axes: Axes::None, sign: "", kind: name, old_name: None }
     }
 
-    /// The same column with the meaning of a positive number.
+    /// Returns the column with the meaning of a positive number.
     pub const fn positive(self, sign: &'static str) -> Column {
         Column { sign, ..self }
     }
 
-    /// The same column as one of a kind.
+    /// Returns the column with a kind.
     pub const fn kind(self, kind: &'static str) -> Column {
         Column { kind, ..self }
     }
 
-    /// The same column as a component along axes.
+    /// Returns the column as a component along axes.
     pub const fn in_axes(self, axes: Axes) -> Column {
         Column { axes, ..self }
     }
 
-    /// The same column with a name that it had in earlier versions, which decks may still use.
+    /// Returns the column with an earlier name, which decks may still use.
     pub const fn formerly(self, name: &'static str) -> Column {
         Column { old_name: Some(name), ..self }
     }
 
-    /// Whether the column says what a row is about.
+    /// True for a label column.
     pub fn is_key(&self) -> bool {
         self.unit == Unit::Label
     }
@@ -232,7 +232,7 @@ pub const ANGULAR_ACCELERATION: [Column; 3] = {
     [x.formerly("bx"), y.formerly("by"), z.formerly("bz")]
 };
 
-/// Force and moment of a joint on its first part; also the columns of a contact and a link, with meanings of their own.
+/// Force and moment of a joint on its first part; contacts and links reuse the columns with their own meanings.
 pub const JOINT: [Column; 6] =
     wrench("force of the joint on its first part", "moment of the joint on its first part, about that end");
 
@@ -253,7 +253,7 @@ pub const JOINT_REACTION: [Column; 6] = wrench(
     "force of the joint on its first part (`from`): of all that it is, drive, motor, spring and friction included",
     "moment of the joint on its first part, about that end, likewise",
 );
-/// What supports exert at a point.
+/// Forces and moments of supports at a point.
 pub const REACTION: [Column; 6] = wrench(
     "force of the supports on the structure at this point",
     "moment of the supports on the structure at this point",
@@ -280,11 +280,7 @@ pub const LINK: [Column; 10] = {
         mx,
         my,
         mz,
-        Column::scalar(
-            "failed",
-            "1 where the link has failed, else 0; in decks alone in which something may fail",
-            Unit::One,
-        ),
+        Column::scalar("failed", "1 if the link has failed, otherwise 0; only in decks with failure", Unit::One),
     ]
 };
 
@@ -314,7 +310,7 @@ pub const CONTACT_PAIR: [Column; 7] = {
     [Column::scalar("touching", "number of places at which they touch", Unit::Count), fx, fy, fz, mx, my, mz]
 };
 
-/// The magnitude of the force of a contact, which only `[[expect]]` asks for.
+/// Magnitude of a contact force, only for `[[expect]]`.
 pub const CONTACT_FORCE: Column =
     Column::scalar("force", "magnitude of the force on the surface", Unit::Force).kind("force");
 
@@ -347,8 +343,7 @@ pub const ENERGY: [Column; 19] = {
         lx,
         ly,
         lz,
-        energy("eroded", "stored by what has failed, and lost with it; in decks alone in which something may fail")
-            .positive("lost"),
+        energy("eroded", "energy that failed elements had stored; only in decks with failure").positive("lost"),
     ]
 };
 
@@ -360,7 +355,7 @@ pub const MODE: [Column; 20] = {
         Column::scalar(name, meaning, Unit::One).in_axes(Axes::Global)
     }
     const fn mass(name: &'static str) -> Column {
-        let meaning = "effective mass: that of a rigid motion along the axis which moves with the mode";
+        let meaning = "effective mass for a rigid motion along the axis";
         Column::scalar(name, meaning, Unit::Mass).kind("effective mass").in_axes(Axes::Global)
     }
     const fn inertia(name: &'static str) -> Column {
@@ -381,13 +376,9 @@ pub const MODE: [Column; 20] = {
             Unit::One,
         )
         .positive("decays"),
-        Column::scalar("growth", "rate at which the motion grows, as exp(growth t)", Unit::Frequency)
+        Column::scalar("growth", "growth rate of the motion, exp(growth t)", Unit::Frequency)
             .positive("grows: the state is unstable"),
-        Column::scalar(
-            "factor",
-            "factor of the loads at which the structure buckles; empty of natural modes",
-            Unit::One,
-        ),
+        Column::scalar("factor", "factor of the loads for buckling; empty for natural modes", Unit::One),
         Column::scalar("modal_mass", "φᵀ M φ, with a shape φ whose largest displacement is 1", Unit::Mass),
         factor("participation_x"),
         factor("participation_y"),
@@ -403,7 +394,7 @@ pub const MODE: [Column; 20] = {
         inertia("inertia_z"),
         Column::scalar(
             "strain",
-            "part of the strain energy in beams, bars, shells and links; the rest is that of stressed joints and loads that follow",
+            "share of strain energy in beams, bars, shells and links; stressed joints and follower loads have the rest",
             Unit::One,
         ),
     ]
@@ -440,10 +431,10 @@ pub const RESPONSE_FREQUENCY: Column = Column::scalar("frequency", "frequency of
 
 /// The plastic strain of beams, bars and shells.
 pub const PLASTIC_STRAIN: Column = Column::scalar("plastic_strain", "largest accumulated plastic strain", Unit::One);
-/// The stress of a layer of a shell; `[[expect]]` asks for the largest of a whole shell.
+/// Stress of a layer of a shell; `[[expect]]` uses the largest of a whole shell.
 pub const VON_MISES: Column = Column::scalar("von_mises", "von Mises stress", Unit::Stress).kind("stress");
 
-/// What a shell carries per length, and the stress at its faces.
+/// Stress resultants per length of a shell, and stresses at its faces.
 pub const SHELL_RESULTANTS: [Column; 10] = [
     membrane("N11"),
     membrane("N22"),
@@ -519,7 +510,7 @@ pub fn names(groups: &[&'static [Column]]) -> Vec<&'static str> {
     groups.iter().copied().flatten().map(|column| column.name).collect()
 }
 
-/// The name that a word of a deck stands for among these columns, today's or an earlier one.
+/// The column for a word of the deck, which may be an earlier name.
 pub fn named(groups: &[&'static [Column]], word: &str) -> Option<&'static str> {
     groups.iter().copied().flatten().find(|column| column.answers_to(word)).map(|column| column.name)
 }

@@ -17,12 +17,12 @@ use super::stats::Stats;
 use super::stops::StopQuery;
 use base::snapshot::{Keep, Snapshot};
 
-/// Numbers from which on it is asked whether the memory holds them.
+/// Smallest size for the check of available memory.
 const WORTH_A_LOOK: usize = 1_000_000;
 /// Blocks after which it is asked whether the factorisation is to end: a hundredth of their time.
 const BETWEEN_LOOKS: usize = 64;
-/// The part of the geometric mean of the entries on the diagonal by which two entries differ that are not the same but for rounding, and
-/// for what an equilibrium leaves out of balance.
+/// Relative difference, to the geometric mean of the diagonal entries, from which two entries count as different. Rounding and an
+/// incomplete equilibrium stay below it.
 const DIFFERENT: f64 = 1e-6;
 
 /// A matrix of B×B blocks and its LU factorisation.

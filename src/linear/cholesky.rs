@@ -1,7 +1,7 @@
 //! Supernodal Cholesky factorisation: multifrontal K = L Lᵀ, or L D Lᵀ where K is not positive definite.
 //!
-//! Assembly writes straight into the lower triangle in the order of elimination. L D Lᵀ is formed without pivoting: beyond a
-//! buckling load it is as accurate as the leading minors are away from zero, and the caller's residual shows whether it was.
+//! Assembly writes straight into the lower triangle in the order of elimination. L D Lᵀ is formed without pivoting. Beyond a buckling load
+//! it is as accurate as the leading minors allow, and the caller checks the residual.
 
 use super::block_slot::BlockSlot;
 use super::elimination::Elimination;
@@ -74,7 +74,7 @@ impl Keep for Cholesky {
             length.keep(snapshot);
             if length == L.len() { L.iter_mut().for_each(|number| number.keep(snapshot)) } else { snapshot.tear() }
         } else if snapshot.gives() {
-            // Where nothing had been factored there is nothing to be formed, and nobody asks for it.
+            // Without an earlier factorization there is nothing to form.
             let _ = self.form(self.definite, &|| false);
         }
     }
@@ -89,8 +89,8 @@ impl Cholesky {
         Cholesky::with_store(graph, threads, FactorStore::new)
     }
 
-    /// The same, with the place for the factor by `store`: from the number of unknowns, of its numbers, and of those that have to be in memory
-    /// beside them.
+    /// Like [`Self::new`], with storage chosen by `store` from the number of unknowns, the size of the factor, and the memory needed beside
+    /// it.
     fn with_store(
         graph: Graph,
         threads: usize,
@@ -316,8 +316,7 @@ mod tests {
         }
     }
 
-    /// A factor in a file has the bits of one in memory, and a snapshot of it, which holds the matrix alone, is formed again, wherever
-    /// the factor lies then.
+    /// A factor in a file has the bits of one in memory. A snapshot holds the matrix alone, and the factor is formed again in either place.
     #[test]
     fn a_factor_in_a_file_is_that_in_memory() {
         // Machines with temporary files in memory have the test of the whole program.

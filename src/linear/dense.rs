@@ -46,7 +46,7 @@ pub(super) fn trsm(L: MatRef<f64>, B: MatMut<f64>, unit: bool, threads: bool) {
     join(threads, || trsm(L, upper, unit, threads), || trsm(L, lower, unit, threads));
 }
 
-/// U ← U − A Bᵀ or −A Bᵀ, the lower triangle of what is symmetric.
+/// U ← U − A Bᵀ or −A Bᵀ, for the lower triangle of a symmetric matrix.
 pub(super) fn syrk(accum: Accum, A: MatRef<f64>, B: MatRef<f64>, U: MatMut<f64>, threads: bool) {
     use triangular::BlockStructure::{Rectangular, TriangularLower};
     let n = B.nrows();

@@ -1,7 +1,6 @@
-//! Nested dissection by coordinates: each part is cut in two across the axis that leaves the smallest separator, the groups of one side that
-//! couple with the other, and separators are eliminated last. On nets of shells, and meshes that fill space, this is close to graph
-//! partitioning at a hundredth of its time; on frames minimum degree is better.
-//! A. George, SIAM J. Numer. Anal. 10 (1973).
+//! Nested dissection by coordinates: each part is cut across the axis with the smallest separator. The separator is the set of groups of
+//! one side that couple with the other, and is eliminated last. On nets of shells, and meshes that fill space, this is close to graph
+//! partitioning at a hundredth of its time; on frames minimum degree is better. A. George, SIAM J. Numer. Anal. 10 (1973).
 
 use super::graph::Graph;
 
@@ -15,7 +14,7 @@ pub(super) fn dissect(graph: &Graph, positions: &[[f64; 3]]) -> Vec<usize> {
     let placed = graph.groups() - graph.multipliers;
     let mut groups: Vec<usize> = (0..placed).collect();
     let mut order = vec![usize::MAX; placed];
-    // The part to which each group belongs at the moment.
+    // Current part of each group.
     let mut part = vec![0; placed];
     let mut parts = vec![(0, placed)];
     let mut next = 1;
@@ -86,7 +85,7 @@ fn sort(groups: &mut [usize], positions: &[[f64; 3]], axis: usize) {
     groups.sort_unstable_by(|&g, &h| key(g).0.total_cmp(&key(h).0).then(g.cmp(&h)));
 }
 
-/// Where to cut sorted groups: at the widest gap near the middle, which follows a row of nodes.
+/// Cut position of sorted groups: the widest gap near the middle, which follows a row of nodes.
 fn middle(groups: &[usize], positions: &[[f64; 3]], axis: usize) -> usize {
     let count = groups.len();
     let half = count / 2;

@@ -1,9 +1,8 @@
-//! The order in which groups are eliminated and the fill that it causes.
+//! Order of elimination of the groups, and the resulting fill.
 //!
-//! Minimum degree on the graph of groups is 6 to 15 times cheaper than on the unknowns and gives the same fill. The
-//! natural order is kept where it costs no more, because a chain numbered along its length then stays a band that the
-//! processor reads forward. Dissection of the graph is left out, for want of a library in Rust that is as good as METIS: from some 50,000
-//! unknowns on it would save two fifths of the operations on space frames.
+//! Minimum degree on the graph of groups is 6 to 15 times cheaper than on the unknowns and gives the same fill. The natural order is kept
+//! if it costs no more: a chain numbered along its length stays a band that the processor reads forward. Dissection of the graph is
+//! missing, because no Rust library matches METIS. From 50,000 unknowns on it would save two fifths of the operations on space frames.
 
 use super::dissection::dissect;
 use super::graph::Graph;
@@ -12,7 +11,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-/// Additions and multiplications of a symmetric factorisation; an unsymmetric one takes twice as many.
+/// Additions and multiplications of a symmetric factorization; an unsymmetric one needs twice as many.
 pub fn operations(structure: &Structure) -> f64 {
     Elimination::new(&Graph::new(structure)).flops
 }
@@ -48,7 +47,7 @@ impl Elimination {
         natural.or(degree).expect("without a limit there is a pattern")
     }
 
-    /// This order, or that of dissection by coordinates where it is cheaper.
+    /// Returns this order, or dissection by coordinates if it is cheaper.
     pub fn or_dissected(self, graph: &Graph) -> Self {
         let known = graph.positions.len() + graph.multipliers == graph.groups();
         if self.flops < WORTH_DISSECTION || !known {
@@ -68,9 +67,9 @@ impl Elimination {
         &self.below[self.start[k]..self.start[k + 1]]
     }
 
-    /// The pattern of the factor; none as soon as it costs more than `limit` flops. The pattern of a column is the union of
-    /// that of the matrix and those of its children in the elimination tree: the columns whose first entry below the
-    /// diagonal lies in its row.
+    /// The pattern of the factor; none as soon as it costs more than `limit` flops. The pattern of a column is the union of its matrix
+    /// pattern and the patterns of its children in the elimination tree. Children are columns whose first entry below the diagonal lies in
+    /// its row.
     fn fill(graph: &Graph, order: Vec<usize>, name: &'static str, limit: f64) -> Option<Self> {
         let n = order.len();
         let mut position = vec![0; n];
@@ -122,7 +121,7 @@ impl Elimination {
         Some(Elimination { order, position, start, below, nonzeros, flops, block_flops, name })
     }
 
-    /// The same elimination in postorder, in which update matrices come from a stack.
+    /// Returns the elimination in postorder, which takes update matrices from a stack.
     pub fn postordered(self, graph: &Graph) -> Self {
         let order = self.postorder();
         if order == self.order {

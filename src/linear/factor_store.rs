@@ -1,6 +1,6 @@
-//! Where the numbers of a factor lie: in memory, or, where that does not hold them, in a file, which the system reads and writes page by
-//! page. A factorisation writes them in order and a substitution reads them forwards and backwards, so that each runs at the speed of the disk;
-//! update matrices, which are read again at once, stay in memory. The bits are the same.
+//! Storage of a factor: memory, or a file that the system reads and writes page by page. A factorization writes in order, and a
+//! substitution reads forwards and backwards, so both run at the speed of the disk. Update matrices are read at once and stay in memory.
+//! The bits are the same.
 
 use super::memory::{self, NoScratch, TooLarge};
 use memmap2::MmapMut;
@@ -48,8 +48,8 @@ impl FactorStore {
         Ok(FactorStore::File(map, file))
     }
 
-    /// Makes the numbers zeros, for all are to be written anew: the system has not to read what stands in the file before it writes a page.
-    /// Nothing happens in memory, or where the system has no such thing.
+    /// Sets the numbers to zero, so the system does not read a page of the file before overwriting it. Nothing happens in memory, or where
+    /// the system has no such thing.
     pub fn forget(&self) {
         #[cfg(target_os = "linux")]
         if let FactorStore::File(map, file) = self {
@@ -83,7 +83,7 @@ impl DerefMut for FactorStore {
     }
 }
 
-/// True where what is written to the file takes memory.
+/// True if the file occupies memory.
 #[cfg(target_os = "linux")]
 fn is_in_memory(file: &File) -> bool {
     const IN_MEMORY: [u64; 2] = [0x0102_1994, 0x8584_58f6];
@@ -95,8 +95,8 @@ fn is_in_memory(_: &File) -> bool {
     false
 }
 
-/// Makes the file as long as it will be. A page of a mapped file for which there is no room when it is written ends the program, so that all are
-/// reserved where the system can do that.
+/// Makes the file as long as it will be. A mapped page without room on the disk ends the program when it is written. All pages are
+/// therefore reserved where the system supports it.
 ///
 /// # Errors
 /// There is no room, or no way to reserve it.

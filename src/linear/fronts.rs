@@ -1,11 +1,10 @@
-//! Multifrontal L Lᵀ and L D Lᵀ: each supernode adds up the update matrices of its children in its front, eliminates its columns and
-//! leaves one update matrix, a packed triangle, to its parent. Update matrices wait on two stacks, one for every other level of the tree: a
-//! front is then written where it stays, beside those of its children, and nothing is moved.
-//! I. S. Duff & J. K. Reid, ACM Trans. Math. Softw. 9 (1983).
+//! Multifrontal L Lᵀ and L D Lᵀ: each supernode adds the update matrices of its children to its front, and eliminates its columns. One
+//! update matrix, a packed triangle, goes to its parent. Update matrices wait on two stacks for alternate levels of the tree. A front is
+//! written in its final place beside those of its children, without moving. I. S. Duff & J. K. Reid, ACM Trans. Math. Softw. 9 (1983).
 //!
-//! Subtrees of the elimination tree are independent: each is factored on one thread, with stacks that it hands on to the next, and only what
-//! its roots leave stays. The supernodes above them follow one by one, the large dense operations of each in halves ([`super::dense`]). Both
-//! cuts depend on the structure alone, so the bits do not depend on the number of threads. Factorisations allocate nothing.
+//! Subtrees of the elimination tree are independent. One thread factors each with reusable stacks, and only the update matrices of the
+//! roots remain. The supernodes above them follow one by one, the large dense operations of each in halves ([`super::dense`]). Both cuts
+//! depend on the structure alone, so the bits do not depend on the number of threads. Factorisations allocate nothing.
 
 use super::dense::{join, potrf, trsm};
 use super::indefinite::{ldlt, ldlt_scratch};
@@ -50,7 +49,7 @@ pub(super) struct Fronts {
 /// Supernodes that are factored one after the other on one thread.
 pub(super) struct Subtree {
     pub supernodes: Range<usize>,
-    /// What its roots leave to the supernodes above, and how many numbers.
+    /// Update matrices of its roots for the supernodes above, and their size.
     updates: Vec<f64>,
     left: usize,
     /// The vectors of a substitution.
@@ -169,7 +168,7 @@ impl Fronts {
     /// Factors a matrix into `L`.
     ///
     /// # Errors
-    /// The position of a pivot that is zero or not finite, or, of a matrix that should be definite, not positive; any where it was stopped.
+    /// Position of a zero or non-finite pivot, or of a non-positive pivot of a definite matrix; arbitrary after a stop.
     pub fn factor(&mut self, K: Matrix, L: &mut [f64]) -> Result<(), usize> {
         self.take_memory();
         let Fronts { tree, subtrees, above, stacks, pool, threads, .. } = self;
@@ -239,8 +238,8 @@ impl Tree {
         }
     }
 
-    /// Assembles and eliminates supernode `s`: writes its panel of L, and its update matrix onto the stack in place of those of its children,
-    /// or into `left` where a supernode above the subtree takes it.
+    /// Assembles and eliminates supernode `s`. It writes its panel of L, and replaces the update matrices of its children on the stack by
+    /// its own. Above the subtree the update matrix goes to `left`.
     fn eliminate(
         &self,
         s: usize,
@@ -288,7 +287,7 @@ impl Tree {
         Ok(())
     }
 
-    /// The position of the first pivot of supernode `s` that vanishes beside the diagonal entry of the matrix; `panel` is that of the factor.
+    /// Position of the first pivot of supernode `s` that vanishes beside its diagonal entry; `panel` belongs to the factor.
     fn vanishing(&self, s: usize, K: Matrix, panel: &[f64]) -> Option<usize> {
         let (mut columns, height) = (self.columns(s), self.fronts[s].height());
         let begin = columns.start;
@@ -304,8 +303,8 @@ impl Tree {
         })
     }
 
-    /// Adds the update matrices of the children of `s` to `columns` of its front, after `begin`. `diagonal` gives the place of each entry of the
-    /// diagonal, which those below it follow; the first is where `to` begins.
+    /// Adds the update matrices of the children of `s` to `columns` of its front, after `begin`. `diagonal` gives the position of each
+    /// diagonal entry, followed by the entries below it; the first is the start of `to`.
     fn assemble<'a>(
         &self,
         s: usize,
@@ -356,8 +355,8 @@ impl Tree {
         }
     }
 
-    /// Adds the update matrix of supernode `s` to `columns` of the front of its parent, of `height` rows: `diagonal` gives the place of each
-    /// entry of its diagonal, which those below follow.
+    /// Adds the update matrix of supernode `s` to `columns` of the parent front with `height` rows. `diagonal` gives the position of each
+    /// diagonal entry, followed by the entries below.
     fn extend_add(
         &self,
         s: usize,

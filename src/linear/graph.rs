@@ -13,7 +13,7 @@ pub(super) struct Graph {
     pub group: Vec<u32>,
     /// So many groups at the end hold Lagrange multipliers: they are eliminated after their neighbours.
     pub multipliers: usize,
-    /// Where the other groups are; empty where that is not known.
+    /// Positions of the other groups; empty if unknown.
     pub positions: Vec<[f64; 3]>,
     start: Vec<usize>,
     neighbours: Vec<u32>,

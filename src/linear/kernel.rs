@@ -67,8 +67,8 @@ pub(super) fn row_scale<const B: usize>(A: &DenseBlock<B>) -> DenseColumn<B> {
     scale
 }
 
-/// Rows are exchanged only where the pivot is smaller than this part of the largest entry below it: the search then stays
-/// off the chain of dependent operations, and a positive definite block mostly keeps its diagonal.
+/// Rows are exchanged only if the pivot is below this part of the largest entry below it. The search then stays off the critical path, and
+/// a positive definite block usually keeps its diagonal.
 const PIVOT_THRESHOLD: f64 = 0.1;
 
 /// Rows of the working copy of a block: it fills whole vector registers, whatever B.
@@ -106,8 +106,8 @@ pub(super) fn invert<const B: usize>(A: &mut DenseBlock<B>, scale: &DenseColumn<
     Ok(())
 }
 
-/// One step of Gauss–Jordan elimination. The row of the pivot is written like the others, its old values masked out, so
-/// that no lane is treated alone. It is not inlined, or the compiler unrolls it into scalars and it takes twice as long.
+/// One step of Gauss–Jordan elimination. The row of the pivot is written like the others, its old values masked out, so that no lane is
+/// treated alone. Without inlining the compiler keeps the vector form, which is twice as fast.
 #[inline(never)]
 fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) {
     let others: [f64; LANES] = std::array::from_fn(|i| if i == k { 0.0 } else { 1.0 });
@@ -124,7 +124,7 @@ fn eliminate<const B: usize>(M: &mut [[f64; LANES]; B], k: usize, inverse: f64) 
     M[k] = factor.map(|a| a * inverse);
 }
 
-/// Exchanges rows so that the largest entry of column `k` at or below the diagonal comes to the diagonal.
+/// Exchanges rows to bring the largest entry of column `k` at or below the diagonal to the diagonal.
 #[cold]
 #[inline(never)]
 fn exchange<const B: usize>(M: &mut [[f64; LANES]; B], row: &mut [usize; B], k: usize) {
@@ -135,7 +135,7 @@ fn exchange<const B: usize>(M: &mut [[f64; LANES]; B], row: &mut [usize; B], k: 
     }
 }
 
-/// True where the determinant of A, which need not be symmetric, is negative: by elimination with exchange of rows.
+/// True if the determinant of A, symmetric or not, is negative; by elimination with row exchange.
 pub(super) fn is_determinant_negative<const B: usize>(A: &DenseBlock<B>) -> bool {
     let mut M = *A;
     let mut negative = false;
@@ -177,7 +177,7 @@ pub(super) fn negative_eigenvalues<const B: usize>(A: &DenseBlock<B>) -> usize {
             }
         }
         let Some((largest, k)) = diagonal else { return count };
-        // What is no number is a pivot of its own, so that the loop ends.
+        // NaN counts as a separate pivot, so the loop ends.
         if largest >= SINGLE * pair.0 || largest.is_nan() {
             remaining[k] = false;
             count += usize::from(M[k][k] < 0.0);

@@ -1,9 +1,9 @@
 //! The linear system K x = r of an implicit step, factored thousands of times with one structure.
 //!
-//! All that depends on the structure alone (order of elimination, fill, the place of each number) is settled once in
-//! [`Solver::new`]; [`Solver::factor`] and [`Solver::solve`] then run over flat lists and, on one thread, allocate nothing.
-//! There are two factorisations: LU on small dense blocks for small systems and unsymmetric values, and supernodal
-//! Cholesky for large symmetric ones, whose factor lies in a file where the memory does not hold it. Iterative methods are left out.
+//! [`Solver::new`] decides order of elimination, fill and place of each number once. [`Solver::factor`] and [`Solver::solve`] then run over
+//! flat lists and, on one thread, allocate nothing. There are two factorizations: LU on small dense blocks for small systems and
+//! unsymmetric values, and supernodal Cholesky for large symmetric systems. A factor too large for the memory lies in a file. Iterative
+//! methods are left out.
 
 #![warn(missing_docs)]
 

@@ -1,5 +1,4 @@
-//! Checks that the memory holds a factor before it is taken: a system that promises more memory than it has ends the
-//! programs that come to use it, without a message.
+//! Checks the available memory for a factor, because a system that overcommits kills programs without a message.
 
 use base::names::amount;
 use base::snapshot::{keep, keep_either};
@@ -66,7 +65,7 @@ impl std::error::Error for TooLarge {}
 pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     let needed = size_of::<f64>() as f64 * numbers as f64 + BESIDE * unknowns as f64;
     let fits = available().is_none_or(|available| needed <= available);
-    // A limit of this process does not show in what the system has available. The memory is given back at once, untouched.
+    // The available memory of the system does not show a limit of this process. The memory is given back at once, untouched.
     let granted = Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok();
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
 }

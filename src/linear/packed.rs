@@ -1,5 +1,5 @@
-//! Lower triangles as block columns one after the other, each a rectangle from its first row on the diagonal down: nearly half the memory
-//! of the square, and dense operations take it block by block.
+//! Lower triangles as consecutive block columns, each a rectangle from its first diagonal row down. This takes nearly half the memory of
+//! the square, and dense operations work by blocks.
 
 use super::dense::{gemm, join, syrk};
 use faer::{Accum, MatMut, MatRef};
@@ -47,7 +47,7 @@ impl Packed {
         self.start(block) + (j - before) * (self.rows - before) + (j - before)
     }
 
-    /// U ← U − A Bᵀ or −A Bᵀ for the packed triangle U of what is symmetric.
+    /// U ← U − A Bᵀ or −A Bᵀ for the packed triangle U of a symmetric matrix.
     pub fn subtract(&self, accum: Accum, (A, B): (MatRef<f64>, MatRef<f64>), U: &mut [f64], threads: bool) {
         self.subtract_blocks(accum, (A, B), U, 0..self.blocks(), threads);
     }

@@ -11,7 +11,7 @@ use base::math::fma;
 const COLUMNS: usize = 4;
 /// Width of the partial sums of a scalar product.
 const LANES: usize = 8;
-/// Panels of so many numbers are taken in blocks: to read a smaller one takes less time than to wake a thread.
+/// Panels of this size are processed in blocks; a smaller panel is read faster than a thread wakes.
 const LARGE: usize = 1 << 16;
 /// Columns of a block, a multiple of `COLUMNS`.
 const BLOCK: usize = 128;
@@ -43,7 +43,7 @@ impl<'a> Panel<'a> {
         &self.values[k * self.height + from..k * self.height + end]
     }
 
-    /// Solves for the columns in `f`, and subtracts from its rows below what they contribute there.
+    /// Solves for the columns in `f`, and subtracts their contribution from the rows below.
     pub fn forward<const R: usize>(&self, f: &mut [[f64; R]], threads: bool) {
         let mut begin = 0;
         while begin < self.columns {
@@ -59,7 +59,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Solves for the columns `begin..end`, and subtracts what they contribute to the rows of `f` below.
+    /// Solves for the columns `begin..end`, and subtracts their contribution from the rows of `f` below.
     fn forward_triangle<const R: usize>(&self, begin: usize, end: usize, f: &mut [[f64; R]]) {
         for j in (begin..end).step_by(COLUMNS) {
             let next = (j + COLUMNS).min(end);
@@ -124,7 +124,7 @@ impl<'a> Panel<'a> {
         }
     }
 
-    /// Solves for the columns in `f`, whose rows below hold the solution; divides by D before, where there is one.
+    /// Solves for the columns in `f`, whose rows below hold the solution; divides by D first, if there is one.
     pub fn backward<const R: usize>(&self, f: &mut [[f64; R]], threads: bool) {
         if self.unit {
             for (k, y) in f[..self.columns].iter_mut().enumerate() {

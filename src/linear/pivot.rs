@@ -1,10 +1,10 @@
-//! The criterion by which a pivot is too small to divide by.
+//! Criterion for pivots too small to divide by.
 
 use std::fmt;
 
-/// A pivot counts as zero at this fraction of the largest entry that its row of the diagonal block had before elimination.
-/// Unsupported chains of beams leave at most 5e-15 where an exact pivot would be zero, for up to 1000 elements; chains
-/// clamped at the far end keep 1e-9, and 5e-14 if slender as well (length of an element 1000 radii of gyration).
+/// A pivot counts as zero at this fraction of the largest entry that its row of the diagonal block had before elimination. Unsupported
+/// chains of up to 1000 beams give at most 5e-15 where an exact pivot would be zero. Chains clamped at the far end give 1e-9, and 5e-14 if
+/// slender as well (element length 1000 radii of gyration).
 pub(super) const PIVOT_TOLERANCE: f64 = 1e-14;
 
 /// A pivot is zero to working accuracy, or not finite: the matrix is singular, or holds numbers that are not finite.

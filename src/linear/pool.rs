@@ -1,4 +1,4 @@
-//! Things of which each thread needs one while it works: fewer than there are tasks.
+//! Objects that each thread needs one of while it works; fewer than tasks.
 
 use std::sync::{Condvar, Mutex, PoisonError};
 
@@ -29,7 +29,7 @@ impl<T> LendingPool<T> {
         result
     }
 
-    /// Visits all things, none of which is borrowed.
+    /// Visits all objects; none may be borrowed.
     pub fn each(&mut self, visit: impl FnMut(&mut T)) {
         self.free.get_mut().unwrap_or_else(PoisonError::into_inner).iter_mut().for_each(visit);
     }

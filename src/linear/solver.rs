@@ -41,8 +41,8 @@ impl Keep for Solver {
 }
 
 impl Solver {
-    /// Plans the factorisation and takes all memory that it needs. `threads` matters to the time of a large
-    /// [`Factorization::Cholesky`] only, and never to the bits of a result.
+    /// Plans the factorization and allocates all memory. `threads` matters to the time of a large [`Factorization::Cholesky`] only, and
+    /// never to the bits of a result.
     ///
     /// # Errors
     /// The memory does not hold the factor.
@@ -79,8 +79,8 @@ impl Solver {
         each!(self, inner => inner.slot(row, col))
     }
 
-    /// The block that couples two groups of six unknowns, given by the first row of each (external numbers), and whether
-    /// it is stored transposed, as that of `col` and `row`. None where the matrix is not symmetric, or a group is smaller.
+    /// The block that couples two groups of six unknowns, by the first row of each (external numbers). It may be stored transposed relative
+    /// to `col` and `row`. None where the matrix is not symmetric, or a group is smaller.
     pub fn block_slot(&self, row: usize, col: usize) -> Option<(BlockSlot, bool)> {
         match self {
             Solver::Cholesky(inner) => inner.block_slot(row, col),
@@ -106,7 +106,7 @@ impl Solver {
         })
     }
 
-    /// A place in [`Solver::values`] that belongs to no entry: assembly adds there what is to be dropped.
+    /// A position in [`Solver::values`] without an entry, for terms that assembly drops.
     pub fn spare(&self) -> usize {
         each!(self, inner => inner.spare())
     }
@@ -119,8 +119,8 @@ impl Solver {
         self.factor_unless(&|| false).map(|_| ())
     }
 
-    /// Factors the matrix as [`Solver::factor`] does. False where `stops` is true before it is done, which is asked every few milliseconds:
-    /// there are no factors then.
+    /// Factors the matrix as [`Solver::factor`] does. False if `stops` became true before the end; there are no factors then. `stops` is
+    /// evaluated every few milliseconds.
     ///
     /// # Errors
     /// As for [`Solver::factor`].
@@ -207,7 +207,7 @@ impl Solver {
         )
     }
 
-    /// Where the factor lies, and how large it is, where that is a file.
+    /// Place and size of the factor, if it is in a file.
     pub fn scratch(&self) -> String {
         let gigabytes = (size_of::<f64>() * self.stats().nonzeros) as f64 / 1e9;
         let folder = std::env::temp_dir();

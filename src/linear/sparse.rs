@@ -1,4 +1,4 @@
-//! A sparse matrix by rows, to multiply by: what is assembled for a factorisation, without the zeros.
+//! A sparse matrix by rows for products: the assembled matrix without zeros.
 
 /// A square sparse matrix by rows.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -10,8 +10,8 @@ pub struct Sparse {
 }
 
 impl Sparse {
-    /// The matrix of `rows` rows with the entries that `each` hands to its visitor, twice in the same order; entries of one place
-    /// are added when it multiplies, and zeros are left out.
+    /// The matrix of `rows` rows with the entries that `each` passes to its visitor, twice in the same order. Entries of one place are
+    /// added, and zeros are left out.
     pub fn from_entries(rows: usize, each: impl Fn(&mut dyn FnMut(usize, usize, f64))) -> Sparse {
         let mut start = vec![0; rows + 1];
         each(&mut |row, _, value| start[row + 1] += usize::from(value != 0.0));
@@ -100,7 +100,7 @@ mod tests {
         let mut y = [0.0; 3];
         a.multiply(&[1.0, 10.0, 100.0], &mut y);
         assert_eq!(y, [302.0, -100.0, 0.0]);
-        // 3 − 3 cancels, and what is zero is left out.
+        // 3 − 3 cancels, and zeros are left out.
         let sum = Sparse::sum(&[(1.0, &a), (1.0, &b)]);
         assert_eq!(sum.entries().collect::<Vec<_>>(), [(0, 0, 2.0), (1, 2, -1.0), (2, 1, 4.0)]);
     }

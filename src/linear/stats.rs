@@ -7,7 +7,7 @@ pub struct Stats {
     pub unknowns: usize,
     /// Numbers stored in the factor.
     pub nonzeros: usize,
-    /// Numbers held: the matrix, its factor and what the factorisation needs beside them.
+    /// Numbers stored: matrix, factor and working memory.
     pub numbers: usize,
     /// True where those of the factor lie in a file, not in memory.
     pub in_file: bool,

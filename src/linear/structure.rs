@@ -8,9 +8,9 @@ pub struct Structure {
     pub sizes: Vec<usize>,
     /// Groups that couple pairwise, for instance the nodes of an element.
     pub connectivity: Vec<Vec<usize>>,
-    /// Number of groups at the end that hold Lagrange multipliers, whose diagonal is next to zero: each is eliminated
-    /// after all groups that it couples with. The matrix is then indefinite.
+    /// Number of groups at the end with Lagrange multipliers, whose diagonal is nearly zero. Each is eliminated after all groups coupled to
+    /// it. The matrix is then indefinite.
     pub multipliers: usize,
-    /// Where the groups are, multipliers left out, for an order by dissection; empty where that is not known.
+    /// Positions of the groups without multipliers, for an order by dissection; empty if unknown.
     pub positions: Vec<[f64; 3]>,
 }

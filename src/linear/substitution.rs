@@ -1,6 +1,6 @@
-//! Forward and backward substitution, L y = b and Lᵀ x = y or D⁻¹ y, front by front: up the assembly tree with the subtrees of
-//! [`super::fronts`] side by side and the supernodes above them one by one, the large panels of each in halves
-//! ([`super::panel`]), and down again. Each reads L once, for one right-hand side or several, and is bound by the speed of memory.
+//! Forward and backward substitution, L y = b and Lᵀ x = y or D⁻¹ y, front by front. Subtrees of [`super::fronts`] run in parallel, and the
+//! supernodes above them in sequence with large panels in halves ([`super::panel`]). Each reads L once, for one right-hand side or several,
+//! and is bound by the speed of memory.
 
 use super::dense::join;
 use super::fronts::{Fronts, Subtree, Vectors};
@@ -133,7 +133,7 @@ impl Tree {
         }
     }
 
-    /// Copies the rows of a front to `f`: from `x`, which begins at `base`, or from `done` where they lie behind it.
+    /// Copies the rows of a front to `f`: from `x`, which starts at `base`, or from `done` for rows behind it.
     fn gather<const R: usize>(&self, s: usize, x: &[[f64; R]], base: usize, done: &[[f64; R]], f: &mut [[f64; R]]) {
         let (front, columns) = (&self.fronts[s], self.columns(s));
         f[..front.columns].copy_from_slice(&x[columns.start - base..columns.end - base]);

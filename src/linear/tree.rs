@@ -21,10 +21,10 @@ pub(super) struct Tree {
     pub rows: Vec<u32>,
     /// The row in the front of the parent of each of `rows`.
     pub places: Vec<u32>,
-    /// Where rows follow each other in the front of the parent too: the first of each such run, counted from the supernode's own first, and
-    /// its place in the front of the parent.
+    /// Runs of consecutive rows in the front of the parent: the first of each, counted from the supernode's first, and its place in the
+    /// front of the parent.
     pub runs: Vec<[u32; 2]>,
-    /// The row of the front in which each block of the matrix begins, by the blocks of [`LowerTriangle`].
+    /// First front row of each block of the matrix, by the blocks of [`LowerTriangle`].
     pub blocks: Vec<u32>,
 }
 
@@ -46,13 +46,13 @@ pub(super) struct Front {
     child: usize,
     /// Start of its runs in `Tree::runs`.
     pub run: usize,
-    /// The supernode to which its update matrix goes.
+    /// Supernode that receives its update matrix.
     parent: Option<usize>,
     /// Its level in the tree is odd: the stack of its update matrix.
     pub level: usize,
     /// Its update matrix goes to a supernode above its subtree, and waits for it beside the stacks.
     pub is_left: bool,
-    /// Start of its update matrix on its stack, or among those that its subtree leaves.
+    /// Start of its update matrix on its stack, or among those that the subtree passes up.
     pub update: usize,
     /// Start of its update vector on the stack of vectors.
     pub vector: usize,
@@ -102,7 +102,7 @@ impl Layout {
         Layout { tree, subtrees, above: (above, sizes) }
     }
 
-    /// What serves for every subtree, and how many of them run side by side on so many threads.
+    /// Stack sizes that fit every subtree, and the number of subtrees in parallel for so many threads.
     pub fn side_by_side(&self, threads: usize) -> (StackSizes, usize) {
         let largest = self.subtrees.iter().fold(StackSizes::default(), |largest, (_, sizes)| largest.max(*sizes));
         (largest, threads.clamp(1, self.subtrees.len().max(1)))
@@ -191,7 +191,7 @@ impl Tree {
     /// The rows of children and of blocks of the matrix in each front.
     fn find_places(&mut self, triangle: &LowerTriangle) {
         self.places = vec![0; self.rows.len()];
-        // The row of each position in the front at hand.
+        // Row of each position in the current front.
         let mut local = vec![0; triangle.rows()];
         for s in 0..self.fronts.len() - 1 {
             let Front { begin, columns, rows, place, .. } = self.fronts[s];

@@ -4,9 +4,8 @@
 use super::elimination::Elimination;
 use super::graph::Graph;
 
-/// The lower triangle of a matrix of dense blocks. Groups are counted by their place in the order of elimination, rows by their
-/// position in it. A column holds the rows of its own group from the diagonal down, then those of all later groups that it couples
-/// with, ascending.
+/// The lower triangle of a matrix of dense blocks. Groups are counted by their place in the order of elimination, rows by their position in
+/// it. A column holds the rows of its own group from the diagonal down, then those of all later coupled groups, ascending.
 pub(super) struct LowerTriangle {
     /// The first row of each group, and the number of all rows at the end.
     first: Vec<u32>,

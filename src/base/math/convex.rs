@@ -1,4 +1,4 @@
-//! Convex shapes about an origin inside: polyhedra, cylinders, and what is round about a segment; and the half space below an origin.
+//! Convex shapes about an inner origin: polyhedra, cylinders, bodies about a segment, and the half space below the origin.
 
 use super::Vec3;
 use super::cylinder::RoundCylinder;
@@ -14,8 +14,8 @@ pub enum ConvexShape {
     Spherocylinder(Spherocylinder),
     /// A cylinder with flat ends.
     Cylinder(Arc<RoundCylinder>),
-    /// All below the plane through the origin that is normal to the third axis; with a cube that is moved along under what touches it, of which the
-    /// half edge is four times the reach of that.
+    /// The half space below the plane through the origin normal to the third axis, with a cube that moves along under the touching body.
+    /// The half edge of the cube is four times the reach of that body.
     HalfSpace(Arc<Polyhedron>),
 }
 
@@ -29,7 +29,7 @@ pub struct Spherocylinder {
 }
 
 impl ConvexShape {
-    /// The half space as it is to what reaches no farther than this.
+    /// The half space for a body of at most this reach.
     pub fn half_space(reach: f64) -> ConvexShape {
         ConvexShape::HalfSpace(Arc::new(Polyhedron::cuboid(Vec3::repeat(4.0 * reach))))
     }
@@ -44,7 +44,7 @@ impl ConvexShape {
         matches!(self, ConvexShape::Spherocylinder(shape) if shape.half == Vec3::zeros())
     }
 
-    /// The polyhedron that it is, where it is one.
+    /// The polyhedron of the shape, if it is one.
     pub fn as_polyhedron(&self) -> Option<&Arc<Polyhedron>> {
         match self {
             ConvexShape::Polyhedron(shape) => Some(shape),
@@ -70,7 +70,7 @@ impl ConvexShape {
         }
     }
 
-    /// Radius of the ball about the origin that holds it; zero of a half space, which has no size.
+    /// Radius of the bounding ball about the origin; zero for a half space.
     pub fn reach(&self) -> f64 {
         match self {
             ConvexShape::Polyhedron(shape) => shape.reach(),
@@ -90,7 +90,7 @@ impl ConvexShape {
         }
     }
 
-    /// The point that lies farthest along a unit vector; the origin of a half space, none of whose points does.
+    /// The farthest point along a unit vector; the origin for a half space.
     pub fn farthest(&self, axis: &Vec3) -> Vec3 {
         match self {
             ConvexShape::Polyhedron(shape) => shape.farthest(axis),

@@ -1,15 +1,15 @@
 //! Curves of cubic polynomials through points in time: splines, with or without corners, and monotone ones.
 //!
-//! A spline has continuous second derivatives between its breaks. It breaks at jumps, where the values rest, and, where the corners of a
-//! drawing are to stay, at those. At an end it has the slope zero where the values come to rest smoothly, else that of the cubic through the
-//! four points next to it. Before the first point and after the last one the values hold.
+//! A spline has continuous second derivatives between its breaks. The curve breaks at jumps, and at corners that must stay. At an end the
+//! slope is zero if the values settle smoothly, otherwise that of the cubic through the nearest four points. Before the first point and
+//! after the last one the values hold.
 
 /// How a curve goes through its points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveShape {
     /// One spline.
     Spline,
-    /// Splines between the points at which straight lines through the points have a corner.
+    /// Splines between corners of the polyline.
     SplineWithCorners,
     /// No overshoot: extremes lie at points, slopes follow Fritsch and Carlson (1980); at rest at both ends.
     Monotone,
@@ -23,9 +23,9 @@ pub struct CubicCurve {
     cubics: Vec<[f64; 4]>,
     /// A first integral of the value and a first integral of that, at each point; zero at the first.
     integrals: Vec<[f64; 2]>,
-    /// Indices of points at which the second derivative may jump, or more.
+    /// Indices of points with a possible jump of the second derivative.
     breaks: Vec<usize>,
-    /// Times at which the slope jumps.
+    /// Times of slope jumps.
     corners: Vec<f64>,
 }
 
@@ -36,12 +36,12 @@ enum Passage {
     Smooth,
     /// With the slope zero.
     Rest,
-    /// With a slope of its own on either side.
+    /// Two slopes, one on each side.
     Corner,
 }
 
-/// Straight lines have a corner where the slope changes by more than this part of the range of slopes near by: eight samples of a period
-/// give 0.41, six 0.5; next to a start from rest sixteen give 0.37, twelve 0.46.
+/// A polyline has a corner if the change of slope exceeds this part of the slope range nearby. Eight samples of a period give 0.41, six
+/// 0.5; next to a start from rest sixteen give 0.37, twelve 0.46.
 const CORNER: f64 = 0.45;
 /// The number of slopes on either side that are near by.
 const NEAR: usize = 3;
@@ -84,7 +84,7 @@ impl CubicCurve {
         &self.points
     }
 
-    /// The same curve at times that are later by this much.
+    /// The same curve, shifted to later times.
     #[must_use]
     pub fn later(mut self, by: f64) -> CubicCurve {
         self.points.iter_mut().for_each(|point| point[0] += by);
@@ -92,12 +92,12 @@ impl CubicCurve {
         self
     }
 
-    /// Times at which the second derivative may jump, the slope or the value too.
+    /// Times with a possible jump of value, slope or second derivative.
     pub fn breaks(&self) -> impl Iterator<Item = f64> {
         self.breaks.iter().map(|&k| self.points[k][0])
     }
 
-    /// Times at which the slope jumps, those of the ends among them.
+    /// Times of slope jumps, including the ends.
     pub fn corners(&self) -> &[f64] {
         &self.corners
     }
@@ -161,7 +161,7 @@ impl CubicCurve {
         }
     }
 
-    /// Times inside the segments at which the curve turns, in order.
+    /// Times of the extrema within segments, in order.
     fn turns(&self) -> impl Iterator<Item = (usize, f64)> {
         let of = |k: usize| {
             let h = self.points[k + 1][0] - self.points[k][0];
@@ -170,7 +170,7 @@ impl CubicCurve {
         (0..self.cubics.len()).flat_map(of)
     }
 
-    /// The first time after `from` at which the curve, having risen, falls or, having fallen, rises.
+    /// The first extremum after `from`.
     pub fn turn(&self, from: f64) -> Option<f64> {
         let inside = self.turns().map(|(k, u)| self.points[k][0] + u);
         let at_points = (1..self.cubics.len()).filter(|&k| {
@@ -182,7 +182,7 @@ impl CubicCurve {
         all.first().copied()
     }
 
-    /// The largest part of the range of values by which the curve leaves the values at both ends of a segment, and the times of these ends.
+    /// The largest overshoot beyond the values of a segment, as a part of the range of values, with the times of its ends.
     pub fn overshoot(&self) -> Option<(f64, [f64; 2])> {
         let values = self.points.iter().map(|point| point[1]);
         let range = values.clone().fold(f64::NEG_INFINITY, f64::max) - values.fold(f64::INFINITY, f64::min);
@@ -284,7 +284,7 @@ fn spline_slopes(points: &[[f64; 2]], chords: &Chords, passages: &[Passage], sha
     slopes
 }
 
-/// One spline through two points or more: its slopes at the ends are zero or those of the points next to them, the others make the second
+/// One spline through at least two points: end slopes are zero or those of the neighbouring points, the inner slopes make the second
 /// derivative continuous.
 fn spline(points: &[[f64; 2]], ends: [Passage; 2], out: &mut [[f64; 2]]) {
     let n = points.len();
@@ -346,7 +346,7 @@ fn cubic(a: [f64; 2], b: [f64; 2], [start, end]: [f64; 2]) -> [f64; 4] {
     [a[1], start, (3.0 * chord - 2.0 * start - end) / h, (start + end - 2.0 * chord) / (h * h)]
 }
 
-/// Times of points at which the slope jumps; beyond the ends it is zero.
+/// Times of points with a slope jump; beyond the ends the slope is zero.
 fn corners(points: &[[f64; 2]], slopes: &[[f64; 2]], largest: f64) -> Vec<f64> {
     let side = |k: Option<usize>, end: usize| k.and_then(|k| slopes.get(k)).map_or(0.0, |slopes| slopes[end]);
     let jumps = |&k: &usize| (side(Some(k), 0) - side(k.checked_sub(1), 1)).abs() > EQUAL * largest;
@@ -386,8 +386,8 @@ mod tests {
         (0..=pieces).map(|k| end * k as f64 / pieces as f64).map(|t| [t, f(t)]).collect()
     }
 
-    /// A spline through samples of a smooth function errs by h⁴ in the value and h² in the second derivative: halving the distance divides by 16
-    /// and 4, at the ends too.
+    /// A spline through samples of a smooth function errs by h⁴ in the value and h² in the second derivative. Halving the distance
+    /// therefore divides by 16 and 4, also at the ends.
     #[test]
     fn samples_converge_to_their_function() {
         let f = |t: f64| 1.0 - (TAU * t).cos();
@@ -421,7 +421,7 @@ mod tests {
         assert_eq!(curve.corners(), [0.0, 2.0]);
     }
 
-    /// What is drawn by a few points stays a drawing: its corners are corners, and nothing overshoots.
+    /// A curve of a few points keeps its corners and does not overshoot.
     #[test]
     fn drawings_keep_their_corners() {
         let straight: [&[[f64; 2]]; 6] = [

@@ -1,7 +1,7 @@
 //! Curved faces: triangles of six nodes and quadrilaterals of nine, with shape functions of second degree.
 //!
-//! Corners come first, then the nodes on the sides, the first on that from the first corner to the second, then the one in the
-//! middle: the order of Gmsh, Abaqus and VTK. A quadrilateral of eight nodes has its middle by the serendipity functions.
+//! Node order of Gmsh, Abaqus and VTK: corners, then nodes on the sides from the first side on, then the middle node. Serendipity functions
+//! give the middle of an eight-node quadrilateral.
 
 use super::Vec3;
 
@@ -61,7 +61,7 @@ impl CurvedFace<6> for SixNodes {
 const G: f64 = 0.774_596_669_241_483_4;
 const OUT: f64 = 5.0 / 9.0;
 const MID: f64 = 8.0 / 9.0;
-/// Which of the three functions along r and along s make up that of a node; 0 and 2 at the ends.
+/// Indices of the two one-dimensional functions of each node along r and s; 0 and 2 are the ends.
 const ALONG: [[usize; 2]; 9] = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 0], [2, 1], [1, 2], [0, 1], [1, 1]];
 
 fn line(r: f64) -> [f64; 3] {

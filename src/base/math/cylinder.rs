@@ -3,7 +3,7 @@
 use super::polyhedron::Polyhedron;
 use super::{Mat3, Vec3};
 
-/// Sides of the prism that stands for a cylinder where others touch it with edges alone.
+/// Sides of the prism that replaces a cylinder in contacts of edges.
 const SIDES: usize = 16;
 
 /// A circular cylinder with flat ends about the origin.
@@ -55,7 +55,7 @@ impl RoundCylinder {
         2.0 * self.radius.min(self.half)
     }
 
-    /// The point that lies farthest along a direction, in its own axes; the middle of all where they are many.
+    /// The farthest point along a direction, in the cylinder's axes; the centre of all farthest points if there are several.
     pub fn farthest_in_axes(&self, along: &Vec3) -> Vec3 {
         /// Sines below this are rounding.
         const LEVEL: f64 = 1e-12;
@@ -76,7 +76,7 @@ impl RoundCylinder {
         (d, self.axes * n)
     }
 
-    /// The same in its own axes.
+    /// Like the distance above, in the cylinder's axes.
     pub fn distance_in_axes(&self, y: &Vec3) -> (f64, Vec3) {
         let rho = y.x.hypot(y.y);
         // On the axis itself any direction across it leads out.

@@ -32,8 +32,8 @@ pub fn fma(a: f64, b: f64, c: f64) -> f64 {
     if cfg!(target_feature = "fma") { a.mul_add(b, c) } else { a * b + c }
 }
 
-/// The larger of two numbers, or `a` where `b` is not a number. It compiles to one instruction; `f64::max`, which also
-/// guards against an `a` that is not a number, to four.
+/// The larger of two numbers, or `a` where `b` is not a number. It compiles to one instruction; `f64::max` handles NaN and compiles to
+/// four.
 #[inline(always)]
 pub fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }

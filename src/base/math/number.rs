@@ -1,5 +1,5 @@
-//! What the kernels of elements compute with: a number, or the numbers of eight elements side by side. Each operation rounds in each
-//! lane as it does on a single number, so the same kernel gives the same bits.
+//! The scalar type of element kernels: one number, or the numbers of eight elements. Each operation rounds in each lane as it does on a
+//! single number, so the same kernel gives the same bits.
 
 use super::Vec3;
 use super::lanes::{LANES, Lanes, lanes};
@@ -22,7 +22,7 @@ pub trait Number:
     const COUNT: usize;
     /// Zero for all.
     const ZERO: Self;
-    /// The same number for all.
+    /// The same number in all lanes.
     fn splat(x: f64) -> Self;
     /// The numbers of the elements.
     fn gather(of: impl FnMut(usize) -> f64) -> Self;

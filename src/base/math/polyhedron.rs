@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 /// Corners closer to a plane than this part of the size lie in it: decks have some digits only.
 const FLAT: f64 = 1e-6;
 
-/// Most points of which a hull is made.
+/// Largest number of points of a hull.
 pub const MOST_POINTS: usize = 100;
 /// Most corners of a hull: what two of them have in common is computed with room for so many.
 pub const MOST_CORNERS: usize = 32;
@@ -279,10 +279,10 @@ impl Polyhedron {
         best
     }
 
-    /// Calls with each s at which another part of the surface becomes the nearest to `from` + s `way`, outside; in no order.
+    /// Calls `found` with each s at which another part of the surface becomes nearest to `from` + s `way`, in any order.
     ///
-    /// What is nearest to an edge is bounded by the planes through it along the normals of its two faces, and what is nearest to a
-    /// corner by the planes through it across its edges, each as far as between these normals.
+    /// The nearest region of an edge is bounded by the planes through it along the normals of its two faces. That of a corner is bounded by
+    /// the planes through it across its edges, as far as between these normals.
     pub fn region_changes(&self, from: &Vec3, way: &Vec3, found: &mut dyn FnMut(f64)) {
         let crossing = |at: &Vec3, normal: &Vec3| {
             let s = normal.dot(&(at - from)) / normal.dot(way);
@@ -326,7 +326,7 @@ impl Polyhedron {
     }
 }
 
-/// Along what the nearest point of a surface may move.
+/// Directions in which the nearest point of a surface may move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Freedom {
     /// It lies in a face.
@@ -380,7 +380,7 @@ fn fan(around: &[usize]) -> impl Iterator<Item = [usize; 3]> + '_ {
     (1..around.len().max(2) - 1).map(|k| [around[0], around[k], around[k + 1]])
 }
 
-/// The points without those that lie where another does.
+/// Removes points that coincide with others.
 fn apart(points: &[Vec3], flat: f64) -> Vec<Vec3> {
     let mut kept: Vec<Vec3> = Vec::new();
     for x in points {
@@ -393,8 +393,7 @@ fn apart(points: &[Vec3], flat: f64) -> Vec<Vec3> {
 
 /// The planes that hold three points or more and have all others on one side: their outward normals, and their corners around them.
 ///
-/// All triples are looked at, which is the plainest way and the one that no set of points defeats; a hundred points take some
-/// 10 million products.
+/// All triples are tested, which is robust for any set of points; a hundred points take 10 million products.
 fn planes(points: &[Vec3], flat: f64) -> Vec<(Vec3, Vec<usize>)> {
     let count = points.len();
     let mut found: Vec<(Vec3, Vec<usize>)> = Vec::new();
@@ -436,7 +435,7 @@ fn convex_polygon(points: &[Vec3], n: &Vec3, mut held: Vec<usize>, flat: f64) ->
         (x.x, x.y)
     };
     held.sort_by(|&a, &b| seen(a).partial_cmp(&seen(b)).unwrap_or(std::cmp::Ordering::Equal));
-    // The lower chain, then the upper one (A. M. Andrew, 1979); what lies on an edge is no corner.
+    // Lower chain, then upper chain (A. M. Andrew, 1979); points on an edge are no corners.
     let left = |a: usize, b: usize, c: usize| {
         let ((ax, ay), (bx, by), (cx, cy)) = (seen(a), seen(b), seen(c));
         let turn = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);

@@ -1,7 +1,7 @@
 //! Finite rotations: unit quaternions, the exponential map and the rates that go with a rotation vector.
 //!
-//! A rotation vector Θ stands for R = exp(Θ~). Along a motion Θ(t) the spatial angular velocity and acceleration are
-//! ω = T Θ̇ and α = T Θ̈ + Ṫ Θ̇ with T = I + c₁ Θ~ + c₂ Θ~Θ~.
+//! The rotation vector Θ represents R = exp(Θ~). For a motion Θ(t) the spatial angular velocity and acceleration are ω = TΘ̇ and α = TΘ̈ +
+//! ṪΘ̇, with T = I + c₁Θ~ + c₂Θ~Θ~.
 
 use super::{Mat3, Vec3, fma};
 use nalgebra::Quaternion;
@@ -31,9 +31,8 @@ impl RotationUpdate {
         }
     }
 
-    /// The unit quaternion of the step, and the stretch minus one by which the unprojected matrix departs from
-    /// orthogonality. The truncated maps leave the axis alone and turn by the angle of their 2×2 block, which
-    /// projection keeps.
+    /// The unit quaternion of the step, and the deviation of the unprojected matrix from orthogonality. The truncated maps leave the axis
+    /// alone and turn by the angle of their 2×2 block, which projection keeps.
     #[inline]
     pub fn quaternion(self, theta: &Vec3) -> (Quaternion<f64>, f64) {
         if self == RotationUpdate::Exponential {
@@ -347,13 +346,13 @@ mod tests {
             let spin = dR * matrix(&exp(&t)).transpose();
             assert!((spin - crate::math::skew(&w)).amax() < 3e-7, "{t}");
             assert!(((omega(h) - omega(-h)) / (2.0 * h) - alpha).amax() < 3e-7, "{t}");
-            // The same sums in another order, and the inverse: a few roundings of numbers up to ten, near 2π of more.
+            // Other order of summation, and the inverse: a few roundings of numbers up to ten, more near 2π.
             let (chart, (_, own)) = (Chart::new(&t), rates(&t, &d, &Vec3::zeros()));
             let (w_chart, own_chart) = chart.rates(&d);
             assert!((w_chart - w).amax() < 1e-14 && (own_chart - own).amax() < 1e-13, "{t}");
             assert!((chart.inverse(&w) - d).amax() < 1e-12, "{t}");
             let (d_back, dd_back) = vector_rates(&t, &w, &alpha);
-            // The same sums in the same order.
+            // Identical order of summation.
             assert_eq!((chart.vector_rates(&w, &alpha), chart.spatial_rates(&d, &dd)), ((d_back, dd_back), (w, alpha)));
             assert!((d_back - d).amax() < 1e-12 && (dd_back - dd).amax() < 1e-11, "{t}");
         }

@@ -3,7 +3,7 @@
 use super::{Vec3, rotation};
 use nalgebra::Quaternion;
 
-/// What three rotations about the global axes mean together.
+/// Definition of three rotations about the global axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum RotationAngles {
     /// They are the components of one rotation vector.

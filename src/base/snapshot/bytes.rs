@@ -1,11 +1,11 @@
-//! The bytes of a snapshot, and what can go into them.
+//! Bytes of a snapshot, and the types that they can hold.
 
-/// What a snapshot can hold.
+/// A type that a snapshot can hold.
 pub trait Keep {
-    /// Writes what has to be kept into a snapshot, or takes it from one.
+    /// Writes the value into a snapshot, or reads it back.
     fn keep(&mut self, snapshot: &mut Snapshot);
 
-    /// A value to be overwritten, where a snapshot holds one more than there are; `None` for what only a deck can build.
+    /// A value to be overwritten by one more entry of the snapshot; `None` for types that only a deck can build.
     fn blank() -> Option<Self>
     where
         Self: Sized,
@@ -19,7 +19,7 @@ pub struct Snapshot {
     bytes: Vec<u8>,
     /// The next byte to be read; `None` while bytes are written.
     at: Option<usize>,
-    /// The bytes were not those of what they were read into.
+    /// The bytes do not fit the structure that reads them.
     is_torn: bool,
 }
 
@@ -49,7 +49,7 @@ impl Snapshot {
         self.at == Some(self.bytes.len()) && !self.is_torn
     }
 
-    /// Notes that the bytes do not fit what they are read into.
+    /// Marks the bytes as unfit for the structure.
     pub fn tear(&mut self) {
         self.is_torn = true;
     }

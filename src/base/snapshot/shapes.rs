@@ -1,7 +1,7 @@
-//! What is kept of structures and of variants, each in one definition.
+//! Kept fields of structures and variants, one definition each.
 
-/// Says of a structure which fields are kept, and which are left out `without` loss because the deck or the next step gives them.
-/// With `: Default` lists may grow by such structures.
+/// Lists the kept fields of a structure, and the fields left out `without` loss because the deck or the next step provides them. With `:
+/// Default` lists may grow by such structures.
 #[macro_export]
 macro_rules! keep {
     ($type:ty { $($field:ident),* $(,)? } $(without { $($left:ident),* $(,)? })?) => {

@@ -134,7 +134,7 @@ impl<T: Keep> Keep for Box<T> {
     }
 }
 
-/// What was there and is no more is taken away; what only a deck can build must be there.
+/// An optional value may disappear; a value that only a deck can build must exist.
 impl<T: Keep> Keep for Option<T> {
     fn keep(&mut self, snapshot: &mut Snapshot) {
         let mut is_there = self.is_some();

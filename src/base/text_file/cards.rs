@@ -1,9 +1,9 @@
-//! Cards: the lines of Abaqus and CalculiX input. A line that begins with `*` holds a keyword and its parameters, a line with `**`
-//! is a comment, and every other line holds data of the keyword before it. No keyword has a meaning here.
+//! Cards: the lines of Abaqus and CalculiX input. A line that starts with `*` is a keyword with parameters, a line with `**` is a comment,
+//! and all other lines are data of the keyword above. No keyword has a meaning here.
 //!
-//! Blanks before a card, and blanks inside keywords and names without quotes, have no meaning. A comma inside quotes separates
-//! nothing. Programs differ about a keyword line that ends with a comma: Abaqus takes the next line for more parameters, CalculiX
-//! takes it for data. Here the next line continues the keyword where it has the form of parameters, since no data have it.
+//! Blanks before a card, and blanks inside keywords and names without quotes, have no meaning. A comma inside quotes separates nothing.
+//! Programs differ about a keyword line with a final comma: Abaqus continues the parameters on the next line, CalculiX starts the data.
+//! Here the next line continues the keyword where it has the form of parameters, since no data have it.
 
 use super::text::{Fault, Text, TextLine, Word};
 
@@ -69,8 +69,7 @@ impl<'a, 't> Cards<'a, 't> {
         if begins_keyword(line) { Some(Card::Keyword(self.keyword(line))) } else { Some(Card::Data(data(line))) }
     }
 
-    /// Takes lines that continue a line of data which needs `wanted` fields: after a last comma, or where all fields of the next
-    /// line are still wanted.
+    /// Appends lines to a data line with `wanted` fields: after a final comma, or while all fields of the next line still fit.
     pub fn complete(&mut self, data: &mut Data<'t>, wanted: usize) {
         while data.filled() < wanted {
             let Some(next) = self.next.filter(|next| !begins_keyword(*next)) else { break };
@@ -85,7 +84,7 @@ impl<'a, 't> Cards<'a, 't> {
         }
     }
 
-    /// The line at hand; the next one takes its place.
+    /// Returns the current line and advances.
     fn take(&mut self) -> Option<TextLine<'t>> {
         std::mem::replace(&mut self.next, content(self.text))
     }
@@ -123,7 +122,7 @@ impl Keyword<'_> {
         self.name.replace(' ', "")
     }
 
-    /// The value of a parameter, which may be abbreviated; `None` where it is missing or empty.
+    /// Value of a parameter, which may be abbreviated; `None` if it is missing or empty.
     pub fn value(&self, name: &str) -> Option<&str> {
         self.parameter(name)?.value.as_deref().filter(|value| !value.is_empty())
     }

@@ -1,5 +1,4 @@
-//! Files that a deck names or a run has written, judged before rdsolve reads them: a device without end or a pipe that nobody
-//! fills would hold the program for ever.
+//! Checks files before rdsolve reads them, because an endless device or an empty pipe would block the program.
 
 use std::fs::File;
 use std::io::{self, Read};

@@ -1,4 +1,4 @@
-//! Abaqus and CalculiX input that includes other files: `*INCLUDE` stands for the lines of one, and `INPUT=` of a keyword for its data.
+//! Abaqus and CalculiX input with included files: `*INCLUDE` inserts the lines of a file, and `INPUT=` of a keyword inserts its data.
 
 use super::cards::{Card, Cards, Keyword};
 use super::text::{Fault, Piece, Text};
@@ -23,10 +23,10 @@ impl Included {
         Included { bytes, pieces: Vec::new(), lines: 0 }
     }
 
-    /// Reads what a file includes by `read`, which takes names as the file gives them. A file that includes nothing stays as it is.
+    /// Reads included files by `read`, with names as in the file. A file without includes stays unchanged.
     ///
     /// # Errors
-    /// The line that includes a file which cannot be read, or at which files include each other without end.
+    /// Errors name the line of an unreadable file, or of an endless include.
     pub fn new(
         path: &str,
         bytes: Vec<u8>,

@@ -63,7 +63,7 @@ impl<'t> Text<'t> {
         Text { pieces, ..Text::new(path, bytes) }
     }
 
-    /// The path of the file from which a line comes, and its number there.
+    /// Path of the file of a line, and the line number in it.
     pub fn origin(&self, line: usize) -> (&'t str, usize) {
         let piece = self.pieces.iter().rfind(|piece| piece.first <= line);
         piece.map_or((self.path, line), |piece| (piece.path.as_str(), piece.line + line - piece.first))

@@ -1,4 +1,4 @@
-//! Keys that are switched on as they are, or with a table that says more.
+//! Keys with a flag, or a table with details.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
@@ -13,7 +13,7 @@ use std::marker::PhantomData;
 pub enum FlagOrTable<T> {
     /// Switched on or off.
     Flag(bool),
-    /// Switched on, with what the table says.
+    /// Switched on, with details.
     Table(T),
 }
 

@@ -117,7 +117,7 @@ mod tests {
         assert_eq!((down.len(), down[0], down[8]), (9, 1e-1, 1e-3));
         // Powers are rounded.
         assert!(down.windows(2).all(|pair| (pair[0] / pair[1] - 10f64.powf(0.25)).abs() < 1e-12), "{down:?}");
-        // What is no whole number of quarters has one step more, all alike.
+        // A range that is no whole number of quarters gets one more step, all equal.
         let odd = rungs(0.02, 0.005, 4);
         assert_eq!((odd.len(), odd[3]), (4, 0.005));
         assert!((odd[0] / odd[1] - odd[2] / odd[3]).abs() < 1e-12, "{odd:?}");

@@ -1,5 +1,5 @@
-//! What tables of the deck are made of: sorts of values, and tables whose keys depend on the kind they name. Rooms of kinds
-//! write their keys with it, and the deck its tables. Each sort of value says in its `expecting` what a user should have written.
+//! Building blocks of the deck's tables: sorts of values, and tables with keys that depend on their kind. Rooms of kinds write their keys
+//! with it, and the deck its tables. Each sort of value describes its valid input in `expecting`.
 
 mod column_name;
 mod directions;

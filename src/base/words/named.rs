@@ -1,4 +1,4 @@
-//! Tables of the deck whose keys are names that the user gives.
+//! Tables of the deck with names chosen by the user as keys.
 
 use crate::diagnostic::At;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};

@@ -1,4 +1,4 @@
-//! Numbers that the program finds by itself where the deck says `"auto"`.
+//! Numbers that the program computes for `"auto"`.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Visitor};

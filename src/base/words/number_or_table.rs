@@ -1,4 +1,4 @@
-//! Keys that take a number, or a table that says more.
+//! Keys with a number, or a table with details.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;

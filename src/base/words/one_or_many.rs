@@ -14,7 +14,7 @@ use std::marker::PhantomData;
 pub struct OneOrMany<T> {
     /// The values in the order of the deck, each with its place.
     pub values: Vec<At<T>>,
-    /// True where one value is written without brackets; its place is then that of the key's value.
+    /// True for a single value without brackets; its place is then that of the key's value.
     pub single: bool,
 }
 
@@ -23,7 +23,7 @@ pub type Names = OneOrMany<String>;
 
 /// A type whose values may stand in a [`OneOrMany`].
 pub trait Item {
-    /// The text by which messages describe what is expected, with an example.
+    /// Description of the expected value for messages, with an example.
     const EXPECTED: &'static str;
 }
 
@@ -43,7 +43,7 @@ impl<'de, T: Item + Deserialize<'de>> Deserialize<'de> for OneOrMany<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Reader<T>(PhantomData<T>);
         impl<'de, T: Item + Deserialize<'de>> Reader<T> {
-            /// Reads a single value; the error says that it is `found`, which is not what is expected.
+            /// Reads a single value; the error reports `found` instead of the expected value.
             fn one<E: Error>(
                 &self,
                 value: impl IntoDeserializer<'de, E>,

@@ -1,10 +1,10 @@
-//! Arnoldi's method for operators that are not symmetric: the space grows until the eigenvalues of largest magnitude have
-//! converged (Y. Saad, Numerical Methods for Large Eigenvalue Problems (1992), chapter VI). There are no restarts.
+//! Arnoldi's method for unsymmetric operators: the space grows until the eigenvalues of largest magnitude have converged (Y. Saad,
+//! Numerical Methods for Large Eigenvalue Problems (1992), chapter VI). There are no restarts.
 
 use super::basis::{Basis, Noise, dot};
 use super::dense::{self, Complex};
 
-/// What is left of a vector after orthogonalisation counts as nothing below this part of it.
+/// A vector counts as zero after orthogonalization below this part of its length.
 const NEGLIGIBLE: f64 = 1e-13;
 
 /// A linear operator.
@@ -13,7 +13,7 @@ pub trait Operator {
     fn dimension(&self) -> usize;
     /// y ← A x.
     fn apply(&mut self, x: &[f64], y: &mut [f64]);
-    /// y ← D x with a positive diagonal matrix, by which vectors are measured.
+    /// y ← D x with a positive diagonal matrix, the metric of vectors.
     fn weigh(&self, x: &[f64], y: &mut [f64]);
     /// True where the search is to end at once.
     fn is_stopped(&self) -> bool {
@@ -82,8 +82,8 @@ impl Arnoldi {
         self.H[column].get(row).copied().unwrap_or(0.0)
     }
 
-    /// Grows until as many eigenvalues have converged as `enough` asks for, which is shown the number of those of largest
-    /// magnitude that have, one after the other; `None` where they do not within `most` expansions.
+    /// Expands the space until as many eigenvalues have converged as `enough` requires. `enough` receives the number of converged
+    /// eigenvalues of largest magnitude; `None` after `most` expansions.
     pub fn converge(
         &mut self,
         operator: &mut dyn Operator,

@@ -1,4 +1,4 @@
-//! A growing set of long vectors, each with memory of its own. Sums keep their order whatever the number of threads.
+//! A growing set of long vectors with separate memory. Sums keep their order whatever the number of threads.
 
 use rayon::prelude::*;
 use std::array::from_fn;
@@ -7,7 +7,7 @@ use std::array::from_fn;
 const CHUNK: usize = 4096;
 /// Width of the partial sums of a scalar product.
 const LANES: usize = 8;
-/// Vectors that are read together: what is summed over them stays in registers meanwhile. Sums are those of one after the other.
+/// Number of vectors read together, so that sums stay in registers. Sums are those of one after the other.
 const TOGETHER: usize = 4;
 
 /// Vectors of one length.
@@ -79,11 +79,10 @@ impl Basis {
         }
     }
 
-    /// Replaces the vectors by combinations of the first of them, not more of these than there are, each given by its factors, followed by
-    /// the vectors from `keep` on.
+    /// Replaces the first vectors by at most as many combinations of them, given by factors. The vectors from `keep` on follow.
     pub fn replace(&mut self, combinations: &[Vec<f64>], keep: usize) {
         let kept = self.vectors.split_off(keep);
-        // Rows are independent of each other, so that the new vectors may stand where the old ones did.
+        // Rows are independent, so new vectors may overwrite the old ones.
         let first = combinations.first().map_or(0, Vec::len);
         let (mut old, mut new) = (vec![0.0; first * CHUNK], vec![0.0; combinations.len() * CHUNK]);
         for from in (0..self.length).step_by(CHUNK) {

@@ -1,11 +1,11 @@
-//! Eigenpairs of the small dense matrices to which large operators are projected.
+//! Eigenpairs of small dense projected matrices.
 
 use faer::{Mat, Side};
 
 /// A complex number as its real and its imaginary part.
 pub type Complex = [f64; 2];
 
-/// Eigenvalues, ascending, and orthonormal eigenvectors, by columns, of a symmetric matrix of which the lower triangle is read.
+/// Eigenvalues, ascending, and orthonormal eigenvectors (columns) of a symmetric matrix, whose lower triangle is read.
 pub(super) fn symmetric(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<(Vec<f64>, Vec<Vec<f64>>)> {
     if n == 0 {
         return Some((Vec::new(), Vec::new()));

@@ -1,22 +1,22 @@
 //! Lanczos' method with several starting vectors and thick restarts, all vectors kept orthogonal to each other.
 //!
-//! Band form: the vectors V are expanded one by one, w = S v, and what is new in w becomes one more vector. With q vectors
-//! expanded S V_q = V H, where the first q rows of H are symmetric and the others, as many as there are starting vectors, hold
-//! the residuals of Ritz pairs. A restart keeps the Ritz vectors wanted and the vectors not yet expanded, for which the same
-//! holds (K. Wu & H. Simon, SIAM J. Matrix Anal. Appl. 22 (2000); A. Ruhe, Math. Comp. 33 (1979)).
+//! Band form: the method expands the vectors V one by one, and the new part of w = S v becomes one more vector. After q expansions S V_q =
+//! V H. The first q rows of H are symmetric, and one row for each starting vector holds the residuals of Ritz pairs. A restart keeps the
+//! Ritz vectors wanted and the vectors not yet expanded, for which the relation still holds (K. Wu & H. Simon, SIAM J. Matrix Anal. Appl.
+//! 22 (2000); A. Ruhe, Math. Comp. 33 (1979)).
 //!
-//! The metric may be semi-definite: vectors start in the range of S, and eigenvectors are taken from S y / θ, which leaves the null
-//! space behind (B. Nour-Omid, B. N. Parlett, T. Ericsson & P. S. Jensen, Math. Comp. 48 (1987)).
+//! The metric may be semi-definite: vectors start in the range of S, and eigenvectors are S y / θ, which removes the null space (B.
+//! Nour-Omid, B. N. Parlett, T. Ericsson & P. S. Jensen, Math. Comp. 48 (1987)).
 
 use super::basis::{Basis, Noise, dot};
 use super::dense;
 use std::collections::VecDeque;
 
-/// What is left of a vector after orthogonalisation counts as nothing below this part of it.
+/// A vector counts as zero after orthogonalization below this part of its length.
 const NEGLIGIBLE: f64 = 1e-11;
-/// What is left counts below this part of it where it lies in the range of the operator.
+/// Above [`NEGLIGIBLE`] and below this part, the rest counts only if it lies in the range of the operator.
 const DOUBTFUL: f64 = 1e-5;
-/// Vectors beyond those wanted, by which restarts go on.
+/// Vectors beyond those wanted, used by restarts.
 const ROOM: usize = 24;
 
 /// An operator that is symmetric in a metric: (S x)·B y = x·B (S y).
@@ -27,7 +27,7 @@ pub trait SymmetricOperator {
     fn apply(&mut self, x: &[&[f64]]) -> Vec<Vec<f64>>;
     /// y ← B x.
     fn metric(&mut self, x: &[f64], y: &mut [f64]);
-    /// False for what is no vector of the range of S but rounding: of vectors outside the range S may make anything.
+    /// False for rounding outside the range of S, on which S may act arbitrarily.
     fn may_move(&mut self, _: &[f64]) -> bool {
         true
     }
@@ -62,7 +62,7 @@ pub struct Lanczos {
     H: Vec<Vec<f64>>,
     /// The images of the vectors that are to be expanded next: those of all there are have been found together.
     images: VecDeque<Vec<f64>>,
-    /// The Ritz pairs that have converged last, where their vectors are still to be formed, and their number.
+    /// The converged Ritz pairs without vectors yet, and their number.
     converged: Option<(Ritz, usize)>,
     noise: Noise,
     /// Applications of the operator so far.
@@ -97,8 +97,7 @@ impl Lanczos {
         lanczos
     }
 
-    /// Adds vectors of all frequencies, which find what the others have no part of; false where there are none: the space is
-    /// the whole range of the operator.
+    /// Adds vectors of all frequencies, to find modes orthogonal to the others. False if the space is the whole range of the operator.
     pub fn start(&mut self, operator: &mut dyn SymmetricOperator, width: usize) -> bool {
         let before = self.basis.len();
         let mut random = || (0..operator.dimension()).map(|_| self.noise.next()).collect::<Vec<f64>>();
@@ -117,8 +116,7 @@ impl Lanczos {
         self.H.len() == self.basis.len()
     }
 
-    /// Makes a vector orthogonal to all others and adds what is left of it; returns its products with the others, and last its
-    /// length.
+    /// Orthogonalizes a vector against all others and adds it; returns the products with the others, and its length last.
     fn add(&mut self, operator: &mut dyn SymmetricOperator, mut w: Vec<f64>) -> Vec<f64> {
         let mut Bw = vec![0.0; w.len()];
         operator.metric(&w, &mut Bw);
@@ -132,7 +130,7 @@ impl Lanczos {
         }
         let length = dot(&w, &Bw).max(0.0).sqrt();
         let is_new = length > NEGLIGIBLE * before && length.is_normal();
-        // Where there is nothing new any more, what the range does not hold is left of rounding.
+        // Without a new direction, the part outside the range is rounding.
         if is_new && (length > DOUBTFUL * before || operator.may_move(&w)) {
             self.basis.push(w, 1.0 / length);
             column.push(length);
@@ -183,9 +181,8 @@ impl Lanczos {
         self.ritz().map_or_else(Vec::new, |ritz| ritz.theta)
     }
 
-    /// Goes on until the `wanted` pairs of largest magnitude have residuals below `tolerance` times their values, and returns these values;
-    /// fewer where the operator has no more, none where the iteration does not come to its end within `limit` applications of the
-    /// operator, or is stopped.
+    /// Iterates until the `wanted` pairs of largest magnitude have residuals below `tolerance` times their values, and returns the values.
+    /// Fewer are returned if the operator has no more, none after `limit` applications or a stop.
     pub fn converge(
         &mut self,
         operator: &mut dyn SymmetricOperator,
@@ -204,7 +201,7 @@ impl Lanczos {
             look = q + 4.max(q / 16);
             let ritz = self.ritz()?;
             let there = wanted.min(ritz.theta.len());
-            // What lies far below the others is rounding, and has no digits to converge to.
+            // Values far below the others are rounding, and cannot converge.
             let floor = 1e-14 * ritz.theta.first().map_or(0.0, |theta| theta.abs());
             let open = (0..there).filter(|&k| ritz.residual[k] > tolerance * ritz.theta[k].abs() + floor).count();
             let whole = q == self.basis.len();
@@ -244,7 +241,7 @@ impl Lanczos {
         self.restarts += 1;
     }
 
-    /// Leaves nothing of the space but the pairs that have converged, where they stand; a search that goes on starts anew beside them.
+    /// Keeps only the converged pairs of the space; a continued search starts anew beside them.
     pub fn narrow(&mut self) {
         let Some((ritz, count)) = self.converged.take() else { return };
         let (q, p) = (self.H.len(), self.basis.len());

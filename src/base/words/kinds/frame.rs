@@ -1,4 +1,4 @@
-//! Directions and frames from vectors of the deck, of which only the directions count.
+//! Directions and frames from vectors of the deck; lengths do not count.
 
 use crate::math::{Mat3, Vec3};
 
@@ -9,13 +9,13 @@ pub fn unit(v: &Vec3) -> Option<Vec3> {
     unit.filter(|unit| unit.amax().is_finite())
 }
 
-/// The frame (columns: its axes) whose x lies along the first of two vectors and whose x-y plane holds the second.
+/// The frame (columns: its axes) with x along the first vector and the second vector in the x-y plane.
 ///
 /// # Errors
 /// There are other than two vectors, or they are zero or parallel; the error says so in words.
 pub fn axes(vectors: &[Vec3]) -> Result<Mat3, &'static str> {
     let [x, y] = vectors else {
-        return Err("`axes` takes two vectors: x, and a vector in the x-y plane");
+        return Err("`axes` needs two vectors: x, and a vector in the x-y plane");
     };
     let (x, y) = (x.try_normalize(0.0), y.try_normalize(0.0));
     let z = x.zip(y).and_then(|(x, y)| x.cross(&y).try_normalize(1e-6));

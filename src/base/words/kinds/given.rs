@@ -7,8 +7,8 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::math::{Mat3, Vec3};
 use crate::names::short;
 
-/// The values of a table for the kind that reads them. It is asked for keys, and collects what is wrong with them, so that one
-/// mistake hides no other: a function that returns `None` has reported why, unless a key may be left out.
+/// The values of a table for the kind that reads them. It reads keys and collects all mistakes, so no mistake hides another. A function
+/// that returns `None` has reported the reason, unless the key is optional.
 pub struct Given<'t> {
     /// The table, for messages: "section `square`".
     what: &'t str,
@@ -17,12 +17,12 @@ pub struct Given<'t> {
     values: &'t Values,
     /// The keys that are written, but could not be read: these have been reported.
     unreadable: Vec<&'t str>,
-    /// What is wrong so far.
+    /// Mistakes found so far.
     pub problems: Vec<Diagnostic>,
 }
 
 impl<'t> Given<'t> {
-    /// The values of the table at `span`, which messages call `what`; `unreadable` are keys that have been reported already.
+    /// The values of the table at `span`, named `what` in messages; `unreadable` lists keys already reported.
     pub fn new(what: &'t str, span: &'t Span, values: &'t Values, unreadable: Vec<&'t str>) -> Self {
         Given { what, span, values, unreadable, problems: Vec::new() }
     }
@@ -37,7 +37,7 @@ impl<'t> Given<'t> {
         self.values
     }
 
-    /// Reports keys that `kind` does not take; `what` is a thing of that kind.
+    /// Reports keys that `kind` does not allow; `what` is an object of that kind.
     pub fn reject_others<M>(&mut self, kind: &Kind<M>, what: &str) {
         for value in self.values.0.iter().filter(|value| !kind.takes(value.key)) {
             let message = format!("`{}` does not apply to {what}", value.key);
@@ -83,7 +83,7 @@ impl<'t> Given<'t> {
         None
     }
 
-    /// Reports that one of two keys must be there, neither of which is written.
+    /// Reports that one of two missing keys is required.
     pub fn require_either<T>(&mut self, one: &str, other: &str) -> Option<T> {
         if self.is_unreadable(one) || self.is_unreadable(other) {
             return None;
@@ -163,8 +163,7 @@ impl<'t> Given<'t> {
         unit(&v).or_else(|| self.error(key, format!("`{key}` must not be zero")))
     }
 
-    /// The frame whose x lies along the first of two vectors and whose x-y plane holds the second; global axes where the key is
-    /// not written.
+    /// The frame with x along the first of two vectors and the second in the x-y plane; global axes if the key is missing.
     pub fn axes(&mut self, key: &str) -> Option<Mat3> {
         if self.is_unreadable(key) {
             return None;

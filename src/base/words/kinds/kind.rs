@@ -20,13 +20,13 @@ pub struct Kind<M: 'static> {
     pub word: &'static str,
     /// Other words that choose it.
     pub aliases: &'static [&'static str],
-    /// Words that other programs have for it: whoever writes one is told the word of the deck.
+    /// Words of other programs, for which a message names the word of the deck.
     pub guesses: &'static [&'static str],
     /// Its description in the words of the reference of the deck.
     pub about: &'static str,
     /// The keys that belong to it; other kinds may take some of them as well.
     pub keys: &'static [Key],
-    /// What the room wants of its kinds, such as the function that makes an object from the keys.
+    /// Data of the kind for its room, such as the function that builds an object from the keys.
     pub make: M,
 }
 
@@ -36,27 +36,27 @@ impl<M> Kind<M> {
         self.word == word || self.aliases.contains(&word)
     }
 
-    /// The same kind for another use, with what that use wants of it.
+    /// Returns the kind with data for another use.
     pub const fn with<N>(&self, make: N) -> Kind<N> {
         let Kind { word, aliases, guesses, about, keys, .. } = *self;
         Kind { word, aliases, guesses, about, keys, make }
     }
 
-    /// Whether it takes a key.
+    /// True if the kind allows a key.
     pub fn takes(&self, key: &str) -> bool {
         self.keys.iter().any(|own| own.name == key)
     }
 }
 
-/// A set of kinds among which a table chooses. The struct that bears it holds the keys that all of them share.
+/// A set of kinds among which a table chooses. The struct that carries it holds the keys common to all kinds.
 pub trait Kinds: 'static {
     /// The key whose value is the word of the kind.
     const CHOOSER: &'static str;
     /// The meaning of that key, in the words of the reference of the deck.
     const ABOUT: &'static str;
-    /// True where the schema demands the chooser; false where a table without it has a default kind.
+    /// True if the schema requires the kind; false if a default kind exists.
     const REQUIRED: bool;
-    /// What the room wants of its kinds.
+    /// Data of the kinds for their room.
     type Make: 'static;
 
     /// All kinds, in the order of the reference of the deck.

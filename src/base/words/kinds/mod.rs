@@ -1,8 +1,8 @@
 //! Tables whose keys depend on a word in them: the scheme of the integrator, the shape of a section, the kind of a joint.
 //!
-//! A kind states its word and its keys as a [`Kind`] in the file that computes with it, and its room lists all of them. A
-//! table that is [`OneOf`] a room's kinds takes the keys of all of them; which belong to the kind that was chosen is asked
-//! afterwards, by [`Given`], so that one mistake hides no other.
+//! A kind states its word and its keys as a [`Kind`] in the file that computes with it, and its room lists all of them. A table that is
+//! [`OneOf`] the kinds of a room reads the keys of all kinds. [`Given`] then checks the keys of the chosen kind, so no mistake hides
+//! another.
 
 mod form;
 mod frame;

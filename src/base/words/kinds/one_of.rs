@@ -1,4 +1,4 @@
-//! A table of the deck that is one of several kinds: it takes the keys of all of them, and serde reads the common ones.
+//! A table of the deck with one of several kinds: it reads the keys of all kinds, and serde reads the common keys.
 
 use super::kind::{Key, Kind, Kinds};
 use super::values::Values;
@@ -15,9 +15,9 @@ use std::ops::Deref;
 
 /// A table that is one of several kinds.
 pub struct OneOf<C: Kinds> {
-    /// The kind that the chooser names; `None` where it is not written.
+    /// The kind chosen; `None` if the deck does not name one.
     pub kind: Maybe<&'static Kind<C::Make>>,
-    /// The keys that belong to kinds, as written: also those that the chosen kind does not take.
+    /// Keys of all kinds as written, including those that the chosen kind does not allow.
     pub values: Values,
     /// The keys that all kinds share.
     common: C,
@@ -98,7 +98,7 @@ impl<'de, A: MapAccess<'de>, C: Kinds + Deserialize<'de>> MapAccess<'de> for Sor
     }
 }
 
-/// A key of the table by whose it is: the chooser, one of a kind, or one that all kinds share.
+/// A key of the table by owner: the chooser, one kind, or all kinds.
 enum Name<C> {
     Chooser,
     Own(&'static Key),
@@ -164,7 +164,7 @@ impl<'de, C: Kinds> Deserialize<'de> for Word<C> {
     }
 }
 
-/// The names of the fields that a struct asks serde for: it is asked to read itself from nothing, and what it asks for is noted.
+/// Names of the fields of a struct: the struct is read from an empty source that records the requests of serde.
 fn fields<'de, C: Deserialize<'de>>() -> &'static [&'static str] {
     struct Asked<'a>(&'a Cell<&'static [&'static str]>);
     impl<'de> Deserializer<'de> for Asked<'_> {

@@ -1,4 +1,4 @@
-//! The schema of a table that is one of several kinds: each word with its meaning, each key with the kinds that take it.
+//! The schema of a table with one of several kinds: each word with its meaning, each key with its kinds.
 
 use super::kind::{Kind, Kinds};
 use super::one_of::OneOf;

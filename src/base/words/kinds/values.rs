@@ -1,4 +1,4 @@
-//! The values of the keys that belong to kinds, as they are written.
+//! Values of the keys of kinds, as written.
 
 use crate::diagnostic::Span;
 
