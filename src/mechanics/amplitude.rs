@@ -9,9 +9,9 @@ use std::f64::consts::PI;
 /// The side of a jump or a kink on which a value is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
-    /// The limit from earlier times, which a step that ends there sees.
+    /// Limit from earlier times, for a step that ends there.
     Before,
-    /// The limit from later times, which a step that begins there sees.
+    /// Limit from later times, for a step that starts there.
     After,
 }
 
@@ -28,32 +28,32 @@ pub enum Amplitude {
         angular_frequency: f64,
         /// The phase at the start, in radians.
         phase: f64,
-        /// The time at which it begins.
+        /// Start time.
         start: f64,
-        /// The time at which it ends.
+        /// End time.
         end: f64,
     },
     /// sin²(ω (t − start)) from start to end, 0 outside.
     SineSquared {
         /// ω, in radians per time.
         angular_frequency: f64,
-        /// The time at which it begins.
+        /// Start time.
         start: f64,
-        /// The time at which it ends.
+        /// End time.
         end: f64,
     },
     /// From 0 at start to 1 at end, then 1.
     Ramp {
-        /// The time at which it begins.
+        /// Start time.
         start: f64,
-        /// The time from which it is 1.
+        /// Time at which it reaches 1.
         end: f64,
     },
     /// 1 for start ≤ t < end, 0 outside.
     Step {
-        /// The time from which it is 1.
+        /// Time at which it reaches 1.
         start: f64,
-        /// The time from which it is 0 again.
+        /// Time at which it returns to 0.
         end: f64,
     },
     /// 1.
@@ -102,7 +102,7 @@ fn integrals_along(a: [f64; 2], b: [f64; 2], [first, second]: [f64; 2], t: f64) 
     [first + u * (a[1] + 0.5 * u * k), second + u * (first + u * (0.5 * a[1] + u * k / 6.0))]
 }
 
-/// A time at which an amplitude jumps, with its values on both sides.
+/// Time of a jump of an amplitude, with the values on both sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Jump {
     /// The time of the jump.
@@ -114,7 +114,7 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// What is left of a sine that ends at a zero is rounding of its argument.
+    /// A sine that ends at a zero leaves only rounding of its argument.
     fn is_felt(&self) -> bool {
         self.time.is_finite() && (self.after - self.before).abs() > 1e-12
     }
@@ -130,7 +130,7 @@ impl Amplitude {
         }
     }
 
-    /// The phase, in radians, of what a frequency response excites; `None` of functions of time.
+    /// Phase in radians of the excitation of a frequency response; `None` for functions of time.
     pub fn harmonic_phase(&self) -> Option<f64> {
         match self {
             Amplitude::Harmonic { phase } => Some(*phase),
@@ -156,7 +156,7 @@ impl Amplitude {
         all.into_iter().filter(Jump::is_felt).collect()
     }
 
-    /// The same function at times that are later by this much.
+    /// The same function, shifted to later times.
     #[must_use]
     pub fn later(self, by: f64) -> Amplitude {
         match self {
@@ -177,7 +177,7 @@ impl Amplitude {
         }
     }
 
-    /// Times at which the value or its slope may jump.
+    /// Times of possible jumps of value or slope.
     pub fn kinks(&self) -> Vec<f64> {
         let all = match *self {
             Amplitude::Table(StraightLines { ref points, .. }) => points.iter().map(|point| point[0]).collect(),
@@ -191,9 +191,9 @@ impl Amplitude {
         all.into_iter().filter(|time| time.is_finite()).collect()
     }
 
-    /// The first time from 0 to `end` at which the value, having risen, falls or, having fallen, rises. Jumps are left out.
+    /// First extremum between 0 and `end`. Jumps are left out.
     pub fn turn(&self, end: f64) -> Option<f64> {
-        // First zero of the rate inside where the sine acts; what comes within rounding of an end is no turn.
+        // First zero of the rate within the sine; a zero within rounding of an end does not count.
         let inside = |from: f64, to: f64, zero: &dyn Fn(f64) -> f64, spacing: f64| {
             let (low, high) = (from.max(0.0), to.min(end));
             let slack = 1e-9 * end;
@@ -223,7 +223,7 @@ impl Amplitude {
         }
     }
 
-    /// How long from t = 0 the value stays as it is then; infinite where for ever.
+    /// Time from t = 0 during which the value is constant; infinite if always.
     pub fn rest(&self) -> f64 {
         if let Some(points) = self.points() {
             let change = points.windows(2).find(|p| p[1][0] > 0.0 && p[0][1] != p[1][1]);
@@ -303,7 +303,7 @@ impl Amplitude {
         }
     }
 
-    /// The kink that a time misses by less than `slack`, or that time.
+    /// The nearest kink within `slack` of a time, or that time.
     pub fn snapped(&self, t: f64, slack: f64) -> f64 {
         let near = |kink: f64| (kink - t).abs() <= slack;
         if let Some(points) = self.points() {
@@ -375,8 +375,8 @@ impl Amplitude {
     }
 }
 
-/// Primitives of a function that acts from start to end only: `inside` gives them at a time after the start, and past
-/// the end the first stays and the second grows in proportion.
+/// Integrals of a function that acts from start to end only: `inside` gives them after the start. Beyond the end the first stays constant
+/// and the second grows linearly.
 fn over(start: f64, end: f64, t: f64, inside: impl Fn(f64) -> (f64, f64)) -> (f64, f64) {
     if t <= start || end <= start {
         return (0.0, 0.0);
@@ -385,7 +385,7 @@ fn over(start: f64, end: f64, t: f64, inside: impl Fn(f64) -> (f64, f64)) -> (f6
     (first, second + first * (t - end).max(0.0))
 }
 
-/// True between two times, or at the end of which the other side is asked for.
+/// True between two times, or at the end from the matching side.
 fn lies_in([start, end]: [f64; 2], t: f64, side: Side) -> bool {
     match side {
         Side::Before => start < t && t <= end,
@@ -393,7 +393,7 @@ fn lies_in([start, end]: [f64; 2], t: f64, side: Side) -> bool {
     }
 }
 
-/// The points between which a table goes on from `t`, or comes to it.
+/// Neighbouring points of a table on the given side of `t`.
 fn beside(points: &[[f64; 2]], t: f64, side: Side) -> (Option<[f64; 2]>, Option<[f64; 2]>) {
     if side == Side::After {
         return around(points, t);

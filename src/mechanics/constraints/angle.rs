@@ -1,8 +1,8 @@
-//! The angle by which a node has turned from another about an axis that both share, with its derivatives.
+//! Relative angle of two nodes about a shared axis, with its derivatives.
 //!
-//! With u = R_b p and the axes p, s across the shared axis e = p × s of the first node, x = u·R_a p and y = u·R_a s, the
-//! angle is θ = atan2(y, x). Where the nodes share the axis, x² + y² = 1; elsewhere the formula is smooth all the same, so
-//! that an iteration may pass there. The angle is known up to full turns: who needs them counts.
+//! With u = R_b p and the axes p, s normal to the shared axis e = p × s of the first node, x = u·R_a p and y = u·R_a s, the angle is θ =
+//! atan2(y, x). If the nodes share the axis, x² + y² = 1. The formula is smooth elsewhere too, so iterates may leave the axis. The angle is
+//! known up to full turns: who needs them counts.
 
 use crate::state::Node;
 use base::math::{Mat3, Vec3, Vec6, skew, stack};
@@ -35,7 +35,7 @@ impl Angle {
         Angle { p, s: axes.column(2).into_owned(), turned: p }
     }
 
-    /// The same angle counted from where both nodes are now; the axis is that of the first node.
+    /// Returns the angle counted from the current rotations of both nodes, about the axis of the first.
     pub fn from_here(&self, a: &Node, b: &Node) -> Angle {
         Angle { turned: b.R().tr_mul(&(a.R() * self.p)), ..*self }
     }

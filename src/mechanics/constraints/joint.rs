@@ -1,9 +1,8 @@
-//! Two nodes joined by Lagrange multipliers (57). This does what elimination cannot do where a node already depends on
-//! another one, is restrained, or closes a loop.
+//! Two nodes joined by Lagrange multipliers (57). It replaces elimination for nodes that already depend on another node, are restrained, or
+//! close a loop.
 //!
-//! A joint is a list of constraint equations c(x, R) = 0 between the positions and rotations of its nodes. With a
-//! multiplier λ it exerts the forces Gᵀλ, G = ∂c/∂(x, θ), and does no work as long as it is closed. Its stiffness is K
-//! = λ ∂²c, for spatial spins as everywhere.
+//! A joint is a list of constraint equations c(x, R) = 0 between the positions and rotations of its nodes. A multiplier λ exerts the forces
+//! Gᵀλ, G = ∂c/∂(x, θ), which do no work while the gap is closed. Its stiffness is K = λ ∂²c, for spatial spins as everywhere.
 
 use super::angle::{Angle, body_vector};
 use super::given_angle::GivenAngle;
@@ -21,15 +20,15 @@ pub struct Joint {
     pub nodes: [usize; 2],
     /// The constraint equations, at most six.
     pub equations: Vec<ConstraintEquation>,
-    /// True where the second node is restrained and stands for a support.
+    /// True if the second node is restrained and represents a support.
     pub supports: bool,
-    /// What drives the coordinate; the last equation is then the one that holds it there.
+    /// Drive of the coordinate; the last equation holds the coordinate at the drive.
     pub drive: Option<Drive>,
 }
 
-/// What leads the coordinate of a joint: a node that nothing else moves, whose displacement along x, times a ratio, is what the
-/// coordinate shall be. Where the motion is prescribed the node is restrained like a support, and its reaction is the effort of the drive; of
-/// gears the node is an unknown that all their joints share, so that turns are counted and efforts are in equilibrium.
+/// Drive of a joint coordinate: a separate node, whose displacement along x times a ratio is the prescribed coordinate. A prescribed drive
+/// has a restrained node like a support, whose reaction is the effort. Gears share one unknown node, so turns are counted and efforts are
+/// in equilibrium.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
     /// The node.
@@ -43,7 +42,7 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// What the coordinate shall be.
+    /// Prescribed value of the coordinate.
     #[inline]
     pub fn coordinate(&self, nodes: &[Node]) -> f64 {
         self.ratio * nodes[self.node].moved(&self.start).x
@@ -51,7 +50,7 @@ impl Drive {
 }
 
 impl Joint {
-    /// The violation of an equation with its first two derivatives in time; what is driven is behind its drive by so much.
+    /// Violation of an equation with its first two time derivatives; for a drive the lag behind it.
     #[inline]
     pub fn gap(&self, number: usize, nodes: &[Node]) -> [f64; 3] {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
@@ -83,12 +82,12 @@ impl Joint {
         self.drive.as_ref().filter(|drive| drive.is_free)
     }
 
-    /// The nodes whose unknowns stand in its matrix, in the order in which they stand there.
+    /// Nodes with unknowns in the matrix, in the order of the matrix.
     pub fn matrix_nodes(&self) -> impl Iterator<Item = usize> + '_ {
         self.nodes.into_iter().chain(self.shared().map(|drive| drive.node))
     }
 
-    /// True for the equation that holds the coordinate where its drive is.
+    /// True for the equation of the drive.
     #[inline]
     pub fn is_driven(&self, number: usize) -> bool {
         self.drive.is_some() && number + 1 == self.equations.len()
@@ -142,7 +141,7 @@ pub enum ConstraintEquation {
 }
 
 impl ConstraintEquation {
-    /// The axis that a coordinate turns about or moves along, for an equation that locks one; global components.
+    /// Axis of rotation or translation of a coordinate, for an equation that locks it; global components.
     pub fn axis(&self, a: &Node, b: &Node) -> Option<Vec3> {
         match self {
             ConstraintEquation::BodyAxis { e, .. } => Some(b.R() * e),
@@ -166,15 +165,14 @@ impl ConstraintEquation {
         }
     }
 
-    /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0: its violation is
-    /// that distance. `d` is x_a − x_b at t = 0.
+    /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0; its violation is that
+    /// distance. `d` is x_a − x_b at t = 0.
     pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {
         ConstraintEquation::BodyAxis { e: -e, at: -d.dot(e) }
     }
 
-    /// The same equation between the nodes a and b as they are now, whose gap is zero there: axes lie as those of the first node do or, for
-    /// a support, as they did at t = 0. Ends that are apart, as they are where they do not meet, are held together by an arm that turns with the
-    /// second.
+    /// The equation between the nodes a and b in their current state, with zero gap. Axes are those of the first node or, for a support,
+    /// those of t = 0. If the ends need not meet, an arm that turns with the second end joins them.
     pub fn held_here(&self, [a, b]: [&Node; 2], supports: bool, meets: bool) -> ConstraintEquation {
         let d = a.relative_position(b);
         let as_seen = |node: &Node, axis: &Vec3| node.R().tr_mul(axis);
@@ -206,7 +204,7 @@ impl ConstraintEquation {
         }
     }
 
-    /// The same equation as that of a coordinate which is zero where the nodes are now.
+    /// Returns the equation of a coordinate that is zero in the current state.
     pub fn counted_from_here(&self, [a, b]: [&Node; 2]) -> ConstraintEquation {
         match self {
             ConstraintEquation::Angle(angle) => ConstraintEquation::Angle(angle.from_here(a, b)),
@@ -323,8 +321,8 @@ impl ConstraintEquation {
         matches!(self, Perpendicular { .. } | Angle(_) | Given(_))
     }
 
-    /// Tells, for motion in the plane normal to a global axis, whether the equation constrains anything; `None` where
-    /// its forces would act out of that plane. `d` is x_a − x_b.
+    /// Classifies the equation for motion in the plane normal to a global axis: true if it constrains something, `None` if its forces act
+    /// out of that plane. `d` is x_a − x_b.
     pub fn in_plane(&self, normal: usize, d: &Vec3) -> Option<bool> {
         const SMALL: f64 = 1e-12; // what rounding leaves of a zero
         let along = |v: &Vec3| v[normal].abs() > 1.0 - SMALL;
@@ -343,7 +341,7 @@ impl ConstraintEquation {
         }
     }
 
-    /// A word for what the equation constrains, as messages and tables give it.
+    /// Word for the constrained motion, for messages and tables.
     pub fn word(&self) -> &'static str {
         match self {
             ConstraintEquation::GlobalAxis { axis, .. } => ["ux", "uy", "uz"][*axis],
@@ -367,14 +365,13 @@ fn along_axis(e: &Vec3, b: &Node, d: &Vec3, lambda: f64, add: &mut impl FnMut(us
     add(3, 3, skew(d) * e);
 }
 
-/// Equations that keep the nodes together along global axes where they meet, as [`super::rigid_link`] does.
+/// Equations that keep the nodes together along global axes, as [`super::rigid_link`] does.
 pub fn translations(dofs: [bool; 3], d: &Vec3) -> impl Iterator<Item = ConstraintEquation> {
     (0..3).filter(move |&axis| dofs[axis]).map(move |axis| ConstraintEquation::GlobalAxis { axis, at: d[axis] })
 }
 
-/// Equations that keep the nodes from turning against each other about some of the axes of the second: with one axis
-/// free they make a revolute joint, with two a universal joint whose cross is perpendicular at t = 0. The free axes
-/// turn with the nodes.
+/// Equations against relative rotation about some axes of the second node. One free axis gives a revolute joint, two give a universal joint
+/// with a cross that is perpendicular at t = 0. The free axes turn with the nodes.
 pub fn rotations(dofs: [bool; 3], axes: &Mat3) -> Vec<ConstraintEquation> {
     let e = |i: usize| axes.column(i % 3).into_owned();
     let square = |i: usize, j: usize| ConstraintEquation::Perpendicular { p: e(i), s: e(j) };

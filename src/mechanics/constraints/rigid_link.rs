@@ -1,8 +1,8 @@
 //! A node rigidly attached to a master node, in all or some of its six degrees of freedom (45)-(58).
 //!
-//! The arm follows the finite rotation of the master exactly, S = R_d S₀, so a rigid link keeps its length. Elimination
-//! is x_b = x_d + S, v_b = v_d + ω×S, a_b = a_d + α×S + ω×(ω×S); forces are transferred by Dᵀ. Degrees of freedom that
-//! are not constrained remain the node's own. Components are global.
+//! The arm follows the finite rotation of the master exactly, S = R_d S₀, so a rigid link keeps its length. Elimination is x_b = x_d + S,
+//! v_b = v_d + ω×S, a_b = a_d + α×S + ω×(ω×S), and Dᵀ transfers forces. Unconstrained degrees of freedom belong to the node. Components are
+//! global.
 
 use crate::state::{Increment, Node};
 use base::math::rotation::change;
@@ -49,7 +49,7 @@ impl RigidLink {
     pub fn move_with_master(&self, nodes: &mut [Node], increments: &mut [Increment], start: &Node) {
         let master = &nodes[self.master];
         let Node { rotation: q, omega, alpha, .. } = *master;
-        // The position follows from displacements, which have digits that positions do not: u_b = u_d + (R_d − 1) S₀.
+        // Displacements keep digits that positions lose: u_b = u_d + (R_d − 1) S₀.
         let turned = change(&q, &self.S0);
         let [u, low] = master.parts(&self.start[0]);
         let S = self.S0 + turned;
@@ -66,8 +66,7 @@ impl RigidLink {
         let mut placed = *master;
         placed.place(&self.start[1], &(low + turned), &u);
         let u = placed.relative_position(start);
-        // A node with free rotations of its own has a rotation vector of the step with components from both, and is
-        // advanced like any other node.
+        // The rotation vector of a node with free rotations has components of both nodes, and advances like that of other nodes.
         let turn = increments[self.turner];
         let own = &mut increments[self.node];
         for i in 0..3 {
@@ -130,7 +129,7 @@ impl RigidLink {
     }
 }
 
-/// Sorts rigid links so that every master comes before its dependent nodes; `None` where there is a cycle.
+/// Sorts rigid links so that every master precedes its dependent nodes; `None` for a cycle.
 pub fn sorted(mut links: Vec<RigidLink>, nodes: usize) -> Option<Vec<RigidLink>> {
     let mut waiting = vec![false; nodes];
     for a in &links {

@@ -7,8 +7,8 @@ use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, Uniaxial};
 use crate::state::{Configuration, Node, elongation, stretch};
 use base::math::{Mat3, Vec3};
 
-/// Elastic bars as springs of stiffness EA/L along the line of their nodes. L is `free` times the length at t = 0; `x`: positions
-/// of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
+/// Elastic bars as springs of stiffness EA/L along the line of their nodes. L is `free` times the length at t = 0. `x`: positions of all
+/// nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
 pub fn elastic_bars(
     elements: &[[usize; 2]],
     axial_stiffness: f64,
@@ -64,8 +64,8 @@ struct BarStrain {
 }
 
 impl YieldingBars {
-    /// `x`: positions of all nodes at t = 0; `free`: length without force over that at t = 0; `damping`: factor of
-    /// stiffness-proportional damping (time).
+    /// `x`: positions of all nodes at t = 0. `free`: length without force over that at t = 0. `damping`: factor of stiffness-proportional
+    /// damping (time).
     pub fn new(
         elements: &[[usize; 2]],
         axial_stiffness: f64,
@@ -105,7 +105,7 @@ impl YieldingBars {
         e * self.variables..(e + 1) * self.variables
     }
 
-    /// True where a tension-only bar would be compressed elastically, so that it has no force.
+    /// True if a tension-only bar would be in elastic compression, so it has no force.
     fn is_slack(&self, strain: f64, old: &[f64]) -> bool {
         self.tension_only && self.law.stress(Uniaxial, &[strain], 0.0, old)[0] < 0.0 && strain <= old[0]
     }

@@ -1,8 +1,8 @@
 //! Six-component bushing: springs and dampers along and about the axes of a frame that rotates with the first node.
 //!
-//! d = Bᵀ(x₂ − x₁) − d₀ and Q = Bᵀ R₂ A, with B = R₁ A the frame. The force of the energy ½ d·k d is B k d, the moment B m(Q) that
-//! of [`super::relative_rotation`]; dampers act on ḋ and on the relative angular velocity in the frame. Where full turns count,
-//! the angle of twist at the end of the last step is part of the history of a bushing; what may fail remembers whether it has.
+//! d = Bᵀ(x₂ − x₁) − d₀ and Q = Bᵀ R₂ A, with B = R₁ A the frame. The energy ½ d·k d gives the force B k d, and
+//! [`super::relative_rotation`] the moment B m(Q). Dampers act on ḋ and on the relative angular velocity in the frame. If full turns count,
+//! the history of a bushing holds the angle of twist at the end of the last step. A bushing with failure also remembers its failure.
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
 use super::link_failure::{self, LinkFailure, has_failed};
@@ -29,7 +29,7 @@ pub struct Bushing {
     pub damping: [f64; 6],
     /// Aᵀ(x₂ − x₁) at t = 0.
     pub offset: Vec3,
-    /// The forces at which it fails, the normal one along its first axis; none for one that does not.
+    /// Failure forces, the normal one along its first axis; `None` without failure.
     pub failure: Option<LinkFailure>,
 }
 
@@ -70,14 +70,14 @@ impl Bushing {
         Quaternion::from_parts(Q.w, self.axes.tr_mul(&Q.imag()))
     }
 
-    /// True where the ends have turned against each other by so much, or from one node of `start` to the other by so much at once,
-    /// that the moment is no longer defined: near half a turn of a rotation vector or of the swing of an axis.
+    /// True if the ends have rotated so far, in total or in this step, that the moment is undefined: near half a turn of a rotation vector
+    /// or of the swing of an axis.
     pub fn is_turned_over(&self, start: &[Node], end: &[Node]) -> bool {
         self.spring.is_turned_over(&self.relative_rotation(start), &self.relative_rotation(end))
     }
 
-    /// True where the ends turn against each other by more than 2 rad in a step of length `dt` from `start` to `end`: the rotations
-    /// at its ends do not tell by how many full turns.
+    /// True if the ends turn by more than 2 rad in a step of length `dt` from `start` to `end`. The rotations at both ends then do not
+    /// define the number of full turns.
     pub fn turns_too_far(&self, start: &[Node], end: &[Node], dt: f64) -> bool {
         /// In radians. Half a turn is the limit; velocities at the ends of a step tell the angle between to a part of it only.
         const LIMIT: f64 = 2.0;
@@ -159,7 +159,7 @@ impl Bushings {
         Bushings { bushings, memories }
     }
 
-    /// Bushings with the twist of each at the end of the last step, and the forces at which it has failed.
+    /// Bushings with their twist at the end of the last step, and the forces of their failure.
     fn with_history<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Bushing, f64, &'a [f64])> {
         self.bushings.iter().zip(&self.memories).map(|(bushing, memory)| {
             let (last, failed) = bushing.remembered(history.get(memory.clone()).unwrap_or(&[]));
@@ -167,7 +167,7 @@ impl Bushings {
         })
     }
 
-    /// Those that have not failed, with their twist at the end of the last step.
+    /// Bushings without failure, with their twist at the end of the last step.
     fn whole<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a Bushing, f64)> {
         self.with_history(history)
             .filter(|(_, _, failed)| !has_failed(failed))

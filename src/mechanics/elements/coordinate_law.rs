@@ -1,8 +1,8 @@
-//! What acts along the coordinate q of a joint: a spring, a damper, stops and dry friction, as an effort over q, q̇ and the past.
+//! Effort along a joint coordinate q: spring, damper, stops and dry friction as a function of q, q̇ and history.
 //!
-//! Stops push back as contacts do, with the damping of a set restitution ([`super::contact::restitution`]). Friction is a spring that
-//! slips at its limit (return mapping), so what sticks does not creep; a hinge that yields is several of them ([`super::hysteresis`]). Efforts are forces, or moments where the coordinate is an angle;
-//! they are positive where they pull the second part back.
+//! Stops push back as contacts do, with the damping of a set restitution ([`super::contact::restitution`]). Friction is a spring that slips
+//! at its limit (return mapping), so sticking does not creep. A yielding hinge is several such springs ([`super::hysteresis`]). Efforts are
+//! forces, or moments for an angle; a positive effort pulls the second part back.
 
 use super::contact::restitution::{Loss, normal_force};
 use super::hysteresis::Hysteresis;
@@ -14,7 +14,7 @@ use super::slider::DryFriction;
 pub struct CoordinateLaw {
     /// Effort per coordinate.
     pub stiffness: f64,
-    /// Coordinate at which the spring is without effort.
+    /// Coordinate of the unloaded spring.
     pub rest: f64,
     /// Effort per rate.
     pub damping: f64,
@@ -29,9 +29,9 @@ pub struct CoordinateLaw {
 /// Dry friction, whose limit may grow with the load of the joint.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointFriction {
-    /// The effort at which it slips without load.
+    /// Slip limit without load.
     pub limit: f64,
-    /// What the limit grows by per force that the joint carries across its axis.
+    /// Increase of the limit per transverse force of the joint.
     pub per_load: f64,
     /// By how much it gives before it slips.
     pub stick: f64,
@@ -56,8 +56,8 @@ pub struct Stops {
     pub loss: Loss,
 }
 
-/// Numbers that every joint remembers: coordinate and rate at the end of the last step, the speed of the last landing on a stop, the
-/// power that the impact took, and the anchor of friction. Anchors of what yields come after them.
+/// Memory of every joint: coordinate and rate at the end of the last step, speed of the last landing on a stop, impact power, and anchor of
+/// friction. Anchors of what yields come after them.
 pub const MEMORY: usize = 5;
 /// Place of the rate.
 pub const RATE: usize = 1;
@@ -67,7 +67,7 @@ pub const IMPACT_SPEED: usize = 2;
 pub const IMPACT_POWER: usize = 3;
 /// Place of the anchor of friction.
 pub const ANCHOR: usize = 4;
-/// Numbers that a joint remembers after all others where its load counts: the load and its rate at the end of the last step.
+/// Further memory of joints with load-dependent friction: load and its rate at the end of the last step.
 pub const LOAD_MEMORY: usize = 2;
 
 impl CoordinateLaw {
@@ -75,7 +75,8 @@ impl CoordinateLaw {
     pub const FREE: CoordinateLaw =
         CoordinateLaw { stiffness: 0.0, rest: 0.0, damping: 0.0, stops: None, friction: None, hysteresis: None };
 
-    /// The same law with a factor β on its elastic stiffness, a time; stops and friction, which are stiff to hold something, stay as they are.
+    /// Returns the law with a factor β (time) on its elastic stiffness. Stops and friction are unchanged, because their stiffness only
+    /// holds parts.
     pub fn damped_by(self, beta: f64) -> CoordinateLaw {
         let yields = self.hysteresis.as_ref().map_or(0.0, Hysteresis::stiffness);
         CoordinateLaw { damping: self.damping + beta * (self.stiffness + yields), ..self }
@@ -131,9 +132,9 @@ impl CoordinateLaw {
         state
     }
 
-    /// A number of the branch between kinks: the stop that pushes, and the springs that go on slipping by the rate.
+    /// Index of the branch between kinks: the active stop, and the springs that continue to slip at this rate.
     pub fn branch(&self, q: f64, rate: f64, memory: &[f64]) -> usize {
-        /// The way on which a spring shows whether it slips, as a part of the coordinate or of the way on which friction sticks.
+        /// Test distance for slip, as a part of the coordinate or of the sticking distance of friction.
         const AHEAD: f64 = 1e-7;
         let size = q.abs().max(self.friction.map_or(0.0, |friction| friction.stick));
         let ahead = q + AHEAD * size * rate.signum();

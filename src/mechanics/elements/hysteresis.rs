@@ -1,6 +1,6 @@
-//! The effort of a plastic hinge, or of a damper that yields, over its coordinate: springs that slip at their limits side by side, and one
-//! that does not (Iwan, J. Appl. Mech. 33, 1966). Loaded for the first time it follows its backbone, of straight lines and the same either
-//! way; unloaded and reloaded it follows the backbone twice as large (Masing), with kinematic hardening.
+//! Effort of a plastic hinge or a yielding damper over its coordinate: parallel springs that slip at their limits, and one that does not
+//! (Iwan, J. Appl. Mech. 33, 1966). First loading follows the backbone, which is piecewise linear and symmetric. Unloading and reloading
+//! follow the backbone twice as large (Masing), with kinematic hardening.
 
 use super::slider::{CoordinateState, DryFriction};
 
@@ -21,7 +21,7 @@ impl Hysteresis {
     /// A backbone through `points`, [coordinate, effort] from the first yielding on, which goes on with the slope `after`.
     ///
     /// # Errors
-    /// Says what is wrong with the points: too many, not rising, or a slope that grows.
+    /// Reports faults of the points: too many, not rising, or a growing slope.
     pub fn new(points: &[[f64; 2]], after: f64) -> Result<Hysteresis, String> {
         if points.is_empty() || points.len() > MOST_POINTS {
             return Err(format!("it takes 1 to {MOST_POINTS} points"));

@@ -23,18 +23,18 @@ pub enum LinkLaw {
         /// The points (δ, N), at least two, δ rising.
         points: Vec<[f64; 2]>,
     },
-    /// N = k (δ + gap) for δ ≤ −gap, else zero: what just touches is closed, for only then can it hold what presses on it.
+    /// N = k (δ + gap) for δ ≤ −gap, else zero. A link that just touches is closed, because only a closed link can carry pressure.
     CompressionOnly {
         /// k, force per length.
         stiffness: f64,
-        /// The shortening at which the link closes.
+        /// Shortening at which the link closes.
         gap: f64,
     },
     /// N = k (δ − gap) for δ ≥ gap, else zero.
     TensionOnly {
         /// k, force per length.
         stiffness: f64,
-        /// The elongation at which the link closes.
+        /// Elongation at which the link closes.
         gap: f64,
     },
 }
@@ -57,7 +57,7 @@ impl LinkLaw {
         }
     }
 
-    /// Number of elongations at which dN/dδ jumps.
+    /// Number of elongations with a jump of dN/dδ.
     pub fn kinks(&self) -> usize {
         match self {
             LinkLaw::Linear { .. } => 0,
@@ -122,8 +122,8 @@ fn set_pair(k: &base::math::Mat3, K: &mut [f64]) {
     }
 }
 
-/// Writes the matrix of two nodes between which `k` acts, and of a third whose displacement along x adds to the elongation. The force has the
-/// derivative `axial` by that, and `by_end` by the position of the second node; it acts along `e`.
+/// Writes the matrix of two nodes with the stiffness `k` between them, and of a third node whose displacement along x adds to the
+/// elongation. The force has the derivative `axial` by that, and `by_end` by the position of the second node; it acts along `e`.
 fn set_taken_up(k: &base::math::Mat3, axial: f64, (e, by_end): (&Vec3, &Vec3), K: &mut [f64]) {
     K.fill(0.0);
     for i in 0..3 {
@@ -164,9 +164,9 @@ pub struct Link {
     beta: f64,
     /// A unit vector fixed in space along which the link acts; none for the line of the nodes.
     pub direction: Option<Vec3>,
-    /// The force at which it fails; none for a link that does not.
+    /// Failure force; `None` without failure.
     failure: Option<LinkFailure>,
-    /// Where it is pretensioned, its nodes and the one whose displacement along x is the length that has been taken up.
+    /// With pretension: its nodes, and the node whose displacement along x is the length taken up.
     take_up: Option<[usize; 3]>,
     /// Positions of its nodes at t = 0.
     start: [Vec3; 2],
@@ -204,7 +204,7 @@ impl Link {
         let span = start[1] - start[0];
         let initial_length = direction.map_or_else(|| span.norm(), |d| d.dot(&span));
         let elongation = initial_length - free_length;
-        // What touches but for the rounding of its coordinates touches.
+        // Rounding of coordinates must not open a touching link.
         let touching = match law {
             LinkLaw::CompressionOnly { gap, .. } => Some(-gap),
             LinkLaw::TensionOnly { gap, .. } => Some(gap),
@@ -216,7 +216,7 @@ impl Link {
         Link { nodes, law, damping, beta, direction, failure, take_up, start, span, initial_length, initial_elongation }
     }
 
-    /// The same link with a factor on its stiffness, a time, by which it damps besides its damper.
+    /// Returns the link with a factor on its stiffness, a time, for damping beside its damper.
     pub fn damped_by(self, beta: f64) -> Link {
         Link { beta, ..self }
     }
@@ -226,13 +226,13 @@ impl Link {
         self.damping > 0.0 || (self.beta > 0.0 && !matches!(self.law, LinkLaw::Linear { stiffness: 0.0, .. }))
     }
 
-    /// The same link, of which a node takes up length: the elongation is that of its ends and the displacement of this node along x.
+    /// Returns the link with a node that takes up length: its displacement along x adds to the elongation of the ends.
     pub fn taken_up(self, node: Option<usize>) -> Link {
         let [a, b] = self.nodes;
         Link { take_up: node.map(|node| [a, b, node]), ..self }
     }
 
-    /// True where a node takes up length.
+    /// True if a node takes up length.
     pub fn is_taken_up(&self) -> bool {
         self.take_up.is_some()
     }
@@ -260,13 +260,13 @@ impl Link {
         LinkAxis { e, length, delta, rate, dv }
     }
 
-    /// Elongation with what has been taken up, its rate, and the force, damper included; tension is positive. `memory`: its history variables.
+    /// Elongation including the length taken up, its rate, and the force with damper; tension is positive. `memory`: its history variables.
     pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (f64, f64, f64) {
         let line = self.line(nodes);
         (line.delta, line.rate, self.force(&line, memory).force)
     }
 
-    /// The same link, which fails as `failure` says.
+    /// Returns the link with `failure`.
     pub fn failing(self, failure: Option<LinkFailure>) -> Link {
         Link { failure, ..self }
     }

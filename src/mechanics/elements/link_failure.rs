@@ -1,17 +1,17 @@
 //! Failure of bolts, welds and other links by an interaction of normal and shear force, (F_n/N)ᵃ + (F_s/S)ᵇ ≥ 1. Only tension counts as
-//! normal force. A link that has failed carries nothing any more; its memory is the two forces at which it did.
+//! normal force. A failed link carries nothing; its memory holds the two forces at failure.
 
 use base::names::short;
 
 /// The number of history variables of a link that may fail: normal and shear force at its failure, zeros before.
 pub const MEMORY: usize = 2;
 
-/// The forces at which a link fails.
+/// Failure forces of a link.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkFailure {
-    /// N: normal force that the link bears alone, above 0; infinite where tension does not harm it.
+    /// N: capacity for pure normal force, above 0; infinite without failure in tension.
     pub normal: f64,
-    /// S: shear force that it bears alone, above 0; infinite where shear does not harm it.
+    /// S: capacity for pure shear, above 0; infinite without failure in shear.
     pub shear: f64,
     /// a and b, above 0.
     pub exponents: [f64; 2],

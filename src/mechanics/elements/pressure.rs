@@ -1,10 +1,9 @@
 //! Follower pressure: it acts on the deformed area of a face, against its normal.
 //!
-//! The forces on the nodes of a face x(ξ, η) are f_a = −p ∫ N_a x,ξ × x,η dξ dη; the normal is the side
-//! from which the nodes follow each other counter-clockwise. The integral is a polynomial of second
-//! degree in the positions of the nodes; with x linear or bilinear it is written out below. f is −p times the derivative of the volume under the face, so
-//! that a closed surface has the potential p V and a symmetric stiffness; at a free edge the stiffness is not symmetric
-//! (Schweizerhof & Ramm 1984).
+//! The forces on the nodes of a face x(ξ, η) are f_a = −p ∫ N_a x,ξ × x,η dξ dη. The normal points to the side from which the nodes run
+//! counter-clockwise. The integral is a polynomial of second degree in the node positions, written out below for linear and bilinear x. f
+//! is −p times the derivative of the volume under the face. A closed surface therefore has the potential p V and a symmetric stiffness; at
+//! a free edge the stiffness is unsymmetric (Schweizerhof & Ramm 1984).
 
 use super::block::{Force, subtract};
 use crate::state::Node;
@@ -27,9 +26,9 @@ pub enum Face {
 /// The largest number of nodes of a face.
 pub const MOST_NODES: usize = 9;
 
-/// Coefficients of the nodes of a quadrilateral in e₀, e₁, e₂, where x,ξ = e₀ + η e₂ and x,η = e₁ + ξ e₂, ξ and η from −1 to 1.
+/// Coefficients of the nodes of a quadrilateral in e₀, e₁, e₂, with x,ξ = e₀ + η e₂ and x,η = e₁ + ξ e₂, ξ and η from −1 to 1.
 const SLOPES: [[f64; 4]; 3] = [[-0.25, 0.25, 0.25, -0.25], [-0.25, -0.25, 0.25, 0.25], [0.25, -0.25, 0.25, -0.25]];
-/// The pairs (i, j) of which x,ξ × x,η = Σ e_i × e_j times 1, ξ and η.
+/// Pairs (i, j) in x,ξ × x,η = Σ e_i × e_j times 1, ξ and η.
 const PAIRS: [[usize; 2]; 3] = [[0, 1], [0, 2], [2, 1]];
 /// ∫ N_a, ∫ N_a ξ and ∫ N_a η for each node a.
 const SHARES: [[f64; 3]; 4] = [[1.0, -THIRD, -THIRD], [1.0, THIRD, -THIRD], [1.0, THIRD, THIRD], [1.0, -THIRD, THIRD]];
@@ -102,8 +101,8 @@ impl Face {
         largest
     }
 
-    /// Work of a pressure that changes linearly from `p[0]` to `p[1]` while each node moves on a straight line from `from` to `to`.
-    /// Power is of third degree in the way, so Simpson's rule is exact. That of a constant p is −p times the change of volume.
+    /// Work of a pressure that changes linearly from `p[0]` to `p[1]` while each node moves on a straight line from `from` to `to`. Power
+    /// is of third degree in the way, so Simpson's rule is exact. A constant p does the work −p times the change of volume.
     pub fn work(&self, p: [f64; 2], from: &[Node], to: &[Node]) -> f64 {
         let moved = |n: usize| to[n].x - from[n].x;
         let at = |s: f64| {

@@ -1,8 +1,8 @@
 //! The elastic moment of a bushing over the rotation of its second end relative to its first.
 //!
-//! Rotation vectors add only while they are small: of a body that spins about one axis and is tilted by a little, log(R) has
-//! components across that axis which are turned by half the spin and longer than the tilt. Where the stiffness has an axis n that
-//! differs from the others, the rotation is therefore split into a twist ψ about n and a swing s of that axis, from n to b = Q n:
+//! Rotation vectors add only while they are small. For a body that spins about one axis and is slightly tilted, log(R) has transverse
+//! components that are turned by half the spin and longer than the tilt. If the stiffness about one axis n differs from the others, the
+//! rotation is split into a twist ψ about n and a swing s of that axis, from n to b = Q n:
 //!   s = g(c) n × b,  c = n·b = cos θ,  g = θ/sin θ,   ψ̇ = ω·h,  h = (n + b)/(1 + c),
 //!   energy ½ s·k s + ½ k_n ψ²,  moment Hᵀ k s + k_n ψ h  with ṡ = H ω.
 //! The swing is that of the axis alone, however far the second end has turned about it. P. Dobrowolski, arXiv:1506.05481 (2015);
@@ -16,7 +16,7 @@ use std::f64::consts::TAU;
 /// Moments about three axes over a relative rotation. Components are along the axes of the bushing, fixed to its first end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RotationalSpring {
-    /// The same stiffness about all axes.
+    /// Equal stiffness about all axes.
     Isotropic {
         /// The moment per radian.
         stiffness: f64,
@@ -30,7 +30,7 @@ pub enum RotationalSpring {
     },
 }
 
-/// What a relative rotation brings about.
+/// Moment of a relative rotation with its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticMoment {
     /// The moment on the second end.
@@ -58,13 +58,13 @@ impl RotationalSpring {
         RotationalSpring::AboutAxis { axis, stiffness }
     }
 
-    /// True where a rotation from `before` to `after` ends near half a turn, of the rotation vector or of the swing, or has
-    /// passed it: the moment is not defined there, and goes the other way round beyond. Without stiffness there is none.
+    /// True if a rotation from `before` to `after` ends near half a turn, of the rotation vector or of the swing, or has passed it. The
+    /// moment is undefined there and changes sign beyond. Without stiffness there is none.
     pub fn is_turned_over(&self, before: &Quaternion<f64>, after: &Quaternion<f64>) -> bool {
         const LIMIT: f64 = 3.0; // radians, of π
         let passed = match *self {
             RotationalSpring::Isotropic { stiffness: 0.0 } => return false,
-            // The nearest rotation vector is that of the other way round: the sign of the quaternion tells.
+            // The sign of the quaternion shows that the nearest rotation vector points the other way round.
             RotationalSpring::Isotropic { .. } => before.coords.dot(&after.coords) * before.w * after.w < 0.0,
             RotationalSpring::AboutAxis { axis, .. } => {
                 let [from, to] = [before, after].map(|Q| Swing::of(Q, axis));
@@ -82,8 +82,8 @@ impl RotationalSpring {
         }
     }
 
-    /// The largest angle, of those on which moments depend, of a step between two rotations, in which the second end turns by the
-    /// vector `spun` as velocities tell, components in the frame. A spin about a free axis is none of them.
+    /// Largest angle that moments depend on, of a step between two rotations in which the second end turns by the vector `spun` according
+    /// to velocities, components in the frame. A spin about a free axis is none of them.
     pub fn step_angle(&self, rotations: &[Quaternion<f64>; 2], spun: &Vec3) -> f64 {
         let [before, after] = rotations;
         match *self {
@@ -309,7 +309,7 @@ mod tests {
             let angle = 0.3 * f64::from(step);
             let at = spring.moment(&rotation::exp(&Vec3::new(0.0, 0.0, angle)), twist);
             twist = at.twist;
-            // Angles up to 30, of which quaternions keep a few ε.
+            // Angles up to 30, which quaternions hold to a few ε.
             assert!((at.moment - Vec3::new(0.0, 0.0, 2.0 * angle)).amax() < 1e-13, "{angle}");
         }
     }

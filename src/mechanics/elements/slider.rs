@@ -1,9 +1,9 @@
-//! A spring along a coordinate that slips at its limit (return mapping), so what sticks does not creep; and what acts along the coordinate.
+//! A spring along a coordinate that slips at its limit (return mapping), so sticking does not creep; and the state along the coordinate.
 
 /// Dry friction, a spring that slips.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DryFriction {
-    /// The effort at which it slips.
+    /// Slip limit.
     pub limit: f64,
     /// Effort per coordinate before it does.
     pub stiffness: f64,
@@ -26,14 +26,14 @@ pub struct CoordinateState {
     pub energy: f64,
     /// The way of the anchor of friction.
     pub slip: f64,
-    /// What is dissipated by impact, per time.
+    /// Dissipation by impact, per time.
     pub impact_power: f64,
     /// Speed of the landing.
     pub impact_speed: f64,
 }
 
 impl DryFriction {
-    /// What the spring is stretched by at `q`, and the way of its anchor; neither where there is no spring.
+    /// Stretch of the spring at `q`, and the displacement of its anchor; both zero without a spring.
     pub fn stretch(&self, q: f64, anchor: f64) -> (f64, f64) {
         if self.stiffness == 0.0 {
             return (0.0, 0.0);

@@ -1,12 +1,12 @@
-//! Elements whose nodes are not known beforehand: what touches a surface of many facets meets one after the other.
+//! Elements with changing nodes: a part on a surface of many facets touches one after the other.
 //!
-//! Their forces are computed from all facets that lie in reach, whatever the matrix has room for. The matrix has room for pairs that
-//! are near; where one acts that it has no room for, its structure is made anew.
+//! Their forces are computed from all facets that lie in reach, whatever the matrix has room for. The matrix has room for near pairs. If
+//! another pair acts, its structure is rebuilt.
 
 use crate::state::{Configuration, Node};
 use base::snapshot::keep;
 
-/// Pairs of an element and what it may act on, for which a matrix has room.
+/// Pairs of elements and possible partners, with room in the matrix.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Partners {
     /// The element and the other of each pair, in ascending order.
@@ -46,16 +46,16 @@ impl Partners {
     }
 }
 
-/// A group of elements that act on nodes besides those that [`super::ElementBlock::nodes`] lists.
+/// A group of elements that also act on nodes that [`super::ElementBlock::nodes`] does not list.
 pub trait Wandering {
-    /// All pairs that may act soon where the nodes lie thus.
+    /// All pairs that may act soon at these node positions.
     fn partners(&self, nodes: &[Node]) -> Partners;
 
-    /// True where every pair that acts is among these.
+    /// True if the partners include every active pair.
     fn has_room(&self, partners: &Partners, now: &Configuration) -> bool;
 
-    /// The tangents of all pairs that act and are among the `partners`: `add` takes the place of the pair and its matrix, row-major with
-    /// six degrees of freedom for each of its nodes, which is written into `K`.
+    /// Tangents of all active pairs among the `partners`. `add` receives the place of the pair and its matrix `K`, row-major with six
+    /// degrees of freedom for each node.
     fn pair_tangents(
         &self,
         partners: &Partners,

@@ -1,5 +1,5 @@
-//! What generalized-α, HHT-α and Newmark's scheme have in common: equilibrium at t + Δt with q̈₁, Newmark's formulas with γ and β on
-//! an acceleration a, and (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈ between the two.
+//! Common part of generalized-α, HHT-α and Newmark: equilibrium at t + Δt with q̈₁, Newmark's formulas with γ and β for an acceleration a,
+//! and (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈.
 
 use super::coefficients::Coefficients;
 use base::math::rotation::RotationUpdate;
@@ -45,7 +45,7 @@ impl AlphaFamily {
             acceleration: [m / (beta * dt * dt), -m / (beta * dt), alpha_m / f - m * old, -alpha_f / f],
             prediction: [dt, 0.5 * dt * dt, dt * dt * dt / 6.0],
             end: [[1.0, 0.0, 0.0, 0.0], [rate[0], rate[1], rate[2], 0.0], [0.0, 0.0, 0.0, 1.0]],
-            // ½ Δt² of the third derivative is due in q̇, of which q brings ⅙ Δt³ and a its own.
+            // The exact q̇ contains ½ Δt² of the third derivative; q contributes ⅙ Δt³, and a its own part.
             turning: Some(0.5 * dt - rate[0] * dt * dt / 6.0 - rate[2] * ahead),
             rotation,
         }

@@ -1,7 +1,7 @@
-//! Bathe's composite scheme: the trapezoidal rule to t + γΔt, from there backward differences through three points. What the step
-//! does not resolve is gone after a step, the low modes are damped less than by any scheme of one stage that does that; second
-//! order, unconditionally stable, twice the work a step. With γ = 2 − √2 one matrix serves both stages (TR-BDF2).
-//! K. J. Bathe, M. M. I. Baig, Comput. Struct. 83 (2005); R. E. Bank et al., IEEE Trans. CAD 4 (1985).
+//! Bathe's composite scheme: the trapezoidal rule to t + γΔt, from there backward differences through three points. A step removes
+//! unresolved motion, with less damping of low modes than any one-stage scheme that does so; second order, unconditionally stable, twice
+//! the work a step. With γ = 2 − √2 one matrix serves both stages (TR-BDF2). K. J. Bathe, M. M. I. Baig, Comput. Struct. 83 (2005); R. E.
+//! Bank et al., IEEE Trans. CAD 4 (1985).
 
 use std::sync::Arc;
 

@@ -1,15 +1,13 @@
-//! Central differences, as velocity Verlet: positions at t + Δt from the motion at t alone, accelerations there from equilibrium
-//! with the mass alone, velocities by the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping,
-//! periods shortened; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2, see [`super::stability_limit`].
-//! Momenta of what moves freely are kept.
-//! A body that turns freely follows its angular momentum: exactly where two of its principal inertias agree, otherwise with an
-//! energy that swings by the square of the step. Where masses are coupled or directions restrained, a rotation by
-//! Δt ω + ½ Δt² α is not the same from its end backwards: such a body gains or loses energy steadily, by the third power of the
-//! step.
+//! Central differences as velocity Verlet: positions at t + Δt follow from the motion at t, accelerations from equilibrium with the mass
+//! alone, and velocities from the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping, periods
+//! shortened; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2, see [`super::stability_limit`]. Momenta of free
+//! motion are conserved. A free body follows its angular momentum: exactly with two equal principal inertias, otherwise with an energy
+//! oscillation of second order. With coupled masses or restrained directions the rotation Δt ω + ½ Δt² α is not reversible. Such a body
+//! gains or loses energy steadily, by the third power of the step.
 //!
-//! Forces that depend on velocities meet the predicted ones, v + Δt a, which costs no order; the limit becomes
-//! ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1. With `mass_scaling_step` elements are given the mass with which each bears that step.
-//! L. Verlet, Phys. Rev. 159 (1967); T. Belytschko, T. J. R. Hughes (eds.), Computational Methods for Transient Analysis (1983).
+//! Forces of velocity use the prediction v + Δt a, which keeps the order; the limit becomes ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1. `mass_scaling_step`
+//! raises the mass of elements until each is stable at that step. L. Verlet, Phys. Rev. 159 (1967); T. Belytschko, T. J. R. Hughes (eds.),
+//! Computational Methods for Transient Analysis (1983).
 
 use std::sync::Arc;
 
@@ -25,7 +23,7 @@ pub static KIND: SchemeKind = SchemeKind {
     aliases: &[],
     guesses: &["verlet", "leapfrog", "leap-frog", "explicit"],
     about: "Explicit, of second order: no matrix but the masses; steps must be shorter than the highest mode allows (omega dt <= 2). \
-            time_step = \"auto\" takes 0.8 of the critical time step, 0.5 where contacts or links may stiffen.",
+            time_step = \"auto\" uses 0.8 of the critical time step, 0.5 if contacts or links may stiffen.",
     keys: &[Key {
         name: "mass_scaling_step",
         form: Form::Number,
@@ -46,7 +44,7 @@ pub static KIND: SchemeKind = SchemeKind {
 pub struct CentralDifference {
     /// The update of rotations.
     pub rotation: RotationUpdate,
-    /// The critical time step that no element shall fall below, by mass that is added to it.
+    /// Lower limit of the critical time step of each element, reached by added mass.
     pub mass_scaling_step: Option<f64>,
 }
 

@@ -1,6 +1,6 @@
-//! The numbers of a one-stage scheme. Within a step a node moves by an increment q = (Δu, Θ) from its start, where q̇ = v and
-//! q̈ = a are known; the scheme says at which instant equilibrium is written, how q̇ and q̈ follow there from the unknown q, and
-//! what they are at the end of the step. All of these are linear.
+//! The numbers of a one-stage scheme. Within a step a node moves by the increment q = (Δu, Θ) from its start with known q̇ = v and q̈ = a.
+//! The scheme defines the instant of equilibrium, the rates q̇ and q̈ there as functions of q, and the state at the end of the step. All of
+//! these are linear.
 
 use crate::state::Increment;
 use base::math::Vec6;
@@ -13,14 +13,14 @@ pub struct Coefficients {
     pub instant: f64,
     /// Weights of (q, v, a) in q̇ there.
     pub rate: [f64; 3],
-    /// Weights of (q, v, a, q̈ at the start of the step, where that is not a) in q̈ there.
+    /// Weights of (q, v, a, q̈ at the start of the step, if that is not a) in q̈ there.
     pub acceleration: [f64; 4],
     /// Weights of (v, a, ȧ) in the predicted q.
     pub prediction: [f64; 3],
     /// Weights of (q, v, a, q̈ at the instant) in (q, q̇, q̈) at t + Δt.
     pub end: [[f64; 4]; 3],
-    /// The time κ by which the change of a free body's angular acceleration over the step enters its q̇, which is then exact to third
-    /// order; `None` where bodies are integrated like all other nodes.
+    /// Time κ: the factor of the change of a free body's angular acceleration over the step in its q̇, which is then exact to third order.
+    /// `None` integrates bodies like all other nodes.
     pub turning: Option<f64>,
     /// The update of rotations.
     pub rotation: RotationUpdate,
@@ -45,7 +45,7 @@ impl Coefficients {
         (self.rate[0], self.acceleration[0])
     }
 
-    /// The weights of (q̇ there, v, a, q̈ at the start of the step, where that is not a) in q̈ there, q being eliminated.
+    /// Weights of (q̇ there, v, a, q̈ at the start of the step, if that is not a) in q̈ there, with q eliminated.
     pub fn of_velocities(&self) -> [f64; 4] {
         let ([r1, r2, r3], [a1, a2, a3, a4]) = (self.rate, self.acceleration);
         let of_new = a1 / r1;

@@ -1,5 +1,4 @@
-//! ESDIRK3(2)5L\[2\]SA: four implicit stages with one matrix, of third order and of stage order two, L-stable: what a step does not
-//! resolve is gone after it.
+//! ESDIRK3(2)5L\[2\]SA: four implicit stages with one matrix, third order, stage order two. It is L-stable and removes unresolved motion.
 //! C. A. Kennedy, M. H. Carpenter, NASA/TM-2016-219173 (2016), whence the coefficients; they are proved by the order conditions below.
 
 use std::f64::consts::SQRT_2 as R;
@@ -113,7 +112,7 @@ mod tests {
     }
 
     /// Damping and period elongation per period at 10, 20 and 40 implicit stages a period, by an independent evaluation of the stability
-    /// function R(iωΔt), to the two digits of that table; what is not resolved is gone after a step.
+    /// function R(iωΔt), to two digits; a step removes unresolved motion.
     #[test]
     fn spectrum_of_the_free_oscillator() {
         let scheme = Esdirk3 { rotation: RotationUpdate::Exponential };

@@ -1,9 +1,8 @@
-//! Generalized-α in the form of Arnold & Brüls: equilibrium holds at t + Δt with the acceleration q̈₁ there, and Newmark's formulas
-//! run on another acceleration a, which follows it by (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈. For linear systems that is
-//! the scheme of Chung & Hulbert, whose forces are taken at t + (1 − α_f)Δt; joints, contacts and yielding material find their
-//! instant at the end of the step. With the parameters of one spectral radius ρ∞ it damps what the step does not resolve to ρ∞ a
-//! step, and of all schemes with that damping the low modes least; second order, unconditionally stable.
-//! J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993); M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007).
+//! Generalized-α in the form of Arnold & Brüls: equilibrium holds at t + Δt with the acceleration q̈₁. Newmark's formulas use another
+//! acceleration a with (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈. For linear systems this is the scheme of Chung & Hulbert with forces
+//! at t + (1 − α_f)Δt. Joints, contacts and yielding material are evaluated at the end of the step. One spectral radius ρ∞ defines the
+//! parameters. Unresolved motion decreases by ρ∞ a step, with the least damping of low modes of all such schemes; second order,
+//! unconditionally stable. J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993); M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007).
 
 use std::sync::Arc;
 
@@ -24,7 +23,7 @@ pub static KIND: SchemeKind = SchemeKind {
     keys: &[Key {
         name: "spectral_radius",
         form: Form::Number,
-        about: "What a step leaves of motion that it does not resolve, from 0 (nothing) to 1 (all: no damping). Default: 0.8.",
+        about: "Part of unresolved motion that remains after a step, from 0 (nothing) to 1 (all: no damping). Default: 0.8.",
     }],
     make: MakeScheme {
         scheme: |given, rotation| {
@@ -43,7 +42,7 @@ pub struct GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    /// `radius`: ρ∞, from 0 (what is not resolved is gone after a step) to 1 (nothing is damped).
+    /// `radius`: ρ∞, from 0 (a step removes unresolved motion) to 1 (no damping).
     pub fn new(radius: f64, rotation: RotationUpdate) -> Self {
         let (alpha_m, alpha_f) = ((2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0));
         let gamma = 0.5 - alpha_m + alpha_f;

@@ -1,5 +1,5 @@
-//! HHT-α: inertia at t + Δt, all other forces at t + (1 + α)Δt where the system is linear, −1/3 ≤ α ≤ 0: generalized-α with α_m = 0.
-//! H. M. Hilber, T. J. R. Hughes, R. L. Taylor, Earthquake Eng. Struct. Dyn. 5 (1977).
+//! HHT-α: inertia at t + Δt, and for linear systems all other forces at t + (1 + α)Δt, −1/3 ≤ α ≤ 0. It is generalized-α with α_m = 0. H.
+//! M. Hilber, T. J. R. Hughes, R. L. Taylor, Earthquake Eng. Struct. Dyn. 5 (1977).
 
 use std::sync::Arc;
 

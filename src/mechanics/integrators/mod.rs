@@ -1,5 +1,5 @@
-//! Time integration schemes: a scheme is a handful of numbers ([`Coefficients`], [`Tableau`]) and how a step uses them
-//! ([`Stepping`]). One more is a file of its own and an entry of [`SCHEMES`].
+//! Time integration schemes: a scheme is a handful of numbers ([`Coefficients`], [`Tableau`]) and how a step uses them ([`Stepping`]). A
+//! new scheme needs a file and an entry of [`SCHEMES`].
 
 pub mod alpha_family;
 pub mod bathe;
@@ -34,12 +34,12 @@ use std::sync::Arc;
 pub use tableau::Tableau;
 pub use wilson_theta::WilsonTheta;
 
-/// The scheme that is taken where the deck names none.
+/// The default scheme.
 pub fn default_scheme() -> Arc<dyn Scheme> {
     Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential })
 }
 
-/// The scheme of automatic steps where the deck names none: explicit of high order where nothing is `stiff`.
+/// The default scheme of automatic steps: explicit of high order if nothing is `stiff`.
 pub fn automatic_scheme(stiff: bool) -> Arc<dyn Scheme> {
     if stiff { Arc::new(Esdirk3 { rotation: RotationUpdate::Exponential }) } else { Arc::new(RungeKutta::default()) }
 }

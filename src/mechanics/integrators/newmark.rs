@@ -1,6 +1,6 @@
-//! Newmark: equilibrium at t + Δt; q = Δt v + Δt² ((½ − β) a + β a₁), v₁ = v + Δt ((1 − γ) a + γ a₁). With γ = ½ and β = ¼ the
-//! trapezoidal rule: second order, no damping at all. With γ > ½ it damps, and is of first order. Unconditionally stable for
-//! 2β ≥ γ ≥ ½. N. M. Newmark, J. Eng. Mech. Div. ASCE 85 (1959).
+//! Newmark: equilibrium at t + Δt; q = Δt v + Δt² ((½ − β) a + β a₁), v₁ = v + Δt ((1 − γ) a + γ a₁). With γ = ½ and β = ¼ the trapezoidal
+//! rule: second order, no damping at all. With γ > ½ it damps, and is of first order. Unconditionally stable for 2β ≥ γ ≥ ½. N. M. Newmark,
+//! J. Eng. Mech. Div. ASCE 85 (1959).
 
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ pub static KIND: SchemeKind = SchemeKind {
     },
 };
 
-/// Says what is not of second order or not unconditionally stable.
+/// Warns of parameters without second order or unconditional stability.
 fn check(given: &mut Given, gamma: f64, beta: f64) {
     if gamma < 0.5 {
         given.error_with::<()>("gamma", "`gamma` must be at least 0.5", "below, every motion grows");

@@ -1,8 +1,8 @@
-//! Explicit Runge-Kutta schemes of Dormand and Prince, of order 8 and 5, each with embedded ones that tell the error of a step.
-//! What moves is y = (q, v), q the increment of the step with its rotation vector, ẏ = (T⁻¹ v, M⁻¹ r). For scenes that are not
-//! stiff: bodies on soft links, tops, mechanisms.
-//! P. J. Prince, J. R. Dormand, J. Comput. Appl. Math. 7 (1981); E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
-//! Differential Equations I (1993), II.5 and II.10, whence the coefficients; they are proved by the order conditions below.
+//! Explicit Runge-Kutta schemes of Dormand and Prince, of order 8 and 5, each with embedded ones that tell the error of a step. The
+//! unknowns are y = (q, v), with q the increment of the step including its rotation vector, ẏ = (T⁻¹ v, M⁻¹ r). For scenes that are not
+//! stiff: bodies on soft links, tops, mechanisms. P. J. Prince, J. R. Dormand, J. Comput. Appl. Math. 7 (1981); E. Hairer, S. P. Nørsett,
+//! G. Wanner, Solving Ordinary Differential Equations I (1993), II.5 and II.10, whence the coefficients; they are proved by the order
+//! conditions below.
 
 #![allow(clippy::excessive_precision)] // as published
 
@@ -69,7 +69,7 @@ impl Scheme for RungeKutta {
     }
 
     fn note(&self) -> Option<&'static str> {
-        Some("explicit: stiff scenes need very short steps; an implicit scheme then takes less time")
+        Some("explicit: stiff models need very short steps; an implicit scheme is then faster")
     }
 
     fn order(&self) -> usize {

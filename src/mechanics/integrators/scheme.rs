@@ -17,7 +17,7 @@ pub trait Scheme: fmt::Debug + Send + Sync {
     /// The scheme with its parameters, in words.
     fn in_words(&self) -> String;
 
-    /// A note that the reader of its results must know; `None` where there is nothing to say.
+    /// A note for readers of the results; `None` if there is none.
     fn note(&self) -> Option<&'static str> {
         None
     }
@@ -27,7 +27,7 @@ pub trait Scheme: fmt::Debug + Send + Sync {
         2
     }
 
-    /// The kind of step that it takes.
+    /// Kind of step.
     fn stepping(&self) -> Stepping<'_> {
         Stepping::OneStage
     }
@@ -36,14 +36,13 @@ pub trait Scheme: fmt::Debug + Send + Sync {
     /// schemes.
     fn coefficients(&self, dt: f64) -> Coefficients;
 
-    /// Weights of (a, q̈ at the start, q̈ at the end of the step) in a at the end of the step, for schemes whose
-    /// formulas use an algorithmic acceleration a in place of the q̈ of equilibrium.
+    /// Weights of (a, q̈ at the start, q̈ at the end of the step) in a at the end, for schemes with an algorithmic acceleration a in place
+    /// of the q̈ of equilibrium.
     fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
         None
     }
 
-    /// The critical time step that elements shall have, by mass that is added to those whose own is shorter; `None` where all keep their
-    /// masses.
+    /// Critical time step of all elements after mass scaling; `None` without mass scaling.
     fn mass_scaling_step(&self) -> Option<f64> {
         None
     }
@@ -54,12 +53,12 @@ pub trait Scheme: fmt::Debug + Send + Sync {
     }
 }
 
-/// The kind of step that a scheme takes.
+/// Kind of step of a scheme.
 #[derive(Clone, Copy)]
 pub enum Stepping<'a> {
     /// Implicit: equilibrium is solved for once, by the scheme's coefficients.
     OneStage,
-    /// Implicit, in two stages, in each of which equilibrium is solved for.
+    /// Implicit with two stages, each solved for equilibrium.
     Composite(&'a dyn TwoStages),
     /// Implicit, in several stages with one matrix, each from the start of the step.
     DiagonallyImplicit(&'static StageTableau),
@@ -70,7 +69,7 @@ pub enum Stepping<'a> {
     RungeKutta(&'static Tableau),
 }
 
-/// A scheme of two stages: one of its own, then backward differences over the start, the instant between the stages, and the end.
+/// A scheme of two stages: the first by its own formulas, the second by backward differences over start, intermediate instant and end.
 pub trait TwoStages {
     /// The part of the step that the first stage covers.
     fn split(&self) -> f64;
@@ -78,8 +77,8 @@ pub trait TwoStages {
     /// The weights of backward differences at the end of a step of length Δt.
     fn backward(&self, dt: f64) -> Backward;
 
-    /// The second stage, from the motion between the stages. In place of v and a it takes b₀ q₀ and b₀ v₀ + b₁ v, with q₀ the
-    /// increment of the first stage, v₀ the velocity it began with, v the one it ended with, b of [`TwoStages::backward`].
+    /// The second stage, from the motion between the stages. In place of v and a it uses b₀ q₀ and b₀ v₀ + b₁ v. q₀ is the increment of the
+    /// first stage, v₀ and v the velocities at its start and end, b from [`TwoStages::backward`].
     fn second(&self, dt: f64) -> Coefficients;
 }
 

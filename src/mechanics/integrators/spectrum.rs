@@ -28,7 +28,7 @@ pub fn error_constant(scheme: &dyn Scheme) -> f64 {
     (principal(scheme, TURN) - Complex::from_polar(1.0, TURN)).norm() / TURN.powi(scheme.order() as i32 + 1)
 }
 
-/// The eigenvalue that stands for e^{iωΔt}.
+/// The eigenvalue that approximates e^{iωΔt}.
 fn principal(scheme: &dyn Scheme, turn: f64) -> Complex<f64> {
     let unit = |j: usize| std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
     let columns = [0, 1, 2, 3].map(|j| step(scheme, turn, unit(j)));
@@ -36,7 +36,7 @@ fn principal(scheme: &dyn Scheme, turn: f64) -> Complex<f64> {
     A.complex_eigenvalues().iter().copied().fold(Complex::new(0.0, f64::MIN), |x, y| if y.im > x.im { y } else { x })
 }
 
-/// A step of length 1 from (u, v, a, q̈), where a is what the scheme runs on.
+/// A step of length 1 from (u, v, a, q̈), with a the acceleration of the scheme.
 fn step(scheme: &dyn Scheme, turn: f64, start: [f64; 4]) -> [f64; 4] {
     let omega2 = turn * turn;
     if scheme.is_explicit() {
@@ -80,7 +80,7 @@ fn implicit_stages(tableau: &StageTableau, omega2: f64, [u, v, a, b]: [f64; 4]) 
     end
 }
 
-/// A step that takes positions as predicted.
+/// A step with predicted positions.
 fn explicit(c: &Coefficients, omega2: f64, [u, v, a, _]: [f64; 4]) -> [f64; 4] {
     let q = c.prediction[0] * v + c.prediction[1] * a;
     let at = -omega2 * (u + q);

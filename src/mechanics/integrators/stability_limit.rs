@@ -1,18 +1,18 @@
-//! The limit of stability of central differences in a mode with stiffness κ = φᵀKφ/φᵀMφ and damping γ = φᵀCφ/φᵀMφ, where forces that
-//! depend on velocities meet the predicted ones: ¼ κ Δt² + γ Δt ≤ 1.
+//! Stability limit of central differences in a mode with stiffness κ = φᵀKφ/φᵀMφ and damping γ = φᵀCφ/φᵀMφ: ¼ κ Δt² + γ Δt ≤ 1. Forces of
+//! velocity use the predicted velocity.
 
 /// The ratio of a step Δt to its stability limit: above 1 the mode grows.
 pub fn load_of_limit(dt: f64, stiffness: f64, damping: f64) -> f64 {
     dt * (0.25 * dt * stiffness + damping)
 }
 
-/// The longest step that such a mode bears.
+/// The longest stable step of such a mode.
 pub fn longest_step(stiffness: f64, damping: f64) -> f64 {
     2.0 / (damping + (damping * damping + stiffness).sqrt())
 }
 
-/// The largest stiffness with which a mode bears the step, where it is damped in proportion to mass and stiffness, γ = α + β κ. It is not
-/// positive where damping by the mass alone is too fast for the step.
+/// The largest stiffness of a mode that is stable at the step, with damping γ = α + β κ. It is not positive if mass-proportional damping
+/// alone is too fast for the step.
 pub fn largest_stiffness(dt: f64, alpha: f64, beta: f64) -> f64 {
     (1.0 - alpha * dt) / (dt * (0.25 * dt + beta))
 }

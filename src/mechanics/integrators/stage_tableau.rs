@@ -1,5 +1,5 @@
-//! The numbers of a diagonally implicit Runge-Kutta scheme whose first stage is the start of the step (ESDIRK): one number γ on the
-//! diagonal, so that one matrix serves all stages, and a last stage that is the end of the step.
+//! Coefficients of a diagonally implicit Runge-Kutta scheme with an explicit first stage (ESDIRK). One number γ on the diagonal gives all
+//! stages one matrix, and the last stage is the end of the step.
 
 use super::coefficients::Coefficients;
 use super::tableau::StageWeights;
@@ -49,7 +49,7 @@ impl StageTableau {
         (0..stage).map(weight).collect()
     }
 
-    /// Weights of the rates of all stages in their second derivative over the step, times Δt²: that of the parabola that fits them best.
+    /// Weights of the rates of all stages in the second derivative over the step, times Δt²: that of the parabola of best fit.
     pub fn second_derivative(&self) -> Vec<f64> {
         let times: Vec<f64> = std::iter::once(0.0).chain(self.c.iter().copied()).collect();
         let columns = DMatrix::from_fn(times.len(), 3, |stage, power| times[stage].powi(power as i32));
@@ -58,8 +58,8 @@ impl StageTableau {
         fit.row(2).iter().map(|weight| 2.0 * weight).collect()
     }
 
-    /// The coefficients of every stage of a step of length Δt: in place of (v, a) they take (q*, q̇*)/(γΔt), the motion that
-    /// the earlier stages leave to the stage, so that q̇ = (q − q*)/(γΔt), q̈ = (q̇ − q̇*)/(γΔt).
+    /// Coefficients of every stage of a step of length Δt. In place of (v, a) the stages use (q*, q̇*)/(γΔt), which collect earlier stages:
+    /// q̇ = (q − q*)/(γΔt), q̈ = (q̇ − q̇*)/(γΔt).
     pub fn coefficients(&self, dt: f64, rotation: RotationUpdate) -> Coefficients {
         let rate = 1.0 / (self.gamma * dt);
         let of_rate = [rate, -1.0, 0.0, 0.0];

@@ -17,7 +17,7 @@ pub struct Tableau {
     pub b: StageWeights,
     /// Differences to the embedded schemes; where there are two, e₁²/√(e₁² + e₂²/100) is the error.
     pub errors: &'static [StageWeights],
-    /// The error of a step falls with this power of its length.
+    /// The error of a step decreases with this power of its length.
     pub error_order: f64,
 }
 

@@ -1,7 +1,6 @@
-//! Wilson-θ: the acceleration is linear over τ = θΔt, equilibrium is written at t + τ, and the state at t + Δt is read off
-//! the same line. Unconditionally stable for θ ≥ 1.366; second order. It damps high modes, lengthens periods about twice
-//! as much as the trapezoidal rule, overshoots, and leaves equilibrium unsatisfied at t + Δt.
-//! E. L. Wilson, I. Farhoomand, K. J. Bathe, Earthquake Eng. Struct. Dyn. 1 (1973).
+//! Wilson-θ: the acceleration is linear over τ = θΔt, equilibrium holds at t + τ, and the state at t + Δt lies on the same line.
+//! Unconditionally stable for θ ≥ 1.366; second order. It damps high modes, lengthens periods about twice as much as the trapezoidal rule,
+//! overshoots, and does not satisfy equilibrium at t + Δt. E. L. Wilson, I. Farhoomand, K. J. Bathe, Earthquake Eng. Struct. Dyn. 1 (1973).
 
 use std::sync::Arc;
 
@@ -68,8 +67,8 @@ impl Scheme for WilsonTheta {
     fn coefficients(&self, dt: f64) -> Coefficients {
         let theta = self.theta;
         let tau = theta * dt;
-        // q = τ v + τ²/6 (2 a + a_τ), q̇_τ = v + τ/2 (a + a_τ), solved for a_τ.
-        // At the end: a₁ = a + (a_τ − a)/θ, q̇₁ = v + Δt/2 (a + a₁), q₁ = Δt v + Δt²/6 (2 a + a₁).
+        // q = τ v + τ²/6 (2 a + a_τ) and q̇_τ = v + τ/2 (a + a_τ), solved for a_τ. At the end: a₁ = a + (a_τ − a)/θ, q̇₁ = v + Δt/2 (a +
+        // a₁), q₁ = Δt v + Δt²/6 (2 a + a₁).
         let (new, old) = (1.0 / theta, 1.0 - 1.0 / theta);
         Coefficients {
             instant: theta,

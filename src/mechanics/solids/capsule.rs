@@ -14,7 +14,7 @@ pub static KIND: SolidKind = SolidKind {
     word: "capsule",
     aliases: &[],
     guesses: &["pill", "spherocylinder", "sausage"],
-    about: "A solid cylinder with round ends. Its centre of mass is put at `center`; without that it is where the ends are.",
+    about: "A solid cylinder with round ends. `center` places its centre of mass; otherwise its ends define it.",
     keys: &[ENDS, Key { name: "radius", form: Form::Number, about: "Outer radius, above 0." }],
     make: read,
 };

@@ -1,4 +1,4 @@
-//! What cylinders and tubes have in common: a cylinder with a hole along its axis, of radius zero where it is solid.
+//! Common part of cylinders and tubes: a cylinder with a hole along its axis, of radius zero if solid.
 
 use super::kind::{Solid, SolidShape, Touching};
 use super::outline::Outline;

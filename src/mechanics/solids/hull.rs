@@ -14,7 +14,7 @@ pub static KIND: SolidKind = SolidKind {
     word: "hull",
     aliases: &[],
     guesses: &["polyhedron", "convex", "wedge", "prism", "pyramid", "stone", "rock"],
-    about: "The convex hull of points, of even density. Its centre of mass is put at `center`; without that it is where the points are.",
+    about: "The convex hull of points, of even density. `center` places its centre of mass; otherwise its points define it.",
     keys: &[POINTS],
     make: read,
 };

@@ -1,4 +1,4 @@
-//! The points of which a deck makes a hull.
+//! Points of a hull in the deck.
 
 use base::math::Vec3;
 use base::math::polyhedron::{MOST_CORNERS, MOST_POINTS, NoHull, Polyhedron};
@@ -8,10 +8,10 @@ use base::words::kinds::{Form, Given, Key};
 pub const POINTS: Key = Key {
     name: "points",
     form: Form::Vectors,
-    about: "Points, at least four and not in one plane, global axes at t = 0. Those inside are left out.",
+    about: "Points, at least four and not in one plane, global axes at t = 0. Inner points are ignored.",
 };
 
-/// The hull of the points that the deck gives, about its centre, and that centre.
+/// The hull of the deck's points about its centre, and that centre.
 pub fn hull_of(given: &mut Given) -> Option<(Polyhedron, Vec3)> {
     let numbers = given.require("points")?;
     let points: Vec<Vec3> = numbers.chunks_exact(3).map(Vec3::from_column_slice).collect();

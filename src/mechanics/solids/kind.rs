@@ -1,4 +1,4 @@
-//! What a solid says of itself.
+//! Description of a solid.
 
 use super::outline::Outline;
 use base::math::convex::ConvexShape;
@@ -7,23 +7,23 @@ use base::words::kinds::{Given, Kind};
 use std::fmt;
 use std::sync::Arc;
 
-/// A solid that the deck can name, and what its keys give; `None` where a key is wrong.
+/// A kind of solid that the deck can name, with the reader of its keys; `None` for a wrong key.
 pub type SolidKind = Kind<fn(&mut Given) -> Option<Solid>>;
 
 /// A homogeneous solid.
 #[derive(Debug, Clone)]
 pub struct Solid {
-    /// What is drawn of it, and where it touches.
+    /// Its drawing and its contact points.
     pub shape: Arc<dyn SolidShape>,
     /// About the centre, per unit of mass.
     pub inertia: Mat3,
     /// Volume.
     pub volume: f64,
-    /// Its centre, where the keys tell where it is: global coordinates at t = 0.
+    /// Its centre, if the keys define one: global coordinates at t = 0.
     pub center: Option<Vec3>,
 }
 
-/// What is drawn of a body and where it touches others: points about the centre of mass in body axes.
+/// Drawing and contact points of a body: points about the centre of mass in body axes.
 pub trait SolidShape: fmt::Debug + Send + Sync {
     /// What is drawn.
     fn outline(&self) -> Outline;
@@ -31,23 +31,23 @@ pub trait SolidShape: fmt::Debug + Send + Sync {
     /// `between`: how many points are asked for between corners or rims.
     fn touching(&self, between: usize) -> Touching;
 
-    /// The widest opening between its points that touch, where it touches at several: a ball of a smaller diameter passes there.
+    /// Widest opening between its contact points: a ball of a smaller diameter passes there.
     fn opening(&self, _between: usize) -> Option<f64> {
         None
     }
 
-    /// True where it has a hole right through, which is closed to others.
+    /// True if it has a through hole, which contact treats as closed.
     fn has_hole(&self) -> bool {
         false
     }
 
-    /// The convex shape that it is, in the axes of its body, where it touches others of these in full; a ball does so as a point.
+    /// Its convex shape in body axes for contact of whole bodies; a ball is a point instead.
     fn as_convex(&self) -> Option<ConvexShape> {
         None
     }
 }
 
-/// The points by which a body touches a surface.
+/// Contact points of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Touching {
     /// The sphere of this radius about its centre.

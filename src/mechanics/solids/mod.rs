@@ -1,7 +1,7 @@
-//! Solids that rigid bodies may be: shape → volume and inertia, how it is drawn, and where it touches.
+//! Solids of rigid bodies: volume, inertia, drawing and contact points by shape.
 //!
-//! A solid lies about its centre of mass, in axes of the body, which are global at t = 0. One more is a file of its own and an
-//! entry of [`SOLIDS`].
+//! A solid lies about its centre of mass, in axes of the body, which are global at t = 0. A new solid needs a file and an entry of
+//! [`SOLIDS`].
 
 pub mod capsule;
 pub mod cuboid;
@@ -25,7 +25,7 @@ use std::sync::Arc;
 pub static SOLIDS: &[&SolidKind] =
     &[&cuboid::KIND, &cylinder::KIND, &sphere::KIND, &tube::KIND, &capsule::KIND, &hull::KIND];
 
-/// The shape in which a body is drawn whose deck gives none: the homogeneous cuboid of its mass and inertia.
+/// Drawing of a body without a shape: the homogeneous cuboid of its mass and inertia.
 pub fn drawn_by_inertia(mass: f64, inertia: &Mat3) -> Arc<dyn SolidShape> {
     Arc::new(cuboid::SolidCuboid::of_inertia(mass, inertia))
 }

@@ -1,4 +1,4 @@
-//! Solids as they are drawn: corners and faces about the centre of mass.
+//! Outlines of solids: corners and faces about the centre of mass.
 
 use base::math::{Mat3, Vec3};
 use std::f64::consts::TAU;
@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 /// Facets around a circle.
 pub const AROUND: usize = 24;
 
-/// Points, and what is drawn between them.
+/// Points, with edges or faces between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outline {
     /// Corners, in body axes.
@@ -55,7 +55,7 @@ impl Outline {
     }
 }
 
-/// Whether every edge belongs to two faces; a hexahedron is closed by itself.
+/// True if every edge belongs to two faces; a hexahedron is always closed.
 #[cfg(test)]
 pub fn is_closed(outline: &Outline) -> bool {
     let mut edges = std::collections::HashMap::new();

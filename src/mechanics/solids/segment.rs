@@ -11,7 +11,7 @@ pub const ENDS: Key = Key {
     about: "Two points, the ends of the line that it is round, global axes at t = 0.",
 };
 
-/// What is round about the segment between the points that the deck gives, by its `radius`, about the middle, and where that is.
+/// The round body about the segment between the deck's points with `radius`, about the middle, and the position of the middle.
 pub fn segment_of(given: &mut Given) -> Option<(Spherocylinder, Vec3)> {
     let radius = given.require_positive("radius");
     let &[ax, ay, az, bx, by, bz] = given.require("ends")? else {

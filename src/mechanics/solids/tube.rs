@@ -22,7 +22,7 @@ pub static KIND: SolidKind = SolidKind {
 
 fn hole(given: &mut Given, radius: f64) -> Option<(f64, &'static str)> {
     match (given.has("inner_radius"), given.has("thickness")) {
-        (true, true) => given.error("thickness", "a tube takes `thickness` or `inner_radius`, not both"),
+        (true, true) => given.error("thickness", "a tube needs `thickness` or `inner_radius`, not both"),
         (true, false) => Some((given.not_negative("inner_radius", 0.0), "inner_radius")),
         (false, true) => Some((radius - given.positive("thickness")?, "thickness")),
         (false, false) => given.require_either("thickness", "inner_radius"),

@@ -85,8 +85,8 @@ impl Node {
         rotation::matrix(&self.rotation)
     }
 
-    /// Moves the node from `start` by an increment q = (Δu, Θ) with the rates q̇, q̈: the only place where a rotation
-    /// is updated, R = exp(Θ~) R_n. Returns the departure from orthogonality of a truncated rotation update.
+    /// Moves the node from `start` by an increment q = (Δu, Θ) with the rates q̇, q̈. This is the only place that updates a rotation, R =
+    /// exp(Θ~) R_n. Returns the departure from orthogonality of a truncated rotation update.
     #[inline]
     pub fn advance(&mut self, start: &Node, increment: &Increment, update: RotationUpdate) -> f64 {
         let Increment { q, d, dd } = increment;
@@ -167,7 +167,7 @@ impl Increment {
     };
 }
 
-/// The motion of all nodes at an instant, and the history from which materials reach it: what elements compute from.
+/// Motion of all nodes at an instant, and the material history before it: the input of elements.
 #[derive(Debug, Clone, Copy)]
 pub struct Configuration<'a> {
     /// Motion by node, in the order of the model.
@@ -176,11 +176,11 @@ pub struct Configuration<'a> {
     pub history: &'a [f64],
     /// Time from that state to this instant.
     pub dt: f64,
-    /// The iterate before, whose velocities are the correction that led here; `None` where there is none.
+    /// The previous iterate, whose velocities are the correction that led here; `None` if there is none.
     ///
-    /// A correction turns slender parts on straight lines and so stretches them: the stress of the iterate is far from that of the
-    /// equilibrium which the matrix leads to, and so is its geometric stiffness. Stresses that are extrapolated linearly from the iterate
-    /// before are not (D. Magisano, L. Leonetti, G. Garcea, Comput. Methods Appl. Mech. Engrg 313 (2017), 271-289).
+    /// A correction moves slender parts along straight lines and so stretches them. Stress and geometric stiffness of the iterate are then
+    /// far from those of the equilibrium ahead. Stresses that are extrapolated linearly from the iterate before are not (D. Magisano, L.
+    /// Leonetti, G. Garcea, Comput. Methods Appl. Mech. Engrg 313 (2017), 271-289).
     pub lead: Option<&'a [Node]>,
 }
 
@@ -265,7 +265,7 @@ mod tests {
         let start = [Vec3::new(1e6, 2.0, 3.0), Vec3::new(1e6 + 1.0, 2.5, 3.25)];
         let mut nodes = start.map(Node::at_rest);
         let u = [Vec3::new(3.0, -4.0, 5e5), Vec3::new(3.0 + 2e-13, -4.0, 5e5 + 1e-13)];
-        // The second in two moves: the large one they share, and what is its own.
+        // The second node moves twice: by the shared large displacement, and by its own.
         nodes[0].place(&start[0], &Vec3::zeros(), &u[0]);
         nodes[1].place(&start[1], &Vec3::zeros(), &u[0]);
         let own = Vec3::new(2e-13, 0.0, 1e-13);

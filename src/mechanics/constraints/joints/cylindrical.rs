@@ -1,4 +1,4 @@
-//! The cylindrical joint leaves the rotation about its axis and the displacement along it free.
+//! The cylindrical joint allows rotation about and displacement along its axis.
 
 use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, one_axis, sliding};
 use crate::constraints::joint::rotations;

@@ -19,10 +19,10 @@ pub struct MakeJoint {
     pub ends_meet: bool,
     /// The constraint equations, from the axes, from x_a − x_b at t = 0, and from the values of the kind's own keys.
     pub equations: fn(&Mat3, &Vec3, &Values) -> Vec<ConstraintEquation>,
-    /// The coordinates that the joint may have; the first is its own unless the deck says otherwise. None where it leaves free
-    /// what is no motion about or along its axis.
+    /// The coordinates that the joint may have; the first is its own unless the deck says otherwise. None if the free motion is neither
+    /// about nor along its axis.
     pub coordinates: &'static [Coordinate],
-    /// True where it carries a force across its axis, as a pin or a rail does, by which friction may be known.
+    /// True if it carries a transverse force, like a pin or a rail, for friction.
     pub carries_across: bool,
 }
 
@@ -37,8 +37,8 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// The equation that would lock the coordinate, whose violation it is. The first of the axes is the joint's; `d` is x_a − x_b at
-    /// t = 0.
+    /// The equation that locks the coordinate; its violation is the coordinate. The first of the axes is the joint's; `d` is x_a − x_b at t
+    /// = 0.
     pub fn lock(self, axes: &Mat3, d: &Vec3) -> ConstraintEquation {
         match self {
             Coordinate::Angle => ConstraintEquation::Angle(Angle::about_first(axes)),
@@ -63,7 +63,7 @@ pub const AXIS: Key = Key {
             bodies. Any length.",
 };
 
-/// The axes of joints without an axis of their own: the global ones.
+/// Axes of joints without an axis: the global axes.
 pub fn no_axis(_: &mut Given) -> Option<Mat3> {
     Some(Mat3::identity())
 }
@@ -71,7 +71,7 @@ pub fn no_axis(_: &mut Given) -> Option<Mat3> {
 /// The axes of joints with one axis; the other two are any that make a frame with it.
 pub fn one_axis(given: &mut Given) -> Option<Mat3> {
     let x = given.require_unit("axis")?;
-    // The global axis that is most nearly perpendicular to it is taken: which one is of no consequence.
+    // Any perpendicular direction serves; this uses the global axis most nearly perpendicular.
     let y = x.cross(&Vec3::ith(x.iamin(), 1.0)).normalize();
     Some(Mat3::from_columns(&[x, y, x.cross(&y)]))
 }

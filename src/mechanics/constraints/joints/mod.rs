@@ -1,5 +1,4 @@
-//! The kinds of joints: which constraint equations each sets up between its two ends, and from which axes. One more
-//! kind is a file of its own and an entry of [`JOINTS`].
+//! Kinds of joints, with their constraint equations and axes. A new kind needs a file and an entry of [`JOINTS`].
 
 pub mod cylindrical;
 pub mod distance;
@@ -16,7 +15,7 @@ pub mod universal;
 
 pub use kind::JointKind;
 
-/// All kinds of joints, in the order in which help lists them.
+/// All kinds of joints, in the order of the help text.
 pub static JOINTS: &[&JointKind] = &[
     &spherical::KIND,
     &revolute::KIND,

@@ -1,4 +1,4 @@
-//! The planar joint leaves the displacements in a plane and the rotation about its normal free.
+//! The planar joint allows displacements in a plane and rotation about its normal.
 
 use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, in_plane, one_axis};
 use crate::constraints::joint::rotations;

@@ -1,4 +1,4 @@
-//! The prismatic joint leaves the displacement along its axis free.
+//! The prismatic joint allows displacement along its axis.
 
 use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, one_axis, sliding};
 use crate::constraints::joint::rotations;

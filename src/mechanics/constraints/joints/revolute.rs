@@ -1,4 +1,4 @@
-//! The revolute joint leaves the rotation about its axis free.
+//! The revolute joint allows rotation about its axis.
 
 use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, meeting, one_axis};
 use crate::constraints::joint::rotations;

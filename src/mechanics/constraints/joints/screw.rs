@@ -1,4 +1,4 @@
-//! The screw joint leaves a rotation about its axis free that goes with a displacement along it.
+//! The screw joint allows rotation about its axis, coupled to a displacement along it.
 
 use super::kind::{AXIS, Coordinate, JointKind, MakeJoint, one_axis, sliding};
 use crate::constraints::angle::Angle;
@@ -17,7 +17,7 @@ pub static KIND: JointKind = JointKind {
         Key {
             name: "lead",
             form: Form::Number,
-            about: "Length along `axis` by which `to` goes for each turn about it; negative for a left-hand thread, not zero.",
+            about: "Displacement of `to` along `axis` for each turn about it; negative for a left-hand thread, not zero.",
         },
     ],
     make: MakeJoint {

@@ -1,4 +1,4 @@
-//! The spherical joint keeps the ends at one place and leaves all rotations free.
+//! The spherical joint keeps the ends together and allows all rotations.
 
 use super::kind::{JointKind, MakeJoint, meeting, no_axis};
 

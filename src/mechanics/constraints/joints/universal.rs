@@ -1,4 +1,4 @@
-//! The universal (Cardan, Hooke) joint leaves the rotations about the two arms of its cross free, one arm on either end.
+//! The universal (Cardan, Hooke) joint allows rotation about the two arms of its cross, one arm on each end.
 
 use super::kind::{JointKind, MakeJoint, meeting};
 use crate::constraints::joint::rotations;
