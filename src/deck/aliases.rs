@@ -16,7 +16,7 @@ struct Alias {
     table: &'static str,
     /// The table is one of tables named by the user, as in `[materials.steel]`.
     named: bool,
-    /// What the schema calls the table.
+    /// Name of the table in the schema.
     definition: &'static str,
     word: &'static str,
     key: &'static str,
@@ -38,7 +38,7 @@ const ALIASES: [Alias; 5] = [
     damping("beta", "stiffness_factor"),
 ];
 
-/// Gives every key its first word. A key that is written with both is an error, and keeps what stands behind the first.
+/// Gives every key its first word. A key written with both spellings is an error; the value of the first spelling stays.
 pub fn unify(root: &mut DeTable) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     for alias in &ALIASES {

@@ -13,35 +13,33 @@ pub struct Amplitude {
     /// The function.
     #[schemars(required)]
     pub kind: Maybe<AmplitudeKind>,
-    /// [[time, value], ...], two or more, times increasing; `interpolation` says how they are joined, the first and last value are held
-    /// before and after unless `before` and `after` say otherwise. (table)
+    /// [[time, value], ...], two or more, times increasing; `interpolation` joins them. `before` and `after` set the values outside; by
+    /// default the first and last value are held. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
-    /// A file with the points instead; the path is relative to the deck. Headers of PEER (.AT2, .VT2, .DT2), ESM, K-NET and CSMIP (volume 2) are
-    /// recognized: the values then follow one another along the lines, at the time step of the header and in its unit. Other files have columns
-    /// between commas, semicolons or blanks, or `rows`. (table)
+    /// A file with the points instead; the path is relative to the deck. Headers of PEER (.AT2, .VT2, .DT2), ESM, K-NET and CSMIP (volume
+    /// 2) are recognized. Their values are read row by row, with the time step and unit of the header. Other files have columns between
+    /// commas, semicolons or blanks, or `rows`. (table)
     pub file: Maybe<String>,
     /// The columns of time and value in the file, by name or by number from 1; with `time_step` that of the value alone. Default: the only
     /// ones. (table)
     pub columns: Maybe<OneOrMany<ColumnName>>,
-    /// True for a file whose values follow one another along the lines, as many a line as there are; needs `time_step` where no header says
-    /// it. Default: true with a header of a data base, else false. (table)
+    /// True for a file with values row by row, any number in a row; needs `time_step` if no header gives it. Default: true with a header of
+    /// a data base, else false. (table)
     pub rows: Maybe<bool>,
     /// The time between two values of a file without times, above 0; the first is at 0. (table)
     pub time_step: Maybe<f64>,
-    /// The curve between the points. Default: "linear"; where the points are positions that a support or a joint of a dynamic run prescribes,
-    /// "cubic" between the corners of the table, which stay corners. (table)
+    /// The curve between the points. Default: "linear"; for positions prescribed by a support or joint in dynamics "cubic" between the
+    /// corners of the table. (table)
     pub interpolation: Maybe<Interpolation>,
     /// Factor on the values, such as 9.81 for a record in g. Default: 1. (table)
     pub scale: Maybe<f64>,
-    /// Time by which all points are later. Default: 0. (table)
+    /// Time shift of all points. Default: 0. (table)
     pub shift: Maybe<f64>,
-    /// What holds before the first time. Default: its value, with a warning where that is not zero and the run begins
-    /// earlier. (table)
+    /// Value before the first time. Default: the first value, with a warning if it is not zero and the run starts earlier. (table)
     pub before: Maybe<Beyond>,
-    /// What holds after the last time. Default: its value, with a warning where that is not zero and the run goes on.
-    /// (table)
+    /// Value after the last time. Default: the last value, with a warning if it is not zero and the run continues. (table)
     pub after: Maybe<Beyond>,
-    /// Name of the stage from whose beginning its times count. Default: they are times of the run.
+    /// Name of the stage from whose start the times count. Default: they are times of the run.
     pub stage: Maybe<String>,
     /// Cycles per unit of time, above 0. (sine, sine-squared)
     pub frequency: Maybe<f64>,

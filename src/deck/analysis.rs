@@ -1,4 +1,4 @@
-//! `[analysis]`, `[integrator]` and `[iteration]`: how long, by which scheme, how each step is solved.
+//! `[analysis]`, `[integrator]` and `[iteration]`: duration, scheme, solution of each step.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -9,7 +9,7 @@ use base::math::rotation::RotationUpdate;
 use mechanics::integrators::SCHEMES;
 use mechanics::integrators::scheme::{MakeScheme, SchemeKind};
 
-/// What is computed, and over what time.
+/// Kind and duration of the analysis.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Analysis {
@@ -25,8 +25,8 @@ pub struct Analysis {
     /// difference as long as is stable. With arc-length control the length of the first step, which sets the
     /// arc length of the others. Required for "dynamic" and "static".
     pub time_step: Maybe<NumberOrAuto>,
-    /// With time_step = "auto": error of displacements at the end of the run owed to the length of the steps,
-    /// relative to the largest displacement; between 0 and 1. Default: 1e-3.
+    /// With time_step = "auto": error of displacements at the end of the run caused by the steps, relative to the largest displacement;
+    /// between 0 and 1. Default: 1e-3.
     pub error_tolerance: Maybe<f64>,
     /// Shortest step, above 0: a step that does not converge is halved, but not below this. Default: time_step
     /// / 2^20; with an automatic step end_time / 10^9.
@@ -52,16 +52,15 @@ pub struct Analysis {
     pub frequencies: Maybe<Frequencies>,
     /// With "frequency-response": how it is found. Default: "direct".
     pub method: Maybe<ResponseWord>,
-    /// With "frequency-response" and method = "modal": part of critical damping that every mode has, besides what dampers give it; 0 or
-    /// more. Default: 0.
+    /// With "frequency-response" and method = "modal": damping ratio of every mode, in addition to dampers; 0 or more. Default: 0.
     pub damping_ratio: Maybe<f64>,
 }
 
-/// The way in which a frequency response is found.
+/// Method of a frequency response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ResponseWord {
-    /// The equations themselves are solved at each frequency: dampers, loads that follow and bodies that spin are taken as they are.
+    /// Solves the equations at each frequency, with dampers, follower loads and spinning bodies.
     #[default]
     Direct,
     /// By natural modes; all others answer as springs. The cost hardly depends on the number of frequencies.
@@ -79,7 +78,7 @@ pub enum Control {
     ArcLength,
 }
 
-/// A target displacement: a value that a displacement passes, and at which a step ends.
+/// A target displacement: a step ends when the displacement passes this value.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DisplacementTarget {
@@ -117,12 +116,12 @@ pub enum AnalysisKind {
     Dynamic,
     /// Load stepping without inertia; a load without an amplitude grows linearly from 0 at t = 0 to 1 at the end time.
     Static,
-    /// Natural modes about the equilibrium under what acts at t = 0.
+    /// Natural modes about the equilibrium under the loads at t = 0.
     Modal,
-    /// Factors of what acts at t = 0 at which the structure buckles, by linear buckling analysis.
+    /// Load factors of the loads at t = 0 at which the structure buckles, by linear buckling analysis.
     Buckling,
-    /// Amplitude and phase of the steady motion that loads and supports with amplitudes of kind "harmonic" cause, about the equilibrium
-    /// under what else acts at t = 0.
+    /// Amplitude and phase of the steady motion under loads and supports with amplitudes of kind "harmonic", about the equilibrium under
+    /// all other loads at t = 0.
     FrequencyResponse,
 }
 
@@ -165,15 +164,15 @@ pub struct Iteration {
     pub update: Maybe<Update>,
     /// Whether the gyroscopic term of bodies enters the matrix; the converged result is the same. Default: "auto".
     pub gyroscopic: Maybe<Gyroscopic>,
-    /// Convergence tolerance, relative, on the residual and on the increment; between 0 and 1. Default: 1e-8, and where something deforms
-    /// in equal steps of a scheme of second order that dissipates, 1/10,000 of the first correction of the step, from 1e-8 to 1e-5. Equal
-    /// steps of every scheme take the smaller of what is given and of that part, automatic ones the smaller of it and of their own rule.
+    /// Convergence tolerance, relative, on the residual and on the increment; between 0 and 1. Default: 1e-8. With deformable parts and
+    /// equal steps of a dissipating scheme of second order: 1/10,000 of the first correction of the step, from 1e-8 to 1e-5. Equal steps of
+    /// every scheme use the smaller of this value and that part. Automatic steps use the smaller of this value and their own rule.
     pub tolerance: Maybe<f64>,
     /// Iterations after which a step is cut back, 1 or more. Default: 20; 200 with initial-load.
     pub limit: Maybe<u64>,
 }
 
-/// Which moduli the stiffness matrix is formed with where material yields.
+/// Moduli of the stiffness matrix for material that yields.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {

@@ -14,7 +14,7 @@ pub struct Attachment {
     /// Name of a beam, instead of a body: each node is attached to the nearest node of it. Where the beam is
     /// rigid, all go with its body.
     pub beam: Maybe<String>,
-    /// Names of points, bodies, parts or sets. Those on the beam itself stay as they are.
+    /// Names of points, bodies, parts or sets. Nodes on the beam itself keep their places.
     #[schemars(required)]
     pub nodes: Maybe<Names>,
     /// Degrees of freedom that are taken from the body or beam. Default: "all".
@@ -23,7 +23,7 @@ pub struct Attachment {
     pub method: Maybe<AttachmentMethod>,
 }
 
-/// The method by which an attachment is enforced.
+/// Method that enforces an attachment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum AttachmentMethod {

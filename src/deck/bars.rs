@@ -56,7 +56,7 @@ impl PartTable for Bar {
         self.material.as_ref()
     }
 
-    /// A bar that was cut in two would be a hinge between its halves: only what is a cable already is cut further.
+    /// A bar cut in two would have a hinge between its halves, so only cables are subdivided.
     fn elements(&self) -> Option<&At<OneOrMany<u64>>> {
         self.elements.as_ref().filter(|at| at.values.iter().any(|count| count.value > 1))
     }

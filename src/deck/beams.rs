@@ -21,9 +21,9 @@ pub struct Beam {
     pub group: Maybe<String>,
     /// Elements per segment, 1 or more, or a list with one number for each segment.
     pub elements: Maybe<OneOrMany<u64>>,
-    /// Length of the first and the last element of a segment over that of its longest, above 0 to 1, or a list with one for each segment:
-    /// from either end to the middle each element is longer than the one before by the same factor. For plastic hinges at the ends of
-    /// legs, and other short ends; 3 elements or more. Default: 1, all of one length.
+    /// Length of the first and last element of a segment over that of its longest, above 0 to 1, or a list with one for each segment. From
+    /// either end to the middle element lengths grow by a constant factor. For plastic hinges at the ends of legs, and other short ends; 3
+    /// elements or more. Default: 1, all of one length.
     pub grading: Maybe<OneOrMany<f64>>,
     /// Name of a material; left out where the section gives stiffnesses.
     pub material: Maybe<String>,
@@ -41,8 +41,8 @@ pub struct Beam {
     pub rigid: Maybe<bool>,
     /// Keep the rotary inertia of the section. Default: true.
     pub rotary_inertia: Maybe<bool>,
-    /// The beam deforms in shear; false: its shear stiffness is 10,000 times that of the section, as beams of Euler and Bernoulli have it. Not
-    /// with explicit schemes, whose steps that would shorten. Default: true.
+    /// The beam deforms in shear; false: its shear stiffness is 10,000 times that of the section, as beams of Euler and Bernoulli have it.
+    /// Not with explicit schemes, whose steps would become shorter. Default: true.
     pub shear: Maybe<bool>,
     /// Integration rule along an element, for beams whose material yields. Default: "gauss".
     pub integration: Maybe<IntegrationRule>,
@@ -72,7 +72,7 @@ impl PartTable for Beam {
         names(&self.path)
     }
 
-    /// The nodes of a path have names of their own, or stand between two that have.
+    /// The nodes of a path have names, or stand between two named nodes.
     fn is_node_list(&self) -> bool {
         self.group.is_some()
     }

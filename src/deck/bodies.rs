@@ -14,16 +14,16 @@ pub struct Body {
     /// Name, for messages, results and other tables.
     #[schemars(required)]
     pub name: Maybe<String>,
-    /// Names of shells, beams and bars that are rigid and make up the body: they give its centre, mass and
-    /// inertia, and their elements are omitted from the computation.
+    /// Names of rigid shells, beams and bars that form the body: they give its centre, mass and inertia, and their elements are not
+    /// computed.
     pub parts: Maybe<Names>,
-    /// Centre of mass at t = 0, global coordinates. Left out where `parts` make up the body, like mass, inertia and shape,
-    /// or where a hull or a capsule is to stay where its points are.
+    /// Centre of mass at t = 0, global coordinates. Omitted if `parts` form the body, like mass, inertia and shape, or if a hull or capsule
+    /// stays at its points.
     pub center: Maybe<Vector>,
     /// Mass, above 0. Left out where the shape has a density.
     pub mass: Maybe<f64>,
-    /// Moments of inertia about the centre, global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx], the
-    /// products as they stand in the matrix.
+    /// Moments of inertia about the centre, global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx], products with the sign of the
+    /// matrix.
     pub inertia: Maybe<Vec<f64>>,
     /// A solid that gives the inertia, and the mass if it has a density; with `inertia` it is only drawn.
     pub shape: Maybe<OneOf<BodyShape>>,

@@ -11,8 +11,7 @@ use mechanics::elements::contact::SurfaceShape;
 use mechanics::elements::contact::surfaces::SURFACES;
 use mechanics::elements::contact::surfaces::kind::{MakeSurface, SurfaceKind};
 
-/// Points that push away from a surface, rub on it and bounce off it; or, with a stiffness of 0, a zone whose gap
-/// is watched.
+/// Contact of points with a surface: pressure, friction and rebound. With a stiffness of 0 only the gap is monitored.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Contact {
@@ -21,25 +20,27 @@ pub struct Contact {
     pub name: Maybe<String>,
     /// The surface that is touched. Not with `among`.
     pub surface: Maybe<OneOf<Surface>>,
-    /// What touches it, by name: points, bodies (all of them on a box, hull, sphere, cylinder or capsule; on planes and faces corners of a
-    /// box or hull and ends of a capsule, on planes all of a cylinder, on faces its rims; on beams, bars and free edges all of a capsule,
-    /// corners and edges of a box or hull, and 16 lines along a cylinder; a sphere as it is), sets, groups of the mesh, beams, bars, shells and their edges; for a part as surface also "itself". Not with `among`.
+    /// Names of the touching parts: points, bodies, sets, groups of the mesh, beams, bars, shells and their edges; for a part as surface
+    /// also "itself". Not with `among`. Bodies touch a box, hull, sphere, cylinder or capsule with their whole surface, a plane and faces
+    /// with corners of a box or hull and ends of a capsule. A cylinder touches planes with its whole surface and faces with its rims.
+    /// Beams, bars and free edges touch a whole capsule, corners and edges of a box or hull, and 16 lines along a cylinder; a sphere always
+    /// touches as a sphere.
     pub with: Maybe<Names>,
-    /// In place of `surface` and `with`: bodies that are spheres, boxes, hulls, cylinders or capsules, and points with a `radius`, of which
-    /// each may touch each; bodies other than spheres that a joint holds together do not.
+    /// In place of `surface` and `with`: spheres, boxes, hulls, cylinders, capsules and points with a `radius`, each of which may touch
+    /// each other. Bodies other than spheres do not touch if a joint connects them.
     pub among: Maybe<Names>,
-    /// Names of the stages in which it is there. Default: all.
+    /// Names of the stages in which it acts. Default: all.
     pub stages: Maybe<Names>,
-    /// Contact radius: the distance from a point at which it touches, 0 or more. Default: half the thickness of
-    /// shells, half the smaller side of a beam's section, the radius of a sphere or a capsule; else 0.
+    /// Contact radius: distance from a point to its surface, 0 or more. Default: half the thickness of shells, half the smaller side of a
+    /// beam's section, the radius of a sphere or a capsule; else 0.
     pub radius: Maybe<f64>,
     /// Penalty stiffness, force per penetration of each point, also for friction. 0: a clearance monitor,
     /// nothing acts. Default in dynamics, and with multipliers: by material, size, weight and speed of what touches; `check` says it.
     pub stiffness: Maybe<f64>,
     /// What keeps things apart. Default: "penalty".
     pub method: Maybe<ContactMethod>,
-    /// With "augmented-lagrangian": the largest depth, and elastic slip of a load step, that are left, in units of length, at most 1e-4 and by default 1e-8 of
-    /// the smallest size of what touches.
+    /// With "augmented-lagrangian": largest remaining penetration, and elastic slip of a load step, in units of length. At most 1e-4 and by
+    /// default 1e-8 of the smallest size of the touching parts.
     pub penetration_tolerance: Maybe<f64>,
     /// Coefficient of restitution, speed after an impact over that before, 0.01 to 1, or 0. Default: 1, nothing is
     /// lost. With 0 nothing rebounds: what lands stays as deep as the impact has pressed it in.
@@ -48,8 +49,8 @@ pub struct Contact {
     pub damping: Maybe<f64>,
     /// Coulomb's coefficient of friction, 0 or more; in dynamics also { static, kinetic, decay }. Default: 0.
     pub friction: Maybe<NumberOrTable<ContactFriction>>,
-    /// Further contact points between neighbouring nodes of beams, bars and shells, and between corners of
-    /// boxes, ends of capsules and rims of cylinders where these touch by points, at most 100. Default: 0.
+    /// Further contact points, at most 100: between neighbouring nodes of beams, bars and shells. Also between corners of boxes, ends of
+    /// capsules and rims of cylinders that touch by points. Default: 0.
     pub points: Maybe<u64>,
 }
 
@@ -76,7 +77,7 @@ pub struct Coefficients {
     pub sticking: f64,
     /// The coefficient at a high slip speed.
     pub kinetic: f64,
-    /// Time per length, the rate at which the coefficient falls with the slip speed; infinite without `decay`.
+    /// Time per length: rate at which the coefficient decreases with the slip speed; infinite without `decay`.
     pub decay: f64,
 }
 
@@ -97,7 +98,7 @@ impl Contact {
     }
 }
 
-/// What keeps things apart that touch.
+/// Method that separates touching parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactMethod {
@@ -127,12 +128,12 @@ impl PartTable for Contact {
 pub struct Surface {
     /// Name of the body that carries it; without a `shape` its own shape is the surface. Default: the ground.
     pub body: Maybe<String>,
-    /// Name of a shell whose faces are the surface, in place of a shape: both sides, with its thickness, wherever it
-    /// bends; or of a beam or bar, by its `radius`, which of a beam is half the depth of its section by default.
+    /// Part whose surface is used in place of a shape. A shell gives its faces on both sides, with its thickness; a beam or bar its round
+    /// surface with `radius`, by default half the depth of the section of a beam.
     pub part: Maybe<String>,
-    /// True: of a shell that is the `part`, the free edges are the surface in place of the faces, round, by `radius`, which is half the
-    /// thickness by default. Shells in `with` touch them with their own free edges, beams, bars and capsules with all of their length,
-    /// boxes and hulls with corners and edges. Default: false.
+    /// True: the free edges of the shell `part` are the surface in place of its faces, round with `radius`, by default half the thickness.
+    /// Shells in `with` touch them with their own free edges, beams, bars and capsules with all of their length, boxes and hulls with
+    /// corners and edges. Default: false.
     pub edges: Maybe<bool>,
 }
 

@@ -1,4 +1,4 @@
-//! `[environment]` and `[damping]`: what acts everywhere.
+//! `[environment]` and `[damping]`: loads and damping on the whole model.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -12,7 +12,7 @@ use base::diagnostic::At;
 pub struct Environment {
     /// Acceleration of free fall, global components. Default: none.
     pub gravity: Maybe<Vector>,
-    /// Name of the amplitude by which gravity is multiplied. Default: constant in dynamics, growing linearly in statics.
+    /// Name of the amplitude that multiplies gravity. Default: constant in dynamics, growing linearly in statics.
     pub gravity_amplitude: Maybe<String>,
     /// Accelerations of the ground. Displacements, velocities and accelerations are then relative to the ground.
     #[serde(default)]
@@ -37,12 +37,11 @@ pub struct BaseAcceleration {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Damping {
-    /// Rayleigh's alpha in C = alpha M + beta K, per unit of time, 0 or more; it acts on velocities relative to supports that move
+    /// Rayleigh's alpha in C = alpha M + beta K, per unit of time, 0 or more. It acts on velocities relative to supports that move
     /// together, otherwise relative to the ground. Default: 0. Alias: `alpha`.
     pub mass_factor: Maybe<f64>,
-    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more; it acts on strain rates of beams, bars and shells, and on springs of
-    /// links and joints, not on stops, friction and contacts.
-    /// Default: 0. Alias: `beta`.
+    /// Rayleigh's beta in C = alpha M + beta K, a time, 0 or more. It acts on strain rates of beams, bars and shells, and on springs of
+    /// links and joints, not on stops, friction and contacts. Default: 0. Alias: `beta`.
     pub stiffness_factor: Maybe<f64>,
     /// Dampers from nodes to the ground.
     #[serde(default)]

@@ -15,14 +15,14 @@ pub struct Expect {
     pub at: Maybe<String>,
     /// Instead of `at`: number of a mode, 1 or more; the quantity is then a column of modes.csv, and needs no time.
     pub mode: Maybe<u64>,
-    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv or energy.csv. "fx" to "mz" of a joint act on its first part
-    /// (`from`); of a supported point or body they are the reaction, the force of its supports on the structure. "force" of a contact is
-    /// its size. Of a beam "N", "Vy", "Vz", "T", "My", "Mz", of a bar "N" and of a shell "N11" to "Q2", "von_mises_bottom" and
-    /// "von_mises_top" are the values of the largest magnitude anywhere in it, with their signs; "von_mises" of a shell and
-    /// "plastic_strain" of a beam, bar or shell are the largest anywhere.
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv or energy.csv. For a joint "fx" to "mz" act on its first part
+    /// (`from`). For a supported point or body they are the reaction, the force of its supports on the structure. "force" of a contact is
+    /// its magnitude. "N", "Vy", "Vz", "T", "My", "Mz" of a beam, "N" of a bar, and "N11" to "Q2", "von_mises_bottom" and "von_mises_top"
+    /// of a shell are the values of largest magnitude in the part, with sign. "von_mises" of a shell and "plastic_strain" of a beam, bar or
+    /// shell are the largest values in the part.
     #[schemars(required)]
     pub quantity: Maybe<String>,
-    /// Time at which the value is taken; with arc-length control, the first time the load reaches it.
+    /// Time of the value; with arc-length control, the first time the load reaches it.
     pub time: Maybe<f64>,
     /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.
     pub when: Maybe<Table<DisplacementTarget>>,

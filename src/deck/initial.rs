@@ -6,8 +6,8 @@ use serde::Deserialize;
 use super::words::{Maybe, Names, Table, Vector};
 use base::diagnostic::At;
 
-/// Velocities at t = 0. Several tables may give a node different quantities; two that give it different values of the same one, or
-/// a value other than that of its body, are an error unless the later one `replaces` what the others give.
+/// Velocities at t = 0. Several tables may give a node different quantities. Two different values of one quantity, or a value that differs
+/// from that of the node's body, are an error unless the later table `replaces` the earlier one.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Initial {
@@ -18,13 +18,12 @@ pub struct Initial {
     pub velocity: Maybe<Vector>,
     /// Angular velocity, global components, radians per unit of time.
     pub angular_velocity: Maybe<Vector>,
-    /// The motion is that of a rigid body about this point, global coordinates, which has `velocity`. Default:
-    /// the velocities hold node by node.
+    /// Global point of a rigid motion: the nodes move with `velocity` at this point. Default: the velocities hold node by node.
     pub about: Maybe<Vector>,
-    /// Velocity along the normals of shells, which see the corners go round counter-clockwise, instead of
-    /// `velocity`; where patches meet, along the mean of their normals.
+    /// Velocity along the normals of shells instead of `velocity`; corners run counter-clockwise about the normal. Where patches meet, the
+    /// mean of their normals counts.
     pub normal_velocity: Maybe<f64>,
-    /// True where this takes the place of what earlier tables, and bodies in their own, give the same nodes. Default: false.
+    /// True if the values replace those of earlier tables and of bodies at the same nodes. Default: false.
     pub replaces: Maybe<bool>,
     /// Name of the dynamic stage that begins with it. Default: the first.
     pub stages: Maybe<Names>,
@@ -39,7 +38,7 @@ pub struct Profile {
     /// Name of an amplitude, whose time is here the distance or the angle.
     #[schemars(required)]
     pub amplitude: Maybe<String>,
-    /// The direction along which the distance is measured, or from which the angle is.
+    /// Direction of the distance, or reference direction of the angle.
     #[schemars(required)]
     pub direction: Maybe<Vector>,
     /// Takes the angle about this axis, in radians from -pi to pi, instead of the distance.

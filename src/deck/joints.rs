@@ -21,17 +21,16 @@ pub struct Joint {
     /// The first end.
     #[schemars(required)]
     pub from: Maybe<Table<End>>,
-    /// The second end. Where it is on a body, its `point` may be left out: it then lies where `from` lies (not
-    /// with "distance").
+    /// The second end. On a body its `point` may be omitted: it is then at the place of `from` (not with "distance").
     #[schemars(required)]
     pub to: Maybe<Table<End>>,
-    /// Names of the stages in which it is there; it joins its ends as it then finds them. Default: all.
+    /// Names of the stages in which it acts; it joins its ends as it finds them. Default: all.
     pub stages: Maybe<Names>,
-    /// Which coordinate the keys below are about, where a joint has two: "angle" about `axis` in radians, turns counted, or "distance"
-    /// along it. It is that of `to` from `from`, zero at t = 0. Default: "angle" of a screw, "distance" of a cylindrical
-    /// joint. (revolute, prismatic, cylindrical, screw, planar, in-line; the same for all that follows)
+    /// Coordinate for the keys below, if a joint has two: "angle" about `axis` in radians, with turns counted, or "distance" along it. It
+    /// is that of `to` from `from`, zero at t = 0. Default: "angle" of a screw, "distance" of a cylindrical joint. (revolute, prismatic,
+    /// cylindrical, screw, planar, in-line; the same for all that follows)
     pub coordinate: Maybe<Coordinate>,
-    /// Drives the coordinate as told; the effort that takes is in joints.csv.
+    /// Prescribes the coordinate; joints.csv has the effort.
     pub motion: Maybe<Table<JointMotion>>,
     /// Ties the coordinate to that of another joint, as gears, belts, racks and pinions do.
     pub gear: Maybe<Table<JointGear>>,
@@ -39,7 +38,7 @@ pub struct Joint {
     pub effort: Maybe<Table<Effort>>,
     /// Force per length, or moment per radian, of a spring along the coordinate, 0 or more. Default: 0.
     pub stiffness: Maybe<f64>,
-    /// The coordinate at which that spring is without effort. Default: 0.
+    /// Coordinate of the unloaded spring. Default: 0.
     pub rest: Maybe<f64>,
     /// Force per velocity, or moment per angular velocity, of a damper along the coordinate, 0 or more, or `{ beta, viscous }`.
     /// Default: 0, and beta of `[damping]`.
@@ -55,20 +54,20 @@ pub struct Joint {
     pub friction: Maybe<f64>,
     /// Radius of the pin on which friction of an angle acts, above 0.
     pub radius: Maybe<f64>,
-    /// Dry friction against an angle: the moment at which it slips, 0 or more, whatever the joint carries. Default: 0.
+    /// Dry friction against an angle: slip moment, 0 or more, independent of the joint's load. Default: 0.
     pub friction_moment: Maybe<f64>,
-    /// Dry friction against a distance: the force at which it slips, 0 or more, whatever the joint carries. Default: 0.
+    /// Dry friction against a distance: slip force, 0 or more, independent of the joint's load. Default: 0.
     pub friction_force: Maybe<f64>,
-    /// The moment at which a hinge yields, above 0: `stiffness`, which it needs, is its slope up to there, `post_yield_stiffness` beyond,
-    /// with kinematic hardening.
+    /// Yield moment of a hinge, above 0. `stiffness` is required and is the slope up to it, `post_yield_stiffness` the slope beyond, with
+    /// kinematic hardening.
     pub yield_moment: Maybe<f64>,
-    /// The force at which a joint along a distance yields, likewise.
+    /// Yield force of a joint along a distance, likewise.
     pub yield_force: Maybe<f64>,
     /// Slope of moment or force beyond yielding, 0 or more, below `stiffness`. Default: 0. (with `yield_moment`, `yield_force`)
     pub post_yield_stiffness: Maybe<f64>,
-    /// [[coordinate, moment or force], ...], up to 6, from the first yielding on, instead of `stiffness` and what yields: the curve of
-    /// first loading, the same either way, of lines each less steep than the one before, constant after the last. Unloading
-    /// and reloading follow it twice as large.
+    /// [[coordinate, moment or force], ...], up to 6, from first yield on, instead of `stiffness` and the yield keys. The curve of first
+    /// loading is symmetric, each line less steep than the one before, and constant after the last. Unloading and reloading follow it twice
+    /// as large.
     pub backbone: Maybe<Vec<At<Numbers<2>>>>,
     /// By how much the joint gives before friction slips, above 0: what sticks is held by a stiff spring, and comes back. Default:
     /// 1e-4 radians, or 1e-5 of the size of the scene.
@@ -89,7 +88,7 @@ pub struct JointMotion {
     pub amplitude: Maybe<String>,
 }
 
-/// A joint whose coordinate is a multiple of that of another one, at every instant and without play.
+/// A joint whose coordinate is always a multiple of that of another joint, without play.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JointGear {

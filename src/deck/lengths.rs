@@ -1,7 +1,7 @@
-//! Lengths that no computation can hold, wherever they stand in a deck: slips of an exponent, which would end as singular matrices.
+//! Checks lengths for exponents that no computation can hold, because they would end as singular matrices.
 //!
-//! What is a length is told by its key. Of lengths are taken areas, moments of area and inertia, the fifth power, and products of
-//! these; and a size enters into differences of coordinates, of which sixteen digits are known.
+//! The key shows whether a number is a length. Areas, moments of area and inertia contain powers of lengths up to the fifth, and their
+//! products. Sizes enter differences of coordinates, which have sixteen digits.
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -60,7 +60,7 @@ struct Length<'a> {
     is_size: bool,
 }
 
-/// What is wrong with the lengths of a deck, with the places of the numbers.
+/// Faulty lengths of a deck, with the places of the numbers.
 pub(super) fn check(root: &DeTable) -> Vec<(Span, Diagnostic)> {
     let mut lengths = Vec::new();
     for (key, value) in root {
@@ -89,7 +89,7 @@ fn collect<'a>(key: &'a str, value: &'a Spanned<DeValue>, lengths: &mut Vec<Leng
         DeValue::Float(number) => lengths.extend(length(key, value.span(), number.as_str().parse().ok())),
         DeValue::Integer(number) => lengths.extend(length(key, value.span(), number.as_str().parse().ok())),
         DeValue::Array(list) => list.iter().for_each(|item| collect(key, item, lengths)),
-        // Points by name, as opposed to tables by name, whose keys say what they hold.
+        // `points` holds coordinates by name; keys of other tables have their own meaning.
         DeValue::Table(table) if key == "points" => table.values().for_each(|item| collect(key, item, lengths)),
         DeValue::Table(table) => table.iter().for_each(|(key, item)| collect(key.get_ref(), item, lengths)),
         _ => {}

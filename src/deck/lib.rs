@@ -1,7 +1,7 @@
 //! The words of the deck, as written: one file per family of tables, every value with its place.
 //!
-//! Every key may be left out here; what is needed is decided where it is used, so that a missing key is one more
-//! diagnostic and not the end of reading.
+//! Every key is optional here. The code that uses a key reports if it is missing, so a missing key is one more diagnostic instead of the
+//! end of reading.
 
 #![warn(missing_docs)]
 
@@ -52,13 +52,13 @@ use words::{Maybe, Named, Names, Table, Vector};
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Deck {
-    /// What the scene is, in one line.
+    /// Description of the model in one line.
     pub title: Maybe<String>,
     /// System of units: it labels output and turns on warnings about implausible values. Nothing is converted.
     pub units: Maybe<output::Units>,
-    /// What is computed, over what time, in which steps. A deck with `[[stages]]` has these instead; here it may say what holds for all.
+    /// Kind, duration and steps of the analysis. A deck with `[[stages]]` has stages instead; this table may then hold common values.
     pub analysis: Maybe<Table<analysis::Analysis>>,
-    /// What is computed one after the other.
+    /// Sequence of analyses.
     #[serde(default)]
     pub stages: Vec<At<Table<stages::Stage>>>,
     /// The time integration scheme.
@@ -127,7 +127,7 @@ pub struct Deck {
     pub expect: Vec<At<Table<expect::Expect>>>,
     /// Which results are written, and how often.
     pub output: Maybe<Table<output::Output>>,
-    /// What `rdsolve study` goes over; a run leaves it aside.
+    /// Settings of `rdsolve study`; a run ignores them.
     pub study: Maybe<Table<study::Study>>,
     /// Entries that are written but could not be read: not missing, and already reported.
     #[serde(skip)]

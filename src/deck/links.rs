@@ -31,9 +31,8 @@ pub struct Link {
     pub gap: Maybe<f64>,
     /// Force at zero elongation, tension positive. Default: 0. (linear)
     pub preload: Maybe<f64>,
-    /// Force to which it is pulled in the first stage in which it is there, a static one, or in a static analysis: the length that this takes up
-    /// is found, and kept in all stages that follow, as by a nut that is tightened; not 0, tension positive. (linear, table,
-    /// tension-only without `gap`)
+    /// Force of tightening, not 0, tension positive. The link is tightened in its first stage, which is static, or in a static analysis.
+    /// The length taken up is kept in later stages, as by a tightened nut. (linear, table, tension-only without `gap`)
     pub pretension: Maybe<f64>,
     /// Length without force, or projection without force along `direction`. Default: as the ends lie at t = 0.
     pub free_length: Maybe<f64>,
@@ -42,15 +41,15 @@ pub struct Link {
     pub direction: Maybe<Vector>,
     /// [[elongation, force], ...], two or more, elongations increasing; tension positive. (table)
     pub points: Maybe<Vec<At<Numbers<2>>>>,
-    /// Six stiffnesses [x, y, z, about x, about y, about z] in the frame of the first end, force per length and
-    /// moment per radian, instead of a law. About an axis whose stiffness differs from the other two, or else the softest,
-    /// the ends may turn without limit and full turns count; about others a run ends at half a turn.
+    /// Six stiffnesses [x, y, z, about x, about y, about z] in the frame of the first end, force per length and moment per radian, instead
+    /// of a law. The ends may turn without limit about the axis whose stiffness differs from the other two, or else the softest, and full
+    /// turns count. About other axes a run ends at half a turn.
     pub bushing: Maybe<Numbers<6>>,
     /// Six damping values of the bushing, force per velocity and moment per angular velocity. Default: 0.
     pub bushing_damping: Maybe<Numbers<6>>,
-    /// The forces at which the link fails: from then on it carries nothing. Default: it does not.
+    /// Failure forces of the link, after which it carries nothing. Default: it does not.
     pub failure: Maybe<Table<Failure>>,
-    /// Names of the stages in which it is there. Default: all.
+    /// Names of the stages in which it acts. Default: all.
     pub stages: Maybe<Names>,
     /// Axes of the bushing, global at t = 0: its x, and a vector in its x-y plane. Default: global axes.
     pub axes: Maybe<Vec<Vector>>,
@@ -71,9 +70,9 @@ impl PartTable for Link {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Failure {
-    /// Normal force at which it fails without shear, above 0. Default: tension does not harm it.
+    /// Normal force of failure without shear, above 0. Default: tension does not harm it.
     pub normal: Maybe<f64>,
-    /// Shear force at which it fails without tension, above 0. Default: shear does not harm it. (bushing)
+    /// Shear force of failure without tension, above 0. Default: shear does not harm it. (bushing)
     pub shear: Maybe<f64>,
     /// The exponents [a, b], above 0. Default: [2.0, 2.0].
     pub exponents: Maybe<Numbers<2>>,

@@ -25,8 +25,8 @@ pub struct Load {
     pub local: Maybe<Vector>,
     /// The `force_per_length` of beams and bars is one per length seen along the force, such as that of snow on a slope. Default: false.
     pub projected: Maybe<bool>,
-    /// Factors of a load per length along a beam or bar: pairs [fraction of its length, factor], straight between them and zero
-    /// before the first and after the last. Default: [[0, 1], [1, 1]].
+    /// Factors of a load per length along a beam or bar: pairs [fraction of its length, factor], linear between them and zero outside.
+    /// Default: [[0, 1], [1, 1]].
     pub profile: Maybe<Vec<At<Numbers<2>>>>,
     /// Force per area that shells have at t = 0, global components; `at` then names shells.
     pub force_per_area: Maybe<Vector>,
@@ -36,11 +36,11 @@ pub struct Load {
     /// A force or moment turns with its node, a load per length with the sections of its beam, a pressure follows the surface. Default:
     /// false.
     pub follower: Maybe<bool>,
-    /// Name, by which a stage that stops finds the load. Default: none.
+    /// Name, for `stop` of a stage. Default: none.
     pub name: Maybe<String>,
     /// Names of the stages in which it acts. Default: all.
     pub stages: Maybe<Names>,
-    /// Name of an amplitude that multiplies the load. Default: constant in a dynamic analysis, growing linearly
-    /// to the end time in a static one. With stages it grows over the static stage in which it first acts, and stays.
+    /// Name of an amplitude that multiplies the load. Default: constant in a dynamic analysis, growing linearly to the end time in a static
+    /// one. In stages it grows over its first static stage, and stays.
     pub amplitude: Maybe<String>,
 }

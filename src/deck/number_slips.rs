@@ -1,6 +1,6 @@
-//! What was meant by numbers as other languages and programs write them, and TOML does not.
+//! Explains numbers written as in other languages and programs, which TOML does not read.
 
-/// What is wrong with the number at byte `at` of a text, and what to write instead; `None` where there is none that looks like one.
+/// Fault of the number at byte `at` of a text, and its correction; `None` if no number stands there.
 pub fn explain(text: &str, at: usize) -> Option<(String, String)> {
     let (before, after) = text.split_at_checked(at)?;
     let is_part = |c: char| c.is_ascii_alphanumeric() || "+-._".contains(c);
@@ -21,8 +21,8 @@ pub fn explain(text: &str, at: usize) -> Option<(String, String)> {
     })
 }
 
-/// The number with a decimal comma of which `word` is what stands before the comma or behind it; `None` where there is none. It is all of a value: in
-/// an array a comma stands between two numbers.
+/// The number with a decimal comma, one side of which is `word`; `None` if there is none. It is all of a value: in an array a comma stands
+/// between two numbers.
 fn with_comma(before: &str, word: &str, after: &str) -> Option<String> {
     let is_whole = |text: &str| !text.is_empty() && text.chars().all(|c| c.is_ascii_digit());
     let is_other = |c: char| !c.is_ascii_alphanumeric() && !"+-._".contains(c);
@@ -38,8 +38,8 @@ fn with_comma(before: &str, word: &str, after: &str) -> Option<String> {
     is_number.then(|| format!("{whole},{decimals}"))
 }
 
-/// The number that a word is meant to be, as TOML writes it: digits on both sides of the point, none in vain before it, and `e` before
-/// the exponent. `None` where it is one already, or none at all.
+/// The number that a word represents, in TOML: digits on both sides of the point, no leading zeros, and `e` before the exponent. `None`
+/// where it is one already, or none at all.
 fn meant(word: &str) -> Option<String> {
     let digits = word.trim_start_matches(['+', '-']);
     let sign = &word[..word.len() - digits.len()];
@@ -52,7 +52,7 @@ fn meant(word: &str) -> Option<String> {
     };
     let (whole, decimals) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let all_digits = |text: &str| text.chars().all(|c| c.is_ascii_digit() || c == '_');
-    // What begins with the letter of an exponent is a name.
+    // A word that begins with the letter of an exponent is a name.
     if !all_digits(whole) || !all_digits(decimals) || whole.is_empty() && decimals.is_empty() {
         return None;
     }

@@ -5,16 +5,15 @@ use serde::Deserialize;
 
 use super::words::{FlagOrTable, Maybe, Names, Table};
 
-/// What is written, and how often. t = 0 and the end are always written.
+/// Output files and their rate. t = 0 and the end are always written.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Nodes in nodes.csv: "named", "all", or names of points, parts and sets. Default: "named".
     pub nodes: Maybe<Names>,
-    /// Steps between two rows of all tables, 1 or more; 1 writes every step. Default, where there is no `interval` either:
-    /// 1 as long as the tables stay below some 20 MB, otherwise 2, 5, 10 and so on; with automatic steps those that are
-    /// far enough apart. An explicit run of a thousand elements or more has 2000 rows at most, for one costs half a step.
-    /// `check` says which, and how large the tables become.
+    /// Steps between two rows of all tables, 1 or more; 1 writes every step. Default without `interval`: 1 while the tables stay below
+    /// about 20 MB, otherwise 2, 5, 10 and so on; with automatic steps the steps that are far enough apart. An explicit run of a thousand
+    /// elements or more has 2000 rows at most, for one costs half a step. `check` says which, and how large the tables become.
     pub every: Maybe<u64>,
     /// Time between two rows, above 0, instead of `every`: multiples of it are hit exactly.
     pub interval: Maybe<f64>,
@@ -37,8 +36,8 @@ pub struct Output {
     pub parts: Maybe<bool>,
     /// Write joints.csv: coordinate, rate, effort and reactions of joints. Default: false.
     pub joints: Maybe<bool>,
-    /// Seconds of run time between two checkpoints, above 0, from which `--resume` goes on. Default: none but the one that is
-    /// written when a signal stops the run.
+    /// Seconds of run time between two checkpoints for `--resume`, above 0. Default: none but the one that is written when a signal stops
+    /// the run.
     pub checkpoint: Maybe<f64>,
 }
 
@@ -57,22 +56,22 @@ pub struct Sections {
 pub enum SectionPlaces {
     /// Integration points, where strains and stresses belong together.
     Points,
-    /// Both ends of each element: member end forces, in balance with what acts at the nodes.
+    /// Both ends of each element: member end forces, in balance with the nodal loads.
     Ends,
     /// Integration points and ends.
     Both,
 }
 
-/// What rows of the tables of contacts are about.
+/// Rows of the tables of contacts.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactOutput {
-    /// What a row is about.
+    /// Subject of a row.
     #[schemars(required)]
     pub by: Maybe<ContactRows>,
 }
 
-/// What a row of the tables of contacts is about.
+/// Subject of a row in the tables of contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactRows {

@@ -1,4 +1,4 @@
-//! What the table of any part answers, each in the file of its kind, and what the tables of deformable parts have in common.
+//! Properties that every table of a part reports, each in the file of its kind, and common keys of deformable parts.
 
 use super::part_damping::PartDamping;
 use super::words::{Names, OneOrMany, Table};
@@ -6,7 +6,7 @@ use base::diagnostic::At;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// The table of a part. What a kind of part does not have is what is answered by default.
+/// The table of a part. The defaults describe a part without the property.
 pub trait PartTable {
     /// The name that the table gives the part.
     fn name(&self) -> Option<&At<String>>;
@@ -16,16 +16,15 @@ pub trait PartTable {
         None
     }
 
-    /// Names of what the part is made of, joins or touches.
+    /// Names of nodes, groups or parts that the part consists of, joins or touches.
     fn members(&self) -> Vec<&At<String>>;
 
-    /// Whether the name of the part stands for its nodes where a list of points, bodies and sets is wanted: its inner nodes have
-    /// no names of their own.
+    /// True if the name of the part represents its nodes in a list of points, bodies and sets, because its inner nodes have no names.
     fn is_node_list(&self) -> bool {
         false
     }
 
-    /// How many edges have names of their own, such as `roof.edge1`.
+    /// Number of named edges, such as `roof.edge1`.
     fn named_edges(&self) -> usize {
         0
     }
@@ -50,7 +49,7 @@ pub trait PartTable {
         None
     }
 
-    /// The key `rigid`; `None` for a part that cannot be a body by itself.
+    /// The key `rigid`; `None` for a part that cannot be a body.
     fn rigid(&self) -> Option<bool> {
         None
     }

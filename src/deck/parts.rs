@@ -1,12 +1,12 @@
-//! The parts of a deck in one view: beams, bars, shells, links and contacts, whatever table they come from. What other rooms ask
-//! of a part before it is read is answered by its table, in the file of its kind.
+//! The parts of a deck in one view: beams, bars, shells, links and contacts, whatever table they come from. The table of a part, in the
+//! file of its kind, describes the part before it is read.
 
 use super::Deck;
 use super::part_table::PartTable;
 use super::words::Table;
 use base::diagnostic::{At, Span};
 
-/// The kinds of parts, in the order in which they are read, numbered, assembled and written.
+/// Kinds of parts, in the order of reading, numbering, assembly and output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PartKind {
     /// A line of elements that stretch, shear, bend and twist.
@@ -24,7 +24,7 @@ pub enum PartKind {
 /// A part by its kind and the index of its table among those of that kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PartIndex {
-    /// Its kind, which says in which list of tables it stands.
+    /// Kind, which identifies the list of tables.
     pub kind: PartKind,
     /// Its index among the tables of that kind.
     pub index: usize,
@@ -37,12 +37,12 @@ pub struct DeckPart<'d> {
     pub at: PartIndex,
     /// Where its table stands.
     pub span: &'d Span,
-    /// Its table, which answers what depends on its kind.
+    /// Table with the properties that depend on the kind.
     pub table: &'d dyn PartTable,
 }
 
 impl<'d> DeckPart<'d> {
-    /// Its own name or else that of its group, by which the rest of the deck knows it.
+    /// Name of the part or of its group, used in the rest of the deck.
     pub fn name(&self) -> Option<&'d At<String>> {
         self.table.name().or(self.table.group())
     }
@@ -67,7 +67,7 @@ impl<'d> DeckPart<'d> {
         format!("{} `{}`", self.at.kind.word(), self.name().map_or("", |name| name.as_str()))
     }
 
-    /// True where the part is a body by itself.
+    /// True if the part is a rigid body.
     pub fn is_rigid(&self) -> bool {
         self.table.rigid() == Some(true)
     }
@@ -104,7 +104,7 @@ impl PartKind {
         }
     }
 
-    /// The words for one and for several of what is counted of parts: their elements of material, or the parts themselves.
+    /// Singular and plural of the counted unit: elements of material, or the parts.
     pub fn counted_as(self) -> [&'static str; 2] {
         match self {
             PartKind::Beam => ["beam element", "beam elements"],
@@ -144,12 +144,12 @@ impl PartKind {
         self == PartKind::Contact
     }
 
-    /// False for parts that are drawn with what carries them.
+    /// False for parts drawn with their carrier.
     pub fn is_drawn(self) -> bool {
         self != PartKind::Contact
     }
 
-    /// True for parts to whose nodes others can be attached.
+    /// True if nodes of the part accept attachments.
     pub fn takes_attachments(self) -> bool {
         self == PartKind::Beam
     }

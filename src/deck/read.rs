@@ -1,7 +1,7 @@
 //! Text → deck, with everything that is wrong found in one go.
 //!
-//! Serde stops at the first error. So the entry it stumbles over is noted, taken out of the table, and reading starts
-//! again until nothing is left to stumble over. What is wrong comes as a [`Wrong`]; the sentences about it are made here.
+//! Serde stops at the first error. So the entry it stumbles over is noted, taken out of the table, and reading starts again until nothing
+//! is left to stumble over. Faults arrive as a [`Wrong`]; this file writes their messages.
 
 use serde::Deserialize;
 use toml::Spanned;
@@ -18,8 +18,7 @@ pub const ROOT: Span = 0..0;
 /// Wrong entries looked for in one go.
 const LIMIT: usize = 200;
 
-/// Reads a deck with its `--set` arguments. What could not be read is left out of it and reported; if that is too
-/// much, there is no deck.
+/// Reads a deck with its `--set` arguments. Unreadable entries are left out and reported; with too many of them there is no deck.
 pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     let arguments: Vec<String> = source.sets.iter().map(|(_, text)| set::toml(text)).collect();
     let (root, syntax) = DeTable::parse_recoverable(&source.text);
@@ -48,7 +47,7 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
 struct Reader {
     problems: Vec<Diagnostic>,
     spoiled: Vec<Spoiled>,
-    /// Lines that are no TOML, and what hangs on them: nothing more is said about these.
+    /// Lines that are no TOML, and entries that depend on them; they get no further messages.
     broken: Vec<Span>,
 }
 
@@ -152,7 +151,7 @@ impl Reader {
         Some(entry)
     }
 
-    /// A key that its table does not have, with the one that may be meant.
+    /// A key unknown to its table, with the nearest known key.
     fn unknown_key(&mut self, entry: &Entry, known: &[&str]) -> Diagnostic {
         let key = entry.key.as_str();
         let diagnostic = Diagnostic::error(format!("there is no key `{key}` here"));
@@ -183,7 +182,7 @@ impl Reader {
         }
     }
 
-    /// What is wrong, in the deck's words.
+    /// Message about a fault in the words of the deck.
     fn explain(&mut self, entry: &Entry, wrong: &Wrong) -> Diagnostic {
         let (key, found) = (&entry.key, &wrong.found);
         let subject = if entry.whole { format!("`{key}`") } else { format!("an entry of `{key}`") };
@@ -211,7 +210,7 @@ impl Reader {
     }
 }
 
-/// A word that is none of those known, with the one that may be meant.
+/// An unknown word, with the nearest known word.
 fn unknown_word(subject: &str, word: &str, known: &[&str]) -> Diagnostic {
     let problem = Diagnostic::error(format!("{subject} cannot be `{word}`"));
     if let Some(hint) = hints::value(word, known) {
@@ -231,8 +230,8 @@ struct Entry {
     whole: bool,
 }
 
-/// Keys come before what is below them, and what is below before the value itself: a table's span is that of its
-/// header, which also holds the keys above it.
+/// Keys come before nested entries, and nested entries before the value: the span of a table is that of its header, which also holds the
+/// keys above it.
 fn strike(table: &mut DeTable, place: &Span, span: &Span) -> Option<Entry> {
     let entry = |key: &str, whole| Entry { table: place.clone(), key: key.to_owned(), whole };
     if let Some(key) = table.keys().find(|key| key.span() == *span).map(|key| key.get_ref().to_string()) {
@@ -270,7 +269,7 @@ fn holds(value: &Spanned<DeValue>, span: &Span) -> bool {
     within || items.is_some_and(|items| items.iter().any(|item| item.span() == *span))
 }
 
-/// Keys and texts with characters that control a terminal, which tables and messages would pass on to it.
+/// Keys and texts with terminal control characters, which tables and messages would pass on.
 fn with_control(root: &DeTable, wrong: &mut Vec<Span>) {
     let controls = |text: &str| text.contains(|c: char| c.is_control() && !"\n\r\t".contains(c));
     for (key, value) in root {

@@ -1,9 +1,8 @@
 //! `--set KEY=VALUE`: one entry of the deck, overridden before it is read.
 //!
-//! An argument is itself a line of TOML. Its spans are then moved by its offset in the [`Source`], so that they are those of the
-//! source. Two freedoms are added. For the sake of shells, which eat quotes, a value that
-//! is a bare word or the name of a file, and neither a number nor `true` or `false`, is text
-//! (`--set integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`). And `loads[0].force` is `loads.0.force`.
+//! An argument is itself a line of TOML. Its spans are then moved by its offset in the [`Source`], so that they are those of the source.
+//! Two freedoms are added. Shells remove quotes, so a bare word or file name that is neither a number nor `true` or `false` is text (`--set
+//! integrator.scheme=wilson-theta`, `--set mesh.file=fine.msh`). And `loads[0].force` is `loads.0.force`.
 //!
 //! [`Source`]: base::diagnostic::Source
 
@@ -28,7 +27,7 @@ pub fn toml(argument: &str) -> String {
     if is_bare_word(value) { format!("{key}\"{value}\"") } else { format!("{key}{value}") }
 }
 
-/// A table whose places, and those of all that is in it, are moved by `offset`.
+/// A table with all places, including nested ones, moved by `offset`.
 pub fn moved<'i>(table: DeTable<'i>, offset: usize) -> DeTable<'i> {
     let place = |span: Span| span.start + offset..span.end + offset;
     let entry = |(key, value): (Spanned<DeString<'i>>, Spanned<DeValue<'i>>)| {
@@ -47,7 +46,7 @@ fn moved_value(value: Spanned<DeValue>, offset: usize) -> Spanned<DeValue> {
     Spanned::new(span.start + offset..span.end + offset, inner)
 }
 
-/// `a[0].b` as `a.0 .b`, brackets in quotes as they are.
+/// `a[0].b` as `a.0 .b`; brackets within quotes stay.
 fn dotted(key: &str) -> String {
     let mut quote = None;
     let mut plain = |c: char| {
@@ -148,7 +147,7 @@ fn unknown<'a>(what: &str, key: &Spanned<DeString>, known: impl Iterator<Item = 
     let diagnostic = Diagnostic::error(format!("{what} `{}`", key.get_ref())).at(&key.span());
     match nearest(key.get_ref(), known) {
         Some(near) => diagnostic.hint(format!("did you mean `{near}`?")),
-        None => diagnostic.hint("only what stands in the deck can be overridden"),
+        None => diagnostic.hint("only entries of the deck can be overridden"),
     }
 }
 

@@ -8,9 +8,8 @@ use super::part_table::{MassKind, PartTable, names};
 use super::words::{Maybe, Names, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 
-/// A patch of shell elements, or those of a group of the mesh. Its name stands for all of its nodes, `name.edge1`
-/// to `name.edge4` for those of an edge: edge1
-/// runs from the first corner to the second, and so on round. Patches that share corners share the nodes between them.
+/// A patch of shell elements, or those of a group of the mesh. Its name represents all of its nodes, and `name.edge1` to `name.edge4` those
+/// of an edge: edge1 runs from the first corner to the second, and so on. Patches that share corners share the nodes between them.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shell {
@@ -33,7 +32,7 @@ pub struct Shell {
     /// The elements. Default: "quadrilateral"; a patch of three corners has triangles.
     pub kind: Maybe<ElementKind>,
     /// Degree of the sides of its elements, 1 or 2. Elements of order 2 have a node on each side, and quadrilaterals one in the middle;
-    /// they follow curved surfaces. Those of a group are what the mesh has. Default: 1.
+    /// they follow curved surfaces. Elements of a group have the order of the mesh. Default: 1.
     pub order: Maybe<u64>,
     /// Integration points through the thickness, 2 to 10, for shells whose material yields. Default: 5.
     pub layers: Maybe<u64>,
@@ -41,8 +40,8 @@ pub struct Shell {
     pub strain: Maybe<StrainMeasure>,
     /// The surface on which the patch lies. Default: straight lines between opposite edges.
     pub surface: Maybe<Table<PatchSurface>>,
-    /// Direction that, projected into the surface, is axis 1 of results; where it is normal to the surface, the
-    /// global axis that is farthest from it. Default: global x, and y where x is normal to the surface.
+    /// Direction whose projection on the surface is axis 1 of results. If it is normal to the surface, the global axis farthest from the
+    /// normal is used. Default: global x, and y where x is normal to the surface.
     pub axis: Maybe<Vector>,
     /// Mass matrix. Default: "lumped".
     pub mass: Maybe<MassKind>,
@@ -105,14 +104,13 @@ pub enum ElementKind {
     Triangle,
 }
 
-/// What the material of a shell that yields takes as strain of its surface.
+/// Strain measure of a yielding shell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StrainMeasure {
     /// Green's, and yield in the stress conjugate to it, on the thickness at t = 0: for strains of some per cent.
     Green,
-    /// The logarithm of stretches, and yield in true stress, with the thickness that plastic flow leaves: for sheets that stretch by 5 % and
-    /// more.
+    /// Logarithmic strain and true stress, with the thickness after plastic flow: for sheets that stretch by 5 % and more.
     Logarithmic,
 }
 
@@ -125,11 +123,11 @@ pub struct PatchSurface {
     pub kind: Maybe<SurfaceKind>,
     /// A point of the axis, or the centre of the sphere, global coordinates. Default: the origin.
     pub center: Maybe<Vector>,
-    /// Direction of the axis; a cylinder needs it. A sphere without one takes edges along great circles.
+    /// Direction of the axis; a cylinder needs it. A sphere without it uses edges along great circles.
     pub axis: Maybe<Vector>,
 }
 
-/// The coordinates in which points between the edges of a patch are interpolated.
+/// Coordinates that interpolate points between the edges of a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceKind {

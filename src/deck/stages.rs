@@ -1,4 +1,4 @@
-//! `[[stages]]`: what is computed one after the other, each stage from the state that the one before has reached.
+//! `[[stages]]`: analyses in sequence, each from the state at the end of the stage before.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -7,8 +7,8 @@ use super::analysis::{Integrator, Iteration, ResponseWord};
 use super::words::kinds::OneOf;
 use super::words::{Frequencies, Maybe, NumberOrAuto, Table};
 
-/// A stage of a run. Its state is that which the stage before has reached: positions, rotations, plastic strains, contacts and
-/// friction, multipliers of joints; into a dynamic stage velocities too. Time runs on.
+/// A stage of a run. A stage starts from positions, rotations, plastic strains, contacts with friction, and multipliers of joints of the
+/// stage before. A dynamic stage also inherits velocities. Time runs on.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
@@ -50,16 +50,15 @@ pub struct Stage {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StageKind {
-    /// Load stepping without inertia. A load without an amplitude grows over the static stage in which it first acts, and stays.
+    /// Load stepping without inertia. A load without an amplitude grows over its first static stage, and stays.
     Static,
     /// Motion in time. A load without an amplitude that first acts here acts at once.
     Dynamic,
     /// Natural modes about the state that has been reached. No time passes.
     Modal,
-    /// Factors of the loads that first act here, at which the state that has been reached buckles under them. No time passes.
+    /// Load factors at which the current state buckles under the loads that first act here. No time passes.
     Buckling,
-    /// The steady motion that loads and supports with amplitudes of kind "harmonic" cause about the state that has been reached. No time
-    /// passes.
+    /// The steady motion under loads and supports with amplitudes of kind "harmonic", about the current state. No time passes.
     FrequencyResponse,
 }
 

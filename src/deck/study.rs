@@ -1,4 +1,4 @@
-//! `[study]`: what `rdsolve study` goes over, and what its errors are measured on. A run leaves it aside.
+//! `[study]`: settings and quantities of `rdsolve study`. A run ignores it.
 
 use std::borrow::Cow;
 
@@ -13,15 +13,13 @@ use super::words::kinds::OneOf;
 use super::words::{Ladder, Maybe, Named, Names, OneOrMany};
 use base::diagnostic::{At, Diagnostic, Span};
 
-/// What `rdsolve study` goes over: time steps, schemes, iteration methods, meshes.
+/// Settings of `rdsolve study`: time steps, schemes, iteration methods, meshes.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Study {
-    /// What errors are measured on, as name.quantity of points and bodies: x y z, ux uy uz, rx ry rz (not of
-    /// bodies), vx vy vz,
-    /// wx wy wz, ax ay az, alphax alphay alphaz, body_wx body_wy body_wz (in axes that turn with it), r11 to
-    /// r33 (rotation matrix).
-    /// Default: those of `columns`; else ux, uy, uz of all points in nodes.csv and of all bodies.
+    /// Quantities of the errors, as name.quantity of points and bodies: x y z, ux uy uz, rx ry rz (not of bodies), vx vy vz, wx wy wz, ax
+    /// ay az, alphax alphay alphaz, body_wx body_wy body_wz (in body axes), r11 to r33 (rotation matrix). Default: those of `columns`; else
+    /// ux, uy, uz of all points in nodes.csv and of all bodies.
     pub quantities: Maybe<Names>,
     /// CSV file beside the deck: the time, then one column for each quantity. Default: the finest runs, extrapolated.
     pub reference: Maybe<String>,
@@ -30,18 +28,18 @@ pub struct Study {
     /// Quantities by the columns of the reference that hold them. Default: a column has the name of its quantity.
     #[serde(default)]
     pub columns: Named<String>,
-    /// Intervals between the times at which errors are taken, from 0 to the end. Default: as the reference has them, or 200.
+    /// Intervals between the times of the errors, from 0 to the end. Default: as the reference has them, or 200.
     pub samples: Maybe<u64>,
-    /// Time steps; none may be longer than an interval of the samples. A ladder goes by factors of 10^(1/4):
-    /// `{ from = 1e-2, to = 1e-4 }`. Default: 8 times that of `[analysis]`, as far as that goes, and six halvings of it.
+    /// Time steps; none may be longer than an interval of the samples. A ladder goes by factors of 10^(1/4): `{ from = 1e-2, to = 1e-4 }`.
+    /// Default: 8 times the step of `[analysis]`, if possible, and six halvings of it.
     pub time_steps: Maybe<Ladder>,
     /// Halve one time step so many times, instead of a list.
     pub halvings: Maybe<u64>,
-    /// With an automatic time step, lines of their own over these tolerances, or a ladder of them. Default: where the
-    /// deck's step is automatic, its own tolerance times 10, 1, 0.1 and 0.01.
+    /// With an automatic time step, separate lines for these tolerances, or a range of them. Default: where the deck's step is automatic,
+    /// its own tolerance times 10, 1, 0.1 and 0.01.
     pub error_tolerances: Maybe<Ladder>,
-    /// Tables like `[integrator]`, or words with parameters: "wilson-theta", "newmark:gamma=0.6:beta=0.31". Default: the
-    /// deck's own. A scheme without parameters has those of `[integrator]` where that names it too.
+    /// Tables like `[integrator]`, or words with parameters: "wilson-theta", "newmark:gamma=0.6:beta=0.31". Default: the deck's own. A
+    /// scheme without parameters uses those of `[integrator]` if that names the same scheme.
     #[serde(default)]
     #[schemars(with = "Vec<Written>")]
     pub schemes: Vec<At<OneOf<Integrator>>>,
@@ -54,10 +52,10 @@ pub struct Study {
     pub meshes: Maybe<OneOrMany<f64>>,
     /// Polynomial degrees of the elements of all beams, 1 to 4: their `order`. Default: the deck's own.
     pub beam_orders: Maybe<OneOrMany<u64>>,
-    /// A scheme of another family that the reference is confirmed by, or "auto": what it tends to is compared with what the
-    /// finest runs tend to, or with the file. Default: none.
+    /// A scheme of another family, or "auto", to confirm the reference: the limit of its finest runs is compared with that of the main
+    /// scheme, or with the file. Default: none.
     pub confirm: Maybe<String>,
-    /// Errors for which the cheapest setting is named. Default: 1e-2, 1e-3 and 1e-4.
+    /// Errors for which the study names the cheapest setting. Default: 1e-2, 1e-3 and 1e-4.
     pub wanted_error: Maybe<OneOrMany<f64>>,
 }
 
@@ -102,7 +100,7 @@ pub fn words(root: &DeTable) -> Vec<Word> {
     items.filter_map(word).collect()
 }
 
-/// Makes tables of the words: "newmark:gamma=0.6" is { scheme = "newmark", gamma = 0.6 }. What is no `key=value` is said.
+/// Makes tables of the words: "newmark:gamma=0.6" is { scheme = "newmark", gamma = 0.6 }. Reports words that are no `key=value`.
 pub fn expand<'i>(root: &mut DeTable<'i>, words: &'i [Word]) -> Vec<Diagnostic> {
     let mut problems = Vec::new();
     let Some(DeValue::Table(study)) = root.get_mut("study").map(Spanned::get_mut) else { return problems };

@@ -15,17 +15,17 @@ pub struct Support {
     pub at: Maybe<Names>,
     /// Degrees of freedom that are restrained at zero: "all", "translations", "rotations" or a list such as ["ux", "ry"].
     pub fix: Maybe<Directions>,
-    /// Name, by which a stage that stops finds the support. Default: none.
+    /// Name, for `stop` of a stage. Default: none.
     pub name: Maybe<String>,
-    /// Names of the stages in which it is there; it holds what it then finds where it is. Default: all.
+    /// Names of the stages in which it acts; it holds its nodes where it finds them. Default: all.
     pub stages: Maybe<Names>,
     /// Degrees of freedom that are prescribed as functions of time.
     pub motion: Maybe<Table<Motions>>,
-    /// What the rotations that `fix` and `motion` give mean together; `history` is about these numbers. Default: "vector".
+    /// Meaning of several rotations of `fix` and `motion` together; `history` refers to these numbers. Default: "vector".
     pub rotation: Maybe<Rotation>,
 }
 
-/// What rotations about the global axes mean together.
+/// Meaning of rotations about the global axes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Rotation {
@@ -47,7 +47,7 @@ pub enum Rotation {
 }
 
 impl Rotation {
-    /// What the three numbers mean.
+    /// Definition of the three numbers.
     pub fn angles(self) -> RotationAngles {
         RotationAngles::Sequence(match self {
             Rotation::Vector => return RotationAngles::Vector,
@@ -83,8 +83,7 @@ pub struct Motions {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Motion {
-    /// Name of an amplitude. It may be left out of a support that first acts in a static stage: the motion then grows over that stage, and
-    /// stays.
+    /// Name of an amplitude. Optional for a support that first acts in a static stage: the motion then grows over that stage, and stays.
     pub amplitude: Maybe<String>,
     /// Factor on the amplitude. Default: 1.
     pub scale: Maybe<f64>,

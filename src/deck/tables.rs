@@ -14,7 +14,7 @@ pub struct DeckTable {
 
 /// Tables with a key, where it stands in no more than a few; "`gravity` is a key of [environment]".
 pub fn place_of(key: &str) -> Option<String> {
-    /// More tables than that tell nothing.
+    /// A message with more tables does not help.
     const FEW: usize = 3;
     let tables = tables();
     let having: Vec<&str> =
@@ -57,7 +57,7 @@ impl Path {
     }
 }
 
-/// Adds the tables of a value: what it refers to, its alternatives, its items and its keys.
+/// Adds the tables of a schema value: its reference, alternatives, items and keys.
 fn walk(schema: &Value, value: &Value, path: &Path, tables: &mut Vec<DeckTable>) {
     if let Some(name) = value["$ref"].as_str().and_then(|name| name.rsplit('/').next()) {
         walk(schema, &schema["$defs"][name], path, tables);

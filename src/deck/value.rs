@@ -1,5 +1,4 @@
-//! Values of TOML as serde asks for them, with what is wrong kept as it is: the deserializer of `toml` would put it into a
-//! sentence, and messages are written in [`super::read`].
+//! Values of TOML for serde with structured faults. The deserializer of `toml` would write sentences, and [`super::read`] writes ours.
 
 use std::fmt::{self, Display, Formatter};
 use std::slice;
@@ -14,21 +13,21 @@ use toml::de::{DeString, DeValue};
 
 use base::diagnostic::{PLACED, Span};
 
-/// What serde stumbled over, and where.
+/// Fault and place of a failed read.
 #[derive(Debug)]
 pub struct Wrong {
     /// The problem.
     pub problem: Problem,
     /// The place of the innermost value or key that is wrong.
     pub place: Option<Span>,
-    /// What stands there, in words: "a list", "the number 2.5".
+    /// Description of the value found: "a list", "the number 2.5".
     pub found: String,
 }
 
 /// The kinds of problems that serde may stumble over.
 #[derive(Debug)]
 pub enum Problem {
-    /// A key that its table does not have; those that it has.
+    /// A key unknown to its table, with the known keys.
     UnknownKey {
         known: Vec<&'static str>,
     },
@@ -39,7 +38,7 @@ pub enum Problem {
     },
     /// A value of another type.
     Type(Wanted),
-    /// A list of another length than what is expected, in words.
+    /// A list of wrong length, with the expected length in words.
     Length {
         length: usize,
         expected: String,
@@ -47,7 +46,7 @@ pub enum Problem {
     Other(String),
 }
 
-/// What should stand in a place.
+/// Expected value of a place.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Wanted {
     Number,
@@ -60,7 +59,7 @@ pub enum Wanted {
     List,
     /// A list, where a table stands.
     ListOfTables,
-    /// What a type of the deck says of itself.
+    /// Description by the type itself.
     Said(String),
 }
 
@@ -83,7 +82,7 @@ impl Wrong {
         Wrong { problem, place: None, found: String::new() }
     }
 
-    /// The same in this place, unless it is known to lie deeper.
+    /// The fault at this place, unless a deeper place is known.
     fn at(self, place: &Span, found: impl FnOnce() -> String) -> Self {
         match self.place {
             Some(_) => self,
@@ -131,7 +130,7 @@ impl Error for Wrong {
 pub struct Value<'a, 'i>(pub &'a Spanned<DeValue<'i>>);
 
 impl Value<'_, '_> {
-    /// What it is, in words.
+    /// Description in words.
     fn described(self) -> String {
         match self.0.get_ref() {
             DeValue::String(text) => format!("the text {text:?}"),
@@ -144,7 +143,7 @@ impl Value<'_, '_> {
         }
     }
 
-    /// Reads by `seed`; what goes wrong goes wrong here, unless it lies deeper.
+    /// Reads by `seed`; a fault belongs to this place unless it lies deeper.
     fn read<'de, S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Wrong> {
         seed.deserialize(self).map_err(|wrong| wrong.at(&self.0.span(), || self.described()))
     }
@@ -308,7 +307,7 @@ impl<'de> Deserializer<'de> for Key<'_, '_> {
     }
 }
 
-/// A value or key with its place, as [`base::diagnostic::At`] asks for it: where it begins, where it ends, itself.
+/// A value or key with its place, in the form of [`base::diagnostic::At`]: start, end, value.
 struct Placed<D> {
     bounds: std::vec::IntoIter<u64>,
     inner: Option<D>,
