@@ -4,6 +4,7 @@ use super::context::Context;
 use super::failure::Failure;
 use super::warning::Warning;
 use super::workspace::Workspace;
+use crate::tolerances::contacts::{BEGINS_CLOSED, MEANT, SEEN, SUNK, TO_THE_MIDDLE};
 use mechanics::state::{Configuration, State};
 use model::{Contact, Model, PartType};
 use std::ops::Range;
@@ -33,12 +34,6 @@ pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) ->
 
 /// Notes how deep contacts are pressed in at the end of a step, and warns where that is seen.
 pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
-    /// Of the size of what touches, where the program has chosen the stiffness: five times what it chose it for.
-    const SEEN: f64 = 0.05;
-    /// The same where the deck gives it and may mean something soft, a tyre or a buffer: what is in to its middle has no side left.
-    const MEANT: f64 = 0.5;
-    /// The same of faces and of balls among themselves, whose size is the depth at which their middles meet.
-    const TO_THE_MIDDLE: f64 = 0.5;
     if !cx.system.has_contacts() {
         return;
     }
@@ -72,14 +67,12 @@ pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
 /// Warns of contacts that a dynamic stage begins with, `fresh` being the ranges of history of what was not there before, where something
 /// lies inside the surface already: it is thrown out by energy that nothing has brought.
 pub fn warn_of_closed(cx: &Context, ws: &mut Workspace, state: &State, fresh: &[Range<usize>]) {
-    /// Of the size of what touches: the depth by which stiffnesses are chosen.
-    const SEEN: f64 = 1e-3;
     if !cx.is_dynamic() || !cx.system.has_contacts() {
         return;
     }
     for (group, gap) in cx.system.last_gaps(state) {
         let is_fresh = fresh.iter().any(|range| range.contains(&group.history.start));
-        let contact = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size);
+        let contact = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -BEGINS_CLOSED * contact.size);
         if let Some(contact) = contact.filter(|contact| is_fresh && contact.law.is_some()) {
             ws.warnings.add(Warning::BeginsClosed { name: contact.name.clone(), depth: -gap });
         }
@@ -89,7 +82,6 @@ pub fn warn_of_closed(cx: &Context, ws: &mut Workspace, state: &State, fresh: &[
 /// An energy that no one sees where bodies come to rest on each other: it lifts them by a thousandth of their size, the depth by
 /// which stiffnesses are chosen. Zero without contacts or weight.
 pub fn settling_energy(model: &Model) -> f64 {
-    const SUNK: f64 = 1e-3;
     let acting = model.each::<Contact>().filter(|contact| contact.law.is_some());
     let size = acting.map(|contact| contact.size).fold(f64::INFINITY, f64::min);
     let mass: f64 = model.bodies.iter().map(|body| body.mass).sum();

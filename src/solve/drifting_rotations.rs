@@ -3,14 +3,10 @@
 
 use super::context::Context;
 use super::workspace::Workspace;
+use crate::tolerances::drift::{LOOKS, NOTICED};
 use base::math::rotation;
 use mechanics::state::State;
 use model::DIRECTIONS;
-
-/// The drift, in radians, from which it is told.
-const NOTICED: f64 = 1e-3;
-/// How often in a run rotations are looked at.
-const LOOKS: f64 = 100.0;
 
 /// Notes the largest drift at the end of a step that began at `from`, where that passes one of a hundred equal parts of the run. A later stage
 /// begins with rotations that are no drift.

@@ -5,6 +5,7 @@ use super::failure::Failure;
 use crate::plan::Plan;
 use crate::system::System;
 use crate::system::energy::{Balance, Energy};
+use crate::tolerances::energy_growth::{FAR, SOUND};
 use base::snapshot::keep;
 use mechanics::integrators::Stepping;
 use mechanics::state::State;
@@ -42,9 +43,6 @@ impl EnergyGrowth {
         initial: Option<f64>,
         last: bool,
     ) -> Option<Failure> {
-        const FAR: f64 = 100.0;
-        /// Part of the available energy that steps may have generated where results are still sound.
-        const SOUND: f64 = 0.02;
         self.balance.update_work(state.work.external);
         if model.analysis.kind != AnalysisKind::Dynamic {
             if last {

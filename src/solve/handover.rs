@@ -9,6 +9,7 @@ use super::load_steps::LoadSteps;
 use super::outcome::Counts;
 use crate::system::energy::Energy;
 use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
+use crate::tolerances::handover::{LEFT, MEETING};
 use base::math::{Vec3, Vec6};
 use mechanics::amplitude::{Amplitude, StraightLines};
 use mechanics::constraints::joint::ConstraintEquation;
@@ -18,12 +19,6 @@ use mechanics::state::{Increment, Node, State};
 use model::{AnalysisKind, Joint, Load, Model, count_along};
 use std::collections::HashMap;
 use std::ops::Range;
-
-/// Points that are nearer than this part of the size of their coordinates are at one place.
-const MEETING: f64 = 1e-9;
-
-/// The part of the largest force that an equilibrium may leave out of balance.
-const LEFT: f64 = 1e-6;
 
 /// What a stage begins with.
 #[derive(Clone)]

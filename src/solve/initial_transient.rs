@@ -7,17 +7,12 @@ use super::context::Context;
 use super::start::update_rates_of_dependent_nodes;
 use super::workspace::Workspace;
 use crate::system::TangentWeights;
+use crate::tolerances::initial_transient::{LARGE, UNRESOLVED};
 use base::math::{Vec3, Vec6, angular, linear, stack};
 use mechanics::elements::Moduli;
 use mechanics::integrators::Stepping;
 use mechanics::state::{Configuration, Node, State};
 use model::StepLength;
-
-/// Motions by such an acceleration in a step, as parts of the model's length and in radians, that rotations of slender parts may have
-/// without stretching what they should only bend.
-const LARGE: f64 = 1e-3;
-/// Part of an acceleration by which that of an implicit step differs where the step does not resolve it, and that before a jump where it jumps.
-const UNRESOLVED: f64 = 0.5;
 
 /// Replaces the accelerations that no step resolves, for implicit steps of given length. `before` holds the nodes before a jump, of which
 /// those go on as they were whose accelerations do not jump; `None`: all begin.

@@ -3,13 +3,7 @@
 use super::context::Context;
 use super::failure::{self, Failure};
 use super::workspace::Workspace;
-
-/// Largest number of corrections of positions before the step is given up.
-pub const MOST_CORRECTIONS: usize = 12;
-/// A gap, relative to positions, that rounding may leave.
-pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// The largest gap, relative to positions, that a joint may have at the end of a step; iteration and projection leave far less.
-const LARGEST_GAP: f64 = 1e-9;
+use crate::tolerances::joints::LARGEST_GAP;
 
 /// Measures the gaps of the trial motion and keeps the largest in the workspace.
 ///

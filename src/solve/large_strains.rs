@@ -2,14 +2,8 @@
 
 use super::context::Context;
 use super::workspace::Workspace;
+use crate::tolerances::strain::{LARGE, LARGE_LOGARITHMIC, LOOKS};
 use mechanics::state::State;
-
-/// Strain from which forces are off by a tenth: stress conjugate to Green's strain makes them twice the strain too large.
-const LARGE: f64 = 0.05;
-/// The same with logarithmic strain, whose series ends: a stretch to 1.34 or to 0.75, where forces begin to be off by a hundredth.
-const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
-/// How often in a run strains are looked at: plastic ones do not go away.
-const LOOKS: f64 = 100.0;
 
 /// Notes the largest strain at the end of a step that began at `from`, where that passes one of a hundred equal parts of the run.
 pub fn note(cx: &Context, ws: &mut Workspace, state: &State, from: f64) {

@@ -50,6 +50,7 @@ mod stop_watch;
 mod sudden_loads;
 pub mod system;
 mod time_stepper;
+mod tolerances;
 mod trials;
 mod warning;
 mod work;

@@ -5,16 +5,8 @@
 
 use super::sudden_loads::SuddenLoads;
 use crate::system::{Loading, Prescribed, Scale};
+use crate::tolerances::load_steps::{GONE, ROUNDING, SEEN};
 use base::snapshot::keep;
-
-/// Loads and motions below this part of the largest so far are those of a structure that has been let go: amplitudes come back to zero
-/// with the rounding of their times.
-const GONE: f64 = 1e-12;
-/// Supports that have moved by more than this part of the model's length, or in radians, stress what they deform a million times more than
-/// rounding does.
-const SEEN: f64 = 1e-9;
-/// A residual above this part of the forces that it is summed from leaves no digit of them.
-const ROUNDING: f64 = 0.1;
 
 /// The largest of each kind so far.
 #[derive(Debug, Clone, Copy, Default)]

@@ -10,13 +10,9 @@ use super::report::StepReport;
 use super::warning::Warning;
 use crate::modes::{Linearized, Modes, ModesFault, Search, find, multipliers_at_rest, own_stiffnesses};
 use crate::system::{Loading, Side};
+use crate::tolerances::modes_at_end::{BALANCED, ROUNDING};
 use model::{ModeKind, PrescribedMotion};
 
-/// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
-const BALANCED: f64 = 1e-3;
-/// What moves nothing by more than this part of the largest coordinate, against its own stiffness, is rounding, as is this part of all loads
-/// where nothing acts.
-const ROUNDING: f64 = 1e-12;
 /// The interval of a run that has come to the state of its modes.
 const AT_ITS_END: usize = usize::MAX;
 

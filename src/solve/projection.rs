@@ -7,13 +7,15 @@
 
 use super::context::Context;
 use super::failure::Failure;
-use super::joints::{self, MOST_CORRECTIONS, ROUNDING};
+use super::joints;
 use super::linear_system::LinearSystem;
 use super::motion::update_dependent_nodes;
 use super::workspace::Workspace;
 use crate::plan::Plan;
 use crate::system::TangentWeights;
 use crate::system::{Forces, Loading, System};
+use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};
+use crate::tolerances::projection::TRACE;
 use base::math::rotation::inverse_tangent;
 use base::math::{Vec3, angular};
 use base::snapshot::keep;
@@ -21,9 +23,6 @@ use linear::TooLarge;
 use mechanics::elements::Moduli;
 use mechanics::integrators::Coefficients;
 use mechanics::state::{Configuration, Node, State};
-
-/// Mass given to a degree of freedom without one, relative to the largest: so it is the one that gives way.
-const TRACE: f64 = 1e-9;
 
 /// The masses and joints of a scene alone, with their own factorization. It is allocated once.
 pub struct ConstraintProjection {

@@ -4,6 +4,7 @@ use super::context::Context;
 use super::failure::{self, Failure};
 use super::workspace::Workspace;
 use crate::system::Scale;
+use crate::tolerances::residual::OTHER;
 use base::math::larger;
 
 /// Writes the residual by unknown into `ws.r`. Returns its largest entry relative to the forces or moments that it is
@@ -21,8 +22,8 @@ pub fn gather(cx: &Context, ws: &mut Workspace, scale: &Scale) -> f64 {
         }
     }
     // Forces and moments are judged apart; where one has no scale of its own, the other counts over the model's length.
-    let forces = scale.force.max(1e-3 * scale.moment / cx.length);
-    let moments = scale.moment.max(1e-3 * scale.force * cx.length);
+    let forces = scale.force.max(OTHER * scale.moment / cx.length);
+    let moments = scale.moment.max(OTHER * scale.force * cx.length);
     let ratio = |size: f64, of: f64| if size == 0.0 { 0.0 } else { size / of.max(f64::MIN_POSITIVE) };
     ratio(force, forces).max(ratio(moment, moments))
 }

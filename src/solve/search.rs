@@ -7,8 +7,10 @@ use super::outcome::Outcome;
 use super::recorder::Recorder;
 use super::run::{NoSearch, Run};
 use super::stop_watch::StopWatch;
-use super::trials::{FEW, Kept, LOOSER, MOST_LONGER, MOST_RUNS, StepError, Trace, Unseen};
+use super::trials::{Kept, StepError, Trace, Unseen};
 use super::warning::Warnings;
+use crate::tolerances::search::{EARLY, IN_TIME};
+use crate::tolerances::trials::{FEW, LOOSER, MOST_LONGER, MOST_RUNS};
 use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
@@ -38,11 +40,6 @@ struct Search {
 }
 
 keep!(Search { under_way, error, pieces, compared, before, judged, between });
-
-/// The part of the time between comparisons in which a stage must come to its stop for its error to be told.
-const EARLY: f64 = 0.4;
-/// The part of it in which a stage that has stopped too early is to stop in the next run.
-const IN_TIME: f64 = 0.8;
 
 /// The runs of a search.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -7,16 +7,10 @@ use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::system::Side;
 use crate::system::TangentWeights;
+use crate::tolerances::start::{DIGITS, FIXED, NOWHERE};
 use base::math::{Vec3, Vec6, rotation, stack};
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Increment, Node, State, Work};
-
-/// The largest change of initial velocities, relative to the largest velocity, that joints may require without a word: a deck gives
-/// its numbers with some digits only.
-pub const DIGITS: f64 = 1e-5;
-
-/// The part of the size of the scene that counts as no way over a whole run.
-const NOWHERE: f64 = 1e-9;
 
 /// Finds the state at t = 0; warns where initial velocities do not agree with the joints.
 ///
@@ -237,8 +231,6 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
 pub fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<Vec<usize>, Failure> {
-    // A mass this many times larger leaves an acceleration below rounding.
-    const FIXED: f64 = 1e20;
     // A direction without mass may lie oblique to the axes: that of a thin rod, or of an arm with a point mass at its
     // end. It shows as a vanishing pivot.
     let mut oblique: Vec<usize> = Vec::new();

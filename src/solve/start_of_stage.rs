@@ -6,12 +6,11 @@ use super::failure::Failure;
 use super::handover::Handover;
 use super::joints;
 use super::jumps::{impulse, jump_from, jump_velocities, kick};
-use super::start::{
-    DIGITS, add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes,
-};
+use super::start::{add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes};
 use super::warning::Warning;
 use super::workspace::Workspace;
 use crate::system::Side;
+use crate::tolerances::start::DIGITS;
 use base::math::{Vec6, stack};
 use mechanics::elements::Force;
 use mechanics::state::{Node, State};

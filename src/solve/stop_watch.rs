@@ -4,14 +4,12 @@ use super::context::Context;
 use super::load_steps::LoadSteps;
 use super::workspace::Workspace;
 use crate::system::{Loading, Prescribed, Side};
+use crate::tolerances::stop_watch::MET;
 use base::math::{Vec3, rotation};
 use base::snapshot::keep;
 use mechanics::elements::Force;
 use mechanics::state::State;
 use model::{Actors, Stop, StopQuantity};
-
-/// Part of the value within which it is met by a step of given length, which is shortened to end there.
-const MET: f64 = 1e-8;
 
 /// Watches the quantity at a value of which the stage ends.
 pub struct StopWatch {

@@ -4,7 +4,7 @@ use super::source::{CRATES, files, room_of, root};
 
 /// Rows from the bottom up; siblings do not know each other.
 const ROWS: [&[&str]; 12] = [
-    &["math", "names", "quantities", "diagnostic"],
+    &["math", "names", "quantities", "diagnostic", "tolerances"],
     &["words", "text_file", "snapshot"],
     &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh", "record"],
     &["elements", "constraints", "integrators"],

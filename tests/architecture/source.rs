@@ -10,7 +10,7 @@ use syn::{Attribute, Item, UseTree, Visibility};
 pub const CRATES: [&str; 9] = ["base", "linear", "mechanics", "deck", "model", "solve", "results", "study", "sweep"];
 
 /// Folders of a crate that are rooms of their own; the rest of a crate is the room of its name.
-const ROOMS: [&str; 20] = [
+const ROOMS: [&str; 21] = [
     "math",
     "names",
     "quantities",
@@ -31,6 +31,7 @@ const ROOMS: [&str; 20] = [
     "system",
     "plan",
     "modes",
+    "tolerances",
 ];
 
 /// The room that a path of names lies in, the crate's own where no room of it is named.
@@ -39,7 +40,7 @@ pub fn room_of<'a>(crate_name: &'a str, next: Option<&'a str>) -> &'a str {
     let holds = |name: &str| match crate_name {
         "base" | "mechanics" => ROOMS.contains(&name),
         "model" => ["mesh", "record"].contains(&name),
-        "solve" => ["system", "plan", "modes"].contains(&name),
+        "solve" => ["system", "plan", "modes", "tolerances"].contains(&name),
         _ => false,
     };
     next.filter(|name| holds(name)).unwrap_or(crate_name)

@@ -12,29 +12,12 @@ use crate::outcome::Outcome;
 use crate::recorder::AcceptedStep;
 use crate::report::StepReport;
 use crate::residual;
+use crate::tolerances::arc_length::{BENT, CHANGE, DESIRED, HARD, MOST_STEPS, MOST_TARGETS, STRAIGHT, TRIES};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::integrators::load_steps;
 use mechanics::state::State;
 use model::{ArcLength, DisplacementTarget};
-
-/// Desired number of iterations of a step, the first being the prediction: more make it too long for its cost, fewer too short. Frames of
-/// slender beams take a third fewer iterations in all than with five; with eight roofs leave their path.
-const DESIRED: f64 = 6.0;
-/// Largest ratio of a step to the one before, and of the one before to it.
-const CHANGE: f64 = 2.0;
-/// Cosine of the angle between steps below which they grow no more.
-const STRAIGHT: f64 = 0.8;
-/// Cosine below which a step may have left the path for another and is tried at half the length; but only so many
-/// times, for where material begins to yield a path has kinks that no step is too short for.
-const BENT: f64 = 0.2;
-const TRIES: usize = 3;
-/// Number of iterations beyond which the first step is tried at half the load.
-const HARD: usize = 12;
-/// Largest number of steps of a path, unless the deck asks for another.
-const MOST_STEPS: usize = 100_000;
-/// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.
-const MOST_TARGETS: usize = 8;
 
 /// Leads a static analysis along its equilibrium path.
 pub struct ArcLengthController {

@@ -9,16 +9,10 @@ use crate::jumps;
 use crate::report::StepReport;
 use crate::size::Size;
 use crate::system::kinks::has_kinks;
+use crate::tolerances::embedded_error::{GLANCE, GROWTH, SAFETY};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::state::State;
-
-/// Safety factor on the length that would just meet the tolerance.
-const SAFETY: f64 = 0.9;
-/// Least and largest ratio of a step to the one before.
-const GROWTH: [f64; 2] = [0.2, 5.0];
-/// The largest velocity times this fraction of the run counts as displacement, for at the start there is none.
-const GLANCE: f64 = 1e-3;
 
 /// Leads a Runge-Kutta scheme by the error of its steps.
 pub struct EmbeddedErrorController {

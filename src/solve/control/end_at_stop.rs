@@ -4,6 +4,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::march::March;
 use crate::report::StepReport;
+use crate::tolerances::end_at_stop::TRIED;
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
@@ -21,8 +22,6 @@ pub fn end_at_stop(
     report: StepReport,
     step: &mut TakeStep,
 ) -> Result<(StepReport, Option<f64>), Failure> {
-    /// Steps that are tried at most: by then the interval is at rounding.
-    const TRIED: usize = 60;
     let March { cx, ws, state, stop_watch, .. } = march;
     let Some((watch, left)) = stop_watch.as_deref_mut().and_then(|watch| {
         let left = watch.passed(cx, state)?;

@@ -19,43 +19,15 @@ use crate::jumps;
 use crate::motion::Stage;
 use crate::report::StepReport;
 use crate::size::Size;
+use crate::tolerances::error_controlled::{
+    FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WEIGHT, WORTH,
+};
 use crate::workspace::Workspace;
 use base::math::{Vec3, Vec6, stack};
 use base::snapshot::keep;
 use mechanics::integrators::spectrum::error_constant;
 use mechanics::integrators::{AlphaFamily, RotationUpdate};
 use mechanics::state::State;
-
-/// A step is taken back where its error exceeds this multiple of its allowance and of recent errors: an event has
-/// occurred.
-const TOO_MUCH: f64 = 4.0;
-/// Safety factor on the length that would just meet the tolerance.
-const SAFETY: f64 = 0.9;
-/// Steps grow only where they may by this factor, and by no more than two, since a new length costs a new matrix.
-const WORTH: f64 = 1.4;
-/// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run, ...
-const SPAN: f64 = 0.05;
-/// ... in which the last step has at least this weight.
-const WEIGHT: f64 = 0.002;
-/// Fraction of the sum of all errors that remains at the end: steady growth to 1 of an oscillation has a root mean
-/// square of 1/√6 over a run; a little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
-const MEAN: f64 = 0.3;
-/// The same for Runge-Kutta schemes, whose errors damp the motion in the main: they cancel less.
-const MEAN_OF_STAGES: f64 = 0.6;
-/// Least number of steps of a run.
-const FEWEST: f64 = 50.0;
-/// Lengths of the trial steps that measure the motion ahead when motion begins, as fractions of the run; the first are
-/// short, for the sake of impacts. They have no common divisor, lest all of them end where a vibration passes through
-/// zero.
-const TRIALS: [f64; 6] = [1.7e-4, 7.1e-4, 2.9e-3, 0.011, 0.037, 0.053];
-/// An estimate that two filters reduce below this fraction is that of unresolved motion, with a period of four steps or
-/// less; unless other motion leaves more than the root of it after a third filter.
-const RESOLVED: f64 = 0.3;
-/// Number of filters that remove such motion, and keep most of a mode with ten steps a period.
-const FILTERS: usize = 8;
-/// Unresolved motion is left to the numerical damping of the scheme while its amplitude is below this multiple of the
-/// tolerance: shorter steps would only prolong it.
-const SLIGHT: f64 = 2.0;
 
 /// Leads an implicit scheme by the error of its steps. It is allocated once.
 pub struct ErrorController<'a> {
@@ -92,7 +64,7 @@ pub struct ErrorController<'a> {
     events: EventLimit,
 }
 
-keep!(ErrorController<'_> { 
+keep!(ErrorController<'_> {
     stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting, events,
  } without { asked, constant, order, first, most });
 

@@ -1,15 +1,11 @@
 //! The reference of errors: the largest motion so far, or that of trial steps ahead.
 
 use crate::size::Size;
+use crate::tolerances::error_measure::{AHEAD, TRACE};
 use base::math::{Vec6, angular, linear};
 use base::snapshot::keep;
 use mechanics::state::State;
 use model::Model;
-
-/// Fraction of a run after which the motion so far is reference enough.
-const AHEAD: f64 = 0.2;
-/// Motion of one kind below this fraction of the other, over the model's length, is rounding.
-const TRACE: f64 = 1e-6;
 
 /// The measure that makes errors relative.
 pub struct ErrorMeasure {

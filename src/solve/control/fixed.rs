@@ -10,21 +10,14 @@ use crate::recorder::AcceptedStep;
 use crate::report::StepReport;
 use crate::sudden_loads::SuddenLoads;
 use crate::time_stepper::TimeStepper;
+use crate::tolerances::fixed::{CAREFUL_HALVINGS, MANY, MOST_HALVINGS, MOST_SUBSTEPS};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::state::State;
 use model::AnalysisKind;
 
-/// Largest number of halvings of a step; the deck's least step may stop earlier.
-const MOST_HALVINGS: u32 = 40;
 /// A whole step, in units of the smallest substep.
 const WHOLE_STEP: u64 = 1 << MOST_HALVINGS;
-/// Largest number of substeps of a step, without contacts and with them. Without contacts, consecutive steps that are
-/// each cut into more than `MANY` substeps count together.
-const MOST_SUBSTEPS: [usize; 2] = [1024, 4096];
-const MANY: usize = 32;
-/// Halvings of a step whose corrections are shortened.
-const CAREFUL_HALVINGS: u32 = 6;
 
 /// Leads any stepper in steps of given length.
 pub struct FixedController<'a> {

@@ -5,12 +5,10 @@ use crate::context::Context;
 use crate::explicit::CentralDifferenceStepper;
 use crate::failure::Failure;
 use crate::report::StepReport;
+use crate::tolerances::stability_limited::GROWTH;
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::state::State;
-
-/// Largest growth from step to step: growth is slow, since each change of the step generates or dissipates energy.
-const GROWTH: f64 = 1.2;
 
 /// Leads central differences by the critical time step.
 pub struct StabilityController {

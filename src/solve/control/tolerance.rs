@@ -2,12 +2,9 @@
 
 use crate::context::Context;
 use crate::system::kinks;
+use crate::tolerances::tolerance::LONGEST_WITH_EVENT;
 use base::snapshot::keep;
 use mechanics::state::State;
-
-/// Steps in which an event falls are no longer than this part of the run, times the root of the tolerance. What such a step errs by goes with
-/// the square of its length; a step of a twentieth of what opens and closes again then errs by less than a tenth of the tolerance.
-const LONGEST_WITH_EVENT: f64 = 0.01;
 
 /// A controller that can run again with another tolerance.
 pub trait FollowTolerance {

@@ -9,6 +9,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::motion::{excite, update_dependent_nodes};
 use crate::plan::Plan;
+use crate::tolerances::critical_step::{AGAIN, AT_FIRST, BELOW, LONGER, SETTLED, SHORTER, SMALL, TURN};
 use crate::workspace::Workspace;
 use base::math::rotation::RotationUpdate;
 use base::math::{Vec3, Vec6, angular, linear, stack};
@@ -17,24 +18,8 @@ use mechanics::integrators::stability_limit::longest_step;
 use mechanics::state::{Configuration, Increment, Node, State};
 use model::{FEWEST_STEPS, Model};
 
-/// Number of power iterations at the start, and when the limit is measured again: one residual each, two with damping.
-const AT_FIRST: usize = 60;
-const AGAIN: usize = 3;
 /// Number of steps between two measurements: they cost a hundredth of the whole.
 const STEPS: usize = 400;
-/// Relative change from one iteration to the next that ends them.
-const SETTLED: f64 = 1e-4;
-/// Largest rotation of a body in a step, in radians: no stiffness limits tops and mechanisms. The error θ²/24 of the
-/// angle that central differences have in an oscillation is 6.5e-4 in a full turn.
-const TURN: f64 = 0.05;
-/// A limit longer by this factor is that of another mode.
-const LONGER: f64 = 1.05;
-/// A limit shorter by this factor counts as a cutback.
-const SHORTER: f64 = 0.95;
-/// The displacement by which residuals are differenced, over the model's length. Over the length of an element it is a
-/// strain, which must not make steel yield: with a thousand elements it is 2e-6. Positions in two parts leave seven
-/// digits of it.
-const SMALL: f64 = 1e-9;
 
 /// The critical time step as it is known. It is allocated once.
 pub struct CriticalStep {
@@ -126,7 +111,6 @@ impl CriticalStep {
 
     /// Upper bound of ω² of the fastest mode; power iteration approaches it from below.
     pub fn known(&self) -> f64 {
-        const BELOW: f64 = 1.1;
         BELOW * self.longest.map_or(0.0, |longest| (2.0 / longest).powi(2))
     }
 

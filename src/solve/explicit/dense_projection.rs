@@ -4,10 +4,11 @@
 use super::accelerations::Accelerations;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::joints::{MOST_CORRECTIONS, ROUNDING, constraints_violated};
+use crate::joints::constraints_violated;
 use crate::motion::update_dependent_nodes;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
+use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};
 use crate::workspace::Workspace;
 use base::math::rotation::{exp, inverse_tangent, renormalise};
 use base::math::{Vec6, angular, linear, stack};

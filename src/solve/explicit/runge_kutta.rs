@@ -10,6 +10,7 @@ use crate::report::StepReport;
 use crate::size::Size;
 use crate::system::Side;
 use crate::system::masses::NodeRates;
+use crate::tolerances::explicit_runge_kutta::FARTHEST;
 use crate::work::{Power, WorkQuadrature, weight_of};
 use crate::workspace::Workspace;
 use crate::{contacts, joints, links, residual};
@@ -20,9 +21,6 @@ use linear::TooLarge;
 use mechanics::integrators::tableau::{StageWeights, Tableau};
 use mechanics::state::{Configuration, Increment, Node, State};
 use model::Restraint;
-
-/// Square of the longest rotation vector of a step: T⁻¹ is singular at a full turn.
-const FARTHEST: f64 = 9.0;
 
 /// A Runge-Kutta scheme, with what it needs besides the workspace. It is allocated once.
 pub struct RungeKuttaStepper {

@@ -2,16 +2,12 @@
 
 use super::accelerations::Accelerations;
 use crate::context::Context;
+use crate::tolerances::scaled_step::{MOST, ROUNDING};
 use crate::warning::Warning;
 use crate::workspace::Workspace;
 use base::math::Vec6;
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, State};
-
-/// Differences of residuals leave seven digits of the limit.
-const ROUNDING: f64 = 1e-4;
-/// Part of the stiffness of a mode from which one link or contact is what makes it fast.
-const MOST: f64 = 0.5;
 
 /// Warns, once, where the critical time step `longest` is below that of scaled elements; `mode` is the fastest motion by node, in the trial
 /// motion.

@@ -6,6 +6,7 @@ use super::inner_product::{apply_mass, times_applied};
 use super::node_sums::StepSums;
 use crate::context::Context;
 use crate::system::masses::Masses;
+use crate::tolerances::stiffening::{LIMIT, QUICK};
 use crate::workspace::Workspace;
 use base::math::{Vec6, angular, linear, stack};
 use mechanics::state::{Node, State};
@@ -15,9 +16,6 @@ pub fn change(missing: &[Vec6], trial: &[Node], state: &State, node: usize) -> V
     let (start, now) = (&state.nodes[node], &trial[node]);
     stack(&(now.a - start.a), &(now.alpha - start.alpha)) + missing[node]
 }
-
-/// Below this fraction of the limit, by approximate inertias, the quotient is not computed.
-const QUICK: f64 = 0.05;
 
 /// The Rayleigh quotient −Δaᵀ M q/qᵀ M q of the step's motion, a mean of ω² over its modes. More than ω² of the fastest
 /// known mode shows that the scene has stiffened, as in an impact. It is zero where the step is short enough in any
@@ -71,9 +69,6 @@ fn quotient(ws: &Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State
     }
     force / size
 }
-
-/// What tells that a mode grows, a little above the value of one at the limit.
-const LIMIT: f64 = 4.1;
 
 /// A quick check whether a mode grows. Without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is a mean of (ω Δt)²
 /// over the modes, in which the gross motion does not hide the fast ones; decaying modes do no harm.

@@ -2,12 +2,8 @@
 //! ones so that the remaining residual is least. For a linear problem it is GMRES on the preconditioned residual. D. G.
 //! Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
 
+use crate::tolerances::anderson::{DEPTH, NEW};
 use base::snapshot::keep;
-
-/// Number of earlier corrections that are combined.
-const DEPTH: usize = 5;
-/// A difference counts where more than this fraction of it is linearly independent of the newer ones.
-const NEW: f64 = 1e-6;
 
 /// The corrections of a step, and the change that each made to the next. It is allocated once.
 pub struct Anderson {

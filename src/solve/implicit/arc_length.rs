@@ -10,6 +10,7 @@ use crate::failure::Failure;
 use crate::motion::{Stage, excite, move_trial};
 use crate::residual::no_equilibrium;
 use crate::system::{Forces, Loading};
+use crate::tolerances::arc_length_constraint::{DIFFERENCE, SHORT};
 use crate::workspace::Workspace;
 use base::math::rotation::inverse_tangent;
 use base::math::{Vec6, angular, linear, stack};
@@ -43,9 +44,6 @@ pub struct ArcLengthConstraint {
 }
 
 keep!(ArcLengthConstraint { rate, loading, forces, gaps, last } without { driven, weight });
-
-/// A motion smaller than this fraction of the step before does not show a direction.
-const SHORT: f64 = 1e-6;
 
 /// The extent of a step.
 pub struct StepMotion {
@@ -140,7 +138,7 @@ impl ArcLengthConstraint {
     }
 
     fn difference_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
-        let h = 1e-6 * cx.model.analysis.end_time;
+        let h = DIFFERENCE * cx.model.analysis.end_time;
         let scheme = load_steps::coefficients();
         self.rate.fill(0.0);
         self.forces.multipliers.copy_from(&ws.forces.multipliers);

@@ -3,11 +3,9 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::tolerances::augmentation::MOST;
 use crate::workspace::Workspace;
 use mechanics::state::{Configuration, State};
-
-/// Equilibria of a step after which it is given up. One leaves a half where the spring is as soft as what it presses: enough for 1e-30.
-const MOST: usize = 100;
 
 /// What changes the multipliers of contacts.
 pub struct Augmentation {

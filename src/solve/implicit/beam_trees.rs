@@ -2,6 +2,7 @@
 
 use crate::context::{Context, at_rest};
 use crate::system::Group;
+use crate::tolerances::beam_trees::SLENDER;
 use base::math::{Vec3, frame_along};
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Node};
@@ -10,11 +11,6 @@ use std::ops::Range;
 
 /// The most nodes of a beam element.
 pub const MOST_NODES: usize = 5;
-
-/// EA L²/EI, the square of a slenderness, from which on a tree counts. Stockier beams stretch hardly less easily than they bend:
-/// an old matrix errs more by the masses that have moved than by what has turned (measured on flying beams of 2000 and 10,000,
-/// which lose, and on scenes from 1.3e5 on, which need a half to a third of the time).
-const SLENDER: f64 = 1e5;
 
 /// A beam element, or a rigid arm, of a tree.
 #[derive(Debug, Clone, Copy)]

@@ -1,5 +1,7 @@
 //! The convergence criterion of the iteration: it rests on the sizes of corrections and residuals alone.
 
+use crate::tolerances::convergence::{FALLS, SECOND_ORDER, SLOW, STAGNANT};
+
 /// Judges the corrections of a step.
 pub struct Convergence {
     /// Tolerances of the correction and of the residual.
@@ -63,11 +65,11 @@ impl Convergence {
             Some(last) => (size / last.size).max(residual / last.residual),
         };
         let contraction_of_residual = match self.last {
-            Some(last) if quadratic => contraction.min(10.0 * (size / last.size).powi(2)),
+            Some(last) if quadratic => contraction.min(SECOND_ORDER * (size / last.size).powi(2)),
             _ => contraction,
         };
         self.stagnant = match self.last {
-            Some(last) if residual > 0.5 * last.residual => self.stagnant + 1,
+            Some(last) if residual > FALLS * last.residual => self.stagnant + 1,
             // Rounding may halve it by chance.
             _ => self.stagnant,
         };
@@ -89,13 +91,13 @@ impl Judgement {
 
     /// True where the iteration contracts slowly or not at all: only rounding may be left.
     pub fn stalled(&self) -> bool {
-        self.contraction > 0.5
+        self.contraction > SLOW
     }
 
     /// True where the residual has so often not fallen that it will not: the first correction of a step may well raise it, where
     /// rotations stretch what they should only bend.
     pub fn is_stagnant(&self) -> bool {
-        self.stagnant >= 3
+        self.stagnant >= STAGNANT
     }
 
     /// Number of iterations still needed at this rate.

@@ -2,6 +2,7 @@
 
 use crate::context::Context;
 use crate::size::Size;
+use crate::tolerances::correction::{LARGEST, ROUNDING, SLENDER, STILL};
 use crate::workspace::Workspace;
 use base::math::rotation::inverse_tangent;
 use base::math::{Vec6, angular, larger};
@@ -19,8 +20,6 @@ pub fn size_of_correction(cx: &Context, ws: &Workspace) -> Size {
 /// Shortens the correction in `r` to what may still lie on the way to the equilibrium; returns whether it did. A flat membrane resists
 /// pressure by its bending alone until it has moved: its first correction is far too long, and each later one takes a third of that back.
 pub fn shorten(cx: &Context, ws: &mut Workspace) -> bool {
-    /// The largest translation, in parts of the model's length, and the largest rotation, in radians.
-    const LARGEST: [f64; 2] = [0.05, 0.25];
     let size = size_of_correction(cx, ws);
     let excess = (size.translation / (LARGEST[0] * cx.length)).max(size.rotation / LARGEST[1]);
     let is_long = excess > 1.0 && excess.is_finite();
@@ -62,8 +61,6 @@ pub fn correct(cx: &Context, ws: &mut Workspace) -> (Size, Size) {
 /// The size of a correction relative to the motion of the step, the larger of translations and rotations, with floors
 /// for scenes at rest.
 pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
-    // A step that moves less, in radians or parts of the model's length, is judged by this motion.
-    const STILL: f64 = 1e-6;
     if correction.translation.is_nan() {
         return f64::NAN;
     }
@@ -76,9 +73,8 @@ pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
 /// into forces, and bending answers these with corrections larger by the slenderness squared. Where even a `fresh`
 /// matrix does not help, four more digits are allowed for that, and rotations follow positions over the model's length.
 pub fn is_rounding(cx: &Context, ws: &Workspace, correction: Size, fresh: bool) -> bool {
-    const ROUNDING: f64 = 4.0 * f64::EPSILON;
     let (translation, rotation) = if fresh {
-        (1e4 * ROUNDING * ws.reach, 1e4 * ROUNDING * (ws.reach / cx.length).max(1.0))
+        (SLENDER * ROUNDING * ws.reach, SLENDER * ROUNDING * (ws.reach / cx.length).max(1.0))
     } else {
         (ROUNDING * ws.reach, ROUNDING)
     };

@@ -8,15 +8,13 @@
 
 use super::convergence::Judgement;
 use crate::context::Context;
+use crate::tolerances::convergence_tolerance::{
+    DIGITS, DISSIPATION_TURN, LEAST, MOST_OF_FIRST, NO_DISSIPATION, PART, PART_OF_FIRST, PART_OF_FORCES, TRUST, UNKNOWN,
+};
 use base::snapshot::keep;
 use mechanics::integrators::Stepping;
 use mechanics::integrators::spectrum::spectrum;
 use model::StepLength;
-
-/// Contraction assumed where none was seen.
-const UNKNOWN: f64 = 0.5;
-/// A contraction that was not seen again is trusted less by this factor with every step.
-const TRUST: f64 = 1.5;
 
 /// The end of the iteration.
 #[derive(Clone, Copy)]
@@ -40,8 +38,6 @@ keep!(Ending { tolerance, residual, bounds, contraction, carries } without { of_
 impl Ending {
     /// The end of the iteration of a scene.
     pub fn new(cx: &Context) -> Ending {
-        /// The tolerance of steps whose own error is not known.
-        const DIGITS: f64 = 1e-8;
         let given = &cx.model.solution.iteration;
         let of_own_error = follows_own_error(cx);
         let bounds = [given.tolerance.min(DIGITS), if given.follows_step { f64::INFINITY } else { given.tolerance }];
@@ -51,10 +47,6 @@ impl Ending {
 
     /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.
     pub fn follow(&mut self, error: f64) {
-        /// The iteration adds little to the error of the step, for its own is of one sign where matrices are kept.
-        const PART: f64 = 0.01;
-        /// Forces follow the motion: those of stiff parts are far from it long before the motion is, and no step builds on them.
-        const PART_OF_FORCES: f64 = 0.1;
         (self.tolerance, self.carries) = (self.bounded(PART * error), true);
         self.residual = self.bounded(PART_OF_FORCES * error);
         self.contraction = None;
@@ -69,12 +61,8 @@ impl Ending {
     /// relative residual; none where all steps have the same. Contractions are not carried over here: without a second correction that
     /// confirms, what is left has one sign for many steps and adds up to a sixth of their error.
     pub fn of_step(&self, size: f64, residual: f64) -> Option<[f64; 2]> {
-        /// A thousandth of a twelfth, rounded: errors of one sign add up.
-        const PART: f64 = 1e-4;
-        /// Whatever the error of the step: an impact, a load that jumps, or stiff parts that turn far in steps which do not resolve them, where
-        /// what is left would drive them.
-        const MOST: f64 = 1e-5;
-        self.of_own_error.then(|| [size, residual].map(|first| self.bounded((PART * first).min(MOST))))
+        self.of_own_error
+            .then(|| [size, residual].map(|first| self.bounded((PART_OF_FIRST * first).min(MOST_OF_FIRST))))
     }
 
     /// This tolerance within the bounds of the scene; the deck's goes before.
@@ -89,7 +77,7 @@ impl Ending {
             return;
         }
         self.contraction = match self.contraction {
-            _ if judgement.seen => Some(judgement.contraction.max(1e-3)),
+            _ if judgement.seen => Some(judgement.contraction.max(LEAST)),
             Some(before) => Some(TRUST * before),
             None => None,
         };
@@ -106,12 +94,8 @@ fn follows_own_error(cx: &Context) -> bool {
 /// True where energy need not be kept to the digits of the default. Steps that end with their own error keep it to that and no better,
 /// which schemes that dissipate do not promise; bodies alone turn with an error of higher order.
 fn may_keep_less(cx: &Context) -> bool {
-    /// The step, in radians of an oscillator, for which dissipation is looked at.
-    const TURN: f64 = 1.0;
-    /// Above the rounding of eigenvalues.
-    const NONE: f64 = 1e-9;
     let scheme = &*cx.model.solution.scheme;
     matches!(scheme.stepping(), Stepping::OneStage)
         && cx.system.groups.iter().any(|group| group.kind.is_deformable())
-        && spectrum(scheme, TURN).damping > NONE
+        && spectrum(scheme, DISSIPATION_TURN).damping > NO_DISSIPATION
 }

@@ -5,32 +5,12 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::system::Scale;
+use crate::tolerances::jump::{ACCURACY, CURVED, DOUBTFUL, LARGEST_TURN, LARGEST_TWIST, LEVER, NOTHING, STILL};
 use crate::workspace::Workspace;
 use base::math::{Vec3, angular, linear};
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State};
 use model::DIRECTIONS;
-
-/// Largest rotation of a node in a load step, in radians. Below it the chord of a turning element keeps a positive part along its old
-/// direction with room to spare, and the work of moments follows from the rotation vector of the step alone.
-const LARGEST_TURN: f64 = 1.25;
-/// Largest rotation of a node of a shell against the mean of its element in a step of a motion, in radians: a step that is resolved bends no element so far.
-const LARGEST_TWIST: f64 = 0.5;
-/// Work within this part of all work done, for either sign, is not missed: a step has its own error, and equilibrium its tolerance.
-const ACCURACY: f64 = 1e-3;
-/// Part of ½ |Δf| |Δq| by which the work of loads that grow by Δf may depart from that of their mean. Where forces grow with the n-th power
-/// of displacements it is (n − 1)/(n + 1): nothing in a linear step, one half for a slack string, which is cubic. Where a gap closes, or a
-/// structure yields, it is more in a long step and less in a shorter one; where the equilibrium jumps it is nearly all, or more.
-const CURVED: f64 = 0.6;
-
-/// Part of ½ |Δf| |Δq| that is in doubt: the step is taken in two halves, and where what is missed in the first is not half of it or less,
-/// in their halves, until the path is smooth or plainly jumps. A jump leaves its loss in one half.
-const DOUBTFUL: f64 = 0.2;
-
-/// The work of forces along this part of the model's length is rounding, as is that of moments along this angle.
-const NOTHING: f64 = 1e-12;
-/// Motions below this part of the model's length are no jumps; their energy may be rounding.
-const STILL: f64 = 1e-6;
 
 /// Refuses a load step that turns a node too far or an element over, and a step of a motion that turns a node of a shell against its element.
 ///
@@ -184,7 +164,7 @@ fn largest_motion(cx: &Context, ws: &Workspace) -> (f64, (usize, usize)) {
     let (mut largest, mut place) = (0.0, (0, 0));
     for &node in &cx.independent_nodes {
         let q = cx.plan.dofs.of(node).mask(&ws.increments[node].q);
-        let turn = angular(&q) * (1e-3 * cx.length);
+        let turn = angular(&q) * (LEVER * cx.length);
         for (dof, size) in linear(&q).iter().chain(turn.iter()).map(|q| q.abs()).enumerate() {
             if size > largest {
                 (largest, place) = (size, (node, dof));

@@ -3,14 +3,10 @@
 //! along a correction shows it. Matthies & Strang, Int. J. Numer. Meth. Eng. 14 (1979), 1613-1626: a correction that
 //! leaves more than four fifths of |s| is shortened.
 
+use crate::tolerances::line_search::{LEFT, SECANT, TRIES};
 use base::math::Vec6;
 use base::snapshot::keep;
 use mechanics::state::Increment;
-
-/// Largest fraction of the work of the residual that may be left after a correction.
-const LEFT: f64 = 0.8;
-/// Largest number of times that a correction is shortened.
-const TRIES: usize = 5;
 
 /// The last correction of a step. It is allocated once.
 pub struct LineSearch {
@@ -94,7 +90,7 @@ impl LineSearch {
         }
         // The secant gives the zero of the work along the line; half the correction is taken where the work grew.
         let zero = self.at_start / (self.at_start - work);
-        let factor = if work < 0.0 { zero.clamp(0.1, 0.9) } else { 0.5 };
+        let factor = if work < 0.0 { zero.clamp(SECANT[0], SECANT[1]) } else { 0.5 };
         for (increment, before) in increments.iter_mut().zip(&self.before) {
             increment.q = before + factor * (increment.q - before);
         }

@@ -6,19 +6,12 @@ use super::mechanism::open_part;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::motion::Stage;
+use crate::tolerances::massless::{MOST, ROUNDING, SMALL};
 use base::math::Vec3;
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Node, State};
 use nalgebra::DMatrix;
-
-/// A pivot below this part of the diagonal is rounding of the terms that cancel in it, some thousand times over: a chain that is
-/// pulled so little has strains below 1e-12.
-const ROUNDING: f64 = 1e-12;
-/// Degrees of freedom of nodes that are looked at together; of more, each node is looked at by itself.
-const MOST: usize = 60;
-/// Components of a direction below this part of the largest are not said.
-const SMALL: f64 = 1e-6;
 
 /// The nodes without mass that springs, dampers, bars and contacts alone hold. Beams and shells hold theirs by bending, and the
 /// matrix says where they do not.

@@ -4,21 +4,13 @@
 use super::mode::Mode;
 use super::stabilization::HeldByForces;
 use crate::system::{DofMap, Group, System, TangentWeights, open_gap};
+use crate::tolerances::mechanism::{ENERGY, FORCE, MOVING};
 use base::math::{Vec6, angular, linear};
 use base::names::short;
 use linear::Solver;
 use mechanics::elements::{ElementBlock, Moduli};
 use mechanics::state::Configuration;
 use model::Model;
-
-/// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred
-/// times the rounding of the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.
-const ENERGY: f64 = 1e-14;
-/// And it is one where forces on no element exceed this part of their terms. The mode has rounding of its own, amplified by the condition
-/// of what is not the mechanism; a cantilever of 1000 elements, which hardly bends any of them, leaves 1e-4.
-const FORCE: f64 = 1e-6;
-/// Motions below this part of the largest are taken for rounding of the mode.
-const MOVING: f64 = 1e-4;
 
 /// The node and degree of freedom that a mechanism moves most; `None` where elements resist every motion.
 /// The matrix that `solver` has factored is that of `now`. Forces count where they are given as `held`.

@@ -1,6 +1,7 @@
 //! The softest mode of a matrix by inverse iteration, and the place where it moves most.
 
 use crate::system::DofMap;
+use crate::tolerances::mode::{EQUAL, ITERATIONS, ROTATIONAL};
 use base::math::Vec6;
 use linear::{Solver, Sparse};
 
@@ -8,13 +9,6 @@ use linear::{Solver, Sparse};
 pub struct Mode {
     values: Vec<f64>,
 }
-
-/// Number of inverse iterations. Each multiplies the share of the softest mode by the ratio of the next stiffness to its own, which is
-/// 1e6 and more at a singularity, and 2 at least where one mode buckles before the next.
-const ITERATIONS: usize = 6;
-/// A mode is one of rotations where its largest translation is below this part of a rotation times the model's length: an element
-/// that only turns about its own axis.
-const ROTATIONAL: f64 = 1e-3;
 
 impl Mode {
     /// The mode of the matrix factored last whose stiffness is nearest to zero; `None` where numbers do not hold it. `length` weighs
@@ -58,7 +52,7 @@ impl Mode {
         let largest = |from: usize, to: usize| {
             let entries = self.values.iter().zip(dofs.nodal_dofs()).filter(|(_, (_, dof))| (from..to).contains(dof));
             // The first of equals, so that rounding of symmetric modes does not choose.
-            entries.fold((0.0, None), |(size, at), (value, &place)| match value.abs() > size * (1.0 + 1e-6) {
+            entries.fold((0.0, None), |(size, at), (value, &place)| match value.abs() > size * (1.0 + EQUAL) {
                 true => (value.abs(), Some(place)),
                 false => (size, at),
             })

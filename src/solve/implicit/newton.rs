@@ -17,6 +17,7 @@ use crate::motion::{self, Stage};
 use crate::report::StepReport;
 use crate::size::Size;
 use crate::system::Prescribed;
+use crate::tolerances::iteration::{BALANCED, LONGER, PART};
 use crate::workspace::Workspace;
 use crate::{joints, residual};
 use base::math::{Vec6, angular, linear};
@@ -51,9 +52,6 @@ struct Way {
 }
 
 keep!(Newton { matrix, ending, anderson, line_search, lead } without { ahead, way });
-
-/// By how much longer an iteration may be whose corrections are shortened.
-const LONGER: usize = 4;
 
 /// The verdict on a correction.
 enum Verdict {
@@ -292,8 +290,6 @@ impl Newton {
         stage: &Stage,
         to: f64,
     ) -> (f64, bool) {
-        /// Part of the motion by which the residual is differentiated; a power of two, so that it is taken back exactly.
-        const PART: f64 = 1.0 / (1 << 20) as f64;
         let moves = |given: &Prescribed| given.u != 0.0;
         if cx.is_dynamic() || !cx.system.yields() || !ws.prescribed.instant.iter().any(moves) {
             return (evaluate_residual(cx, ws, state, stage, to), false);
@@ -457,7 +453,7 @@ fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
 
 fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport, open: Option<String>) -> Failure {
     // Forces balance while the joints are open: the constraints contradict each other.
-    if report.residual < 1e-3
+    if report.residual < BALANCED
         && let Err(violated) = joints::check(cx, ws)
     {
         return violated;

@@ -6,6 +6,7 @@ use crate::context::Context;
 use crate::linear_system::LinearSystem;
 use crate::plan::Sideways;
 use crate::system::{DofMap, Forces, Loading, System};
+use crate::tolerances::out_of_plane::MOST_HELD;
 use crate::warning::{Remark, Warning};
 use crate::workspace::Workspace;
 use base::math::Vec6;
@@ -13,9 +14,6 @@ use base::snapshot::keep;
 use linear::TooLarge;
 use mechanics::state::{Configuration, Node, State};
 use model::DIRECTIONS;
-
-/// Largest number of parts that may turn about their own axes, each held by a spring.
-const MOST_HELD: usize = 8;
 
 /// The tangent of the motion out of the plane.
 pub struct OutOfPlane {

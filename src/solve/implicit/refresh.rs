@@ -2,6 +2,7 @@
 
 use super::convergence::Judgement;
 use crate::context::Context;
+use crate::tolerances::refresh::{GROWTH, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use model::{AnalysisKind, Iteration, Method, Update};
@@ -31,7 +32,7 @@ pub struct Refresh {
     fresh_matrix_required: bool,
 }
 
-keep!(Refresh { 
+keep!(Refresh {
     dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required,
  } without { method, update, cost });
 
@@ -90,7 +91,7 @@ impl Refresh {
     /// True where the matrix is to be formed before the next solution; `iteration` counts from 0.
     pub fn due(&self, iteration: usize, dt: f64) -> bool {
         // Steps of equal length differ by the rounding of their ends.
-        if self.wanted || self.fresh_matrix_required || self.dt.is_none_or(|of| (of - dt).abs() > 1e-9 * dt) {
+        if self.wanted || self.fresh_matrix_required || self.dt.is_none_or(|of| (of - dt).abs() > SAME_STEP * dt) {
             return true;
         }
         match self.update {
@@ -118,11 +119,6 @@ impl Refresh {
     /// Takes account of a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the
     /// matrix before it contracts no more: how far is learnt from those that did not.
     pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
-        const USELESS: f64 = 0.3;
-        const USEFUL: f64 = 0.05;
-        const SHARE: f64 = 0.8;
-        /// What was useless once is tried again by and by.
-        const GROWTH: f64 = 1.02;
         if self.update != Update::Auto || self.method == Method::InitialLoad {
             return;
         }
@@ -148,13 +144,13 @@ impl Refresh {
         if patient && (contraction < 1.0 || fresh) {
             return Advice::GoOn;
         }
-        if !fresh && contraction > 0.5 && !self.fresh_matrix_required {
+        if !fresh && contraction > MISLED && !self.fresh_matrix_required {
             self.wanted = true;
             self.eager = self.next_eager;
-            self.next_eager = (2 * self.next_eager).min(64);
+            self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
             return Advice::Restart;
         }
-        self.wanted = contraction > 0.9 || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
+        self.wanted = contraction > USED_UP || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
         Advice::GoOn
     }
 

@@ -16,15 +16,12 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::linear_system::LinearSystem;
 use crate::system::Forces;
+use crate::tolerances::stability::SHORTEST;
 use crate::warning::{Instability, Remark, Warning};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use linear::{Factorization, TooLarge};
 use mechanics::state::{Configuration, State};
-
-/// Part of a step of the deck below which one that ends on an unstable branch is not cut again. A strut with a lateral load of 1e-6 of its
-/// buckling load bends away within 1e-4 of it.
-const SHORTEST: f64 = 1.0 / 4096.0;
 
 /// The watch over the equilibria of a static analysis.
 pub struct Stability {

@@ -6,16 +6,8 @@
 use super::mode::Mode;
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::tolerances::stabilization::{HELD, IN_PLACE, ROUNDING};
 use linear::{Solver, Sparse};
-
-/// Part of the model's length, or of a radian, by which a first correction may move what springs hold. What hangs already hardly moves; what
-/// moves further would jump to where it hangs, which is no path of equilibria.
-const IN_PLACE: f64 = 0.05;
-/// Part of the springs above which a mode has a stiffness of its own. Joints are closed to 1e-7 where equations are redundant, and what they
-/// carry works in what is open.
-const HELD: f64 = 1e-5;
-/// And part of the terms that this stiffness is summed from: a thousand times their rounding.
-const ROUNDING: f64 = 1e-13;
 
 /// True where forces of joints or of pretensioned links may hold what elements do not.
 pub fn may_help(cx: &Context) -> bool {

@@ -6,11 +6,9 @@ use super::ending::Ending;
 use crate::context::Context;
 use crate::report::StepReport;
 use crate::size::Size;
+use crate::tolerances::progress::{SURE, UNBALANCED};
 use crate::warning::Warning;
 use crate::workspace::Workspace;
-
-/// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
-const UNBALANCED: f64 = 1e3;
 
 /// The progress of the iteration of a step.
 pub struct StepProgress {
@@ -78,7 +76,7 @@ impl StepProgress {
             return false;
         }
         let residual = self.report.residual;
-        let sure = cx.system.history == 0 || residual <= (1e3 * judgement.tolerance).min(1e-3);
+        let sure = cx.system.history == 0 || residual <= (SURE[0] * judgement.tolerance).min(SURE[1]);
         let small = is_rounding(cx, ws, correction, self.has_own_matrix() && sure);
         let rounding = judgement.stalled() && small;
         if sure && judgement.converged() {

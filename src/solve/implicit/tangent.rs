@@ -5,22 +5,12 @@ use crate::context::Context;
 use crate::linear_system::LinearSystem;
 use crate::system::TangentWeights;
 use crate::system::{DofMap, Forces, Loading, System};
+use crate::tolerances::stability_tangent::{BISECTIONS, ROUNDING, SCANS, TURNS};
 use crate::warning::Instability;
 use base::math::rotation;
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Node};
 use model::DIRECTIONS;
-
-/// Number of bisections for the load at which the first eigenvalue is negative: 1e-5 of the step.
-const BISECTIONS: usize = 17;
-/// Number of points in a step at which a determinant is looked at: two modes that buckle one after the other leave its sign.
-const SCANS: usize = 16;
-/// Turn of a node in a step, in radians, above which the tangents between the ends of the step, K₀ + θ (K₁ − K₀), say nothing of a
-/// determinant: half-way they are wrong by an eighth of its square, as part of what is stiffest, and slender parts bend a thousand times
-/// more easily than they stretch.
-const TURNS: f64 = 0.05;
-/// An eigenvalue that is negative by less than this part of the diagonal is rounding; that of a thousand elements in bending is 1e-12.
-const ROUNDING: f64 = 1e-14;
 
 /// Statics: no rates, no masses.
 pub const WEIGHTS: TangentWeights =

@@ -12,17 +12,12 @@ use super::beam_trees::{BeamTrees, MOST_NODES};
 use super::strained_line::{LinePoint, LineShape};
 use crate::context::Context;
 use crate::system::NodeRows;
+use crate::tolerances::rotated_matrix::{MANY, NEGLIGIBLE};
 use base::math::rotation::matrix;
 use base::math::{Mat3, Vec3};
 use base::snapshot::keep;
 use mechanics::state::Node;
 use nalgebra::Quaternion;
-
-/// An angle φ spoils the matrix of a tree by about φ² EA L²/EI beside what bends it; below this the contraction does not show it.
-const NEGLIGIBLE: f64 = 1e-3;
-
-/// A scene that needs fewer matrices than this has none that grow old.
-const MANY: usize = 8;
 
 /// The trees of a scene, in the configuration of the matrix and in the one at hand. It is allocated once.
 pub struct Turning {

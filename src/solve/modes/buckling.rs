@@ -13,6 +13,7 @@ use super::rest::multipliers_at_rest;
 use super::shape::Shapes;
 use crate::system::assembly::Assembly;
 use crate::system::{Group, Loading};
+use crate::tolerances::buckling::{CLUSTER, FARTHEST, MODERATE, SEARCHES, SMALL, STEP, TOLERANCE, WIDTH};
 use base::math::rotation::RotationUpdate;
 use base::math::{Vec6, angular, linear};
 use base::names::{joined, short};
@@ -21,25 +22,8 @@ use linear::{Solver, Sparse};
 use mechanics::state::{Configuration, Increment, Node};
 use model::{ModeExtent, ModeKind};
 
-/// Length of residuals relative to their eigenvalues.
-const TOLERANCE: f64 = 1e-9;
-const WIDTH: usize = 2;
-/// Step of the first differences, as a displacement relative to the size of the scene and a rotation.
-const SMALL: f64 = 1e-4;
-/// Step of the final differences, as such a motion at most, and as a part of the lowest factor. The cube of a rotation θ stretches and
-/// shears a part of slenderness s by s² θ² of what the load does, which differences of second order would keep: those of sixth order
-/// leave s² θ⁶, and rounding 1e-15 s²/θ.
-const STEP: f64 = 3e-3;
 /// Weights of the differences of sixth order between the states at 1, 2 and 3 steps and their opposites.
 const DIFFERENCES: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
-/// Factors farther from zero than the nearest by the inverse of this are rounding.
-const FARTHEST: f64 = 1e-8;
-/// Factors of equal size that are taken one by one before the search is given up.
-const CLUSTER: usize = 200;
-/// Largest motion, as that of [`STEP`], up to which bars are judged to be slack.
-const MODERATE: f64 = 0.05;
-/// Searches for factors that pivots show and the iteration has not found.
-const SEARCHES: usize = 8;
 
 /// The operator −K⁻¹ K' in the metric of K; its eigenvalues are 1/λ.
 struct Buckling<'p, 'a> {

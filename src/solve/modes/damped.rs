@@ -8,36 +8,18 @@
 use super::fault::ModesFault;
 use super::gyroscopic::Gyroscopic;
 use super::linearized::Linearized;
-use super::modal::{LOW, fewer, lowest_square, natural_pairs};
+use super::modal::{fewer, lowest_square, natural_pairs};
 use super::mode::{EigenMode, Modes};
 use super::pencil::{Pencil, weights};
 use super::shape::Shapes;
 use crate::system::assembly::Assembly;
+use crate::tolerances::damped::{DOUBTFUL, GROWS, INFINITE, SPLIT, TOLERANCE, UP_TO, WIDTH, ZERO};
+use crate::tolerances::modal::LOW;
 use base::math::Vec6;
 use linear::eigen::{Arnoldi, Complex, ComplexPair, Operator};
 use linear::{Factorization, Solver, Sparse};
 use model::{ModeExtent, ModeKind};
 use std::f64::consts::TAU;
-
-/// Length of residuals relative to eigenvalues.
-const TOLERANCE: f64 = 1e-11;
-/// Starting vectors: pairs of equal roots are found together.
-const WIDTH: usize = 2;
-/// Roots below this part of the shift are zero: those of motions without stiffness are double, and rounding splits a double root by
-/// the square root of its size.
-const ZERO: f64 = 3e-6;
-/// Where motions have no stiffness, roots below this multiple of what the stiffness of rigid motions rounds to are theirs.
-const SPLIT: f64 = 4.0;
-/// Part of the shift from which roots that count as zero may be others.
-const DOUBTFUL: f64 = 0.1;
-
-/// A root grows where its real part is larger than this part of it.
-const GROWS: f64 = 1e-7;
-/// Roots whose distance from the shift is larger than that of the nearest by the inverse of this are at infinity: motions that joints forbid,
-/// or without mass, have such.
-const INFINITE: f64 = 1e-10;
-/// Modes for which there is room where a frequency is given.
-const UP_TO: usize = 100;
 
 /// Where roots are looked for.
 #[derive(Clone, Copy)]

@@ -4,10 +4,8 @@
 //! changes by J θ̈ + (ω~J − J ω~ − π~) θ̇ − π̇~ θ. About an axis of symmetry the first two terms cancel.
 
 use super::linearized::Linearized;
+use crate::tolerances::gyroscopic::SYMMETRIC;
 use base::math::{Mat3, skew};
-
-/// An asymmetry below this part is rounding.
-const SYMMETRIC: f64 = 1e-9;
 
 /// The matrices of the bodies that spin.
 pub struct Gyroscopic {

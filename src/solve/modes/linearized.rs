@@ -4,6 +4,7 @@ use super::fault::ModesFault;
 use crate::plan::Plan;
 use crate::system::assembly::Assembly;
 use crate::system::{Loading, System};
+use crate::tolerances::linearized::ROUNDING;
 use base::math::{Vec3, Vec6};
 use linear::{Factorization, Solver, TooLarge};
 use mechanics::state::{Node, State};
@@ -64,7 +65,6 @@ impl Linearized<'_> {
 
     /// True for an angular velocity that is no rounding: it turns by more than that over the time of the analysis.
     pub fn spins(&self, omega: &Vec3) -> bool {
-        const ROUNDING: f64 = 1e-12;
         omega.norm() * self.model.analysis.end_time > ROUNDING
     }
 

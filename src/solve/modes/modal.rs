@@ -11,35 +11,14 @@ use super::mode::{EigenMode, Modes};
 use super::pencil::Pencil;
 use super::shape::Shapes;
 use crate::system::assembly::Assembly;
+use crate::tolerances::modal::{
+    APART, FAR_APART, FITS, LOW, MOST, NEAR, NEXT_TO, PROBE, ROUNDING, SEARCHES, SHIFTS, TOLERANCE, WIDTH,
+};
 use base::names::short;
 use linear::Solver;
 use linear::eigen::{Converged, EigenPair, Lanczos};
 use model::{ModeExtent, ModeKind};
 use std::f64::consts::TAU;
-
-/// Length of the residual of S φ = θ φ, relative to θ; eigenvalues have an error of its square over the distance to the next.
-const TOLERANCE: f64 = 1e-9;
-/// Starting vectors: pairs of equal frequencies, which symmetry makes, are found together.
-const WIDTH: usize = 2;
-/// Most modes that are computed at once.
-pub(super) const MOST: usize = 2000;
-/// Searches for modes that the pivots show and the iteration has not found.
-const SEARCHES: usize = 8;
-/// Part of the shift below which an eigenvalue is rounding.
-const ROUNDING: f64 = 1e-14;
-/// Expansions after which a shift is judged.
-const PROBE: usize = 12;
-/// Part of a shift below which an eigenvalue is zero, or next to it.
-pub(super) const LOW: f64 = 1e-4;
-/// By what part the eigenvalue up to which modes are counted moves where it meets one.
-const NEAR: f64 = 1e-7;
-/// Shifts that are tried.
-const SHIFTS: usize = 30;
-/// A shift within these multiples of the lowest frequency squared that is not zero serves as well as any other.
-const FITS: [f64; 2] = [0.03, 1e3];
-/// Eigenvalues that are smaller than others by such a factor are zero, or next to it: with a shift at zero the others would have no more digits than
-/// what is left of sixteen.
-const APART: f64 = 1e5;
 
 /// Finds the natural modes that the model asks for.
 ///
@@ -120,9 +99,6 @@ pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<V
 pub(super) fn fewer(found: usize, count: usize) -> String {
     format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
 }
-
-/// Squares of frequencies that lie farther apart lose digits.
-const FAR_APART: f64 = 1e12;
 
 /// What rounding hides of modes, in words.
 pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
@@ -291,8 +267,6 @@ fn settle(pencil: &mut Pencil) -> Result<Lanczos, ModesFault> {
 /// True for values of 1/λ, the largest first, of which that is of a motion which nothing but rounding resists: beside it others are lost. Rounding may
 /// make it negative where the pivots are not.
 fn is_drowned(pencil: &Pencil, thetas: &[f64]) -> bool {
-    /// Times the rounding of rigid motions.
-    const NEXT_TO: f64 = 1e4;
     let rounding = Shapes::new(pencil).rounding(pencil);
     thetas.first().is_none_or(|theta| *theta < 0.0 || 1.0 / theta <= NEXT_TO * rounding)
 }

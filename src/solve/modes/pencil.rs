@@ -5,14 +5,12 @@ use super::gyroscopic::Gyroscopic;
 use super::linearized::Linearized;
 use crate::system::assembly::Assembly;
 use crate::system::{Forces, Loading, TangentWeights};
+use crate::tolerances::pencil::{FORBIDDEN, ROUNDING};
 use base::math::Vec6;
 use linear::eigen::SymmetricOperator;
 use linear::{Solver, Sparse};
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Node};
-
-/// Gaps of a motion relative to its size from which it is one that joints forbid; those of others are rounding.
-const FORBIDDEN: f64 = 1e-6;
 
 /// The weights K + rate·C + acceleration·M.
 pub fn weights(rate: f64, acceleration: f64) -> TangentWeights {
@@ -325,7 +323,6 @@ impl<'a> Pencil<'a> {
     /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both. What is this far below the largest is
     /// rounding of a motion that nothing resists.
     pub fn least_ratio(&mut self) -> f64 {
-        const ROUNDING: f64 = 1e-12;
         self.form(weights(0.0, 0.0), false);
         let mut ratios = vec![0.0; self.unknowns];
         for (row, ratio) in ratios.iter_mut().enumerate() {

@@ -3,13 +3,9 @@
 use super::linearized::Linearized;
 use super::pencil::{Pencil, weights};
 use crate::system::assembly::Assembly;
+use crate::tolerances::rest::{STILL, UNBALANCED};
 use linear::Solver;
 use mechanics::state::Configuration;
-
-/// What is left of forces relative to their largest terms.
-const UNBALANCED: f64 = 1e-12;
-/// A motion that forces would cause, relative to the size of the scene, in which it still rests.
-const STILL: f64 = 1e-9;
 
 /// The multipliers with which the scene rests in the state; `None` where it would move. Mass stands in for the stiffness that a
 /// mechanism does not have.

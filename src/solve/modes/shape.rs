@@ -4,15 +4,11 @@ use super::mode::EigenMode;
 use super::pencil::Pencil;
 use super::shares::{Energies, energies};
 use crate::system::Forces;
+use crate::tolerances::shape::{ROUNDING, STILL};
 use base::math::{Vec3, Vec6, angular, linear, stack};
 use linear::eigen::{Complex, ComplexPair};
 use mechanics::state::Node;
 use std::f64::consts::TAU;
-
-/// Stiffness times motion rounds to this part of the sum of its terms without signs; an eigenvalue below it is zero.
-const ROUNDING: f64 = 2e-15;
-/// Displacements below this part of the rotations times the size of the scene are rounding.
-const STILL: f64 = 1e-7;
 
 /// What all modes of a state share.
 pub struct Shapes {

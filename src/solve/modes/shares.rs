@@ -2,15 +2,11 @@
 
 use super::linearized::Linearized;
 use super::mode::Share;
+use crate::tolerances::shares::{CLEAR, STILL};
 use base::math::Vec6;
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Node};
 use model::Part;
-
-/// Energy of a part above this part of its terms without signs is no rounding, ...
-const CLEAR: f64 = 1e-6;
-/// ... unless its motions are: this is the square of what they are of the largest anywhere.
-const STILL: f64 = 1e-16;
 
 /// Twice the strain energies of a small motion.
 #[derive(Clone, Default)]

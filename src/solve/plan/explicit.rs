@@ -5,12 +5,10 @@ use super::dof_status::DofStatus;
 use crate::system::System;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
+use crate::tolerances::mass_scaling::MOST;
 use base::diagnostic::Diagnostic;
 use mechanics::integrators::Stepping;
 use model::{DIRECTIONS, Model};
-
-/// Largest number of named errors; more are counted.
-const MOST: usize = 5;
 
 impl Plan {
     /// The block-diagonal masses, where each moving node is a rigid body of its own.

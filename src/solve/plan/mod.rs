@@ -13,15 +13,13 @@ mod unreachable_targets;
 use crate::system::assembly::Assembly;
 use crate::system::connectivity::connectivity;
 use crate::system::{DofMap, NodeRows, System};
+use crate::tolerances::threads::NODES_WORTH_THREADS;
 use dof_status::DofStatus;
 use linear::{self, Solver, Structure, TooLarge};
 use mechanics::elements::Partners;
 use model::{AnalysisKind, Model};
 pub use sideways::Sideways;
 pub use unreachable_targets::unreachable_targets;
-
-/// Number of nodes from which several threads pay in the loops over nodes.
-const NODES_WORTH_THREADS: usize = 2048;
 
 /// The decisions about a model. They are constant over a run.
 pub struct Plan {

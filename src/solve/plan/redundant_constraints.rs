@@ -3,20 +3,15 @@
 
 use crate::system::dependents;
 use crate::system::{DofMap, System};
+use crate::tolerances::redundant_constraints::{MOST, NEW, ROUNDING};
 use base::math::Vec3;
 use mechanics::state::Node;
 use model::Model;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-/// An equation is redundant where less than this fraction of its gradient is linearly independent of earlier ones.
-const NEW: f64 = 1e-8;
-/// Largest number of operations for the search; larger sets of joints are not searched.
-const MOST: f64 = 5e7;
-
 /// The largest distance of a node from the center of all; 1 where they are at one place, to rounding.
 fn size(nodes: &[Node]) -> f64 {
-    const ROUNDING: f64 = 1e-9;
     let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let center: Vec3 = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
     let length = nodes.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max);

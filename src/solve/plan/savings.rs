@@ -4,11 +4,9 @@ use super::dof_status::DofStatus;
 use super::{Plan, grouped};
 use crate::system::connectivity::{connectivity, connectivity_with_multipliers};
 use crate::system::{NodeRows, System};
+use crate::tolerances::savings::WORTH;
 use linear::{Factorization, Structure, operations};
 use model::{AnalysisKind, Model};
-
-/// Ratios below this are not worth a line.
-const WORTH: f64 = 1.05;
 
 impl Plan {
     /// A line for each omission whose saving can be counted: operations of a factorization of the matrix of a step.

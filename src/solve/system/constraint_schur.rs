@@ -5,16 +5,14 @@
 use super::equations::System;
 use super::independent_rows::IndependentRows;
 use super::masses::Masses;
-use super::multipliers::REGULARIZATION;
 use super::schur_factor::SchurFactor;
+use crate::tolerances::constraint_schur::NEGLIGIBLE;
+use crate::tolerances::multipliers::REGULARIZATION;
 use base::math::{Vec3, Vec6, angular, linear, stack};
 use base::snapshot::keep;
 use mechanics::elements::Force;
 use mechanics::state::Node;
 use std::ops::Range;
-
-/// An entry counts as zero below this fraction of the largest in its equation.
-const NEGLIGIBLE: f64 = 1e-12;
 
 /// The system of the constraint equations. It is allocated once, before the first step.
 pub struct ConstraintSchur {

@@ -8,18 +8,9 @@
 //! along h is like that of the mesh, of the order of (h/λ)². What is still too fast is given mass, and rotary inertia by the same factor.
 
 use super::parts::{LumpedElement, NodalShare};
+use crate::tolerances::element_stability::{BISECTIONS, GYRATION, NONE, OF_USE};
 use base::math::{Mat3, Vec3};
 use nalgebra::{DMatrix, Dyn, linalg::Cholesky};
-
-/// Largest square of the radius of gyration that is given to elements, over that of the distance of their nodes.
-const GYRATION: f64 = 1.0 / 8.0;
-/// Moments of inertia below this part of the largest are none.
-const NONE: f64 = 1e-12;
-/// Bisections of the part of the largest squares of radii: what is too much is 2⁻¹⁶ of these.
-const BISECTIONS: usize = 16;
-/// Rotary inertia that lowers the square of the fastest frequency by less than this part of it is not given where mass has to be: it would
-/// slow what bends for next to nothing.
-const OF_USE: f64 = 0.02;
 
 /// What is given to the masses of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -3,6 +3,7 @@
 use super::equations::System;
 use super::parts::{Storage, storage};
 use super::thread_partition;
+use crate::tolerances::energy::{GONE, NOTHING_HAPPENS, OF_PEAK, ROUNDING};
 use base::math::Vec3;
 use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::{Configuration, Node, State};
@@ -101,8 +102,6 @@ impl Energy {
 /// The energy of motions that positions do not hold: the work of weight and of all loads on nodes at their full size along a part of the largest
 /// coordinate, and the kinetic energy of velocities that come so far within the `duration`.
 pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], duration: f64) -> f64 {
-    /// Some thousand times the rounding of a position, which steps add up.
-    const ROUNDING: f64 = 1e-12;
     let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let of_inertias = system.inertias.iter().map(|inertia| inertia.mass).sum::<f64>();
     let mass = of_inertias + system.consistent.iter().flat_map(|mass| &mass.m).sum::<f64>();
@@ -232,10 +231,6 @@ impl Balance {
     /// rigid motion at constant speed has nothing of it, or it would hide that a vibration dies away. Where more is lost than
     /// has ever changed its form, it is the steady motion itself that loses, and all energy counts.
     pub fn motion(&self) -> f64 {
-        /// Of the largest energy, at least: a steady motion that keeps its speed to 3e-5 is as good as the results are.
-        const OF_PEAK: f64 = 3e-3;
-        /// Times what has changed its form: a vibration that no step resolves is gone before its energy was stored once.
-        const GONE: f64 = 5.0;
         let exchanged = self.exchanged.iter().map(Range::width).fold(0.0, f64::max);
         if self.lost > GONE * exchanged { self.peak } else { exchanged.max(OF_PEAK * self.peak) }
     }
@@ -243,9 +238,7 @@ impl Balance {
     /// What the work of a static analysis lacks, or has too much, for what is stored and dissipated at its end, and the energy to which
     /// that is compared: the largest work, or the change of what is stored.
     pub fn missed_in_statics(&self) -> (f64, f64) {
-        /// Of the largest energy: what is less is rounding of it, in a stage in which nothing happens.
-        const OF_PEAK: f64 = 1e-9;
-        (self.lost, self.external.max(self.exchanged[1].width()).max(OF_PEAK * self.peak).max(self.rounding))
+        (self.lost, self.external.max(self.exchanged[1].width()).max(NOTHING_HAPPENS * self.peak).max(self.rounding))
     }
 
     /// Algorithmic dissipation up to now. In the middle of an impact it may have been larger: schemes that take equilibrium

@@ -2,6 +2,7 @@
 //! motion.
 
 use super::loads::Loading;
+use crate::tolerances::excitation::TAIL;
 use base::math::turn::Turn;
 use base::math::{Vec3, rotation};
 use base::snapshot::keep;
@@ -55,9 +56,6 @@ struct Extrapolation {
     /// chord over the last [`TAIL`] of the run: a function that comes to rest at the end would lead nowhere.
     slopes: [f64; 2],
 }
-
-/// Fraction of a run over which the slope beyond its end is taken.
-const TAIL: f64 = 0.01;
 
 impl Extrapolation {
     fn new(begin: f64, end: f64, value: impl Fn(f64) -> f64, rate: impl Fn(f64) -> f64) -> Extrapolation {

@@ -5,11 +5,9 @@
 //! and half of the second again are a symmetric step that keeps ℓ and is exact for bodies of revolution (A. Dullweber,
 //! B. Leimkuhler & R. McLachlan, J. Chem. Phys. 107 (1997)); b and c are the two axes that are nearest to one another.
 
+use crate::tolerances::free_rotation::NEGLIGIBLE;
 use base::math::{Mat3, Vec3, rotation};
 use nalgebra::{Quaternion, SymmetricEigen};
-
-/// Part of the largest inertia that counts as none: about such an axis there is no momentum.
-const NEGLIGIBLE: f64 = 1e-12;
 
 /// Principal axes and inverse inertias of a body. Axes are those of the body, global at t = 0.
 #[derive(Debug, Clone)]

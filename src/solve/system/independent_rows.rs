@@ -5,10 +5,8 @@
 
 use super::masses::Masses;
 use super::schur_factor::SchurFactor;
+use crate::tolerances::independent_rows::NEW;
 use base::math::{Vec6, angular, linear};
-
-/// An equation is redundant where less than this fraction of its gradient is linearly independent of others.
-const NEW: f64 = 1e-8;
 
 /// Which equations are solved for, and loads of the others. It is allocated once.
 pub struct IndependentRows {

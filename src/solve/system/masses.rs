@@ -5,14 +5,10 @@
 use super::dofs::DofMap;
 use super::equations::System;
 use super::free_rotation::FreeRotation;
+use crate::tolerances::masses::{CORRECTIONS, NEGLIGIBLE};
 use base::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, rotation, skew, stack};
 use mechanics::elements::Force;
 use mechanics::state::Node;
-
-/// An entry counts as zero below this fraction of what it was before others were subtracted from it.
-const NEGLIGIBLE: f64 = 1e-12;
-/// Number of corrections of the velocities of a node with restrained degrees of freedom.
-pub const CORRECTIONS: usize = 2;
 
 /// The masses of a scene: one block for each node that has an unknown.
 #[derive(Debug, Clone)]

@@ -1,14 +1,7 @@
 //! The Lagrange multipliers of joints in the iteration; see [`super::joints`] for the equations.
 
+use crate::tolerances::multipliers::REGULARIZATION;
 use base::snapshot::keep;
-
-/// ε regularizes redundant constraint equations: rounding in a redundant equation is amplified by 1/ε, and an iteration
-/// leaves the fraction ε of a gap.
-pub(super) const REGULARIZATION: f64 = 1e-7;
-
-/// ε where no equation is redundant. What an iteration leaves of gaps that go smoothly over a chain of N joints is ε/(ε + (π/2N)²): with
-/// the other ε two thousand joints would leave a tenth, twenty thousand nearly all.
-pub(super) const REGULARIZATION_OF_TREES: f64 = 1e-11;
 
 /// The Lagrange multipliers of all joints, one entry for each constraint equation.
 #[derive(Debug, Clone, Default)]

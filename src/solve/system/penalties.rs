@@ -3,6 +3,7 @@
 use super::dofs::DofMap;
 use super::equations::System;
 use super::multipliers::Multipliers;
+use crate::tolerances::penalties::{FAINT, FIRM, MODERATE, NOTHING};
 use base::math::{Mat6, Vec3, Vec6, angular, linear};
 use linear::Solver;
 use mechanics::constraints::joint::{ConstraintEquation, Joint};
@@ -220,16 +221,6 @@ impl Diagonal {
     }
 }
 
-/// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
-const MODERATE: f64 = 1e4;
-
-/// Forces of joints whose factor is this part of the largest are rounding: such a joint bears nothing. And so are forces that are this part of
-/// what a gap as large as the scene, or a turn of one, would be answered with.
-const NOTHING: f64 = 1e-12;
-
-/// A moment of a joint that is this part of its force along the scene gives no measure of its stiffness, whatever the iteration has made of it.
-const FAINT: f64 = 1e-6;
-
 /// Finds the penalty factors, which rest on the matrix before any joint has added to it.
 ///
 /// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
@@ -321,10 +312,6 @@ fn make_even(joint: &Joint, penalties: &mut [f64]) {
         }
     }
 }
-
-/// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
-/// and directions make less of the factor.
-const FIRM: f64 = 100.0;
 
 /// The penalty factors for translations and rotations of a joint whose forces have this stiffness, at arms of this length.
 fn firm_factors(moment: f64, arm: f64) -> [f64; 2] {

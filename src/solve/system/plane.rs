@@ -1,9 +1,7 @@
 //! Planes of motion: vectors and tensors that stay in a plane normal to a global axis.
 
+use crate::tolerances::plane::SMALL;
 use base::math::{Mat3, Vec3};
-
-/// A number counts as zero below this fraction of the entries beside it.
-pub const SMALL: f64 = 1e-12;
 
 /// A plane normal to a global axis, through the first node.
 pub struct MotionPlane {

@@ -2,7 +2,8 @@
 
 use super::inertia::Inertia;
 use super::parts::assembled;
-use super::plane::{MotionPlane, SMALL};
+use super::plane::MotionPlane;
+use crate::tolerances::plane::SMALL;
 use base::math::{Vec3, skew};
 use mechanics::constraints::rigid_link::RigidLink;
 use model::{Joint, Loading, Model, Node, Restraint};

@@ -1,5 +1,6 @@
 //! The magnitudes of forces and moments.
 
+use crate::tolerances::scale::ARM;
 use base::math::{Vec3, larger};
 use base::snapshot::keep;
 use mechanics::elements::Force;
@@ -14,9 +15,6 @@ pub struct Scale {
 }
 
 keep!(Scale { force, moment });
-
-/// Part of a length at which forces make moments: where only forces act, moments are rounding of them.
-const ARM: f64 = 1e-2;
 
 impl Scale {
     /// The scale of moments in a scene of this size, where these may be rounding of forces.

@@ -22,6 +22,7 @@
 //! of what turns, its centre of mass is not the node, and the rule would lose more energy than that of the nodes.
 
 use super::inertia::{ConsistentMass, Inertia};
+use crate::tolerances::turning_body::{NEGLIGIBLE, PASSES, ROUNDING, THIN};
 use base::math::{Mat3, Vec3, Vec6, angular, rotation};
 use base::snapshot::{Keep, Snapshot};
 use mechanics::constraints::rigid_link::RigidLink;
@@ -31,18 +32,6 @@ use model::{AnalysisKind, Model};
 use nalgebra::SymmetricEigen;
 use std::iter::Peekable;
 use std::slice::Iter;
-
-/// The part of the largest principal inertia that rounding leaves where there is none.
-const NEGLIGIBLE: f64 = 1e-12;
-
-/// The part of the largest principal inertia by which rounding may make it exceed the sum of the two others, or differ from them.
-const ROUNDING: f64 = 1e-9;
-
-/// The part of the largest principal inertia below which an axis follows the momentum in space in part only.
-const THIN: f64 = 0.1;
-
-/// How often a rate is put into the acceleration that it depends on: each time the error shrinks by a third of the turn of a step.
-const PASSES: usize = 2;
 
 /// A body that turns by its angular momentum.
 #[derive(Debug, Clone)]

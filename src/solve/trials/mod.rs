@@ -7,32 +7,14 @@
 
 mod trace;
 
+use crate::tolerances::trials::{AIM, CHANGE, LOST, SATURATED, WITHIN};
 pub use trace::{Kept, Trace, Unseen};
 
-use trace::TELLING;
+use crate::tolerances::trace::TELLING;
 
 use super::outcome::Counts;
 use super::warning::Warning;
 use base::snapshot::keep;
-
-/// Largest number of runs, the trial aside.
-pub const MOST_RUNS: usize = 4;
-/// Part of the error asked for that a second run aims at.
-const AIM: f64 = 0.6;
-/// An error of up to this multiple of what was asked for passes.
-const WITHIN: f64 = 1.5;
-/// Ratio of the tolerances of the trial and the run: for a scheme of third order its steps are twice as long.
-pub const LOOSER: f64 = 8.0;
-/// Least and largest ratio of the tolerances of two runs in a row.
-const CHANGE: [f64; 2] = [0.01, 0.5];
-/// A run of more than so many times the steps of the one before is given up: what it would follow no step was to resolve.
-pub const MOST_LONGER: usize = 30;
-/// A trial of more than twice the steps of its run and so many is given up: its longer steps do not follow the motion.
-pub const FEW: usize = 100;
-/// Ratio of the tolerances where two runs have nothing in common.
-const LOST: f64 = 0.03;
-/// The difference of two runs that have nothing in common, relative to the motion.
-const SATURATED: f64 = 0.3;
 
 /// The error of the steps of a run, relative to its largest motion, and what it took to know it.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -2,24 +2,12 @@
 
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::{Frame, Observer};
+use crate::tolerances::trace::{EVENTFUL, FEWEST, MOST_NODES, SLOPE, TELLING, USUAL_STEPS};
 use base::math::Vec3;
 use base::snapshot::{Keep, Snapshot, keep};
 use model::Model;
 use nalgebra::Quaternion;
 use std::io;
-
-/// Largest number of nodes that are compared; of more nodes every second, third, ... is.
-const MOST_NODES: usize = 20_000;
-
-/// Errors of steps add up to less than their sum: they fall at least with this power of it.
-const SLOPE: f64 = 0.8;
-/// Number of steps for whose ends there is room from the first step on; memory that is not touched costs nothing.
-const USUAL_STEPS: usize = 1 << 16;
-/// The factor between the errors of two runs that have met events, at most: that of steps twice as long, in which events leave errors of first
-/// order.
-const EVENTFUL: f64 = 2.0;
-/// Runs of nearly the same steps tell nothing of each other.
-pub(super) const TELLING: f64 = 1.1;
 
 /// Positions of nodes and rotations of bodies at a few times, kept while another observer receives the same steps.
 pub struct Trace<'o> {
@@ -204,8 +192,6 @@ impl Kept {
     /// over the largest velocity; `extent` is the length of the scene, by which translations and rotations are compared. Infinite where a stage
     /// has stopped before there was enough to compare.
     pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
-        /// Times at least: one of them may be that at which both happen to agree.
-        const FEWEST: usize = 3;
         let times = self.times.min(other.times);
         if times < FEWEST {
             return f64::INFINITY;

@@ -7,15 +7,9 @@
 
 use super::super::pencil::Pencil;
 use super::matrices::Matrices;
+use crate::tolerances::damped_rest::{ALIKE, ROUNDS, SMALL};
 use linear::Sparse;
 use nalgebra::DMatrix;
-
-/// Parts of the stiffness of a mode below which what its damping force moves besides counts for nothing.
-const SMALL: f64 = 1e-9;
-/// A motion of which this part of its size is left beside those before it is one of them.
-const ALIKE: f64 = 1e-6;
-/// How often the damping forces of such motions are answered in turn.
-const ROUNDS: usize = 2;
 
 /// A motion with its stiffness and its mass, which has no part of the modes found.
 pub struct RestMotion {

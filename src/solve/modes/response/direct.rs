@@ -15,21 +15,14 @@ use super::look_up::look_up;
 use super::matrices::Matrices;
 use super::resonance::resonances_in_words;
 use crate::system::assembly::Assembly;
+use crate::tolerances::direct_response::{
+    ASIDE, BESIDE_RESONANCE, BEYOND, CLOSINGS, DOUBTFUL, LARGE, NEXT_TO_ZERO, SAME, SAME_FREQUENCY,
+};
 use base::math::Vec6;
 use base::names::short;
 use linear::{Factorization, Solver};
 use model::{ModeExtent, ModeKind, ResponseAsked};
 use std::f64::consts::TAU;
-
-/// What is left of the equations from which a solution is in doubt.
-const DOUBTFUL: f64 = 1e-8;
-/// Penalties of joints are those of the stiffness and of the inertia at this multiple of the highest frequency, which no inertia below
-/// it cancels.
-const BEYOND: f64 = 2.0;
-/// Part of the least ratio of stiffness and inertia below which a motion without stiffness counts as one.
-const NEXT_TO_ZERO: f64 = 1e-6;
-/// Solutions after which gaps of joints, of which each leaves a small part, have closed.
-const CLOSINGS: usize = 3;
 
 /// Finds the response.
 ///
@@ -109,7 +102,6 @@ fn unjudged(at: &Linearized) -> Option<String> {
 /// True for motions beside a frequency that are the same to what the frequencies differ by, many times over: near a resonance they are
 /// opposite.
 fn agree([before, after]: &[[Vec<Vec6>; 2]; 2]) -> bool {
-    const SAME: f64 = 1e-4;
     let pairs = || before.iter().flatten().zip(after.iter().flatten());
     let largest = pairs().map(|(a, b)| a.amax().max(b.amax())).fold(0.0, f64::max);
     pairs().all(|(a, b)| (a - b).amax() <= SAME * largest)
@@ -147,8 +139,6 @@ impl Direct<'_> {
 
     /// Adds the motion at a frequency.
     fn solve(&mut self, frequency: f64, response: &mut Response) {
-        /// Part of a frequency by which it is left on either side where its own equations cannot be solved.
-        const ASIDE: f64 = 1e-9;
         let found = self.motions(frequency).or_else(|| {
             // A part that would resonate alone makes a pivot vanish, but the whole may not.
             let sides = [self.motions(frequency * (1.0 - ASIDE))?, self.motions(frequency * (1.0 + ASIDE))?];
@@ -166,9 +156,7 @@ impl Direct<'_> {
 
     /// Notes a frequency at which nothing limits the motion.
     fn note(&mut self, frequency: f64) {
-        /// Part of a frequency by which a natural one may differ to be the same.
-        const SAME: f64 = 1e-6;
-        let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME * frequency);
+        let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME_FREQUENCY * frequency);
         self.so_far.resonances.push((frequency, mode));
     }
 
@@ -178,10 +166,6 @@ impl Direct<'_> {
     /// # Errors
     /// [`ModesFault::Stopped`] where a signal ends the search.
     fn find_resonances(&mut self, response: &mut Response) -> Result<(), ModesFault> {
-        /// The ratio to the least motion from which one is looked at.
-        const LARGE: f64 = 1e6;
-        /// Part of a frequency by which it is left, and the part of the motion that remains there at a resonance without damping.
-        const ASIDE: [f64; 2] = [1e-6, 0.02];
         let motions: Vec<f64> = response.rows.iter().map(ResponseRow::largest).collect();
         let least = motions.iter().copied().filter(|motion| *motion > 0.0).fold(f64::INFINITY, f64::min);
         for (place, motion) in motions.into_iter().enumerate() {
@@ -190,10 +174,10 @@ impl Direct<'_> {
                 continue;
             }
             self.pencil.at.check_stop()?;
-            let Some([real, imaginary]) = self.motions(frequency * (1.0 + ASIDE[0])) else { continue };
+            let Some([real, imaginary]) = self.motions(frequency * (1.0 + BESIDE_RESONANCE[0])) else { continue };
             let mut beside = Response { nodes: response.nodes.clone(), rows: Vec::new() };
             beside.keep(frequency, [&real, &imaginary]);
-            if beside.rows[0].largest() < ASIDE[1] * motion {
+            if beside.rows[0].largest() < BESIDE_RESONANCE[1] * motion {
                 self.note(frequency);
                 let infinite = [[f64::INFINITY; 2]; 6];
                 response.rows[place].motions.fill(infinite);

@@ -5,16 +5,8 @@
 
 use super::excitation::C64;
 use super::matrices::Matrices;
+use crate::tolerances::dynamic_stiffness::{LEFT, MOST, NEGLIGIBLE, REFINEMENTS};
 use linear::{Factorization, Solver, Sparse, Structure, TooLarge};
-
-/// Unknowns of a group.
-const MOST: usize = 3;
-/// What may be left of a right-hand side, relative to its largest entry.
-const LEFT: f64 = 1e-14;
-/// A part of a solution that is beyond what is read of it.
-const NEGLIGIBLE: f64 = 1e-6;
-/// Refinements of a solution.
-const REFINEMENTS: usize = 4;
 
 /// An entry of the matrices, with the slots of its real and imaginary part in the rows of both.
 struct Entry {

@@ -1,10 +1,7 @@
 //! The frequencies of a response, with those around natural ones.
 
+use crate::tolerances::frequencies::{FAR, NEAR};
 use model::ResponseAsked;
-
-/// The nearest of the frequencies around a natural one, relative to it; the others lie farther by equal factors, up to [`FAR`].
-const NEAR: f64 = 1e-3;
-const FAR: f64 = 0.1;
 
 /// The frequencies asked for, and those around these natural ones that lie in the range.
 pub fn frequencies(asked: &ResponseAsked, natural: &[f64]) -> Vec<f64> {

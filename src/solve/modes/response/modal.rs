@@ -22,17 +22,13 @@ use super::look_up::look_up;
 use super::matrices::Matrices;
 use super::resonance::resonances_in_words;
 use crate::system::assembly::Assembly;
+use crate::tolerances::modal_response::{COUPLED, NEAR, NOTHING_LEFT, UNDRIVEN, ZERO};
 use base::math::Vec6;
 use base::names::short;
 use linear::{Solver, Sparse};
 use model::{ModeExtent, ModeKind, ResponseAsked};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
-
-/// Eigenvalues below this part of the largest found count as zero.
-const ZERO: f64 = 1e-6;
-/// Terms of damping between modes below this part of the largest couple nothing.
-const COUPLED: f64 = 1e-12;
 
 /// A mode: λ = ω² and φ of modal mass 1.
 type Pair = (f64, Vec<f64>);
@@ -97,8 +93,6 @@ pub fn response(
 
 /// What the modes that were not found leave out, in words, where it may be seen.
 fn truncation((natural, extent): (&[f64], ModeExtent), unknowns: usize, highest: f64, spins: bool) -> Option<String> {
-    /// Of the highest mode: what answers as a spring is then at least twice as fast, and wrong by a tenth at most.
-    const NEAR: f64 = 0.5;
     let (last, all) = match extent {
         ModeExtent::UpTo(frequency) => (frequency, false),
         // Fewer than were asked for are all that there are.
@@ -258,10 +252,6 @@ impl<'p> Space<'p> {
 
     /// The mode, from 0, that these forces drive at its own frequency with nothing to limit it, if there is one.
     fn resonance(&self, omega: f64, forces: &DVector<C64>) -> Option<usize> {
-        /// Part of the stiffness of a mode below which inertia and damping leave none of it: natural frequencies are known to this.
-        const NOTHING_LEFT: f64 = 1e-8;
-        /// Part of all forces below which rounding alone drives a mode.
-        const UNDRIVEN: f64 = 1e-9;
         let square = omega * omega;
         let largest = forces.camax();
         let is_free = |i: usize| {

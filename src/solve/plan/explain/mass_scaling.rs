@@ -2,13 +2,11 @@
 
 use super::explanation::Explanation;
 use crate::system::{MassScaling, ScaledPart, System};
+use crate::tolerances::explained_mass_scaling::MUCH;
 use base::diagnostic::Diagnostic;
 use base::names::{short, to_digits};
 use model::Model;
 
-/// Share of the mass of a part from which what is added is warned of: where it is spread, frequencies fall by 2.4 %; in a few elements at the
-/// end of a cantilever it is 8 %. Guides to crash analysis draw the line there too, for each part.
-const MUCH: f64 = 0.05;
 /// Number of parts that are listed.
 const LISTED: usize = 5;
 

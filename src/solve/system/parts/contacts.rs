@@ -1,7 +1,8 @@
 //! Contacts in the equation of motion: their blocks.
 
 use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
-use crate::system::plane::{MotionPlane, SMALL};
+use crate::system::plane::MotionPlane;
+use crate::tolerances::plane::SMALL;
 use mechanics::elements::contact::{
     ContactLaw, ContactPoint, Contacts, ConvexHeap, ConvexPairs, FacetContacts, MOST_NODES, SurfaceShape, TouchKind,
 };

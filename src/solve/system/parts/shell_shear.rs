@@ -10,12 +10,10 @@
 //! of their other nodes, and keep their own where they have none.
 
 use super::shells::ShellState;
+use crate::tolerances::shell_shear::SAME;
 use base::math::Vec3;
 use mechanics::elements::shell::result_axes;
 use model::{Load, Model, PartType, Shell};
-
-/// Directors whose cosine is below this meet at a fold.
-const SAME: f64 = 1.0 - 1e-9;
 
 /// What is known of a node.
 #[derive(Debug, Clone, Copy)]
