@@ -1,8 +1,8 @@
 //! Derived quantities, computed for output only: energies, forces of links, joints and contacts, stress resultants,
 //! strains. A step itself needs none of them.
 
-use super::breakage::Broken;
 use super::effort::Effort;
+use crate::guards::breakage::Broken;
 use crate::system::energy::{self, Energy, PartEnergy};
 use crate::system::{
     ContactState, ContactTouch, Excitation, JointState, LinkState, Loading, SectionPoint, ShearBalance, ShellState,

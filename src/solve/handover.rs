@@ -5,8 +5,8 @@
 //! or gone or because inertia no longer acts, is taken up by forces that go back to zero over the stage, so that nothing jumps.
 
 use super::context::Context;
-use super::load_steps::LoadSteps;
 use super::outcome::Counts;
+use crate::step::load_steps::LoadSteps;
 use crate::system::energy::Energy;
 use crate::system::{Excitation, Forces, Loading, Scale, Side, System, carry_history};
 use crate::tolerances::handover::{LEFT, MEETING};

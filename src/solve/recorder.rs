@@ -1,6 +1,5 @@
 //! The recorder of accepted steps: it counts them, checks their energies and shows them to the observer.
 
-use super::breakage::Breakage;
 use super::context::Context;
 use super::derived::{Derived, Request, Wanted};
 use super::effort::Effort;
@@ -13,6 +12,7 @@ use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
 use super::sample::Sample;
 use super::workspace::Workspace;
+use crate::guards::breakage::Breakage;
 use crate::modes::Modes;
 use crate::system::energy::{Balance, Energy, work_of_rounding};
 use base::snapshot::keep;

@@ -2,9 +2,9 @@
 
 use super::context::Context;
 use super::failure::Failure;
-use super::joints;
 use super::warning::Warning;
 use super::workspace::Workspace;
+use crate::guards::joints;
 use crate::system::Side;
 use crate::system::TangentWeights;
 use crate::tolerances::start::{DIGITS, FIXED, NOWHERE};

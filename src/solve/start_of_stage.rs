@@ -1,14 +1,14 @@
 //! The state at the beginning of a stage: what the stage before has left, and accelerations and reactions of what acts now.
 
-use super::contacts;
 use super::context::Context;
 use super::failure::Failure;
 use super::handover::Handover;
-use super::joints;
 use super::jumps::{impulse, jump_from, jump_velocities, kick};
 use super::start::{add_accelerations, factor_mass, project_velocities, speed, update_rates_of_dependent_nodes};
 use super::warning::Warning;
 use super::workspace::Workspace;
+use crate::guards::contacts;
+use crate::guards::joints;
 use crate::system::Side;
 use crate::tolerances::start::DIGITS;
 use base::math::{Vec6, stack};

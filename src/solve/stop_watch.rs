@@ -1,8 +1,8 @@
 //! What ends a stage before its time: a displacement, or the work or the force of a load, that comes to a value.
 
 use super::context::Context;
-use super::load_steps::LoadSteps;
 use super::workspace::Workspace;
+use crate::step::load_steps::LoadSteps;
 use crate::system::{Loading, Prescribed, Side};
 use crate::tolerances::stop_watch::MET;
 use base::math::{Vec3, rotation};

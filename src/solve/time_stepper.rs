@@ -3,10 +3,10 @@
 use super::context::Context;
 use super::explicit::{CentralDifferenceStepper, RungeKuttaStepper};
 use super::failure::Failure;
-use super::implicit::Implicit;
 use super::jumps;
 use super::report::StepReport;
 use super::workspace::Workspace;
+use crate::step::implicit::Implicit;
 use base::snapshot::{Keep, Snapshot};
 use linear::TooLarge;
 use mechanics::integrators::Stepping;

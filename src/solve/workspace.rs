@@ -2,9 +2,9 @@
 
 use super::context::{self, Context};
 use super::linear_system::LinearSystem;
-use super::load_steps::LoadSteps;
 use super::warning::{Remark, Warnings};
 use crate::modes::ResponseSoFar;
+use crate::step::load_steps::LoadSteps;
 use crate::system::{Forces, Loading, Prescribed, TurningStart};
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};

@@ -5,13 +5,14 @@
 use super::targets::{TargetQuantity, Targets};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::implicit::{ArcLengthConstraint, Condition, EquilibriumSolver, StepMotion};
 use crate::march::March;
-use crate::motion::Stage;
 use crate::outcome::Outcome;
 use crate::recorder::AcceptedStep;
 use crate::report::StepReport;
-use crate::residual;
+use crate::step::equilibrium::EquilibriumSolver;
+use crate::step::residual;
+use crate::step::trial::Stage;
+use crate::strategy::arc_length::{ArcLengthConstraint, Condition, StepMotion};
 use crate::tolerances::arc_length::{BENT, CHANGE, DESIRED, HARD, MOST_STEPS, MOST_TARGETS, STRAIGHT, TRIES};
 use crate::workspace::Workspace;
 use base::snapshot::keep;

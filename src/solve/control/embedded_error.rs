@@ -7,7 +7,7 @@ use crate::explicit::RungeKuttaStepper;
 use crate::failure::Failure;
 use crate::jumps;
 use crate::report::StepReport;
-use crate::size::Size;
+use crate::step::size::Size;
 use crate::system::kinks::has_kinks;
 use crate::tolerances::embedded_error::{GLANCE, GROWTH, SAFETY};
 use crate::workspace::Workspace;

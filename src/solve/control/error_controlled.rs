@@ -14,11 +14,12 @@ use super::lasting_error::LastingError;
 use super::tolerance::{EventLimit, FollowTolerance};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::implicit::{Implicit, IterationMatrix};
 use crate::jumps;
-use crate::motion::Stage;
 use crate::report::StepReport;
-use crate::size::Size;
+use crate::step::implicit::Implicit;
+use crate::step::size::Size;
+use crate::step::tangent::IterationMatrix;
+use crate::step::trial::Stage;
 use crate::tolerances::error_controlled::{
     FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WEIGHT, WORTH,
 };

@@ -1,6 +1,6 @@
 //! The reference of errors: the largest motion so far, or that of trial steps ahead.
 
-use crate::size::Size;
+use crate::step::size::Size;
 use crate::tolerances::error_measure::{AHEAD, TRACE};
 use base::math::{Vec6, angular, linear};
 use base::snapshot::keep;

@@ -4,8 +4,8 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::joints::constraints_violated;
-use crate::projection::ConstraintProjection;
+use crate::guards::joints::constraints_violated;
+use crate::step::projection::ConstraintProjection;
 use crate::system::TangentWeights;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::{Masses, NodeRates};

@@ -4,8 +4,8 @@
 use super::accelerations::Accelerations;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::joints::constraints_violated;
-use crate::motion::update_dependent_nodes;
+use crate::guards::joints::constraints_violated;
+use crate::step::trial::update_dependent_nodes;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
 use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};

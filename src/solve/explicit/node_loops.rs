@@ -3,8 +3,8 @@
 
 use super::node_sums::StepSums;
 use crate::context::Context;
-use crate::motion::{prescribe, rates_of, update_dependent_nodes};
 use crate::node_chunks::{Largest, NodeChunk, Nothing};
+use crate::step::trial::{prescribe, rates_of, update_dependent_nodes};
 use crate::system::masses::{Masses, NodeRates};
 use crate::workspace::Workspace;
 use base::math::rotation::Chart;

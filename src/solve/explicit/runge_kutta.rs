@@ -2,18 +2,19 @@
 
 use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
-use crate::commit::{Account, commit};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::motion::{excite, measure_reach, rates_of, update_dependent_nodes};
+use crate::guards::{contacts, joints, links};
 use crate::report::StepReport;
-use crate::size::Size;
+use crate::step::commit::{Account, commit};
+use crate::step::residual;
+use crate::step::size::Size;
+use crate::step::trial::{excite, measure_reach, rates_of, update_dependent_nodes};
+use crate::step::work::{Power, WorkQuadrature, weight_of};
 use crate::system::Side;
 use crate::system::masses::NodeRates;
 use crate::tolerances::explicit_runge_kutta::FARTHEST;
-use crate::work::{Power, WorkQuadrature, weight_of};
 use crate::workspace::Workspace;
-use crate::{contacts, joints, links, residual};
 use base::math::rotation::{exp, inverse_tangent, renormalise};
 use base::math::{Vec6, angular, linear, stack};
 use base::snapshot::keep;

@@ -1,0 +1,76 @@
+//! What breaks in a run: elements and links that carry nothing any more, from one step to the next.
+
+use crate::context::Context;
+use crate::system::System;
+use base::math::Vec3;
+use base::snapshot::keep;
+use mechanics::state::State;
+
+/// An element or a link that has failed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Broken {
+    /// What it is: an element of a part, or a link.
+    pub what: String,
+    /// Why it failed.
+    pub reason: String,
+    /// The mean position of its nodes, global components.
+    pub place: Vec3,
+}
+
+/// What has failed so far. Nothing is looked at where nothing can fail.
+#[derive(Default)]
+pub struct Breakage {
+    /// Indices of the groups whose elements may fail.
+    groups: Vec<usize>,
+    /// Whether each of their elements has failed.
+    failed: Vec<bool>,
+    /// What failed in the last step.
+    new: Vec<Broken>,
+}
+
+keep!(Breakage { groups, failed } without { new });
+
+impl Breakage {
+    /// Takes what has failed before the run, or the stage.
+    pub fn begin(&mut self, system: &System, state: &State) {
+        self.groups = (0..system.groups.len()).filter(|&group| system.groups[group].block.can_fail()).collect();
+        self.failed.clear();
+        for group in self.groups.iter().map(|&group| &system.groups[group]) {
+            let history = &state.history[group.history.clone()];
+            self.failed.extend((0..group.block.len()).map(|e| group.block.has_failed(e, history)));
+        }
+    }
+
+    /// Finds what has failed in an accepted step.
+    pub fn look(&mut self, cx: &Context, state: &State) {
+        self.new.clear();
+        let mut failed = self.failed.iter_mut();
+        for group in self.groups.iter().map(|&group| &cx.system.groups[group]) {
+            let history = &state.history[group.history.clone()];
+            for (e, failed) in (0..group.block.len()).zip(&mut failed) {
+                if *failed || !group.block.has_failed(e, history) {
+                    continue;
+                }
+                *failed = true;
+                let part = group.part_of(e, cx.model);
+                let what = match group.kind.is_deformable() {
+                    true => format!("element {} of `{}`", group.first + e, part.name()),
+                    false => format!("link `{}`", part.name()),
+                };
+                let nodes = group.block.nodes(e);
+                let place = nodes.iter().map(|&node| state.nodes[node].x).sum::<Vec3>() / nodes.len() as f64;
+                self.new.push(Broken { what, reason: group.block.failure_reason(e, history), place });
+            }
+        }
+    }
+
+    /// What failed in the last step.
+    pub fn new_ones(&self) -> &[Broken] {
+        &self.new
+    }
+
+    /// The number of elements and links that have failed; `None` where none can.
+    pub fn count(&self) -> Option<usize> {
+        (!self.groups.is_empty()).then(|| self.failed.iter().filter(|failed| **failed).count())
+    }
+}

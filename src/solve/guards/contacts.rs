@@ -1,0 +1,93 @@
+//! Checks whether a step is short enough for the contacts that it meets.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::tolerances::contacts::{BEGINS_CLOSED, MEANT, SEEN, SUNK, TO_THE_MIDDLE};
+use crate::warning::Warning;
+use crate::workspace::Workspace;
+use mechanics::state::{Configuration, State};
+use model::{Contact, Model, PartType};
+use std::ops::Range;
+
+/// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.
+///
+/// # Errors
+/// [`Failure::ContactNotResolved`] where the step is too long for a contact.
+pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failure> {
+    if !cx.system.has_contacts() {
+        return Ok(());
+    }
+    cx.system.unresolved_impact(state, ahead).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
+}
+
+/// Checks the motion found at `ahead` of the state: no point may have passed through a surface.
+///
+/// # Errors
+/// [`Failure::ContactNotResolved`] where something has.
+pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) -> Result<(), Failure> {
+    if !cx.system.has_contacts() {
+        return Ok(());
+    }
+    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
+    cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
+}
+
+/// Notes how deep contacts are pressed in at the end of a step, and warns where that is seen.
+pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
+    if !cx.system.has_contacts() {
+        return;
+    }
+    let name = |part: usize| cx.model.parts[part].name().to_owned();
+    if !ws.warnings.knows(|known| matches!(known, Warning::SideBySide { .. }))
+        && let Some(part) = cx.system.side_by_side(state)
+    {
+        ws.warnings.add(Warning::SideBySide { name: name(part) });
+    }
+    if !ws.warnings.knows(|known| matches!(known, Warning::Crowded { .. }))
+        && let Some(part) = cx.system.crowded(state)
+    {
+        ws.warnings.add(Warning::Crowded { name: name(part) });
+    }
+    for (group, gap) in cx.system.last_gaps(state) {
+        let Some(contact) = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size)
+        else {
+            continue;
+        };
+        let limit = match contact.chosen {
+            _ if contact.has_facets() => TO_THE_MIDDLE,
+            Some(_) => SEEN,
+            None => MEANT,
+        };
+        if -gap > limit * contact.size {
+            ws.warnings.deepen(&contact.name, -gap, contact.size);
+        }
+    }
+}
+
+/// Warns of contacts that a dynamic stage begins with, `fresh` being the ranges of history of what was not there before, where something
+/// lies inside the surface already: it is thrown out by energy that nothing has brought.
+pub fn warn_of_closed(cx: &Context, ws: &mut Workspace, state: &State, fresh: &[Range<usize>]) {
+    if !cx.is_dynamic() || !cx.system.has_contacts() {
+        return;
+    }
+    for (group, gap) in cx.system.last_gaps(state) {
+        let is_fresh = fresh.iter().any(|range| range.contains(&group.history.start));
+        let contact = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -BEGINS_CLOSED * contact.size);
+        if let Some(contact) = contact.filter(|contact| is_fresh && contact.law.is_some()) {
+            ws.warnings.add(Warning::BeginsClosed { name: contact.name.clone(), depth: -gap });
+        }
+    }
+}
+
+/// An energy that no one sees where bodies come to rest on each other: it lifts them by a thousandth of their size, the depth by
+/// which stiffnesses are chosen. Zero without contacts or weight.
+pub fn settling_energy(model: &Model) -> f64 {
+    let acting = model.each::<Contact>().filter(|contact| contact.law.is_some());
+    let size = acting.map(|contact| contact.size).fold(f64::INFINITY, f64::min);
+    let mass: f64 = model.bodies.iter().map(|body| body.mass).sum();
+    if size.is_finite() { SUNK * size * mass * model.loading.gravity.norm() } else { 0.0 }
+}
+
+fn too_long(cx: &Context, contact: usize) -> Failure {
+    Failure::ContactNotResolved { name: cx.model.parts[contact].name().to_owned() }
+}

@@ -1,0 +1,27 @@
+//! Watches rotations that supports fix alone: such a one is a component of each step's rotation vector, and its total drifts where the node
+//! turns about other axes too.
+
+use crate::context::Context;
+use crate::tolerances::drift::{LOOKS, NOTICED};
+use crate::workspace::Workspace;
+use base::math::rotation;
+use mechanics::state::State;
+use model::DIRECTIONS;
+
+/// Notes the largest drift at the end of a step that began at `from`, where that passes one of a hundred equal parts of the run. A later stage
+/// begins with rotations that are no drift.
+pub fn note(cx: &Context, ws: &mut Workspace, state: &State, from: f64) {
+    let end = cx.model.analysis.end_time;
+    let part = |time: f64| (LOOKS * time / end).floor();
+    if cx.model.analysis.begin > 0.0 || part(from) == part(state.time) {
+        return;
+    }
+    let fixed = cx.model.constraints.restraints.iter().filter(|held| held.dof > 2 && held.motion.is_none());
+    for held in fixed {
+        let others = (3..6).filter(|&dof| dof != held.dof && cx.plan.is_unknown(held.node, dof)).count();
+        let drift = rotation::log(&state.nodes[held.node].rotation)[held.dof - 3].abs();
+        if others == 2 && drift > NOTICED {
+            ws.warnings.drift(&cx.model.nodes[held.node].label, DIRECTIONS[held.dof], drift);
+        }
+    }
+}

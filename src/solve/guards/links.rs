@@ -1,0 +1,37 @@
+//! Whether bushings still know their moments at the end of a step, and supports the rotations that they give.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::system::results::{bushing_turned_over, bushing_turns_too_far};
+use crate::workspace::Workspace;
+use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::state::State;
+use model::Link;
+
+/// Before the trial motion is taken, at the end of a step of length `dt`.
+///
+/// # Errors
+/// [`Failure::BushingTurnedOver`] where the ends of a bushing have turned against each other by half a turn,
+/// [`Failure::BushingTurnsTooFar`] where they turn by so much in the step that it cannot be told from less,
+/// [`Failure::GivenRotationLost`] where a rotation beside a free one is no longer known.
+pub fn check(cx: &Context, ws: &Workspace, state: &State, dt: f64) -> Result<(), Failure> {
+    let name = |place: usize| cx.model.each::<Link>().nth(place).map(|link| link.name.clone());
+    // The longer step is the cause where both hold.
+    if let Some(name) = bushing_turns_too_far(cx.system, &state.nodes, &ws.trial, dt).and_then(name) {
+        return Err(Failure::BushingTurnsTooFar { name, dt });
+    }
+    let turned = bushing_turned_over(cx.system, &state.nodes, &ws.trial).and_then(name);
+    turned.map_or(Ok(()), |name| Err(Failure::BushingTurnedOver { name }))?;
+    for joint in cx.system.joints.iter().filter(|joint| joint.supports) {
+        let [node, support] = joint.nodes;
+        let both = [&state.nodes[node], &ws.trial[node]];
+        let lost = |row: &ConstraintEquation| match row {
+            ConstraintEquation::Given(angle) => angle.is_lost(both, &ws.trial[support]),
+            _ => false,
+        };
+        if joint.equations.iter().any(lost) {
+            return Err(Failure::GivenRotationLost { label: cx.model.nodes[node].label.clone() });
+        }
+    }
+    Ok(())
+}

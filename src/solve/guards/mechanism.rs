@@ -1,0 +1,184 @@
+//! Mechanisms: motions that nothing resists. Rounding may leave a pivot of any size where an exact one would be zero, so the matrix is
+//! not asked but the elements: a motion is a mechanism where it strains none of them.
+
+use crate::guards::mode::Mode;
+use crate::strategy::stabilization::HeldByForces;
+use crate::system::{DofMap, Group, System, TangentWeights, open_gap};
+use crate::tolerances::mechanism::{ENERGY, FORCE, MOVING};
+use base::math::{Vec6, angular, linear};
+use base::names::short;
+use linear::Solver;
+use mechanics::elements::{ElementBlock, Moduli};
+use mechanics::state::Configuration;
+use model::Model;
+
+/// The node and degree of freedom that a mechanism moves most; `None` where elements resist every motion.
+/// The matrix that `solver` has factored is that of `now`. Forces count where they are given as `held`.
+pub fn find(
+    system: &System,
+    dofs: &DofMap,
+    solver: &mut Solver,
+    now: &Configuration,
+    (weights, held): (TangentWeights, Option<&HeldByForces>),
+    length: f64,
+) -> Option<(usize, usize)> {
+    let mode = Mode::softest(solver, dofs, length)?;
+    let mut motions = mode.motions(dofs);
+    system.project(now.nodes, &mut motions);
+    let resisted = opens_joints(system, now, &motions, length)
+        || strains_elements(system, now, weights, &motions, length)
+        || held.is_some_and(|held| held.resist(&mode));
+    if resisted { None } else { mode.largest(dofs) }
+}
+
+/// True where a joint resists the motion, which it does where its constraint equations would be violated.
+fn opens_joints(system: &System, now: &Configuration, motions: &[Vec6], length: f64) -> bool {
+    let size = |motion: &Vec6| linear(motion).amax().max(length * angular(motion).amax());
+    system.joints.iter().any(|joint| {
+        let [a, b] = joint.nodes;
+        joint.equations.iter().enumerate().any(|(k, equation)| {
+            let gap = joint.opening(k, now.nodes, motions);
+            let lever = if equation.is_rotational() { length } else { 1.0 };
+            gap.abs() * lever > MOVING * size(&motions[a]).max(size(&motions[b])).max(MOVING)
+        })
+    })
+}
+
+/// True where elements are strained, by their energy or by the forces on one of them.
+pub fn strains_elements(
+    system: &System,
+    now: &Configuration,
+    weights: TangentWeights,
+    motions: &[Vec6],
+    length: f64,
+) -> bool {
+    let mut strains = Strains { motions, length, energy: 0.0, terms: 0.0, largest: 0.0 };
+    let mut K = Vec::new();
+    for group in &system.groups {
+        let (block, d, now) = (&group.block, group.block.dofs(), &group.configuration(now));
+        let is_unilateral = group.kind.is_unilateral();
+        each_pair(block.as_ref(), now, weights.rate, |_, nodes, K| strains.add(K, nodes, d, is_unilateral));
+        for e in (0..block.len()).filter(|&e| !(is_unilateral && block.is_inactive(e, now))) {
+            let nodes = block.nodes(e);
+            K.clear();
+            K.resize((d * nodes.len()).pow(2), 0.0);
+            block.tangent(e, now, weights.rate, weights.moduli, &mut K);
+            strains.add(&K, nodes, d, is_unilateral);
+        }
+    }
+    strains.energy.abs() > ENERGY * strains.terms || strains.largest > FORCE
+}
+
+/// What a motion strains.
+struct Strains<'a> {
+    motions: &'a [Vec6],
+    length: f64,
+    /// Twice the energy of all elements, and the sum of the magnitudes of its terms.
+    energy: f64,
+    terms: f64,
+    /// The largest force, of the terms that it is summed from.
+    largest: f64,
+}
+
+impl Strains<'_> {
+    /// Adds those of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes.
+    fn add(&mut self, K: &[f64], nodes: &[usize], d: usize, is_unilateral: bool) {
+        // Translation as a whole strains no element, unless one of its nodes is a number and no place; without it motions have the digits of
+        // strains.
+        let mut common = if is_unilateral { Vec6::zeros() } else { self.motions[nodes[0]] };
+        for direction in (0..3).filter(|&direction| !is_free(K, d, direction)) {
+            common[direction] = 0.0;
+        }
+        let whole = |j: usize| self.motions[nodes[j / d]][j % d];
+        let own = |j: usize| if j % d < 3 { whole(j) - common[j % d] } else { whole(j) };
+        let floor = |j: usize| if j % d < 3 { MOVING } else { MOVING / self.length };
+        for (i, row) in K.chunks(d * nodes.len()).enumerate() {
+            let sum = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k * of(j)).sum::<f64>();
+            let size = |of: &dyn Fn(usize) -> f64| row.iter().enumerate().map(|(j, k)| k.abs() * of(j)).sum::<f64>();
+            let force = sum(&own);
+            let size_of_force = size(&|j| own(j).abs().max(floor(j)));
+            if size_of_force > 0.0 {
+                self.largest = self.largest.max(force.abs() / size_of_force);
+            }
+            self.energy += own(i) * force;
+            self.terms += whole(i).abs() * size(&|j| whole(j).abs());
+        }
+    }
+}
+
+/// True where the forces of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes, do not change as all
+/// nodes move alike in a direction.
+fn is_free(K: &[f64], d: usize, direction: usize) -> bool {
+    let width = K.len().isqrt();
+    K.chunks(width.max(1)).all(|row| {
+        let along = || row.iter().skip(direction).step_by(d);
+        along().sum::<f64>().abs() <= FORCE * along().map(|k| k.abs()).sum::<f64>()
+    })
+}
+
+/// Calls with the element, the nodes and the tangent of each pair that touches, of a block whose elements wander.
+fn each_pair(block: &dyn ElementBlock, now: &Configuration, rate: f64, mut act: impl FnMut(usize, &[usize], &[f64])) {
+    let Some(wandering) = block.wandering() else { return };
+    let partners = wandering.partners(now.nodes);
+    let mut room = vec![0.0; (6 * partners.most_nodes()).pow(2)];
+    wandering.pair_tangents(&partners, now, rate, &mut room, &mut |place, K| {
+        act(partners.pairs[place][0], partners.nodes(place), K);
+    });
+}
+
+/// The number of elements that neither push nor pull as they lie: links and tension-only bars that are open or slack, contacts that do
+/// not touch. Those whose elements wander are left out: they have no tangent of their own, touching or not.
+pub fn open_elements(system: &System, now: &Configuration) -> usize {
+    let open = |group: &Group| {
+        let now = &group.configuration(now);
+        (0..group.block.len()).filter(|&e| group.block.is_inactive(e, now)).count()
+    };
+    system.groups.iter().filter(|group| group.block.wandering().is_none()).map(open).sum()
+}
+
+/// The name, in quotes, of a part that is open or slack `now`, and was not `before`, where that is given.
+pub fn opened_part(
+    model: &Model,
+    system: &System,
+    before: Option<&Configuration>,
+    now: &Configuration,
+) -> Option<String> {
+    system.groups.iter().find_map(|group| {
+        let block = &group.block;
+        let (before, now) = (before.map(|before| group.configuration(before)), group.configuration(now));
+        let was_open = |e: usize| before.as_ref().is_some_and(|before| block.is_inactive(e, before));
+        let e = (0..block.len()).find(|&e| block.is_inactive(e, &now) && !was_open(e))?;
+        Some(format!("`{}`", group.part_of(e, model).name()))
+    })
+}
+
+/// The name, in quotes, of a part at a node, or at a node that follows it, with the gap of a contact, which neither pushes nor pulls as it lies: a link whose gap is open, a rope
+/// that is slack, a contact that does not touch.
+pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usize) -> Option<String> {
+    let follows = |of: usize| system.rigid_links.iter().any(|link| link.node == of && link.master == node);
+    let mut K = Vec::new();
+    system.groups.iter().find_map(|group| {
+        let (block, now) = (&group.block, &group.configuration(now));
+        let mut touching = Vec::new();
+        each_pair(block.as_ref(), now, 0.0, |e, _, _| touching.push(e));
+        let mut is_open = |&e: &usize| {
+            let nodes = block.nodes(e);
+            // What counts the turns of a joint never pushes, open or not.
+            if !group.part_of(e, model).is_listed() || !nodes.iter().any(|&of| of == node || follows(of)) {
+                return false;
+            }
+            K.clear();
+            K.resize((block.dofs() * nodes.len()).pow(2), 0.0);
+            if touching.contains(&e) {
+                return false;
+            }
+            if !block.is_inactive(e, now) {
+                block.tangent(e, now, 0.0, Moduli::Algorithmic, &mut K);
+            }
+            K.iter().all(|&k| k == 0.0)
+        };
+        let e = (0..block.len()).find(|e| is_open(e))?;
+        let gap = open_gap(group, now.history).map_or_else(String::new, |gap| format!(" (its gap is {})", short(gap)));
+        Some(format!("`{}`{gap}", group.part_of(e, model).name()))
+    })
+}

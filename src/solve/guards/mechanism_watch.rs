@@ -1,0 +1,99 @@
+//! The watch for mechanisms in statics: the first matrix of a run is searched, and each that follows something that has opened.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::guards::mechanism;
+use crate::strategy::stabilization::HeldByForces;
+use crate::system::{Prescribed, TangentWeights};
+use base::snapshot::keep;
+use linear::Solver;
+use mechanics::state::{Configuration, State};
+
+/// What is known of open parts.
+#[derive(Default)]
+pub struct MechanismWatch {
+    /// The number of elements that were open when a matrix was last searched; none before the first of the run.
+    searched: Option<usize>,
+    /// The part that has opened or gone slack last.
+    opened: Option<String>,
+}
+
+keep!(MechanismWatch { searched, opened });
+
+/// What is open where a matrix is formed.
+#[derive(Clone, Copy)]
+pub struct Openings {
+    /// The number of elements that neither push nor pull.
+    count: usize,
+    /// True where that may have left a mechanism.
+    suspect: bool,
+    /// True where nothing has moved yet: shorter steps do not change what holds the scene.
+    at_start: bool,
+}
+
+impl Openings {
+    /// True where an element neither pushes nor pulls.
+    pub fn any(&self) -> bool {
+        self.count > 0
+    }
+}
+
+impl MechanismWatch {
+    /// Looks at what is open `now`, in a step from `state`.
+    pub fn look(&mut self, cx: &Context, state: &State, prescribed: &[Prescribed], now: &Configuration) -> Openings {
+        // What lifts off, or goes slack, may leave a mechanism behind.
+        let count = if cx.is_dynamic() { 0 } else { mechanism::open_elements(cx.system, now) };
+        match self.searched {
+            Some(known) if count > known => {
+                // Where nothing was open before, it may have opened as the last step ended.
+                let before = (known > 0).then(|| state.configuration());
+                self.opened = mechanism::opened_part(cx.model, cx.system, before.as_ref(), now).or(self.opened.take());
+            }
+            Some(known) if count < known => self.opened = None,
+            _ => {}
+        }
+        Openings {
+            count,
+            suspect: !cx.is_dynamic() && self.searched.is_none_or(|known| count > known),
+            at_start: self.searched.is_none() && state.time == 0.0 && prescribed.iter().all(|given| given.u == 0.0),
+        }
+    }
+
+    /// Searches a factored matrix with these weights for mechanisms, where that is due. Forces of joints count where they are given.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where there is one.
+    pub fn search(
+        &mut self,
+        cx: &Context,
+        solver: &mut Solver,
+        now: &Configuration,
+        weights: (TangentWeights, Option<&HeldByForces>),
+        openings: Openings,
+    ) -> Result<(), Failure> {
+        if openings.suspect {
+            let mechanism = mechanism::find(cx.system, &cx.plan.dofs, solver, now, weights, cx.length);
+            if let Some(place) = mechanism {
+                let open = mechanism::open_part(cx.model, cx.system, now, place.0).or_else(|| self.opened.clone());
+                return Err(Failure::mechanism(cx.model, place, open, openings.at_start));
+            }
+        }
+        if openings.suspect || self.searched.is_some() {
+            self.searched = Some(openings.count);
+        }
+        Ok(())
+    }
+
+    /// The failure of a matrix that has no pivot in this row.
+    pub fn singular(&self, cx: &Context, now: &Configuration, row: usize, openings: Openings) -> Failure {
+        let place = cx.plan.dofs.nodal_dofs().get(row);
+        let open = place.and_then(|&(node, _)| mechanism::open_part(cx.model, cx.system, now, node));
+        let open = open.or_else(|| self.opened.clone());
+        Failure::singular(cx.model, cx.plan, cx.system, row, (open, openings.at_start))
+    }
+
+    /// The name of the part that has opened or gone slack last, in quotes.
+    pub fn opened(&self) -> Option<String> {
+        self.opened.clone()
+    }
+}

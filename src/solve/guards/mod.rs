@@ -1,0 +1,16 @@
+//! Guards: what refuses a step, or warns of it, at named points.
+
+pub mod breakage;
+pub mod contacts;
+pub mod drift;
+pub mod joints;
+pub mod jump;
+pub mod links;
+pub mod massless;
+pub mod mechanism;
+pub mod mechanism_watch;
+pub mod mode;
+pub mod out_of_plane;
+pub mod stability;
+pub mod stability_tangent;
+pub mod strain;

@@ -1,0 +1,288 @@
+//! The stability of equilibria in statics: an equilibrium is stable where the tangent has no negative eigenvalue. Load control finds
+//! equilibria beyond a buckling load as easily as before it, so they are counted at the end of each step. Where the first appears, the
+//! tangents at the ends of the step are combined, K(θ) = K₀ + θ (K₁ − K₀): the smallest θ at which one eigenvalue is negative gives the
+//! load, exactly where stresses grow with it (linear buckling), and the softest mode there is the mode of buckling.
+//!
+//! A load step that ends on an unstable branch is cut, for the path that the loads lead to may bend away from it within the step. Where a short
+//! step ends there too the path itself is unstable, and the run ends. Material that softens and what cannot be judged are warned of.
+//!
+//! The tangent of what slips is not symmetric: a point that is pressed deeper by δ is held back by μ k δ more, and nothing pushes it out for
+//! that. Its symmetric part may then have negative eigenvalues where nothing grows; where it has none, nothing does. So these only raise the
+//! suspicion, which the determinant of the whole tangent settles.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::guards::out_of_plane::OutOfPlane;
+use crate::guards::stability_tangent::{Criterion, Ends, Tangent};
+use crate::linear_system::LinearSystem;
+use crate::system::Forces;
+use crate::tolerances::stability::SHORTEST;
+use crate::warning::{Instability, Remark, Warning};
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use linear::{Factorization, TooLarge};
+use mechanics::state::{Configuration, State};
+
+/// The watch over the equilibria of a static analysis.
+pub struct Stability {
+    /// Unstable modes are counted: until some were found.
+    counts: bool,
+    criterion: Criterion,
+    /// A path of given arc length, which passes limit points.
+    path: Option<Path>,
+    /// A matrix of its own where that of the iteration is kept over steps, or is elastic.
+    own: Option<Box<LinearSystem>>,
+    /// Negative eigenvalues at the last equilibrium, by which tangents that are not symmetric are known to be looked at.
+    seen: usize,
+    /// What was found of the equilibrium at the end of a load step, until that is accepted.
+    found: Found,
+    /// The motion out of the plane, where a plane motion leaves it out, until it has buckled.
+    sideways: Option<Box<OutOfPlane>>,
+}
+
+keep!(Stability { counts, path, own, seen, sideways } without { criterion, found });
+
+/// What was found of an equilibrium.
+#[derive(Default)]
+struct Found {
+    /// The number of negative eigenvalues, where they were counted.
+    negative: Option<usize>,
+    instability: Option<Instability>,
+    /// True where it is unstable only because material softens.
+    softens: bool,
+    /// True where something slips along a path of given arc length, where nothing is judged.
+    slips: bool,
+    /// True where the matrix of the step has been overwritten.
+    overwritten: bool,
+}
+
+/// What was seen of a path.
+struct Path {
+    /// True where loads grow along it.
+    grows: bool,
+}
+
+keep!(Path { grows });
+
+impl Stability {
+    /// The watch of a static analysis; `None` in dynamics, and where the tangent never changes. `kept`: the matrix of the iteration is not
+    /// the tangent at the end of each step.
+    ///
+    /// # Errors
+    /// There is no memory for the motion out of the plane.
+    pub fn for_statics(cx: &Context, kept: bool) -> Result<Option<Stability>, TooLarge> {
+        if cx.is_dynamic() || cx.plan.linear {
+            return Ok(None);
+        }
+        let along = cx.model.analysis.step_length.is_arc_length();
+        let criterion = match cx.plan.kind {
+            _ if cx.system.loads_have_potential(cx.system.plane) => Criterion::Eigenvalues,
+            Factorization::BlockLu => Criterion::Determinant,
+            Factorization::Cholesky => Criterion::SymmetricPart,
+        };
+        let own = match kept || cx.system.history > 0 {
+            true => Some(cx.plan.build(cx.system)?),
+            false => None,
+        };
+        Ok(Some(Stability {
+            // Along a path limit points change the sign of a determinant too.
+            counts: !along || criterion == Criterion::Eigenvalues,
+            criterion,
+            path: along.then_some(Path { grows: true }),
+            own: own.map(|(solver, assembly)| Box::new(LinearSystem::new(solver, assembly))),
+            seen: 0,
+            found: Found::default(),
+            sideways: OutOfPlane::new(cx)?.map(Box::new),
+        }))
+    }
+
+    /// Judges the equilibrium of a load step from `state` to the time `to`, which is left in `ws.trial`, before it is accepted. `turned_back`:
+    /// as in [`Newton::has_turned_back`](crate::step::newton::Newton::has_turned_back).
+    ///
+    /// # Errors
+    /// [`Failure::UnstableStep`] where it lies on an unstable branch and a shorter step may not, [`Failure::Buckles`] where none would help.
+    pub fn judge(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        (to, turned_back): (f64, bool),
+    ) -> Result<(), Failure> {
+        self.found = Found::default();
+        if self.path.is_some() {
+            return Ok(());
+        }
+        let Workspace { matrix, forces, loads, trial, .. } = ws;
+        let [start, end] = [(&state.nodes, 0.0), (&*trial, to - state.time)].map(|(nodes, dt)| Configuration {
+            nodes,
+            history: &state.history,
+            dt,
+            lead: None,
+        });
+        let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [state.time, to] };
+        let analysis = &cx.model.analysis;
+        let shortest = (SHORTEST * analysis.nominal_step()).max(2.0 * analysis.least_step);
+        let cuts = to - state.time > shortest;
+        self.look(cx, (matrix, forces), &ends, None, cuts);
+        match self.found.instability.take_if(|found| found.certain && !found.already && !self.found.softens) {
+            Some(_) if cuts => Err(Failure::UnstableStep),
+            Some(instability) => Err(Failure::Buckles(instability)),
+            None if turned_back && cuts && self.seen == 0 && self.criterion == Criterion::Eigenvalues => {
+                Err(Failure::UnstableStep)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Takes account of the equilibrium at the end of an accepted step, whose start is left in `ws.trial` and which began at the time `from`.
+    /// `grows`: loads grow along the path there, which only a path of given arc length may not do.
+    /// Returns true where the matrix of the step has been overwritten.
+    pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64, grows: bool) -> bool {
+        if from == 0.0 && cx.system.plane.is_some() && !cx.system.joints.is_empty() {
+            ws.warnings.remark(Remark::Jointed);
+        }
+        if self.sideways.as_mut().is_some_and(|out| !out.check(cx, ws, state, from)) {
+            self.sideways = None;
+        }
+        if self.path.is_some() {
+            let Workspace { matrix, forces, loads, trial, history, .. } = ws;
+            let [start, end] = [(&*trial, 0.0), (&state.nodes, state.time - from)].map(|(nodes, dt)| Configuration {
+                nodes,
+                history,
+                dt,
+                lead: None,
+            });
+            let ends =
+                Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
+            self.look(cx, (matrix, forces), &ends, Some(grows), false);
+        }
+        let Found { negative, instability, slips, overwritten, .. } = std::mem::take(&mut self.found);
+        self.seen = negative.unwrap_or(self.seen);
+        if slips {
+            ws.warnings.remark(Remark::Slipping);
+        }
+        if let Some(instability) = instability {
+            ws.warnings.add(Warning::Unstable(instability));
+            self.counts = false;
+        }
+        overwritten
+    }
+
+    /// True where the equilibrium judged last has left no matrix of the step.
+    pub fn has_overwritten(&self) -> bool {
+        self.found.overwritten
+    }
+
+    /// Looks at the equilibrium at the end of a step. Along a path of given arc length `grows` tells whether loads grow; of a step that `cuts`
+    /// where it is unstable, the time is not looked for.
+    fn look(
+        &mut self,
+        cx: &Context,
+        (matrix, forces): (&mut LinearSystem, &mut Forces),
+        ends: &Ends,
+        grows: Option<bool>,
+        cuts: bool,
+    ) {
+        if !self.counts {
+            return;
+        }
+        let Stability { found, own, path, seen, .. } = self;
+        let (is_own, before, end) = (own.is_some(), *seen, &ends.configurations[1]);
+        let matrix = own.as_deref_mut().unwrap_or(matrix);
+        matrix.make_room(cx, end);
+        let mut tangent =
+            Tangent { system: cx.system, dofs: &cx.plan.dofs, matrix, forces, springs: &[], criterion: self.criterion };
+        // The matrix at hand is that of the last correction but one, whose motion differs by the square of the tolerance.
+        if is_own {
+            tangent.form(end, ends.loads[1]);
+            // A plastic plateau has no stiffness, which is no buckling.
+            if tangent.matrix.solver.factor().is_err() {
+                return;
+            }
+        }
+        let negative = tangent.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
+        found.negative = Some(negative);
+        // At a limit point one mode becomes unstable, and loads go back.
+        let turned = |path: &mut Path| grows.is_some_and(|grows| std::mem::replace(&mut path.grows, grows) != grows);
+        let explained = path.as_mut().map_or(0, |path| before + usize::from(turned(path)));
+        let suspicious = match self.criterion {
+            Criterion::Determinant => negative > before || tangent.count() > 0,
+            _ => negative > explained,
+        };
+        if !suspicious {
+            return;
+        }
+        found.overwritten = !is_own;
+        found.softens = cx.system.history > 0 && tangent.is_stable_with_elastic_moduli(ends);
+        let looked = match self.criterion {
+            Criterion::Eigenvalues if cuts && !cx.system.rubs() && tangent.turns_unstable(ends) => {
+                Ok(Some(Instability { certain: true, ..Instability::default() }))
+            }
+            _ => locate(cx, &mut tangent, ends, negative > before, path.is_some()),
+        };
+        match looked {
+            Ok(instability) => found.instability = instability,
+            Err(NotJudged) => found.slips = true,
+        }
+        if path.is_some() && !is_own {
+            // The negative pivots of the equilibrium are told of each step.
+            tangent.form(end, ends.loads[1]);
+            found.overwritten = tangent.matrix.solver.factor().is_err();
+        }
+    }
+}
+
+/// A path of given arc length on which something slips: its limit points change the sign of the determinant too.
+struct NotJudged;
+
+/// The first instability in a step after one was suspected; `appeared`, `along` as for [`locate_in_doubt`].
+fn locate(
+    cx: &Context,
+    tangent: &mut Tangent,
+    ends: &Ends,
+    appeared: bool,
+    along: bool,
+) -> Result<Option<Instability>, NotJudged> {
+    let in_doubt = tangent.criterion == Criterion::SymmetricPart || cx.system.rubs();
+    match tangent.criterion {
+        Criterion::Eigenvalues | Criterion::SymmetricPart if in_doubt => {
+            locate_in_doubt(cx, tangent, ends, appeared, along)
+        }
+        _ => Ok(tangent.locate(cx, ends)),
+    }
+}
+
+/// The first instability in a step whose tangent need not be symmetric, after the symmetric part has raised the suspicion. `appeared`: more of
+/// its eigenvalues are negative than at the start of the step; `along`: the step is one of a path of given arc length.
+fn locate_in_doubt(
+    cx: &Context,
+    tangent: &mut Tangent,
+    ends: &Ends,
+    appeared: bool,
+    along: bool,
+) -> Result<Option<Instability>, NotJudged> {
+    let mut whole = match tangent.matrix.solver.is_symmetric() {
+        true => whole_matrix(cx, &ends.configurations[1]),
+        false => None,
+    };
+    let Tangent { system, dofs, springs, criterion, .. } = *tangent;
+    let matrix = whole.as_mut().unwrap_or(&mut *tangent.matrix);
+    let mut tangent = Tangent { system, dofs, matrix, forces: &mut *tangent.forces, springs, criterion };
+    tangent.criterion = tangent.criterion_between(ends);
+    if tangent.criterion == Criterion::Determinant {
+        if along {
+            return Err(NotJudged);
+        }
+        if !appeared && tangent.unstable_modes_at_end(ends) == Some(0) {
+            return Ok(None);
+        }
+    }
+    Ok(tangent.locate(cx, ends))
+}
+
+/// A matrix that is stored in full, for one look at the determinant of a scene that is solved by the symmetric part; `None` where there is
+/// no memory for it.
+fn whole_matrix(cx: &Context, now: &Configuration) -> Option<LinearSystem> {
+    let built = cx.plan.build_unsymmetric(cx.system, &cx.system.partners(now.nodes));
+    built.ok().map(|(solver, assembly)| LinearSystem::new(solver, assembly))
+}

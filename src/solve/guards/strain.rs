@@ -1,0 +1,26 @@
+//! Watches shells that yield: where they are stretched beyond what their measure of strain is for, their forces are wrong.
+
+use crate::context::Context;
+use crate::tolerances::strain::{LARGE, LARGE_LOGARITHMIC, LOOKS};
+use crate::workspace::Workspace;
+use mechanics::state::State;
+
+/// Notes the largest strain at the end of a step that began at `from`, where that passes one of a hundred equal parts of the run.
+pub fn note(cx: &Context, ws: &mut Workspace, state: &State, from: f64) {
+    let (begin, end) = (cx.model.analysis.begin, cx.model.analysis.end_time);
+    let part = |time: f64| (LOOKS * (time - begin) / (end - begin)).floor();
+    if part(from) == part(state.time) {
+        return;
+    }
+    let now = state.configuration();
+    for group in &cx.system.groups {
+        let own = group.configuration(&now);
+        for e in 0..group.block.len() {
+            let (strain, is_logarithmic) = group.block.surface_strain(e, &own);
+            let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
+            if !(least..=most).contains(&strain) {
+                ws.warnings.stretch(group.part_of(e, cx.model).name(), (strain, is_logarithmic));
+            }
+        }
+    }
+}

@@ -1,0 +1,169 @@
+//! What the load steps of a static analysis leave to those after them: the largest loads and forces so far, and their works.
+//!
+//! Where the loads have gone back to zero, what is left in an elastic structure is rounding, which balances nothing: the forces that it
+//! had are then the measure.
+
+use crate::sudden_loads::SuddenLoads;
+use crate::system::{Loading, Prescribed, Scale};
+use crate::tolerances::load_steps::{GONE, ROUNDING, SEEN};
+use base::snapshot::keep;
+
+/// The largest of each kind so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Peak {
+    /// Gravity, the factors of loads, pressures, prescribed displacements and rotations.
+    acting: [f64; 4],
+    /// The terms that forces are summed from.
+    pub forces: Scale,
+    /// The forces of the residual evaluated last.
+    last: Scale,
+    /// True where nothing acts any more in the step at hand.
+    released: bool,
+    /// True where no loads act in the step at hand, and supports are where they were or have moved so far that stresses would be seen.
+    unloaded: bool,
+    /// True where the last equilibrium had no forces but those of rounding.
+    pub unstressed: bool,
+    /// True once an equilibrium had others.
+    pub stressed: bool,
+}
+
+keep!(Peak { acting, forces, last, released, unloaded, unstressed, stressed });
+
+/// What load steps leave to those after them.
+#[derive(Debug, Clone, Default)]
+pub struct LoadSteps {
+    /// Time and stored energy at the end of the last one.
+    pub stored: Option<(f64, f64)>,
+    /// Time at the start of the last one that was refused for its work, and what was missed.
+    pub doubtful: Option<(f64, f64)>,
+    /// The largest loads and forces so far.
+    pub peak: Peak,
+    /// The works of loads and supports.
+    pub works: Works,
+    /// The loads that the step under way brings on.
+    pub sudden: Option<SuddenLoads>,
+    /// True where no step was short enough to leave the unstressed state: corrections are shortened then.
+    pub careful: bool,
+}
+
+keep!(LoadSteps: Default { stored, doubtful, peak, works, sudden, careful });
+
+impl LoadSteps {
+    /// Copies those of another step; nothing is allocated where both have sudden loads.
+    pub fn copy_from(&mut self, other: &LoadSteps) {
+        let LoadSteps { stored, doubtful, peak, works, sudden, careful } = other;
+        (self.stored, self.doubtful, self.peak, self.works, self.careful) =
+            (*stored, *doubtful, *peak, *works, *careful);
+        match (&mut self.sudden, sudden) {
+            (Some(own), Some(sudden)) => own.copy_from(sudden),
+            (own, sudden) => own.clone_from(sudden),
+        }
+    }
+}
+
+/// The works of loads and of supports in the load steps of a static analysis.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Works {
+    loads: f64,
+    supports: f64,
+    /// The largest sum of their magnitudes: what supports do to loads may leave nothing of either.
+    pub largest: f64,
+    /// The sum of the works of single loads and supports in all steps, without signs: twice what they do to each other where they cancel.
+    pub gross: f64,
+    /// What loads may have done before they were in equilibrium, where they act at once.
+    pub sudden: f64,
+}
+
+keep!(Works { loads, supports, largest, gross, sudden });
+
+impl Works {
+    /// Adds those of a step, and the sum of their terms without signs.
+    pub fn add(&mut self, [loads, supports]: [f64; 2], gross: f64) {
+        self.gross += gross;
+        self.loads += loads;
+        self.supports += supports;
+        self.largest = self.largest.max(self.loads.abs() + self.supports.abs());
+    }
+}
+
+impl Peak {
+    /// Looks at what acts at the end of a load step in a model of this length.
+    pub fn begin_step(&mut self, loads: &Loading, prescribed: &[Prescribed], length: f64) {
+        let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let moved = prescribed.iter().fold(0.0, |most: f64, given| most.max(given.u.abs()));
+        let acting = [loads.field.amax(), largest(&loads.factors), largest(&loads.pressures), moved];
+        let gone: [bool; 4] = std::array::from_fn(|i| acting[i] <= GONE * self.acting[i]);
+        self.released = gone == [true; 4];
+        self.unloaded = gone[..3] == [true; 3] && (moved == 0.0 || moved > SEEN * length);
+        self.acting.iter_mut().zip(acting).for_each(|(most, now)| *most = most.max(now));
+    }
+
+    /// The forces by which a residual is measured whose own forces are `scale`.
+    pub fn scale(&mut self, scale: Scale) -> Scale {
+        self.last = scale;
+        match self.released {
+            true => larger(scale, self.forces),
+            false => scale,
+        }
+    }
+
+    /// True where an equilibrium with this residual has no forces but those of rounding, as where nothing acts yet, or supports move all
+    /// that hangs on them as one.
+    pub fn is_unstressed(&self, residual: f64) -> bool {
+        self.unloaded && residual > ROUNDING
+    }
+
+    /// Keeps the forces of an equilibrium.
+    pub fn keep(&mut self, residual: f64) {
+        self.unstressed = self.is_unstressed(residual);
+        self.stressed |= !self.unstressed;
+        self.forces = larger(self.forces, self.last);
+    }
+}
+
+fn larger(a: Scale, b: Scale) -> Scale {
+    Scale { force: a.force.max(b.force), moment: a.moment.max(b.moment) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The copy keeps its own memory, which is at hand before the step: a step allocates nothing.
+    #[test]
+    fn sudden_loads_are_copied_into_the_memory_at_hand() {
+        let of = |value: f64| {
+            let jump = Loading { factors: vec![value; 3], pressures: vec![value; 2], ..Loading::default() };
+            LoadSteps { sudden: Some(SuddenLoads::of_jump(value, 2.0 * value, jump)), ..LoadSteps::default() }
+        };
+        let places = |of: &LoadSteps| of.sudden.as_ref().map(|sudden| sudden.places());
+        let (mut own, other) = (of(1.0), LoadSteps { careful: true, doubtful: Some((3.0, 4.0)), ..of(5.0) });
+        let before = places(&own);
+        own.copy_from(&other);
+        assert_eq!(places(&own), before);
+        assert_eq!(format!("{own:?}"), format!("{other:?}"));
+        own.copy_from(&LoadSteps::default());
+        assert!(own.sudden.is_none() && !own.careful);
+        own.copy_from(&other);
+        assert_eq!(format!("{own:?}"), format!("{other:?}"));
+    }
+
+    #[test]
+    fn forces_of_the_run_count_where_nothing_acts_any_more() {
+        let mut none = Peak::default();
+        none.begin_step(&Loading { factors: vec![0.0], ..Loading::default() }, &[], 1.0);
+        assert!(
+            none.is_unstressed(1.0) && !none.is_unstressed(1e-3) && none.scale(Scale::default()) == Scale::default()
+        );
+        let loads = |factor: f64| Loading { factors: vec![factor, 0.0], ..Loading::default() };
+        let of = |force: f64| Scale { force, moment: 0.0 };
+        let mut peak = Peak::default();
+        for (factor, own, measure) in
+            [(1.0, 30.0, 30.0), (0.5, 15.0, 15.0), (1e-9, 3e-8, 3e-8), (1e-16, 3e-9, 30.0), (0.0, 1e-9, 30.0)]
+        {
+            peak.begin_step(&loads(factor), &[], 1.0);
+            assert_eq!(peak.scale(of(own)), of(measure), "{factor}");
+            peak.keep(1e-9);
+        }
+    }
+}

@@ -1,0 +1,304 @@
+//! Projection onto the constraints at the end of a step and at the start of a run. Where a scheme writes equilibrium
+//! past the end of the step, the joints are not closed at the end itself. Position, velocity and acceleration there are
+//! projected onto the constraints, one after the other, by the least change in the norm of the masses (E. Eich, SIAM J.
+//! Numer. Anal. 30 (1993)), as if the joints had exerted slightly other forces within the step: they do not drift, and
+//! the accelerations of one step bring no oscillation into the next. The result does not depend on the path of the
+//! iteration.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::guards::joints;
+use crate::linear_system::LinearSystem;
+use crate::plan::Plan;
+use crate::step::trial::update_dependent_nodes;
+use crate::system::TangentWeights;
+use crate::system::{Forces, Loading, System};
+use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};
+use crate::tolerances::projection::TRACE;
+use crate::workspace::Workspace;
+use base::math::rotation::inverse_tangent;
+use base::math::{Vec3, angular};
+use base::snapshot::keep;
+use linear::TooLarge;
+use mechanics::elements::Moduli;
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Configuration, Node, State};
+
+/// The masses and joints of a scene alone, with their own factorization. It is allocated once.
+pub struct ConstraintProjection {
+    /// The system without stiffness, loads and damping.
+    bare: System,
+    matrix: LinearSystem,
+    loading: Loading,
+    forces: Forces,
+    /// Right-hand side, then correction, by unknown.
+    r: Vec<f64>,
+    diagonal: Vec<DiagonalSlot>,
+    /// The slots of degrees of freedom without mass.
+    massless: Vec<DiagonalSlot>,
+    change: ForceChange,
+    /// Room for multipliers that are shared out.
+    shares: Vec<f64>,
+}
+
+keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless, shares });
+
+/// What the joints must carry in addition for the accelerations that were projected last: with M a + Gᵀλ = f before and
+/// M δa + Gᵀδλ = 0, forces and accelerations at the end of a step belong to one another, and both are of the scheme's order.
+/// Where equilibrium is written past the end, forces are carried there on a straight line, which has that order already.
+#[derive(Default)]
+struct ForceChange {
+    /// δλ, per constraint equation.
+    multipliers: Vec<f64>,
+    /// Change of the reactions −M δa − Gᵀδλ, in the order of the model's restraints; empty where forces are not wanted.
+    reactions: Vec<f64>,
+}
+
+keep!(ForceChange { multipliers, reactions });
+
+impl ForceChange {
+    /// No change: what an earlier step has noted belongs to that step alone.
+    fn forget(&mut self) {
+        self.multipliers.fill(0.0);
+        self.reactions.clear();
+    }
+}
+
+/// A slot on the diagonal of the matrix.
+struct DiagonalSlot {
+    slot: usize,
+    is_rotation: bool,
+}
+
+impl ConstraintProjection {
+    /// Factors and buffers for the projection.
+    ///
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn new(plan: &Plan, system: &System, nodes: usize) -> Result<Self, TooLarge> {
+        let bare = system.bare();
+        let (solver, assembly) = plan.build_bare(&bare)?;
+        let has_mass = bare.has_mass(nodes);
+        let slots = |massless: bool| {
+            let directions = plan.dofs.nodal_dofs().iter().enumerate();
+            let kept = directions.filter(|(_, (node, dof))| !massless || !has_mass[*node][usize::from(*dof > 2)]);
+            let slot = |row: usize| solver.slot(row, row);
+            kept.filter_map(|(row, &(_, dof))| slot(row).map(|slot| DiagonalSlot { slot, is_rotation: dof > 2 }))
+                .collect()
+        };
+        Ok(ConstraintProjection {
+            diagonal: slots(false),
+            massless: slots(true),
+            forces: Forces::new(&bare, nodes),
+            loading: Loading::default(),
+            r: vec![0.0; plan.dofs.unknowns()],
+            change: ForceChange { multipliers: vec![0.0; bare.multipliers()], reactions: Vec::new() },
+            shares: vec![0.0; bare.multipliers()],
+            bare,
+            matrix: LinearSystem::new(solver, assembly),
+        })
+    }
+
+    /// The projection for a dynamic analysis with joints, and for a static one where joints share forces; `None` for others.
+    ///
+    /// # Errors
+    /// There is no memory for the solver.
+    pub fn for_analysis(cx: &Context) -> Result<Option<Self>, TooLarge> {
+        let needed = !cx.system.joints.is_empty() && (cx.is_dynamic() || cx.plan.has_redundant_constraints());
+        needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
+    }
+
+    /// Projects the trial motion, at the end of a step of length `dt` from `state`, onto the constraints, and writes
+    /// the increments that lead there.
+    ///
+    /// # Errors
+    /// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
+    pub fn project(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        dt: f64,
+    ) -> Result<(), Failure> {
+        let closed = self.factor(&ws.trial) && self.close(cx, ws, state, scheme, dt);
+        cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
+        if closed { Ok(()) } else { Err(joints::constraints_violated(cx, ws)) }
+    }
+
+    /// Factorizes masses and joints at the given configuration; false where the matrix is singular and the joints
+    /// cannot be closed.
+    fn factor(&mut self, nodes: &[Node]) -> bool {
+        let weights =
+            TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
+        let ConstraintProjection { bare, matrix: LinearSystem { solver, assembly, .. }, forces, loading, .. } = self;
+        assembly.tangent(bare, &Configuration::of(nodes), loading, forces, weights, solver);
+        let values = solver.values();
+        let mut largest = [0.0f64; 2];
+        for &DiagonalSlot { slot, is_rotation } in &self.diagonal {
+            let largest = &mut largest[usize::from(is_rotation)];
+            *largest = largest.max(values[slot].abs());
+        }
+        for &DiagonalSlot { slot, is_rotation } in &self.massless {
+            let mass = largest[usize::from(is_rotation)];
+            values[slot] += TRACE * if mass > 0.0 { mass } else { 1.0 };
+        }
+        solver.factor().is_ok()
+    }
+
+    /// Corrects positions until the gaps are at rounding, then their rates; false where the gaps do not close.
+    fn close(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) -> bool {
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST_CORRECTIONS {
+            let gap = self.gap(cx, ws, 0);
+            // The gap is at rounding, or near it and no longer decreasing.
+            if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
+                self.close_rates(cx, ws, state, scheme, dt);
+                return true;
+            }
+            if gap.is_nan() {
+                return false;
+            }
+            last = gap;
+            self.correct(cx, ws, state, scheme, 0);
+        }
+        false
+    }
+
+    /// Projects velocities, then accelerations, and notes what the joints carry in addition for the latter.
+    fn close_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) {
+        self.close_rate(cx, ws, state, scheme, dt, 1);
+        // Trial steps may have another scheme.
+        self.change.forget();
+        if scheme.instant != 1.0 {
+            self.close_rate(cx, ws, state, scheme, dt, 2);
+            return;
+        }
+        let wants_reactions = cx.wants_forces && !cx.model.constraints.restraints.is_empty();
+        self.forces.multipliers.values.fill(0.0);
+        if wants_reactions {
+            self.on_restraints(cx, &ws.trial);
+        }
+        self.close_rate(cx, ws, state, scheme, dt, 2);
+        self.change.multipliers.copy_from_slice(&self.forces.multipliers.values);
+        if wants_reactions {
+            self.on_restraints(cx, &ws.trial);
+        }
+    }
+
+    /// Corrects velocities (1) or accelerations (2). The constraints are linear in them, so one correction is exact at given
+    /// positions.
+    fn close_rate(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        dt: f64,
+        derivative: usize,
+    ) {
+        let mut last = f64::INFINITY;
+        loop {
+            let gap = self.gap(cx, ws, derivative);
+            if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
+                break;
+            }
+            last = gap;
+            self.correct(cx, ws, state, scheme, derivative);
+        }
+    }
+
+    /// Reactions to inertia and joints alone: those of the first call are subtracted from those of the second.
+    fn on_restraints(&mut self, cx: &Context, nodes: &[Node]) {
+        self.bare.residual(&Configuration::of(nodes), &self.loading, &mut self.forces);
+        let restraints = &cx.model.constraints.restraints;
+        let reactions = restraints.iter().map(|held| -self.forces.on_nodes[held.node][held.dof]);
+        let change = &mut self.change.reactions;
+        if change.is_empty() {
+            change.extend(reactions);
+        } else {
+            change.iter_mut().zip(reactions).for_each(|(change, after)| *change = after - *change);
+        }
+    }
+
+    /// Adds to the multipliers what the joints carry for the accelerations projected last.
+    pub fn carry_multipliers(&self, multipliers: &mut [f64]) {
+        multipliers.iter_mut().zip(&self.change.multipliers).for_each(|(value, change)| *value += change);
+    }
+
+    /// How the reactions change with the accelerations projected last, in the order of the model's restraints.
+    pub fn reaction_changes(&self) -> &[f64] {
+        &self.change.reactions
+    }
+
+    /// The largest gap of the trial motion, or of its first or second derivative, relative to the reach.
+    fn gap(&mut self, cx: &Context, ws: &Workspace, derivative: usize) -> f64 {
+        let gaps = &mut self.forces.multipliers.gaps;
+        cx.system.gaps(&ws.trial, derivative, gaps);
+        cx.system.largest_gap(gaps, ws.reach)
+    }
+
+    /// Makes one correction of the motion, its velocity or its acceleration: the least that closes the gaps at hand.
+    fn correct(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, derivative: usize) {
+        self.r[..cx.nodal_unknowns()].fill(0.0);
+        self.matrix.solve_augmented(&self.forces.multipliers, &mut self.r);
+        if derivative == 2 {
+            self.forces.multipliers.add(&self.r[cx.nodal_unknowns()..]);
+        }
+        for &node in &cx.independent_nodes {
+            let rows = cx.plan.dofs.of(node);
+            let increment = &mut ws.increments[node];
+            let theta = angular(&increment.q);
+            let entry = |i: usize| rows.get(i).map_or(0.0, |row| self.r[row]);
+            let turn = inverse_tangent(&theta, &Vec3::new(entry(3), entry(4), entry(5)));
+            let change = match derivative {
+                0 => &mut increment.q,
+                1 => &mut increment.d,
+                _ => &mut increment.dd,
+            };
+            for i in 0..3 {
+                change[i] += entry(i);
+                if rows.has(3 + i) {
+                    change[3 + i] += turn[i];
+                }
+            }
+            ws.trial[node].advance(&state.nodes[node], increment, scheme.rotation);
+        }
+        update_dependent_nodes(cx, ws, &state.nodes);
+    }
+
+    /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least
+    /// ones with the same forces. In a load step the regularization alone would not do: gaps of second order on the way to equilibrium, over
+    /// ε, stay in what redundant joints do to each other, and grow from step to step.
+    pub fn distribute_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+        if !cx.plan.has_redundant_constraints() {
+            return;
+        }
+        // A step in time has factorized for its projection.
+        if !cx.is_dynamic() && !self.factor(&ws.trial) {
+            return;
+        }
+        let ConstraintProjection { bare, forces, r, matrix, .. } = self;
+        let mut left = std::mem::take(&mut state.multipliers);
+        state.multipliers = std::mem::take(&mut self.shares);
+        state.multipliers.fill(0.0);
+        // M δ + Gᵀμ = Gᵀλ, G δ = 0. A solution leaves the part ε of the forces, which a second one shares out.
+        for _ in 0..2 {
+            forces.multipliers.values.copy_from_slice(&left);
+            bare.joint_forces(&ws.trial, forces);
+            for (r, &(node, dof)) in r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
+                *r = -forces.on_nodes[node][dof];
+            }
+            r[cx.nodal_unknowns()..].fill(0.0);
+            matrix.solver.solve(r);
+            forces.multipliers.values.fill(0.0);
+            forces.multipliers.add(&r[cx.nodal_unknowns()..]);
+            let found = &forces.multipliers.values;
+            for ((share, left), found) in state.multipliers.iter_mut().zip(&mut left).zip(found) {
+                *share += found;
+                *left -= found;
+            }
+        }
+        self.shares = left;
+    }
+}

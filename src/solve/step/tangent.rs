@@ -1,0 +1,205 @@
+//! The matrix of the iteration: formed where it is due, carried along with a scene that turns.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::guards::mechanism_watch::MechanismWatch;
+use crate::report::StepReport;
+use crate::step::trial::Stage;
+use crate::strategy::refresh::Refresh;
+use crate::strategy::rotated_matrix::Turning;
+use crate::strategy::stabilization::{self, HeldByForces, Unheld};
+use crate::system::TangentWeights;
+use crate::workspace::Workspace;
+use base::snapshot::keep;
+use mechanics::elements::Moduli;
+use mechanics::integrators::Coefficients;
+use mechanics::state::{Configuration, Node, State};
+use model::Update;
+
+/// The matrix at hand; its numbers are in the workspace.
+pub struct IterationMatrix {
+    /// The rule by which it is renewed.
+    pub refresh: Refresh,
+    /// What carries it along with a scene that turns.
+    turning: Option<Turning>,
+    mechanisms: MechanismWatch,
+    /// The factor of the mass in it.
+    pub mass_weight: f64,
+    /// The first matrix of a load step, where it was singular and a stabilized one has led on.
+    unheld: Option<Unheld>,
+    /// True where the matrix at hand is stabilized.
+    is_stabilized: bool,
+}
+
+keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight } without { unheld, is_stabilized });
+
+impl IterationMatrix {
+    /// No matrix yet, with the rule of the deck.
+    pub fn new(cx: &Context) -> IterationMatrix {
+        let (method, update) = Refresh::rule(cx);
+        IterationMatrix {
+            refresh: Refresh::new(method, update, cx.plan.linear, cx.plan.refresh_cost),
+            turning: Turning::new(cx).filter(|_| update != Update::Iteration),
+            mechanisms: MechanismWatch::default(),
+            mass_weight: 0.0,
+            unheld: None,
+            is_stabilized: false,
+        }
+    }
+
+    /// Forms and factorizes the matrix for the trial motion where that is due; returns whether it was. `lead` is the iterate from which
+    /// stresses are extrapolated.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where it cannot be factorised, [`Failure::Stopped`] where a signal came meanwhile.
+    pub fn refresh(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        stage: &Stage,
+        lead: Option<&[Node]>,
+        report: &mut StepReport,
+    ) -> Result<bool, Failure> {
+        let dt = report.to - state.time;
+        let key = key(stage.scheme, dt);
+        if !self.refresh.due(report.iterations, key) {
+            return Ok(false);
+        }
+        let may_stabilize = report.iterations == 0 && stabilization::may_help(cx);
+        self.form(cx, ws, state, stage.scheme, (stage.scheme.instant * dt, lead), may_stabilize)?;
+        if let Some(turning) = &mut self.turning {
+            turning.note(&ws.trial);
+        }
+        match self.is_stabilized {
+            // It leads one correction alone; the next matrix has the forces of joints in it.
+            true => self.refresh.rejected(),
+            false => self.refresh.done(key),
+        }
+        report.factorizations += 1;
+        Ok(true)
+    }
+
+    /// Forms and factorizes the matrix. It may be singular where everything that resists has yielded; the elastic
+    /// matrix then leads on. Where it is singular for want of the forces that joints will exert, a stabilized one does.
+    fn form(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        state: &State,
+        scheme: &Coefficients,
+        (ahead, lead): (f64, Option<&[Node]>),
+        may_stabilize: bool,
+    ) -> Result<(), Failure> {
+        let (rate, acceleration) = scheme.weights();
+        self.mass_weight = acceleration;
+        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead };
+        ws.matrix.make_room(cx, &now);
+        let openings = self.mechanisms.look(cx, state, &ws.prescribed.instant, &now);
+        let mut moduli = self.refresh.moduli();
+        self.is_stabilized = false;
+        loop {
+            let weights = TangentWeights { stiffness: true, rate, acceleration, turning: scheme.turning, moduli };
+            let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
+            matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
+            if let Some(unheld) = self.unheld.as_ref().filter(|_| self.is_stabilized) {
+                unheld.add_springs(cx, &mut matrix.solver);
+            }
+            let held = self.unheld.as_ref().map(|unheld| HeldByForces {
+                // A factorization overwrites it.
+                assembled: matrix.solver.matrix(cx.plan.dofs.nodal_dofs().len()),
+                springs: unheld.stiffness,
+            });
+            ws.factorizations += 1;
+            let failure = match matrix.factor(cx) {
+                Ok(false) => return Err(Failure::Stopped),
+                // The next matrix tells whether anything holds.
+                Ok(true) if self.is_stabilized => return Ok(()),
+                Ok(true) => {
+                    let weights = (weights, held.as_ref());
+                    match self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings) {
+                        Ok(()) => {
+                            // What stands on its joints, and falls, has as much stiffness as what hangs, of the other sign.
+                            let falls = |_: &mut Unheld| matrix.solver.negative_eigenvalues() > cx.system.multipliers();
+                            return self.unheld.take_if(falls).map_or(Ok(()), |unheld| Err(unheld.failure));
+                        }
+                        Err(failure) => failure,
+                    }
+                }
+                Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => {
+                    moduli = Moduli::Elastic;
+                    continue;
+                }
+                Err(singular) => self.mechanisms.singular(cx, &now, singular.row, openings),
+            };
+            if !may_stabilize || self.is_stabilized || openings.any() {
+                return Err(failure);
+            }
+            self.unheld = Some(Unheld::new(cx, &ws.r, failure));
+            self.is_stabilized = true;
+        }
+    }
+
+    /// Why a load step has failed that began with a stabilized matrix: nothing holds the scene. `None` for other steps.
+    pub fn unheld(&mut self) -> Option<Failure> {
+        self.unheld.take().map(|unheld| unheld.failure)
+    }
+
+    /// True where the matrix at hand is stabilized: its correction leads on, but says nothing of convergence.
+    pub fn is_stabilized(&self) -> bool {
+        self.is_stabilized
+    }
+
+    /// Solves for the correction, which takes the place of the residual in `ws.r`.
+    ///
+    /// # Errors
+    /// [`Failure::Singular`] where the matrix is stabilized and what nothing else holds would go far.
+    pub fn solve(&mut self, cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
+        let Workspace { matrix, forces, r, trial, .. } = ws;
+        turned(&mut self.turning, trial, r, |r| matrix.solve_augmented(&forces.multipliers, r));
+        ws.solves += 1;
+        let goes_far = self.is_stabilized && !stabilization::stays_in_place(cx, &ws.r);
+        self.unheld.take_if(|_| goes_far).map_or(Ok(()), |unheld| Err(unheld.failure))
+    }
+
+    /// Solves with the matrix carried along to the configuration `nodes`, for right-hand sides without gaps in `ws.r`.
+    pub fn solve_at(&mut self, ws: &mut Workspace, nodes: &[Node]) {
+        let Workspace { matrix, r, .. } = ws;
+        turned(&mut self.turning, nodes, r, |r| matrix.solver.solve(r));
+        ws.solves += 1;
+    }
+
+    /// Discards the matrix, which belongs to a motion that was not taken or to other loads.
+    pub fn discard(&mut self) {
+        self.refresh.rejected();
+        if let Some(turning) = &mut self.turning {
+            turning.rest();
+        }
+    }
+
+    /// Notes that an iteration beside the steps, with a rule of its own, has formed the matrix for a step of `dt`.
+    pub fn note_formed(&mut self, scheme: &Coefficients, dt: f64) {
+        self.refresh.done(key(scheme, dt));
+    }
+
+    /// The name of the part that has opened or gone slack last, in quotes.
+    pub fn opened_part(&self) -> Option<String> {
+        self.mechanisms.opened()
+    }
+}
+
+/// Solves in the configuration of the matrix at hand for right-hand sides in that of `nodes`.
+fn turned(turning: &mut Option<Turning>, nodes: &[Node], r: &mut [f64], solve: impl FnOnce(&mut [f64])) {
+    let Some(turning) = turning else { return solve(r) };
+    let turns = turning.take_back(nodes, r);
+    solve(r);
+    if turns {
+        turning.carry_along(nodes, r);
+    }
+}
+
+/// The quantity on which the matrix of a step depends besides the motion: the length of the step, or the time over
+/// which its rates are taken.
+fn key(scheme: &Coefficients, dt: f64) -> f64 {
+    if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
+}

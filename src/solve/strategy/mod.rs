@@ -1,0 +1,12 @@
+//! Strategies of the iteration: when a matrix is renewed, and what becomes of a correction before it is added.
+
+pub mod anderson;
+pub mod arc_length;
+pub mod augmentation;
+pub mod beam_trees;
+pub mod extrapolation;
+pub mod line_search;
+pub mod refresh;
+pub mod rotated_matrix;
+pub mod stabilization;
+pub mod strained_line;

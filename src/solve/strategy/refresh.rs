@@ -1,0 +1,184 @@
+//! Decides when the matrix is formed and factorized anew.
+
+use crate::context::Context;
+use crate::step::convergence::Judgement;
+use crate::tolerances::refresh::{GROWTH, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
+use base::snapshot::keep;
+use mechanics::elements::Moduli;
+use model::{AnalysisKind, Iteration, Method, Update};
+
+/// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
+/// always takes the same path.
+#[derive(Debug, Clone)]
+pub struct Refresh {
+    method: Method,
+    update: Update,
+    /// Cost of a fresh matrix in iterations.
+    cost: f64,
+    /// Step length of the matrix at hand; `None` where there is none, or it has proved useless.
+    dt: Option<f64>,
+    wanted: bool,
+    /// Iterations of the step for which the matrix was formed, and the iterations beyond that number since.
+    baseline: Option<usize>,
+    excess: usize,
+    /// Number of steps still to start with a fresh matrix, and the number to ask for when an old one misleads next.
+    eager: usize,
+    next_eager: usize,
+    /// Size of a correction beyond which the matrix that gave it is of no more use, as far as was seen.
+    stale_beyond: f64,
+    /// Size of the first correction of the iteration at hand, where its matrix was formed for it.
+    first: Option<f64>,
+    /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
+    fresh_matrix_required: bool,
+}
+
+keep!(Refresh {
+    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required,
+ } without { method, update, cost });
+
+/// The advice after a correction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Advice {
+    /// The iteration goes on.
+    GoOn,
+    /// The old matrix has misled: the iteration goes back to the prediction with a fresh one.
+    Restart,
+}
+
+impl Refresh {
+    /// Method and update of a run, where the deck leaves them open or the analysis decides.
+    pub fn rule(cx: &Context) -> (Method, Update) {
+        let Context { model, system, .. } = *cx;
+        let Iteration { method, update, .. } = model.solution.iteration;
+        // Load steps are long and few, and no mass steadies an old matrix; along a path an old one misleads.
+        if model.analysis.step_length.is_arc_length() {
+            return (Method::TangentStiffness, Update::Iteration);
+        }
+        let mixes = system.yields() && method != Method::TangentStiffness;
+        match (model.analysis.kind, update) {
+            (AnalysisKind::Static, Update::Auto) if !mixes => (method, Update::Iteration),
+            (_, update) => (method, update),
+        }
+    }
+
+    /// The rule of the deck; a linear scene never needs a new matrix.
+    pub fn new(method: Method, update: Update, linear: bool, cost: f64) -> Self {
+        let update = if linear { Update::Never } else { update };
+        Refresh {
+            method,
+            update,
+            cost,
+            dt: None,
+            wanted: false,
+            baseline: None,
+            excess: 0,
+            eager: 0,
+            next_eager: 1,
+            stale_beyond: f64::INFINITY,
+            first: None,
+            fresh_matrix_required: false,
+        }
+    }
+
+    /// The moduli with which the matrix is formed.
+    pub fn moduli(&self) -> Moduli {
+        match self.method {
+            Method::InitialLoad if !self.fresh_matrix_required => Moduli::Elastic,
+            _ => Moduli::Algorithmic,
+        }
+    }
+
+    /// True where the matrix is to be formed before the next solution; `iteration` counts from 0.
+    pub fn due(&self, iteration: usize, dt: f64) -> bool {
+        // Steps of equal length differ by the rounding of their ends.
+        if self.wanted || self.fresh_matrix_required || self.dt.is_none_or(|of| (of - dt).abs() > SAME_STEP * dt) {
+            return true;
+        }
+        match self.update {
+            Update::Iteration => true,
+            Update::Step => iteration == 0,
+            Update::Auto => iteration == 0 && self.eager > 0,
+            Update::Never => false,
+        }
+    }
+
+    /// The rule inside a step that was taken: the matrix at hand leads, whatever the deck asks for.
+    pub fn inside(&self) -> Refresh {
+        let update = if self.update == Update::Never { Update::Never } else { Update::Auto };
+        Refresh { update, eager: 0, wanted: false, ..self.clone() }
+    }
+
+    /// Notes that a matrix has been formed for this step length.
+    pub fn done(&mut self, dt: f64) {
+        self.dt = Some(dt);
+        self.baseline = None;
+        self.excess = 0;
+        self.wanted = false;
+    }
+
+    /// Takes account of a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the
+    /// matrix before it contracts no more: how far is learnt from those that did not.
+    pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
+        if self.update != Update::Auto || self.method == Method::InitialLoad {
+            return;
+        }
+        if count == 1 {
+            self.stale_beyond *= GROWTH;
+            self.first = fresh.then_some(size).filter(|_| size <= self.stale_beyond);
+            self.wanted |= fresh && size > self.stale_beyond;
+        } else if let Some(first) = self.first.take() {
+            if judgement.contraction > USELESS {
+                self.stale_beyond = self.stale_beyond.min(SHARE * first);
+            } else if judgement.contraction < USEFUL {
+                self.stale_beyond = self.stale_beyond.max(first);
+            }
+        }
+    }
+
+    /// Judges the matrix after a correction that was compared with another of the same step. `fresh`: the matrix was
+    /// formed in this step.
+    pub fn advise(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
+        let contraction = judgement.contraction;
+        // An elastic matrix contracts slowly where material yields, and a new one would not be faster.
+        let patient = self.update == Update::Never || self.method == Method::InitialLoad;
+        if patient && (contraction < 1.0 || fresh) {
+            return Advice::GoOn;
+        }
+        if !fresh && contraction > MISLED && !self.fresh_matrix_required {
+            self.wanted = true;
+            self.eager = self.next_eager;
+            self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
+            return Advice::Restart;
+        }
+        self.wanted = contraction > USED_UP || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
+        Advice::GoOn
+    }
+
+    /// Counts an accepted step. A matrix is worth renewing once the iterations that it has cost beyond those of a fresh
+    /// one would have paid for it.
+    pub fn accepted(&mut self, iterations: usize) {
+        self.fresh_matrix_required = false;
+        let baseline = *self.baseline.get_or_insert(iterations);
+        self.excess += iterations.saturating_sub(baseline);
+        self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
+        if self.eager > 0 {
+            self.eager -= 1;
+        } else {
+            self.next_eager = 1.max(self.next_eager / 2);
+        }
+    }
+
+    /// Discards the matrix after a step that was given up: it belongs to a motion that was not taken.
+    pub fn rejected(&mut self) {
+        self.dt = None;
+        self.fresh_matrix_required = false;
+    }
+
+    /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false where it had that
+    /// already.
+    pub fn require_fresh_matrix(&mut self) -> bool {
+        let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
+        self.fresh_matrix_required |= more;
+        more
+    }
+}
