@@ -1,12 +1,11 @@
 //! The interface of a group of like elements to assembly.
 
+use super::contact::PairBlock;
 use super::results::{IntegrationPoint, ShellResultants};
-use super::wandering::Wandering;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 use base::math::{Mat3, Vec3};
 use base::names::short;
-use std::any::Any;
 
 /// Generalised force on a node: force and moment, global components.
 pub type Force = [f64; 6];
@@ -30,12 +29,8 @@ pub trait ElementBlock: Send + Sync {
     }
     /// Nodes of element `e`.
     fn nodes(&self, e: usize) -> &[usize];
-    /// Nodes on which elements may act besides their own, and those of all nodes that they may turn besides.
-    fn further_nodes(&self) -> [&[usize]; 2] {
-        [&[], &[]]
-    }
-    /// The block as elements that act on nodes which change; `None` for all others.
-    fn wandering(&self) -> Option<&dyn Wandering> {
+    /// The block as pairs that may touch; `None` for all others.
+    fn pairs(&self) -> Option<&dyn PairBlock> {
         None
     }
     /// Degrees of freedom of each node: 3, translations only, or 6, translations and rotations.
@@ -148,14 +143,6 @@ pub trait ElementBlock: Send + Sync {
     /// True where element `e` has passed through zero length or area, or stands against its own sections, so that it is no longer what
     /// it models. `before`: the nodes at the start of the step.
     fn is_turned_over(&self, _e: usize, _before: &[Node], _now: &[Node]) -> bool {
-        false
-    }
-    /// The block itself where its type does more than this trait says: contacts, which limit the step.
-    fn as_any(&self) -> Option<&dyn Any> {
-        None
-    }
-    /// True where friction may make tangents unsymmetric.
-    fn rubs(&self) -> bool {
         false
     }
     /// True where forces depend on velocities.

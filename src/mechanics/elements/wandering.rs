@@ -48,6 +48,9 @@ impl Partners {
 
 /// A group of elements that also act on nodes that [`super::ElementBlock::nodes`] does not list.
 pub trait Wandering {
+    /// Nodes on which elements may act beside their own, and the nodes that they may turn.
+    fn further_nodes(&self) -> [&[usize]; 2];
+
     /// All pairs that may act soon at these node positions.
     fn partners(&self, nodes: &[Node]) -> Partners;
 

@@ -8,7 +8,7 @@ use crate::tolerances::mechanism::{ENERGY, FORCE, MOVING};
 use base::math::{Vec6, angular, linear};
 use base::names::short;
 use linear::Solver;
-use mechanics::elements::{ElementBlock, Moduli};
+use mechanics::elements::Moduli;
 use mechanics::state::Configuration;
 use model::Model;
 
@@ -57,7 +57,7 @@ pub fn strains_elements(
     for group in &system.groups {
         let (block, d, now) = (&group.block, group.block.dofs(), &group.configuration(now));
         let is_unilateral = group.kind.is_unilateral();
-        each_pair(block.as_ref(), now, weights.rate, |_, nodes, K| strains.add(K, nodes, d, is_unilateral));
+        each_pair(group, now, weights.rate, |_, nodes, K| strains.add(K, nodes, d, is_unilateral));
         for e in (0..block.len()).filter(|&e| !(is_unilateral && block.is_inactive(e, now))) {
             let nodes = block.nodes(e);
             K.clear();
@@ -116,9 +116,9 @@ fn is_free(K: &[f64], d: usize, direction: usize) -> bool {
     })
 }
 
-/// Calls with the element, the nodes and the tangent of each pair that touches, of a block whose elements wander.
-fn each_pair(block: &dyn ElementBlock, now: &Configuration, rate: f64, mut act: impl FnMut(usize, &[usize], &[f64])) {
-    let Some(wandering) = block.wandering() else { return };
+/// Calls with the element, the nodes and the tangent of each pair that touches, of a group whose elements wander.
+fn each_pair(group: &Group, now: &Configuration, rate: f64, mut act: impl FnMut(usize, &[usize], &[f64])) {
+    let Some(wandering) = group.wandering() else { return };
     let partners = wandering.partners(now.nodes);
     let mut room = vec![0.0; (6 * partners.most_nodes()).pow(2)];
     wandering.pair_tangents(&partners, now, rate, &mut room, &mut |place, K| {
@@ -133,7 +133,7 @@ pub fn open_elements(system: &System, now: &Configuration) -> usize {
         let now = &group.configuration(now);
         (0..group.block.len()).filter(|&e| group.block.is_inactive(e, now)).count()
     };
-    system.groups.iter().filter(|group| group.block.wandering().is_none()).map(open).sum()
+    system.groups.iter().filter(|group| group.wandering().is_none()).map(open).sum()
 }
 
 /// The name, in quotes, of a part that is open or slack `now`, and was not `before`, where that is given.
@@ -160,7 +160,7 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
     system.groups.iter().find_map(|group| {
         let (block, now) = (&group.block, &group.configuration(now));
         let mut touching = Vec::new();
-        each_pair(block.as_ref(), now, 0.0, |e, _, _| touching.push(e));
+        each_pair(group, now, 0.0, |e, _, _| touching.push(e));
         let mut is_open = |&e: &usize| {
             let nodes = block.nodes(e);
             // What counts the turns of a joint never pushes, open or not.

@@ -92,7 +92,7 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         }
     }
     for group in &system.groups {
-        let [nodes, turned] = group.block.further_nodes();
+        let [nodes, turned] = group.further_nodes();
         nodes.iter().for_each(|&node| acts[node][..3].fill(true));
         turned.iter().for_each(|&node| acts[node][3..].fill(true));
     }

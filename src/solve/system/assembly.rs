@@ -261,7 +261,7 @@ impl Assembly {
         let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
         for WanderingPairs { group, partners, destinations } in &self.wanderers {
             let group = &system.groups[*group];
-            let Some(block) = group.block.wandering() else { continue };
+            let Some(block) = group.wandering() else { continue };
             block.pair_tangents(partners, &group.configuration(now), rate, local, &mut |pair, K: &mut [f64]| {
                 how.add((K, 6 * partners.nodes(pair).len()), &destinations[pair], projected, values);
             });

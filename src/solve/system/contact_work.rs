@@ -13,7 +13,6 @@ use super::equations::System;
 use base::math::Vec3;
 use base::math::rotation::log;
 use mechanics::elements::Force;
-use mechanics::elements::contact::Contacts;
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node, State};
 
@@ -23,9 +22,8 @@ use mechanics::state::{Configuration, Node, State};
 pub fn excess_of_mean(system: &System, state: &State, (trial, dt): (&[Node], f64), history: &mut [f64]) -> f64 {
     let mut taken = 0.0;
     let mut F: Vec<Force> = vec![[0.0; 6]; trial.len()];
-    for group in system.groups.iter().skip(system.contacts) {
-        let points = group.block.as_any().and_then(|any| any.downcast_ref::<Contacts>());
-        if points.is_some_and(Contacts::has_multipliers) || group.history.is_empty() {
+    for (group, block) in system.contact_groups() {
+        if block.has_multipliers() || group.history.is_empty() {
             continue;
         }
         let start = state.configuration();

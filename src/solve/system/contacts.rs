@@ -3,7 +3,7 @@
 use super::equations::System;
 use super::group::Group;
 use base::math::Vec3;
-use mechanics::elements::contact::{self, ContactAction, Contacts, ConvexHeap, ConvexPairs, FacetContacts};
+use mechanics::elements::contact::{self, PairBlock};
 use mechanics::elements::{Partners, Wandering};
 use mechanics::state::{Configuration, Node, State};
 use model::{CarriedSurface, Contact, Model, PartType, TouchedSurface};
@@ -35,96 +35,32 @@ pub struct ContactTouch {
     pub m: Vec3,
 }
 
-/// What touches in a group of contacts.
-enum ContactBlock<'a> {
-    Points(&'a Contacts),
-    Pairs(&'a ConvexPairs),
-    Heap(&'a ConvexHeap),
-    Facets(&'a FacetContacts),
-}
-
-impl<'a> ContactBlock<'a> {
-    /// What a group of contacts is; `None` for all others.
-    fn of(group: &'a Group) -> Option<ContactBlock<'a>> {
-        let any = group.block.as_any()?;
-        let points = any.downcast_ref().map(ContactBlock::Points);
-        let convex = || any.downcast_ref().map(ContactBlock::Pairs);
-        let heap = || any.downcast_ref().map(ContactBlock::Heap);
-        let facets = || any.downcast_ref().map(ContactBlock::Facets);
-        points.or_else(convex).or_else(heap).or_else(facets)
-    }
-
-    fn longest_step(&self, history: &[f64]) -> f64 {
-        match self {
-            ContactBlock::Points(block) => contact::longest_step(block, history),
-            ContactBlock::Pairs(block) => contact::convex::longest_pair_step(block, history),
-            ContactBlock::Heap(block) => contact::convex::longest_heap_step(block, history),
-            ContactBlock::Facets(block) => contact::facets::longest_facet_step(block, history),
+/// What all touches together do to the surface: their number, the force and the moment, as [`ContactState`] has them.
+fn resultant(block: &dyn PairBlock, contact: &Contact, now: &Configuration) -> (usize, [Vec3; 2]) {
+    let has_sides = match &contact.surface {
+        TouchedSurface::Shape(_) => true,
+        TouchedSurface::Facets(faces) => faces.has_sides(),
+    };
+    let (mut count, mut f, mut m) = (0, Vec3::zeros(), Vec3::zeros());
+    block.each_action(now, &mut |action| {
+        count += 1;
+        if has_sides {
+            let [force, moment] = action.on_touched();
+            f += force;
+            m += moment;
         }
+    });
+    if let (Some(node), true) = (block.carrier(), count > 0 && contact.has_facets()) {
+        // About the centre of the body so far, and about the origin as that on the facets.
+        (f, m) = (-f, -(m + now.nodes[node].x.cross(&f)));
     }
-
-    fn misses(&self, start: &[Node], now: &Configuration) -> bool {
-        match self {
-            ContactBlock::Points(block) => contact::misses(block, start, now),
-            ContactBlock::Pairs(block) => contact::convex::misses_pair(block, start, now),
-            ContactBlock::Heap(block) => contact::convex::misses_heap(block, start, now),
-            ContactBlock::Facets(block) => contact::facets::misses_facet(block, start, now),
-        }
-    }
-
-    fn last_gap(&self, history: &[f64]) -> f64 {
-        match self {
-            ContactBlock::Points(block) => contact::last_gap(block, history),
-            ContactBlock::Pairs(block) => contact::last_pair_gap(block, history),
-            ContactBlock::Heap(block) => contact::convex::last_heap_gap(block, history),
-            ContactBlock::Facets(block) => contact::facets::last_facet_gap(block, history),
-        }
-    }
-
-    /// Calls with what each touch does to the surface.
-    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
-        match self {
-            ContactBlock::Points(block) => contact::each_touch(block, now, act),
-            ContactBlock::Pairs(block) => contact::each_pair_touch(block, now, act),
-            ContactBlock::Heap(block) => contact::convex::each_heap_touch(block, now, act),
-            ContactBlock::Facets(block) => contact::facets::each_facet_touch(block, now, act),
-        }
-    }
-
-    /// True for nodes of facets that touch a body, to which the facets are what touches.
-    fn is_turned_round(&self, contact: &Contact) -> bool {
-        matches!(self, ContactBlock::Points(_)) && contact.has_facets()
-    }
-
-    /// What all touches together do to the surface: their number, the force and the moment, as [`ContactState`] has them.
-    fn resultant(&self, contact: &Contact, now: &Configuration) -> (usize, [Vec3; 2]) {
-        let has_sides = match &contact.surface {
-            TouchedSurface::Shape(_) => true,
-            TouchedSurface::Facets(faces) => faces.has_sides(),
-        };
-        let (mut count, mut f, mut m, mut on) = (0, Vec3::zeros(), Vec3::zeros(), None);
-        self.each_action(now, &mut |action| {
-            (count, on) = (count + 1, Some(action.on));
-            if has_sides {
-                f += action.f;
-                m += action.m;
-            }
-        });
-        if let (Some(node), true) = (on, self.is_turned_round(contact)) {
-            // About the centre of the body so far, and about the origin as that on the facets.
-            (f, m) = (-f, -(m + now.nodes[node].x.cross(&f)));
-        }
-        (count, [f, m])
-    }
+    (count, [f, m])
 }
 
 /// The least gap of a contact at the start of a step, by its history, where all of it is open; `None` for other groups.
 pub fn open_gap(group: &Group, history: &[f64]) -> Option<f64> {
-    let block = ContactBlock::of(group)?;
-    let gap = match block {
-        ContactBlock::Points(points) if contact::pushes(points, history) => return None,
-        _ => block.last_gap(history),
-    };
+    let block = group.block.pairs().filter(|block| !block.pushes(history))?;
+    let gap = block.last_gap(history);
     (gap > 0.0 && gap.is_finite()).then_some(gap)
 }
 
@@ -137,7 +73,7 @@ impl System {
     /// The groups whose elements wander, with their numbers.
     pub fn wandering_groups(&self) -> impl Iterator<Item = (usize, &Group, &dyn Wandering)> {
         let contacts = self.groups.iter().enumerate().skip(self.contacts);
-        contacts.filter_map(|(number, group)| Some((number, group, group.block.wandering()?)))
+        contacts.filter_map(|(number, group)| Some((number, group, group.wandering()?)))
     }
 
     /// The pairs of elements that may act soon where the nodes lie thus, by their groups.
@@ -147,7 +83,7 @@ impl System {
 
     /// True where friction may make the tangent unsymmetric.
     pub fn rubs(&self) -> bool {
-        self.groups.iter().any(|group| group.block.rubs())
+        self.contact_groups().any(|(_, block)| block.rubs())
     }
 
     /// True where any material has history variables.
@@ -155,31 +91,32 @@ impl System {
         self.groups.iter().any(|group| group.kind.is_deformable() && !group.history.is_empty())
     }
 
-    fn contact_groups(&self) -> impl Iterator<Item = (&Group, ContactBlock<'_>)> {
-        self.groups[self.contacts..].iter().filter_map(|group| Some((group, ContactBlock::of(group)?)))
+    pub(super) fn contact_groups(&self) -> impl Iterator<Item = (&Group, &dyn PairBlock)> {
+        self.groups[self.contacts..].iter().filter_map(|group| Some((group, group.block.pairs()?)))
+    }
+
+    /// The first contact, by its index in [`Model::parts`], of which this is so.
+    fn contact_where(&self, mut is: impl FnMut(&Group, &dyn PairBlock) -> bool) -> Option<usize> {
+        self.contact_groups().find(|(group, block)| is(group, *block)).map(|(group, _)| group.part)
     }
 
     /// The contact, by its index in [`Model::parts`], with an impact after `state` that is not resolved by a step whose
     /// equilibrium is written the time `ahead` later.
     pub fn unresolved_impact(&self, state: &State, ahead: f64) -> Option<usize> {
-        let unresolved = |(group, block): &(&Group, ContactBlock)| {
+        self.contact_where(|group, block| {
             ahead > block.longest_step(&state.history[group.history.clone()]) * (1.0 + 1e-9)
-        };
-        self.contact_groups().find(unresolved).map(|(group, _)| group.part)
+        })
     }
 
     /// The contact, by its index in [`Model::parts`], whose surface a point would pass through in a step from `start`
     /// to `now`, or whose impact the step would not resolve.
     pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
-        self.contact_groups()
-            .find(|(group, block)| block.misses(start, &group.configuration(now)))
-            .map(|(group, _)| group.part)
+        self.contact_where(|group, block| block.misses(start, &group.configuration(now)))
     }
 
     /// True where a contact has multipliers.
     pub fn has_contact_multipliers(&self) -> bool {
-        let has = |block| matches!(block, ContactBlock::Points(points) if points.has_multipliers());
-        self.contact_groups().any(|(_, block)| has(block))
+        self.contact_groups().any(|(_, block)| block.has_multipliers())
     }
 
     /// Writes into `history`, that of the start of a step, multipliers of contacts by the forces in the equilibrium `now`; `start` are the
@@ -188,8 +125,7 @@ impl System {
     pub fn augment_contacts(&self, start: &[Node], now: &Configuration, history: &mut [f64]) -> (f64, usize) {
         let mut worst = (0.0, 0);
         for (group, block) in self.contact_groups() {
-            let ContactBlock::Points(block) = block else { continue };
-            let out = contact::augment(block, start, &group.configuration(now), &mut history[group.history.clone()]);
+            let out = block.augment(start, &group.configuration(now), &mut history[group.history.clone()]);
             if out > worst.0 {
                 worst = (out, group.part);
             }
@@ -199,29 +135,17 @@ impl System {
 
     /// Each block of contacts, with the least gap of all that is near; from the history alone, which costs next to nothing.
     pub fn last_gaps<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (&'a Group, f64)> + 'a {
-        let gap =
-            |(group, block): (&'a Group, ContactBlock)| (group, block.last_gap(&state.history[group.history.clone()]));
-        self.contact_groups().map(gap)
+        self.contact_groups().map(|(group, block)| (group, block.last_gap(&state.history[group.history.clone()])))
     }
 
     /// The contact, by its index in [`Model::parts`], in which beams press each other side by side.
     pub fn side_by_side(&self, state: &State) -> Option<usize> {
-        let now = state.configuration();
-        let is_so = |(group, block): &(&Group, ContactBlock)| match block {
-            ContactBlock::Facets(block) => block.is_side_by_side(&group.configuration(&now)),
-            ContactBlock::Points(_) | ContactBlock::Pairs(_) | ContactBlock::Heap(_) => false,
-        };
-        self.contact_groups().find(is_so).map(|(group, _)| group.part)
+        self.contact_where(|group, block| block.is_side_by_side(&group.configuration(&state.configuration())))
     }
 
     /// The contact, by its index in [`Model::parts`], in which a body touches more others than it remembers.
     pub fn crowded(&self, state: &State) -> Option<usize> {
-        let now = state.configuration();
-        let is_so = |(group, block): &(&Group, ContactBlock)| match block {
-            ContactBlock::Heap(block) => block.is_crowded(&group.configuration(&now)),
-            ContactBlock::Points(_) | ContactBlock::Pairs(_) | ContactBlock::Facets(_) => false,
-        };
-        self.contact_groups().find(is_so).map(|(group, _)| group.part)
+        self.contact_where(|group, block| block.is_crowded(&group.configuration(&state.configuration())))
     }
 
     /// Writes the states of all contacts into `out`, in deck order.
@@ -233,7 +157,7 @@ impl System {
             let gap = least_gap(contact, own().map(|(_, block)| block), now.nodes);
             let mut state = ContactState { touching: 0, gap, f: Vec3::zeros(), m: Vec3::zeros() };
             for (group, block) in own() {
-                let (touching, [f, m]) = block.resultant(contact, &group.configuration(now));
+                let (touching, [f, m]) = resultant(block, contact, &group.configuration(now));
                 state.touching += touching;
                 state.f += f;
                 state.m += m;
@@ -248,16 +172,16 @@ impl System {
         let contacts = model.parts.iter().enumerate().filter_map(|(place, part)| Some((place, Contact::of(part)?)));
         for (number, (place, contact)) in contacts.enumerate() {
             for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
-                let is_turned_round = block.is_turned_round(contact);
-                let is_about_node = matches!(block, ContactBlock::Points(_) | ContactBlock::Pairs(_));
+                // Nodes of facets touch a body, to which the facets are what touches.
+                let is_turned_round = block.carrier().is_some() && contact.has_facets();
                 block.each_action(&group.configuration(now), &mut |action| {
-                    let ContactAction { on, by, f, mut m } = action;
-                    if is_about_node {
-                        m += now.nodes[on].x.cross(&f);
+                    let (nodes, [f, mut m]) = (action.nodes(), action.on_touched());
+                    if block.carrier().is_some() {
+                        m += now.nodes[nodes[0]].x.cross(&f);
                     }
                     out.push(match is_turned_round {
-                        true => ContactTouch { contact: number, nodes: [by, on], f: -f, m: -m },
-                        false => ContactTouch { contact: number, nodes: [on, by], f, m },
+                        true => ContactTouch { contact: number, nodes: [nodes[1], nodes[0]], f: -f, m: -m },
+                        false => ContactTouch { contact: number, nodes, f, m },
                     });
                 });
             }
@@ -266,7 +190,7 @@ impl System {
 }
 
 /// Least gap of all that touches in a contact, `blocks` being its own.
-fn least_gap<'a>(contact: &Contact, blocks: impl Iterator<Item = ContactBlock<'a>>, nodes: &[Node]) -> f64 {
+fn least_gap<'a>(contact: &Contact, blocks: impl Iterator<Item = &'a dyn PairBlock>, nodes: &[Node]) -> f64 {
     let points = &contact.points;
     match &contact.surface {
         TouchedSurface::Shape(carried) => {
@@ -274,12 +198,8 @@ fn least_gap<'a>(contact: &Contact, blocks: impl Iterator<Item = ContactBlock<'a
             of_points.min(contact::pair_gap(&carried.surface, carried.node, &contact.convex, nodes))
         }
         TouchedSurface::Facets(faces) => {
-            let of = |block: ContactBlock| match block {
-                ContactBlock::Facets(block) => contact::facets::least_facet_gap(block, nodes),
-                ContactBlock::Points(_) | ContactBlock::Pairs(_) | ContactBlock::Heap(_) => f64::INFINITY,
-            };
             let gap = match contact.law {
-                Some(_) => blocks.map(of).fold(f64::INFINITY, f64::min),
+                Some(_) => blocks.map(|block| block.least_gap(nodes)).fold(f64::INFINITY, f64::min),
                 None => {
                     let may_touch = |e: usize, facet: usize| !contact::facets::is_own(&points[e], &faces.facets[facet]);
                     contact::facets::facet_gap(&faces.facets, points, &may_touch, nodes, &mut Vec::new())

@@ -1,6 +1,6 @@
 //! Blocks of like elements, each with the part that it belongs to.
 
-use mechanics::elements::ElementBlock;
+use mechanics::elements::{ElementBlock, Wandering};
 use mechanics::state::Configuration;
 use model::{Model, Part, PartKind};
 use std::ops::Range;
@@ -20,6 +20,16 @@ pub struct Group {
 }
 
 impl Group {
+    /// The elements, where they act on nodes that change.
+    pub fn wandering(&self) -> Option<&dyn Wandering> {
+        self.block.pairs()?.wandering()
+    }
+
+    /// Nodes on which elements may act besides their own, and those of all nodes that they may turn besides.
+    pub fn further_nodes(&self) -> [&[usize]; 2] {
+        self.wandering().map_or([&[], &[]], Wandering::further_nodes)
+    }
+
     /// The configuration with this group's range of the history variables alone.
     #[inline]
     pub fn configuration<'a>(&self, now: &Configuration<'a>) -> Configuration<'a> {

@@ -42,7 +42,7 @@ pub(super) fn partition(groups: &[Group]) -> Vec<Partition> {
 fn part(all: &[Group], groups: Range<usize>) -> Partition {
     let of = |group: &Group| {
         let own = (0..group.block.len()).flat_map(|e| group.block.nodes(e));
-        own.chain(group.block.further_nodes()[0]).copied().collect::<Vec<_>>()
+        own.chain(group.further_nodes()[0]).copied().collect::<Vec<_>>()
     };
     let mut touched: Vec<usize> = all[groups.clone()].iter().flat_map(of).collect();
     touched.sort_unstable();

@@ -1,13 +1,17 @@
 //! Points against a surface as a block of elements.
 
-use super::force::{ContactForce, touch};
-use super::history::{self, PointHistoryMut};
-use super::kinematics::{ContactKinematics, Contacts};
+use super::force::touch;
+use super::history::{self, PointHistory, PointHistoryMut};
+use super::kinematics::Contacts;
+use super::law::ContactLaw;
+use super::multipliers::augment;
+use super::pair_block::{PairAction, PairBlock, PairSide, energy, subtract_forces};
+use super::steps::misses;
 use super::tangent::tangent;
 use super::update::update_point;
-use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::materials::Dissipation;
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 
 impl ElementBlock for Contacts {
     fn len(&self) -> usize {
@@ -31,22 +35,7 @@ impl ElementBlock for Contacts {
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        if now.history.is_empty() {
-            return;
-        }
-        for (e, point) in self.points.iter().enumerate() {
-            let Some((at, acting)) = touch(self, e, now) else { continue };
-            let (f, m) = (at.R * acting.F, at.R * acting.M);
-            for (node, weight) in point.parts() {
-                subtract(&mut F[node], 0, &(-weight * f));
-                if point.rolling_radius > 0.0 {
-                    subtract(&mut F[node], 3, &(-weight * m));
-                }
-            }
-            let carrier = &mut F[self.carrier];
-            subtract(carrier, 0, &f);
-            subtract(carrier, 3, &(at.d.cross(&f) + m));
-        }
+        subtract_forces(self, now, F);
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
@@ -65,16 +54,7 @@ impl ElementBlock for Contacts {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        // Multipliers do no work.
-        if now.history.is_empty() || self.law.tolerance.is_some() {
-            return 0.0;
-        }
-        let k = self.law.stiffness;
-        let stored = |(at, acting): (ContactKinematics, ContactForce)| {
-            let T = acting.friction.map_or(0.0, |friction| friction.T.norm_squared());
-            0.5 * k * at.gap * at.gap + 0.5 * T / k
-        };
-        (0..self.points.len()).filter_map(|e| touch(self, e, now)).map(stored).sum()
+        energy(self, now)
     }
 
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
@@ -86,11 +66,55 @@ impl ElementBlock for Contacts {
         now.dt < old.safe_time() || self.is_idle(old) || gap() - old.lift(&self.law) > self.law.touching
     }
 
-    fn rubs(&self) -> bool {
-        self.law.friction > 0.0
+    fn pairs(&self) -> Option<&dyn PairBlock> {
+        Some(self)
+    }
+}
+
+impl PairBlock for Contacts {
+    fn law(&self) -> &ContactLaw {
+        &self.law
     }
 
-    fn as_any(&self) -> Option<&dyn std::any::Any> {
-        Some(self)
+    fn carrier(&self) -> Option<usize> {
+        Some(self.carrier)
+    }
+
+    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction)) {
+        if now.history.is_empty() {
+            return;
+        }
+        let k = self.law.stiffness;
+        for (e, point) in self.points.iter().enumerate() {
+            let Some((at, acting)) = touch(self, e, now) else { continue };
+            let (f, m) = (at.R * acting.F, at.R * acting.M);
+            let moment = -(at.d.cross(&f) + m);
+            let T = acting.friction.map_or(0.0, |friction| friction.T.norm_squared());
+            act(&PairAction {
+                sides: [point.side(), PairSide::of_node(&self.carrier)],
+                F: f,
+                M: [m, moment],
+                less: None,
+                // Multipliers do no work.
+                stored: if self.has_multipliers() { 0.0 } else { 0.5 * k * at.gap * at.gap + 0.5 * T / k },
+                moment,
+            });
+        }
+    }
+
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
+        history::each(self, history).any(|old| old.is_known() && is(old))
+    }
+
+    fn misses(&self, start: &[Node], now: &Configuration) -> bool {
+        misses(self, start, now)
+    }
+
+    fn has_multipliers(&self) -> bool {
+        self.law.tolerance.is_some()
+    }
+
+    fn augment(&self, start: &[Node], now: &Configuration, new: &mut [f64]) -> f64 {
+        augment(self, start, now, new)
     }
 }

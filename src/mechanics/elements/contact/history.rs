@@ -26,7 +26,7 @@ const ROTATIONS: usize = 12;
 
 /// The history of one point.
 #[derive(Clone, Copy)]
-pub(super) struct PointHistory<'a>(&'a [f64]);
+pub struct PointHistory<'a>(&'a [f64]);
 
 impl<'a> PointHistory<'a> {
     /// A view of a range of the history.

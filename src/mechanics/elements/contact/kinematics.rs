@@ -54,11 +54,6 @@ impl ContactKinematics {
 }
 
 impl Contacts {
-    /// True where load steps end without depth, by multipliers.
-    pub fn has_multipliers(&self) -> bool {
-        self.law.tolerance.is_some()
-    }
-
     /// `points` have equally many nodes, one or more.
     pub fn new(law: ContactLaw, surface: Surface, carrier: usize, points: Vec<ContactPoint>) -> Self {
         let count = points.first().map_or(1, |point| point.count);

@@ -16,8 +16,8 @@
 //! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
 //! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
 //! keep what a point remembers of the way it came; `corners` says which nodes of a mesh press a solid that lies on it; `multipliers` put
-//! numbers of their own in the place of springs where a load step asks for no depth; `block` is what the equations see; `steps` bounds the steps; `resultant`
-//! sums what is shown. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
+//! numbers of their own in the place of springs where a load step asks for no depth; `steps` bounds the steps; `pair_block` is what the equations see of
+//! this and of all other blocks of pairs, `block` how points answer to it, `gap` what is shown of those that do not touch. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
 
 mod block;
 pub mod convex;
@@ -25,6 +25,7 @@ mod corners;
 pub mod facets;
 mod force;
 pub mod friction;
+mod gap;
 mod grid;
 mod history;
 mod kinematics;
@@ -32,9 +33,9 @@ mod law;
 mod multipliers;
 mod nearest_corner;
 mod normal_motion;
+mod pair_block;
 mod point;
 pub mod restitution;
-mod resultant;
 mod steps;
 pub mod surface;
 pub mod surfaces;
@@ -43,12 +44,11 @@ mod update;
 
 pub use convex::{ConvexBody, ConvexHeap, ConvexPairs};
 pub use facets::{Facet, FacetContacts, FacetTouchers};
+pub use gap::{least_gap, pair_gap};
 pub use kinematics::Contacts;
 pub use law::ContactLaw;
-pub use multipliers::{augment, pushes};
+pub use pair_block::{PairAction, PairBlock, PairSide};
 pub use point::{ContactPoint, MOST_NODES, TouchKind};
-pub use resultant::{ContactAction, each_pair_touch, each_touch, last_gap, last_pair_gap, least_gap, pair_gap};
-pub use steps::{longest_step, misses};
 pub use surface::Surface;
 pub use surfaces::SurfaceShape;
 pub use surfaces::kind::ClosestPoint;

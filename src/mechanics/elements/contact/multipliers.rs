@@ -12,15 +12,9 @@ use super::kinematics::Contacts;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
-/// True where a multiplier pushes on a point at the end of the last step, whose gap may then be positive by what is left of it.
-pub fn pushes(contacts: &Contacts, history: &[f64]) -> bool {
-    let law = &contacts.law;
-    law.tolerance.is_some() && history::each(contacts, history).any(|point| point.lift(law) > 0.0)
-}
-
 /// Writes into `new`, a copy of the block's history at the start of a step, multipliers by the forces in the equilibrium `now`; `start`
 /// are the nodes at the start of the step. Returns the largest length by which one was out, over the tolerance.
-pub fn augment(contacts: &Contacts, start: &[Node], now: &Configuration, new: &mut [f64]) -> f64 {
+pub(super) fn augment(contacts: &Contacts, start: &[Node], now: &Configuration, new: &mut [f64]) -> f64 {
     let law = &contacts.law;
     let Some(tolerance) = law.tolerance else { return 0.0 };
     let mut most = 0.0f64;

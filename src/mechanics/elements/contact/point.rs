@@ -1,5 +1,6 @@
 //! A point that may touch a surface.
 
+use super::pair_block::PairSide;
 use crate::state::Node;
 use base::math::Vec3;
 
@@ -51,6 +52,11 @@ impl ContactPoint {
         let mut point = self.clone();
         (point.weights[0], point.weights[1]) = (1.0 - share, share);
         point
+    }
+
+    /// The point as one of two that touch.
+    pub(super) fn side(&self) -> PairSide<'_> {
+        PairSide { nodes: self.nodes(), shares: &self.weights }
     }
 
     /// Nodes and their weights.

@@ -1,6 +1,6 @@
 //! Limits on the step length: no step takes a point through the surface, and impacts are resolved.
 
-use super::history::{self, PointHistory};
+use super::history;
 use super::kinematics::Contacts;
 use crate::state::{Configuration, Node};
 use base::math::{Mat3, Vec3};
@@ -13,21 +13,12 @@ struct Frames {
     turn: f64,
 }
 
-/// True where a step from `start` to `now` must be shorter: see [`super::ContactLaw::resolution`].
-pub fn misses(contacts: &Contacts, start: &[Node], now: &Configuration) -> bool {
+/// True where a step from `start` to `now` must be shorter: see [`super::PairBlock::misses`].
+pub(super) fn misses(contacts: &Contacts, start: &[Node], now: &Configuration) -> bool {
     let (a, b) = (&start[contacts.carrier], &now.nodes[contacts.carrier]);
     let turn = 2.0 * (b.rotation - a.rotation).norm().min((b.rotation + a.rotation).norm());
     let frames = Frames { start: a.R(), now: b.R(), turn };
     (0..contacts.points.len()).any(|e| is_missed(contacts, e, start, now, &frames))
-}
-
-/// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_step(contacts: &Contacts, history: &[f64]) -> f64 {
-    let law = &contacts.law;
-    let in_impact =
-        |old: PointHistory| old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
-    let any = law.resolution < f64::INFINITY && history::each(contacts, history).any(in_impact);
-    if any { law.resolution } else { f64::INFINITY }
 }
 
 /// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not

@@ -2,11 +2,15 @@
 
 use super::pair::width;
 use super::pairs::ConvexPairs;
-use super::tangent::{spread, tangent};
+use super::steps::is_missed;
+use super::tangent::tangent;
 use super::update::update_pair;
 use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
 use crate::materials::Dissipation;
-use crate::state::Configuration;
+use crate::state::{Configuration, Node};
 
 impl ElementBlock for ConvexPairs {
     fn len(&self) -> usize {
@@ -26,15 +30,7 @@ impl ElementBlock for ConvexPairs {
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        if now.history.is_empty() {
-            return;
-        }
-        for e in 0..self.count() {
-            let pair = self.pair(e);
-            if let Some((at, acting)) = pair.touch(self.history(e, now.history), now) {
-                spread(&pair, &at, &acting, F);
-            }
-        }
+        subtract_forces(self, now, F);
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
@@ -53,14 +49,7 @@ impl ElementBlock for ConvexPairs {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        if now.history.is_empty() {
-            return 0.0;
-        }
-        let stored = |e: usize| {
-            let pair = self.pair(e);
-            Some(pair.energy(&pair.touch(self.history(e, now.history), now)?.1))
-        };
-        (0..self.count()).filter_map(stored).sum()
+        energy(self, now)
     }
 
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
@@ -69,11 +58,37 @@ impl ElementBlock for ConvexPairs {
             || self.pair(e).kinematics(now.nodes).pose.least_axis().gap > self.law.touching
     }
 
-    fn rubs(&self) -> bool {
-        self.law.friction > 0.0
+    fn pairs(&self) -> Option<&dyn PairBlock> {
+        Some(self)
+    }
+}
+
+impl PairBlock for ConvexPairs {
+    fn law(&self) -> &ContactLaw {
+        &self.law
     }
 
-    fn as_any(&self) -> Option<&dyn std::any::Any> {
-        Some(self)
+    fn carrier(&self) -> Option<usize> {
+        Some(self.other.node)
+    }
+
+    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction)) {
+        if now.history.is_empty() {
+            return;
+        }
+        for e in 0..self.count() {
+            let pair = self.pair(e);
+            if let Some((at, acting)) = pair.touch(self.history(e, now.history), now) {
+                act(&pair.action(&at, &acting));
+            }
+        }
+    }
+
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
+        (0..self.count()).map(|e| self.history(e, history)).any(|old| old.is_known() && is(old))
+    }
+
+    fn misses(&self, start: &[Node], now: &Configuration) -> bool {
+        (0..self.count()).any(|e| is_missed(&self.pair(e), self.history(e, now.history), start, now))
     }
 }

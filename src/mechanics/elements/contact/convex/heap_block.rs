@@ -1,11 +1,14 @@
 //! Convex solids among themselves as a block of elements, one for each, and as pairs for the matrix.
 
 use super::heap::{ConvexHeap, SLOTS};
+use super::heap_steps::misses_heap;
 use super::pair::{ConvexPair, PairForce, PairKinematics};
-use super::tangent::{spread, tangent};
+use super::tangent::tangent;
 use super::update::update_pair;
 use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
 use crate::elements::wandering::{Partners, Wandering};
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
@@ -47,16 +50,12 @@ impl ElementBlock for ConvexHeap {
         6
     }
 
-    fn further_nodes(&self) -> [&[usize]; 2] {
-        [&self.involved, &self.involved]
-    }
-
     fn history(&self) -> usize {
         SLOTS * self.width * self.solids.len()
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        self.each_touch(now, |touch| spread(&touch.pair, &touch.at, &touch.acting, F));
+        subtract_forces(self, now, F);
     }
 
     /// Pairs have tangents, and not solids: see [`Wandering::pair_tangents`].
@@ -94,25 +93,53 @@ impl ElementBlock for ConvexHeap {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        let mut stored = 0.0;
-        self.each_touch(now, |touch| stored += touch.pair.energy(&touch.acting));
-        stored
+        energy(self, now)
     }
 
     fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
         true
     }
 
+    fn pairs(&self) -> Option<&dyn PairBlock> {
+        Some(self)
+    }
+}
+
+impl PairBlock for ConvexHeap {
+    fn law(&self) -> &ContactLaw {
+        &self.law
+    }
+
+    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction)) {
+        self.each_touch(now, |touch| {
+            let (action, by) = (touch.pair.action(&touch.at, &touch.acting), touch.pair.one.node);
+            act(&PairAction { moment: -(action.M[0] + now.nodes[by].x.cross(&action.F)), ..action });
+        });
+    }
+
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
+        self.memories(history).any(|old| old.is_known() && is(old))
+    }
+
+    fn misses(&self, start: &[Node], now: &Configuration) -> bool {
+        misses_heap(self, start, now)
+    }
+
     fn wandering(&self) -> Option<&dyn Wandering> {
         Some(self)
     }
 
-    fn rubs(&self) -> bool {
-        self.law.friction > 0.0
-    }
-
-    fn as_any(&self) -> Option<&dyn std::any::Any> {
-        Some(self)
+    fn is_crowded(&self, now: &Configuration) -> bool {
+        let is_full = |e: usize| self.slot(self.of_solid(e, now.history), SLOTS - 1).0.is_some();
+        if now.history.is_empty() || !(0..self.solids.len()).any(is_full) {
+            return false;
+        }
+        let (mut last, mut count, mut most) = (usize::MAX, 0, 0);
+        self.each_touch(now, |touch| {
+            count = if touch.numbers[0] == last { count + 1 } else { 1 };
+            (last, most) = (touch.numbers[0], most.max(count));
+        });
+        most > SLOTS
     }
 }
 
@@ -135,24 +162,11 @@ impl ConvexHeap {
     }
 }
 
-impl ConvexHeap {
-    /// True where one touches more others at least as large than it remembers: those that it forgets press without friction, and give back
-    /// by the speed of the moment.
-    pub fn is_crowded(&self, now: &Configuration) -> bool {
-        let is_full = |e: usize| self.slot(self.of_solid(e, now.history), SLOTS - 1).0.is_some();
-        if now.history.is_empty() || !(0..self.solids.len()).any(is_full) {
-            return false;
-        }
-        let (mut last, mut count, mut most) = (usize::MAX, 0, 0);
-        self.each_touch(now, |touch| {
-            count = if touch.numbers[0] == last { count + 1 } else { 1 };
-            (last, most) = (touch.numbers[0], most.max(count));
-        });
-        most > SLOTS
-    }
-}
-
 impl Wandering for ConvexHeap {
+    fn further_nodes(&self) -> [&[usize]; 2] {
+        [&self.involved, &self.involved]
+    }
+
     fn partners(&self, nodes: &[Node]) -> Partners {
         let mut partners = Partners::default();
         self.each_near(nodes, 2.0 * self.margin, |e, other| {

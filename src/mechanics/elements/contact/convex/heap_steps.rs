@@ -1,13 +1,13 @@
-//! What limits the steps of convex solids among themselves, and their results for output.
+//! What limits the steps of convex solids among themselves, and their least gap.
 
 use super::heap::ConvexHeap;
 use super::pair::{CarriedConvex, ConvexBody};
-use super::steps::{is_missed, longest_step};
-use crate::elements::contact::resultant::{ContactAction, distance};
+use super::steps::is_missed;
+use crate::elements::contact::gap::distance;
 use crate::state::{Configuration, Node};
 
-/// True where a step from `start` to `now` must be shorter, as for [`super::misses_pair`].
-pub fn misses_heap(heap: &ConvexHeap, start: &[Node], now: &Configuration) -> bool {
+/// True where a step from `start` to `now` must be shorter.
+pub(super) fn misses_heap(heap: &ConvexHeap, start: &[Node], now: &Configuration) -> bool {
     let ways = heap.involved.iter().map(|&node| (now.nodes[node].x - start[node].x).norm());
     let way = ways.fold(0.0, |most: f64, way| if way > most || way.is_nan() { way } else { most });
     if !way.is_finite() {
@@ -19,26 +19,6 @@ pub fn misses_heap(heap: &ConvexHeap, start: &[Node], now: &Configuration) -> bo
             is_missed(&heap.pair(e, other), heap.memory(now.history, e, other), start, now)
         })
     })
-}
-
-/// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_heap_step(heap: &ConvexHeap, history: &[f64]) -> f64 {
-    longest_step(&heap.law, heap.memories(history))
-}
-
-/// Least gap at the end of the last step, by the history of the block; infinite where none is near.
-pub fn last_heap_gap(heap: &ConvexHeap, history: &[f64]) -> f64 {
-    let known = heap.memories(history).filter(|old| old.is_known());
-    known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
-}
-
-/// Calls with what one of each pair that touches does to the other, its moment about the origin.
-pub fn each_heap_touch(heap: &ConvexHeap, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
-    heap.each_touch(now, |touch| {
-        let (f, m) = touch.at.global(&touch.acting.W);
-        let (on, by) = (touch.pair.other.node, touch.pair.one.node);
-        act(ContactAction { on, by, f: -f, m: -(m + now.nodes[by].x.cross(&f)) });
-    });
 }
 
 /// Least distance of solids among themselves, without the pairs that are `joined`, negative where they overlap; infinite where there are

@@ -33,9 +33,8 @@ mod volume;
 
 pub use depth::Depth;
 pub use heap::ConvexHeap;
-pub use heap_steps::{each_heap_touch, heap_gap, last_heap_gap, longest_heap_step, misses_heap};
+pub use heap_steps::heap_gap;
 pub use pair::{CarriedConvex, ConvexBody};
 pub use pairs::ConvexPairs;
 pub use pose::ConvexPose;
-pub use steps::{longest_pair_step, misses_pair};
 pub use touch::depth;

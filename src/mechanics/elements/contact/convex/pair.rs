@@ -7,6 +7,7 @@ use super::rubbing::{Rubbing, rubbing};
 use super::touch::{SHALLOW, depth};
 use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
 use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::pair_block::{PairAction, PairSide};
 use crate::elements::contact::restitution::{Loss, NormalForce, normal_force};
 use crate::elements::contact::surface::Surface;
 use crate::elements::contact::surfaces::SurfaceShape;
@@ -219,10 +220,18 @@ impl<'a> ConvexPair<'a> {
         Some((at, force))
     }
 
-    /// The energy of the springs of the normal force and of friction.
-    pub fn energy(&self, acting: &PairForce) -> f64 {
-        let k = self.law.stiffness;
+    /// What acts; the moment on the other is that about its node.
+    pub fn action(&self, at: &PairKinematics, acting: &PairForce) -> PairAction<'a> {
+        let (F, m) = at.global(&acting.W);
+        let (k, moment) = (self.law.stiffness, -(m + at.d.cross(&F)));
         let pull = acting.rubbing.as_ref().map_or(0.0, |rubbing| rubbing.pull);
-        0.5 * k * (acting.depth.D - acting.inset).max(0.0).powi(2) + 0.5 * pull * pull / k
+        PairAction {
+            sides: [PairSide::of_node(&self.one.node), PairSide::of_node(&self.other.node)],
+            F,
+            M: [m, moment],
+            less: None,
+            stored: 0.5 * k * (acting.depth.D - acting.inset).max(0.0).powi(2) + 0.5 * pull * pull / k,
+            moment,
+        }
     }
 }

@@ -1,33 +1,13 @@
 //! Limits on the step length: no convex solid passes through another, and impacts are resolved.
 
 use super::pair::ConvexPair;
-use super::pairs::ConvexPairs;
 use super::pose::{ConvexPose, LeastAxis};
 use crate::elements::contact::history::PointHistory;
-use crate::elements::contact::law::ContactLaw;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
 /// True where a step from `start` to `now` must be shorter: one would pass through the other, or be more than half way through, or
 /// come into an impact that the step does not resolve.
-pub fn misses_pair(pairs: &ConvexPairs, start: &[Node], now: &Configuration) -> bool {
-    (0..pairs.count()).any(|e| is_missed(&pairs.pair(e), pairs.history(e, now.history), start, now))
-}
-
-/// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_pair_step(pairs: &ConvexPairs, history: &[f64]) -> f64 {
-    longest_step(&pairs.law, (0..pairs.count()).map(|e| pairs.history(e, history)))
-}
-
-/// The same of any pairs.
-pub(super) fn longest_step<'a>(law: &ContactLaw, mut pairs: impl Iterator<Item = PointHistory<'a>>) -> f64 {
-    let in_impact =
-        |old: PointHistory| old.is_known() && old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
-    let any = law.resolution < f64::INFINITY && pairs.any(in_impact);
-    if any { law.resolution } else { f64::INFINITY }
-}
-
-/// The same of one pair.
 pub(super) fn is_missed(pair: &ConvexPair, old: PointHistory, start: &[Node], now: &Configuration) -> bool {
     let law = pair.law;
     let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);

@@ -1,7 +1,6 @@
-//! The force of a pair on its two nodes, and the tangent of that.
+//! The tangent of the force of a pair on its two nodes.
 
-use super::pair::{ConvexPair, PairForce, PairKinematics};
-use crate::elements::block::{Force, subtract};
+use super::pair::{ConvexPair, PairKinematics};
 use crate::elements::contact::history::PointHistory;
 use crate::state::Configuration;
 use base::math::{Mat3, Mat6, Vec3, skew};
@@ -10,15 +9,6 @@ use nalgebra::SMatrix;
 /// How the motion of a pair in the frame of the one that is touched follows from that of its two nodes: δx, δθ of the one, then of the
 /// other.
 type FromNodes = SMatrix<f64, 6, 12>;
-
-/// Subtracts the internal forces of a pair, which are opposite to what acts.
-pub(super) fn spread(pair: &ConvexPair, at: &PairKinematics, acting: &PairForce, F: &mut [Force]) {
-    let (f, m) = at.global(&acting.W);
-    subtract(&mut F[pair.one.node], 0, &-f);
-    subtract(&mut F[pair.one.node], 3, &-m);
-    subtract(&mut F[pair.other.node], 0, &f);
-    subtract(&mut F[pair.other.node], 3, &(m + at.d.cross(&f)));
-}
 
 /// Writes the tangent of a pair, 12 rows of 12 over the one and the other, into `K`, which is zero; false where the two are apart.
 pub(super) fn tangent(

@@ -1,10 +1,15 @@
 //! Points against facets as a block of elements, one for each point, and as pairs for the matrix.
 
+use super::gap::least_facet_gap;
 use super::pair::MOST_OF_PAIR;
+use super::steps::misses_facet;
 use super::surface::FacetContacts;
 use super::tangent::add_tangent;
 use super::update::update;
-use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
 use crate::elements::wandering::{Partners, Wandering};
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
@@ -26,23 +31,12 @@ impl ElementBlock for FacetContacts {
         self.law.friction > 0.0 && self.points[e].rolling_radius > 0.0
     }
 
-    fn further_nodes(&self) -> [&[usize]; 2] {
-        [&self.involved, &self.turned]
-    }
-
     fn history(&self) -> usize {
         self.slots * self.width * self.points.len()
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        self.each_touch(now.nodes, now.history, |_, _, pair| {
-            let place = pair.place(now.nodes);
-            let force = pair.force(&place, now.nodes);
-            pair.spread(&place, &force, |node, f, m| {
-                subtract(&mut F[node], 0, &-f);
-                subtract(&mut F[node], 3, &-m);
-            });
-        });
+        subtract_forces(self, now, F);
     }
 
     /// Pairs have tangents, and not points: see [`Wandering::pair_tangents`].
@@ -55,34 +49,56 @@ impl ElementBlock for FacetContacts {
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        let (k, mut stored) = (self.law.stiffness, 0.0);
-        self.each_touch(now.nodes, now.history, |_, _, pair| {
-            let place = pair.place(now.nodes);
-            let force = pair.force(&place, now.nodes);
-            let T = force.friction.as_ref().map_or(0.0, |friction| friction.T.norm_squared());
-            stored += force.stored(k, place.gap()) + 0.5 * T / k;
-        });
-        stored
+        energy(self, now)
     }
 
     fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
         true
     }
 
-    fn wandering(&self) -> Option<&dyn Wandering> {
-        Some(self)
-    }
-
-    fn rubs(&self) -> bool {
-        self.law.friction > 0.0
-    }
-
-    fn as_any(&self) -> Option<&dyn std::any::Any> {
+    fn pairs(&self) -> Option<&dyn PairBlock> {
         Some(self)
     }
 }
 
+impl PairBlock for FacetContacts {
+    fn law(&self) -> &ContactLaw {
+        &self.law
+    }
+
+    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction)) {
+        self.each_touch(now.nodes, now.history, |_, _, pair| {
+            let place = pair.place(now.nodes);
+            act(&pair.action(&place, &pair.force(&place, now.nodes), now.nodes));
+        });
+    }
+
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
+        self.known_memories(history).any(|memory| is(memory.motion()))
+    }
+
+    fn misses(&self, start: &[Node], now: &Configuration) -> bool {
+        misses_facet(self, start, now)
+    }
+
+    fn wandering(&self) -> Option<&dyn Wandering> {
+        Some(self)
+    }
+
+    fn least_gap(&self, nodes: &[Node]) -> f64 {
+        least_facet_gap(self, nodes)
+    }
+
+    fn is_side_by_side(&self, now: &Configuration) -> bool {
+        FacetContacts::is_side_by_side(self, now)
+    }
+}
+
 impl Wandering for FacetContacts {
+    fn further_nodes(&self) -> [&[usize]; 2] {
+        [&self.involved, &self.turned]
+    }
+
     fn partners(&self, nodes: &[Node]) -> Partners {
         let mut partners = Partners::default();
         let nearby = self.nearby(nodes);

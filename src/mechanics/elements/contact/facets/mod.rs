@@ -11,7 +11,7 @@
 //!
 //! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `crossing` edges whose ends touch for themselves, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count, `found` is such a one, `balls` what is simpler of balls,
 //! `facing` what tells on which side a point is, `pair` two of them, `force` what acts between them, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
-//! see, `steps` bounds the steps, `resultant` sums what is shown.
+//! see, `steps` bounds the steps, `gap` is what is shown.
 
 mod balls;
 mod block;
@@ -20,13 +20,13 @@ mod facet;
 mod facing;
 mod force;
 mod found;
+mod gap;
 mod line_friction;
 mod lines;
 mod memory;
 mod mesh;
 mod nearby;
 mod pair;
-mod resultant;
 mod scene;
 mod span;
 mod steps;
@@ -36,8 +36,7 @@ mod touch;
 mod update;
 
 pub use facet::{Facet, MOST_CORNERS};
+pub use gap::{facet_gap, is_own};
 pub use mesh::free_edges;
-pub use resultant::{each_facet_touch, facet_gap, is_own, least_facet_gap};
 pub use scene::FacetTouchers;
-pub use steps::{last_facet_gap, longest_facet_step, misses_facet};
 pub use surface::FacetContacts;

@@ -4,6 +4,7 @@ use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
 use super::memory::PairMemory;
 use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::pair_block::{PairAction, PairSide};
 use crate::elements::contact::point::{ContactPoint, MOST_NODES, TouchKind};
 use crate::elements::contact::restitution::NormalForce;
 use crate::state::Node;
@@ -119,11 +120,6 @@ impl PairForceOnPoint {
     pub fn pressed(&self) -> f64 {
         self.normal.force - self.less.as_ref().map_or(0.0, |end| end.normal.force)
     }
-
-    /// The spring energy of the normal force, at a gap.
-    pub fn stored(&self, stiffness: f64, gap: f64) -> f64 {
-        0.5 * stiffness * (gap.min(0.0).powi(2) - self.less.as_ref().map_or(0.0, |end| end.depth.powi(2)))
-    }
 }
 
 impl<'a> FacetPair<'a> {
@@ -182,19 +178,27 @@ impl<'a> FacetPair<'a> {
         R * log(&renormalise(&(now * memory.rotation(k).conjugate())))
     }
 
-    /// Adds what acts to the nodes, by `add` of a node, a force and a moment.
-    #[inline]
-    pub fn spread(&self, place: &PairPlace, force: &PairForceOnPoint, mut add: impl FnMut(usize, Vec3, Vec3)) {
-        for (node, weight) in self.point.parts() {
-            add(node, weight * force.F, if self.point.rolling_radius > 0.0 { weight * force.M } else { Vec3::zeros() });
-        }
-        for (k, &node) in self.facet.nodes().iter().enumerate() {
-            add(node, -place.W[k] * force.F, place.W[k] * force.C);
-        }
+    /// What acts; the moment on the facet is that about the origin.
+    pub fn action<'b>(&'b self, place: &'b PairPlace, force: &'b PairForceOnPoint, nodes: &[Node]) -> PairAction<'b> {
+        let (point, k) = (&*self.point, self.law.stiffness);
+        let x = nodes[point.nodes[0]].x + place.x;
+        let (mut moment, mut pressed) = (force.C - (x - place.at.g).cross(&force.F), place.gap().min(0.0).powi(2));
         if let Some(end) = &force.less {
-            for (node, share) in self.point.nodes().iter().zip(end.shares).chain(self.facet.nodes().iter().zip(end.W)) {
-                add(*node, -share * end.F, Vec3::zeros());
-            }
+            let x: Vec3 = self.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * nodes[node].x).sum();
+            moment += x.cross(&end.F);
+            pressed -= end.depth.powi(2);
+        }
+        let T = force.friction.as_ref().map_or(0.0, |friction| friction.T.norm_squared());
+        let sides = |own: &'b [f64], other: &'b [f64]| {
+            [PairSide { nodes: point.nodes(), shares: own }, PairSide { nodes: self.facet.nodes(), shares: other }]
+        };
+        PairAction {
+            sides: sides(&point.weights, &place.W),
+            F: force.F,
+            M: [if point.rolling_radius > 0.0 { force.M } else { Vec3::zeros() }, force.C],
+            less: force.less.as_ref().map(|end| (sides(&end.shares, &end.W), end.F)),
+            stored: 0.5 * k * pressed + 0.5 * T / k,
+            moment,
         }
     }
 }

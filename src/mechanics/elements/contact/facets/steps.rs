@@ -14,7 +14,7 @@ const THROUGH: f64 = 0.9;
 
 /// True where a step from `start` to `now` must be shorter: a point would pass a facet, would come into an impact that the step does not
 /// resolve, or would slide on so far that its friction is forgotten.
-pub fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
+pub(super) fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
     let way = farthest(of, now.nodes, |_, node| start[node].x);
     !way.is_finite() || passes_any(of, way, start, now) || 2.0 * way > of.margin && forgets(of, now)
 }
@@ -132,22 +132,6 @@ fn is_unresolved(
         None => true,
     };
     lands && dt > law.resolution
-}
-
-/// Longest time ahead at which equilibrium may be written next, given the history of the block.
-pub fn longest_facet_step(of: &FacetContacts, history: &[f64]) -> f64 {
-    let law = &of.law;
-    let mut in_impact = of
-        .known_memories(history)
-        .map(|memory| memory.motion())
-        .filter(|old| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration);
-    if law.resolution < f64::INFINITY && in_impact.next().is_some() { law.resolution } else { f64::INFINITY }
-}
-
-/// Least gap of all pairs at the end of the last step, by the history of the block; infinite where none is near.
-pub fn last_facet_gap(of: &FacetContacts, history: &[f64]) -> f64 {
-    let known = of.known_memories(history).map(|memory| memory.motion());
-    known.map(|old| old.gap()).fold(f64::INFINITY, f64::min)
 }
 
 /// By how far a point has come through a facet between two motions, on straight lines; `None` where it has not.

@@ -91,7 +91,7 @@ impl FacetContacts {
     }
 
     /// True where two lines touch that are parallel within some degrees, and not end to end.
-    pub fn is_side_by_side(&self, now: &Configuration) -> bool {
+    pub(super) fn is_side_by_side(&self, now: &Configuration) -> bool {
         /// The square of the cosine of six degrees.
         const ALONG: f64 = 0.989;
         if !self.is_of_lines || self.is_of_edges {

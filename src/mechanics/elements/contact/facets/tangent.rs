@@ -218,7 +218,7 @@ fn friction_forces(pair: &FacetPair, nodes: &[Node]) -> [f64; 6 * MOST_OF_PAIR] 
     let mut force = pair.force(&place, nodes);
     force.F -= force.normal.force * place.n;
     force.less = None;
-    pair.spread(&place, &force, |node, push, moment| {
+    pair.action(&place, &force, nodes).spread(|node, push, moment| {
         for i in 0..3 {
             f[6 * node + i] += push[i];
             f[6 * node + 3 + i] += moment[i];

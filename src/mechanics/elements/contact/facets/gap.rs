@@ -1,4 +1,4 @@
-//! The results of contacts of facets for output.
+//! The least gap of points from facets.
 
 use super::facet::Facet;
 use super::lines;
@@ -7,25 +7,7 @@ use super::surface::FacetContacts;
 use super::touch;
 use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::point::ContactPoint;
-use crate::elements::contact::resultant::ContactAction;
-use crate::state::{Configuration, Node};
-use base::math::Vec3;
-
-/// Calls with what each point that touches does to a facet, its moment about the origin.
-pub fn each_facet_touch(of: &FacetContacts, now: &Configuration, act: &mut dyn FnMut(ContactAction)) {
-    of.each_touch(now.nodes, now.history, |_, _, pair| {
-        let place = pair.place(now.nodes);
-        let force = pair.force(&place, now.nodes);
-        let x = now.nodes[pair.point.nodes[0]].x + place.x;
-        let (mut f, mut m) = (-force.F, force.C - (x - place.at.g).cross(&force.F));
-        if let Some(end) = &force.less {
-            let x: Vec3 = pair.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * now.nodes[node].x).sum();
-            f += end.F;
-            m += x.cross(&end.F);
-        }
-        act(ContactAction { on: pair.facet.nodes[0], by: pair.point.nodes[0], f, m });
-    });
-}
+use crate::state::Node;
 
 /// Least gap of points from facets, those left out which `may_touch` excludes; infinite where there are none. Facets are looked at in the
 /// order of one coordinate, as long as that alone does not tell that they are farther than the nearest so far; `sorted` is room for them.
@@ -83,7 +65,7 @@ pub fn facet_gap(
 }
 
 /// Least gap of the points from the facets that they may touch; infinite where there are none.
-pub fn least_facet_gap(of: &FacetContacts, nodes: &[Node]) -> f64 {
+pub(super) fn least_facet_gap(of: &FacetContacts, nodes: &[Node]) -> f64 {
     let may_touch = |e: usize, facet: usize| of.may_touch(e, facet as u32) && !of.is_near_along(e, facet as u32);
     let mut nearby = of.nearby(nodes);
     if of.is_inner {

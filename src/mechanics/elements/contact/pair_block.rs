@@ -1,0 +1,164 @@
+//! The interface of a block of pairs that may touch, whatever finds them: forces, energy, gaps and results follow from what acts in each.
+
+use super::history::PointHistory;
+use super::law::ContactLaw;
+use crate::elements::block::{ElementBlock, Force, subtract};
+use crate::elements::wandering::Wandering;
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+
+/// The nodes of one of two that touch, with the share of each in its motion.
+#[derive(Clone, Copy)]
+pub struct PairSide<'a> {
+    pub(super) nodes: &'a [usize],
+    pub(super) shares: &'a [f64],
+}
+
+impl<'a> PairSide<'a> {
+    /// What one node carries.
+    pub(super) fn of_node(node: &'a usize) -> Self {
+        PairSide { nodes: std::slice::from_ref(node), shares: &[1.0] }
+    }
+
+    fn parts(self) -> impl Iterator<Item = (usize, f64)> {
+        self.nodes.iter().copied().zip(self.shares.iter().copied())
+    }
+}
+
+/// What acts where two things touch; global components.
+pub struct PairAction<'a> {
+    /// What touches, and what is touched.
+    pub(super) sides: [PairSide<'a>; 2],
+    /// Force on what touches; that on the other is opposite.
+    pub(super) F: Vec3,
+    /// Moments on the two.
+    pub(super) M: [Vec3; 2],
+    /// Signed shares of the nodes of both in a force that is taken off again, and that force.
+    pub(super) less: Option<([PairSide<'a>; 2], Vec3)>,
+    /// Energy of the springs.
+    pub(super) stored: f64,
+    /// Moment on what is touched: about [`PairBlock::carrier`], or else about the origin.
+    pub(super) moment: Vec3,
+}
+
+impl PairAction<'_> {
+    /// A node of what is touched and one of what touches.
+    pub fn nodes(&self) -> [usize; 2] {
+        [self.sides[1].nodes[0], self.sides[0].nodes[0]]
+    }
+
+    /// Force on what is touched, and its moment: about [`PairBlock::carrier`], or else about the origin.
+    pub fn on_touched(&self) -> [Vec3; 2] {
+        let less = self.less.as_ref().map_or_else(Vec3::zeros, |(_, F)| *F);
+        [less - self.F, self.moment]
+    }
+
+    /// Calls with the force and the moment on each node.
+    pub(super) fn spread(&self, mut add: impl FnMut(usize, Vec3, Vec3)) {
+        let [one, other] = self.sides;
+        one.parts().for_each(|(node, share)| add(node, share * self.F, share * self.M[0]));
+        other.parts().for_each(|(node, share)| add(node, -share * self.F, share * self.M[1]));
+        if let Some((sides, F)) = &self.less {
+            let parts = sides.iter().flat_map(|side| side.parts());
+            parts.for_each(|(node, share)| add(node, -share * F, Vec3::zeros()));
+        }
+    }
+}
+
+/// A block of pairs that may touch.
+pub trait PairBlock: ElementBlock {
+    /// The law between the two of a pair.
+    fn law(&self) -> &ContactLaw;
+
+    /// Calls with what acts in each pair that touches.
+    fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction));
+
+    /// True where this is so of what a pair remembers that was near at the end of the last step, by the history of the block.
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool;
+
+    /// True where a step from `start` to `now` must be shorter: something would pass through what it touches, or come into an impact that the
+    /// step does not resolve (see [`ContactLaw::resolution`]).
+    fn misses(&self, start: &[Node], now: &Configuration) -> bool;
+
+    /// The node that carries all that is touched; `None` where facets or others of the same kind are touched.
+    fn carrier(&self) -> Option<usize> {
+        None
+    }
+
+    /// The pairs for the matrix, where they change; `None` where each element is a pair of its own.
+    fn wandering(&self) -> Option<&dyn Wandering> {
+        None
+    }
+
+    /// Least gap of all that may touch where the nodes lie thus; infinite where that is told without the block.
+    fn least_gap(&self, _nodes: &[Node]) -> f64 {
+        f64::INFINITY
+    }
+
+    /// True where load steps end without depth, by multipliers.
+    fn has_multipliers(&self) -> bool {
+        false
+    }
+
+    /// Writes into `new`, a copy of the block's history at the start of a step, multipliers by the forces in the equilibrium `now`; `start`
+    /// are the nodes at the start of the step. Returns the largest length by which one was out, over the tolerance.
+    fn augment(&self, _start: &[Node], _now: &Configuration, _new: &mut [f64]) -> f64 {
+        0.0
+    }
+
+    /// True where two lines touch that are parallel within some degrees, and not end to end.
+    fn is_side_by_side(&self, _now: &Configuration) -> bool {
+        false
+    }
+
+    /// True where one touches more others at least as large than it remembers: those that it forgets press without friction, and give back
+    /// by the speed of the moment.
+    fn is_crowded(&self, _now: &Configuration) -> bool {
+        false
+    }
+
+    /// True where friction may make tangents unsymmetric.
+    fn rubs(&self) -> bool {
+        self.law().friction > 0.0
+    }
+
+    /// Least gap at the end of the last step, by the history of the block; infinite where nothing is near.
+    fn last_gap(&self, history: &[f64]) -> f64 {
+        let mut least = f64::INFINITY;
+        self.any_memory(history, &mut |old| {
+            least = least.min(old.gap());
+            false
+        });
+        least
+    }
+
+    /// True where a multiplier pushes at the end of the last step: the gap may then be positive by what is left of it.
+    fn pushes(&self, history: &[f64]) -> bool {
+        self.has_multipliers() && self.any_memory(history, &mut |old| old.lift(self.law()) > 0.0)
+    }
+
+    /// Longest time ahead at which equilibrium may be written next, given the history of the block.
+    fn longest_step(&self, history: &[f64]) -> f64 {
+        let law = self.law();
+        let mut in_impact = |old: PointHistory| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
+        let any = law.resolution < f64::INFINITY && self.any_memory(history, &mut in_impact);
+        if any { law.resolution } else { f64::INFINITY }
+    }
+}
+
+/// Subtracts the internal forces of all pairs from `F`, which is indexed by node.
+pub(super) fn subtract_forces(block: &impl PairBlock, now: &Configuration, F: &mut [Force]) {
+    // Internal forces are opposite to what acts.
+    let mut subtract = |node: usize, f: Vec3, m: Vec3| {
+        subtract(&mut F[node], 0, &-f);
+        subtract(&mut F[node], 3, &-m);
+    };
+    block.each_action(now, &mut |action| action.spread(&mut subtract));
+}
+
+/// The energy of the springs of all pairs.
+pub(super) fn energy(block: &impl PairBlock, now: &Configuration) -> f64 {
+    let mut stored = 0.0;
+    block.each_action(now, &mut |action| stored += action.stored);
+    stored
+}
