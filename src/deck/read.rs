@@ -158,16 +158,9 @@ impl Reader {
         // The key it was meant to be is then not missing.
         let mut spoil =
             |meant: &str| self.spoiled.push(Spoiled { table: Some(entry.table.clone()), key: meant.to_owned() });
-        if let Some((sentence, meant)) = hints::note(key, known) {
+        if let Some((sentence, meant)) = hints::key(key, &entry.path, known) {
             meant.into_iter().for_each(spoil);
             return diagnostic.hint(sentence);
-        }
-        if let Some(ours) = hints::key(key, known) {
-            spoil(ours);
-            return diagnostic.hint(format!("that is `{ours}` here"));
-        }
-        if let Some(hint) = hints::elsewhere(key) {
-            return diagnostic.hint(hint);
         }
         let place = tables::place_of(key);
         match nearest(key, known.iter().copied()) {
@@ -225,6 +218,8 @@ fn unknown_word(subject: &str, word: &str, known: &[&str]) -> Diagnostic {
 /// An entry taken out.
 struct Entry {
     table: Span,
+    /// The keys that lead from the top of the deck to its table.
+    path: Vec<String>,
     key: String,
     /// The error is about all of its value, not about a part of it.
     whole: bool,
@@ -233,14 +228,16 @@ struct Entry {
 /// Keys come before nested entries, and nested entries before the value: the span of a table is that of its header, which also holds the
 /// keys above it.
 fn strike(table: &mut DeTable, place: &Span, span: &Span) -> Option<Entry> {
-    let entry = |key: &str, whole| Entry { table: place.clone(), key: key.to_owned(), whole };
+    let entry = |key: &str, whole| Entry { table: place.clone(), path: Vec::new(), key: key.to_owned(), whole };
     if let Some(key) = table.keys().find(|key| key.span() == *span).map(|key| key.get_ref().to_string()) {
         table.remove(key.as_str());
         return Some(entry(&key, true));
     }
-    let below = table.iter_mut().find_map(|(_, value)| {
+    let below = table.iter_mut().find_map(|(key, value)| {
         let place = value.span();
-        strike_below(value.get_mut(), &place, span)
+        let mut struck = strike_below(value.get_mut(), &place, span)?;
+        struck.path.insert(0, key.get_ref().to_string());
+        Some(struck)
     });
     if below.is_some() {
         return below;

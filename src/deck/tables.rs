@@ -4,8 +4,13 @@ use super::{Deck, aliases};
 use serde_json::Value;
 use std::sync::OnceLock;
 
+/// The label of the table that holds all others.
+pub const TOP: &str = "the top of the deck";
+
 /// A table of the deck and its keys.
 pub struct DeckTable {
+    /// The keys that lead to it, with NAME for a name that the user gives.
+    pub path: Vec<String>,
     /// How a deck writes it: "[environment]", "[[beams]]", "[materials.NAME]", "[analysis.stop]".
     pub label: String,
     /// Its keys.
@@ -35,6 +40,15 @@ pub fn tables() -> &'static [DeckTable] {
     })
 }
 
+/// True for the label of the table to which these keys lead; NAME in it stands for any key.
+pub fn is_label_of(label: &str, path: &[String]) -> bool {
+    let parts = || label.trim_matches(['[', ']']).split('.');
+    match label {
+        TOP => path.is_empty(),
+        _ => parts().count() == path.len() && parts().zip(path).all(|(part, key)| part == "NAME" || part == key),
+    }
+}
+
 /// Where a value of the schema stands.
 #[derive(Default, Clone)]
 struct Path {
@@ -45,7 +59,7 @@ struct Path {
 impl Path {
     fn label(&self) -> String {
         match (self.is_list, &self.keys[..]) {
-            (_, []) => "the top of the deck".to_owned(),
+            (_, []) => TOP.to_owned(),
             (true, keys) => format!("[[{}]]", keys.join(".")),
             (false, keys) => format!("[{}]", keys.join(".")),
         }
@@ -75,7 +89,7 @@ fn walk(schema: &Value, value: &Value, path: &Path, tables: &mut Vec<DeckTable>)
     let (label, keys) = (path.label(), properties.keys().cloned());
     match tables.iter_mut().find(|table| table.label == label) {
         Some(table) => table.keys.extend(keys),
-        None => tables.push(DeckTable { label, keys: keys.collect() }),
+        None => tables.push(DeckTable { path: path.keys.clone(), label, keys: keys.collect() }),
     }
     for (key, property) in properties {
         walk(schema, property, &path.with(key), tables);
