@@ -66,6 +66,7 @@ mod signals;
 mod singular_positions;
 mod small_motions;
 mod soft_starts;
+mod solve;
 mod stability;
 mod stages;
 mod statics;

@@ -45,6 +45,20 @@ mod trials;
 mod warning;
 mod workspace;
 
+/// Parts of steps by themselves, which tests look at.
+pub mod inner {
+    pub use crate::context::Context;
+    pub use crate::control::COMPARISONS;
+    pub use crate::explicit::CentralDifferenceStepper;
+    pub use crate::strategy::anderson::Anderson;
+    pub use crate::load_steps::{LoadSteps, Peak};
+    pub use crate::start::start;
+    pub use crate::sudden_loads::SuddenLoads;
+    pub use crate::system::inner::*;
+    pub use crate::trials::Kept;
+    pub use crate::workspace::Workspace;
+}
+
 pub use crate::system::{ContactState, ContactTouch, JointState};
 pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState};
 pub use derived::{Derived, Wanted};

@@ -26,19 +26,12 @@ impl SuddenLoads {
             cx.excitation.loading(from, Side::Before, &mut before);
             add(&mut jump, -1.0, &before);
         }
-        SuddenLoads { from, to, jump }
+        SuddenLoads::new(from, to, jump)
     }
 
-    /// Sudden loads of a jump.
-    #[cfg(test)]
-    pub fn of_jump(from: f64, to: f64, jump: Loading) -> SuddenLoads {
+    /// The step that brings a jump of the loads on between two times.
+    pub fn new(from: f64, to: f64, jump: Loading) -> SuddenLoads {
         SuddenLoads { from, to, jump }
-    }
-
-    /// Where its numbers are kept.
-    #[cfg(test)]
-    pub fn places(&self) -> [*const f64; 2] {
-        [self.jump.factors.as_ptr(), self.jump.pressures.as_ptr()]
     }
 
     /// Copies those of another step of the same scene without allocating.

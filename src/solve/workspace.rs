@@ -44,6 +44,7 @@ pub struct Workspace {
     pub rotation_drift: f64,
     /// Largest gap of a joint at the end of a step, relative to `reach`, over all steps.
     pub joint_violation: f64,
+    /// What the run is warned of so far.
     pub warnings: Warnings,
     /// What has been found of a frequency response.
     pub response: ResponseSoFar,

@@ -41,6 +41,6 @@ unsafe impl GlobalAlloc for Counting {
 static ALLOCATOR: Counting = Counting;
 
 /// Allocations of the calling thread so far.
-fn allocations() -> usize {
+pub fn allocations() -> usize {
     ALLOCATIONS.get()
 }

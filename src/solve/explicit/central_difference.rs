@@ -27,7 +27,8 @@ use mechanics::state::{Configuration, State, Work};
 /// Central differences, with what they need besides the workspace. It is allocated once.
 pub struct CentralDifferenceStepper {
     accelerations: Accelerations,
-    critical: CriticalStep,
+    /// The limit of the step.
+    pub critical: CriticalStep,
     /// True where steps find their own length; the advice of a failure depends on it.
     automatic: bool,
     /// Energy dissipated by materials and contacts on the way to the motion that was evaluated last.
@@ -307,78 +308,4 @@ fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
     let last = if *step > 0.0 { *step } else { dt };
     *verlet_energy_offset += 0.125 * (dt * dt * aMa - last * last * *before);
     (*before, *step) = (aMa, dt);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::plan::Plan;
-    use crate::start::start;
-    use crate::system::System;
-    use base::diagnostic::Source;
-    use std::sync::atomic::AtomicBool;
-
-    static NEVER: AtomicBool = AtomicBool::new(false);
-
-    /// Steps that are refused, here by the limit, are not counted, before the first step and after it; the accelerations by which
-    /// a blow is told are those of the steps that were taken.
-    #[test]
-    fn refused_steps_are_not_counted() {
-        let dt = 0.1;
-        let text = format!(
-            r#"
-[analysis]
-kind = "dynamic"
-end_time = 1.0
-time_step = {dt}
-[integrator]
-scheme = "central-difference"
-[[bodies]]
-name = "bob"
-center = [1.0, 0.0, 0.0]
-mass = 1.0
-inertia = [0.1, 0.1, 0.1]
-[[joints]]
-name = "pivot"
-kind = "ball"
-from = {{ body = "bob", point = [0.0, 0.0, 0.0] }}
-to = {{ ground = [0.0, 0.0, 0.0] }}
-[[links]]
-name = "spring"
-from = {{ ground = [1.0, 1.0, 0.0] }}
-to = {{ body = "bob" }}
-law = "table"
-points = [[-1.0, -1e4], [0.0, 0.0], [1.0, 2e4]]
-[environment]
-gravity = [0.0, -9.81, 0.0]
-[output]
-interval = 1.0
-"#
-        );
-        let source = Source::new("deck.toml", &text, &[]);
-        let (model, problems) = model::read(&source);
-        let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
-        let model = model.unwrap_or_else(|| panic!("{}", drawn.join("\n")));
-        let system = System::new(&model).unwrap();
-        let plan = Plan::new(&model, &system, 1);
-        let cx = Context::new(&model, &plan, &system, [true, false], &NEVER);
-        let mut ws = Workspace::new(&cx).unwrap();
-        let mut stepper = CentralDifferenceStepper::new(&cx).unwrap();
-        let mut state = start(&cx, &mut ws).unwrap();
-        stepper.restart(&cx, &mut ws, &mut state);
-        let mut largest = state.work.accelerations;
-        for taken in 0..3 {
-            for _ in 0..2 {
-                let to = state.time + dt;
-                let failure = stepper.step(&cx, &mut ws, &mut state, to).unwrap_err();
-                assert!(matches!(failure, Failure::Unstable { .. }), "{failure}");
-                assert_eq!(stepper.critical.counts(), [taken, taken]);
-            }
-            let to = state.time + 0.02 * dt;
-            stepper.step(&cx, &mut ws, &mut state, to).unwrap();
-            largest = largest.max(state.work.accelerations);
-        }
-        assert!(largest > 0.0);
-        assert!(stepper.critical.is_struck(4.01 * largest) && !stepper.critical.is_struck(4.0 * largest));
-    }
 }

@@ -41,6 +41,14 @@ mod tangent_weights;
 mod thread_partition;
 mod turning_body;
 
+/// Parts of assembly by themselves, which tests look at.
+pub mod inner {
+    pub use super::dependents::{Arms, Followers};
+    pub use super::element_stability::{ElementScaling, scaling};
+    pub use super::parts::{LumpedElement, NodalShare};
+    pub use super::schur_factor::{SchurFactor, SparseFactor};
+}
+
 pub use carry::carry_history;
 pub use contacts::{ContactState, ContactTouch, open_gap};
 pub use dofs::{DofMap, NodeRows};

@@ -137,7 +137,8 @@ impl DenseFactor {
 }
 
 impl SparseFactor {
-    fn new(system: &System, rows: &[[Option<usize>; 2]]) -> Option<SparseFactor> {
+    /// The structure of the system of these joints. `None` where there is no memory.
+    pub fn new(system: &System, rows: &[[Option<usize>; 2]]) -> Option<SparseFactor> {
         let sizes: Vec<usize> =
             system.joints.iter().map(|joint| joint.equations.len()).filter(|&equations| equations > 0).collect();
         let firsts: Vec<usize> =
@@ -226,64 +227,4 @@ fn scalar_product(a: &[f64], b: &[f64]) -> f64 {
     }
     let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
     sums.iter().sum::<f64>() + rest
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A chain of joints: what the sparse factor solves is what the dense one solves, sharing and inert equations included.
-    #[test]
-    fn sparse_and_dense_agree() {
-        let text = |bodies: usize| {
-            let body = |k: usize| {
-                format!(
-                    "[[bodies]]\nname = \"b{k}\"\ncenter = [{}, 0.0, 0.0]\nmass = 1.0\ninertia = [0.1, 0.1, 0.1]\n[[joints]]\n\
-                     name = \"j{k}\"\nkind = \"revolute\"\naxis = [0.0, 1.0, 0.3]\nfrom = {}\n\
-                     to = {{ body = \"b{k}\", point = [{k}.0, 0.0, 0.0] }}\n",
-                    k as f64 + 0.5,
-                    match k {
-                        0 => "{ ground = [0.0, 0.0, 0.0] }".to_owned(),
-                        _ => format!("{{ body = \"b{}\", point = [{k}.0, 0.0, 0.0] }}", k - 1),
-                    }
-                )
-            };
-            let bodies: String = (0..bodies).map(body).collect();
-            format!("[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.1\n{bodies}")
-        };
-        let source = base::diagnostic::Source::new("chain.toml", text(7), &[]);
-        let model = model::read(&source).0.unwrap();
-        let system = System::new(&model).unwrap();
-        // Each joint of five equations moves the body before it and its own.
-        let body = |k: usize| model.bodies[k].node;
-        let rows: Vec<[Option<usize>; 2]> =
-            (0..35).map(|row| [(row >= 5).then(|| body(row / 5 - 1)), Some(body(row / 5))]).collect();
-        let mut dense = SchurFactor::new(&system, &rows).unwrap();
-        let mut sparse = SchurFactor::Sparse(SparseFactor::new(&system, &rows).unwrap());
-        assert!(!dense.is_sparse());
-        let mut inert = vec![false; 35];
-        inert[11] = true;
-        let entry = |k: usize, l: usize| match (k / 5).abs_diff(l / 5) {
-            0 if k == l => 20.0 + k as f64,
-            0 | 1 => ((k * l) as f64).sin(),
-            _ => 0.0,
-        };
-        for raised in [[0.0; 35], [1e-6; 35]] {
-            assert!(dense.factor(&inert, &raised, entry) && sparse.factor(&inert, &raised, entry));
-            let given: Vec<f64> = (0..35).map(|i| (i as f64).cos()).collect();
-            let solved = |factor: &mut SchurFactor| {
-                let (mut x, mut rest) = (given.clone(), given.clone());
-                factor.substitute(&mut x);
-                factor.subtract_product(&x, &mut rest);
-                [x, rest]
-            };
-            let [both, other] = [solved(&mut dense), solved(&mut sparse)];
-            for (a, b) in both.iter().flatten().zip(other.iter().flatten()) {
-                assert!((a - b).abs() < 1e-14, "{a} {b}"); // rounding of numbers near 1/20
-            }
-        }
-        // What is not positive definite is refused by both.
-        let flat = |_: usize, _: usize| 1.0;
-        assert!(!dense.factor(&[false; 35], &[0.0; 35], flat) && !sparse.factor(&[false; 35], &[0.0; 35], flat));
-    }
 }

@@ -19,22 +19,23 @@ pub struct Trace<'o> {
 #[derive(Debug, Clone, Default)]
 pub struct Kept {
     /// Displacements of the compared nodes, one time after the other.
-    displacements: Vec<Vec3>,
+    pub displacements: Vec<Vec3>,
     /// Rotations of the bodies, likewise.
-    rotations: Vec<Quaternion<f64>>,
+    pub rotations: Vec<Quaternion<f64>>,
     /// Velocities and angular velocities of the bodies, likewise, where bodies are all that moves.
-    velocities: Vec<[Vec3; 2]>,
+    pub velocities: Vec<[Vec3; 2]>,
     /// Number of times so far.
-    times: usize,
+    pub times: usize,
     /// The ends of all steps, the first at t = 0.
-    ends: Vec<f64>,
+    pub ends: Vec<f64>,
     /// The error of a step goes with this power of its length.
-    power: i32,
-    longest: f64,
+    pub power: i32,
+    /// The longest step.
+    pub longest: f64,
     /// The times between which runs are compared.
-    between: [f64; 2],
+    pub between: [f64; 2],
     /// True where the run has met events.
-    met_events: bool,
+    pub met_events: bool,
 }
 
 keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events });
@@ -236,19 +237,6 @@ impl Kept {
     fn speed(&self) -> Motion {
         let largest = |of: usize| self.velocities.iter().map(|rates| rates[of].norm()).fold(0.0, f64::max);
         Motion(largest(0), largest(1))
-    }
-
-    /// A run of so many equal steps in which one node moves by 1 and the position of another is out by `error`.
-    #[cfg(test)]
-    pub(super) fn example(steps: usize, error: f64, met_events: bool) -> Kept {
-        Kept {
-            displacements: (0..COMPARISONS).flat_map(|_| [Vec3::x(), error * Vec3::y()]).collect(),
-            times: COMPARISONS,
-            ends: (0..=steps).map(|n| n as f64 / steps as f64).collect(),
-            power: 3,
-            met_events,
-            ..Kept::default()
-        }
     }
 
     /// The largest displacement of a node and the largest rotation of a body.
