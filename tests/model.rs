@@ -334,6 +334,5 @@ fn a_study_knows_its_quantities_and_settings() {
     assert_eq!(study.iteration_tolerances.len(), 5);
     assert_eq!((study.iteration_tolerances[0], study.iteration_tolerances[4]), (1e-4, 1e-8));
     assert_eq!(study.beam_orders, [1, 3]);
-    assert!(matches!(study.confirm, Some(rdsolve::model::study::Confirm::Auto)));
     assert!(model.output.parts);
 }

@@ -1,5 +1,5 @@
 //! What `rdsolve study --recommend` goes over where neither the deck nor the command says it: the default time steps, and
-//! automatic steps around the error that is wanted, with a reference that another family confirms.
+//! automatic steps around the error that is wanted. Where the deck names no scheme, these have one of another family, which confirms the reference.
 
 use base::words::rungs;
 use model::{AnalysisKind, Model};
@@ -26,9 +26,6 @@ pub fn defaults(model: &Model, wanted: f64) -> Vec<String> {
         if is_dynamic && follows && !tolerances.is_empty() {
             sets.push(format!("study.error_tolerances={tolerances:?}"));
         }
-    }
-    if is_dynamic && study.confirm.is_none() && study.reference.is_none() {
-        sets.push("study.confirm=\"auto\"".to_owned());
     }
     sets
 }

@@ -33,7 +33,7 @@ other settings, its time, of which the least counts. Error = rms over equidistan
 together, relative to the reference of `[study]`, or else to what the finest runs tend to (Richardson extrapolation), with a \
 bound of its own error. An option overrides the key of the same name in the deck's `[study]`.
 
-Written: study.csv (a row for each run), phase.csv (errors split into phase and amplitude), study.svg, asked.svg (automatic \
+Written: study.csv (a row for each run), study.svg, asked.svg (automatic \
 steps), study.html; or rigidify.csv; and study.list, the files that the study has \
 written. Runs that failed are listed as failed.
 
@@ -87,9 +87,6 @@ pub struct StudyArgs {
     /// What the picture draws errors against: seconds, or counts, which do not scatter
     #[arg(long, value_name = "COST", value_enum, default_value_t)]
     axis: Cost,
-    /// Confirm the reference by a scheme of another family, or auto: its error grows to the difference of the two
-    #[arg(long, value_name = "SCHEME", num_args = 0..=1, default_missing_value = "auto")]
-    confirm: Option<String>,
     /// Print the deck lines of the cheapest setting that reaches this error, and nothing else; exit code 5 where none does
     #[arg(long, value_name = "ERROR", value_parser = positive, conflicts_with = "wanted_error")]
     recommend: Option<f64>,
@@ -100,7 +97,7 @@ pub struct StudyArgs {
     #[arg(long, value_name = "SECONDS", default_value = "10", value_parser = positive)]
     budget: f64,
     /// Instead of a grid of settings, run with each part rigid in turn: its share of the elastic energy, error, time saved
-    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "iteration_tolerances", "meshes", "beam_orders", "reference", "finest", "wanted_error", "axis", "confirm", "recommend"])]
+    #[arg(long, conflicts_with_all = ["schemes", "methods", "time_steps", "error_tolerances", "halvings", "iteration_tolerances", "meshes", "beam_orders", "reference", "finest", "wanted_error", "axis", "recommend"])]
     rigidify: bool,
     /// Threads of each run, from 1 to 64
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
@@ -321,7 +318,6 @@ impl StudyArgs {
         add("--samples", self.samples.is_some(), self.samples.unwrap_or_default().to_string());
         let wanted: Vec<f64> = self.recommend.into_iter().chain(self.wanted_error.iter().copied()).collect();
         add("--wanted-error", !wanted.is_empty(), numbers(&wanted));
-        add("--confirm", self.confirm.is_some(), serde_json::Value::from(self.confirm.clone()).to_string());
         add("--finest", self.finest, "true".into());
         if let Some(file) = &self.reference {
             // A path in the deck starts at the deck; one on the command line starts at the current folder.

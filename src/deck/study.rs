@@ -52,9 +52,6 @@ pub struct Study {
     pub meshes: Maybe<OneOrMany<f64>>,
     /// Polynomial degrees of the elements of all beams, 1 to 4: their `order`. Default: the deck's own.
     pub beam_orders: Maybe<OneOrMany<u64>>,
-    /// A scheme of another family, or "auto", to confirm the reference: the limit of its finest runs is compared with that of the main
-    /// scheme, or with the file. Default: none.
-    pub confirm: Maybe<String>,
     /// Errors for which the study names the cheapest setting. Default: 1e-2, 1e-3 and 1e-4.
     pub wanted_error: Maybe<OneOrMany<f64>>,
 }

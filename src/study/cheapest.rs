@@ -51,7 +51,7 @@ struct Seen {
 pub fn cheapest(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<(f64, Vec<Cheapest>)> {
     let noise = noise(runs);
     let of = |error: f64| {
-        let lines = (0..grid.lines.len()).filter(|&line| !grid.lines[line].confirms);
+        let lines = 0..grid.lines.len();
         let cost = |line: usize| {
             let of_line: Vec<&StudyRun> = runs.iter().filter(|run| run.line == line).collect();
             cost(grid.resolutions(line), &of_line, line, error, noise)

@@ -4,10 +4,8 @@
 /// What a scheme of another family says of a reference.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Confirmation {
-    /// Nothing: none has been run.
+    /// Nothing: none has been run, or none has an answer.
     None,
-    /// None has an answer; the label of the line that was to give one.
-    Failed(String),
     /// It tends to the same as far as both are known.
     Agrees(Difference),
     /// It tends to something else.
@@ -29,8 +27,7 @@ impl Confirmation {
     /// It in words, behind those about the reference.
     pub fn in_words(&self) -> String {
         match self {
-            Confirmation::None => "not confirmed by a scheme of another family (--confirm)".to_owned(),
-            Confirmation::Failed(label) => format!("not confirmed: {label} did not come to an answer"),
+            Confirmation::None => "not confirmed: all schemes are of one family".to_owned(),
             Confirmation::Agrees(of) => {
                 format!("confirmed by {}, which tends to the same within {:.1e}", of.label, of.apart)
             }

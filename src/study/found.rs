@@ -3,9 +3,7 @@
 use super::asked::Asked;
 use super::cheapest::Cheapest;
 use super::grid::StudyGrid;
-use super::joint::MeshAndStep;
 use super::order::Order;
-use super::phase::Phase;
 use super::reference::Reference;
 use super::run::StudyRun;
 use model::study::Quantity;
@@ -30,10 +28,6 @@ pub struct Found {
     pub cheapest: Vec<(f64, Vec<Cheapest>)>,
     /// What automatic steps were asked for and reached.
     pub asked: Vec<Asked>,
-    /// The joint fits over meshes and steps.
-    pub joints: Vec<MeshAndStep>,
-    /// The errors of all runs, split into phase and amplitude; empty where there is no reference.
-    pub phases: Vec<Phase>,
     /// True where a signal has ended it before all runs were done.
     pub stopped: bool,
 }

@@ -2,7 +2,6 @@
 //! overrides of the deck.
 
 use super::cells::float;
-use super::confirming;
 use super::lines::{StudyLine, lines};
 use base::diagnostic::Diagnostic;
 use deck::Deck;
@@ -88,13 +87,7 @@ impl StudyGrid {
             .filter(|(_, none)| !none)
             .map(|(automatic, _)| *automatic)
             .collect();
-        let mut lines = lines(model, deck, study, &kinds, &mut problems);
-        if let Some(confirm) = study.confirm.as_ref().filter(|_| problems.is_empty()) {
-            match confirming::line(model, deck, confirm, &lines) {
-                Ok(line) => lines.extend(line),
-                Err(problem) => problems.push(problem),
-            }
-        }
+        let lines = lines(model, deck, study, &kinds, &mut problems);
         if !problems.is_empty() {
             return Err(problems);
         }
@@ -112,9 +105,7 @@ impl StudyGrid {
 
     /// The time steps, or tolerances, that a line goes over.
     pub fn resolutions(&self, line: usize) -> &[f64] {
-        let of = &self.lines[line];
-        let all = if of.automatic { &self.error_tolerances } else { &self.time_steps };
-        if of.confirms { confirming::finest(all) } else { all }
+        if self.lines[line].automatic { &self.error_tolerances } else { &self.time_steps }
     }
 
     /// All overrides of a run.

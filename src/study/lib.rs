@@ -16,14 +16,11 @@ mod cheapest;
 mod columns;
 mod confirm;
 mod confirmation;
-mod confirming;
 mod cost;
 mod family;
 mod found;
 mod grid;
 mod history;
-mod joint;
-mod joint_fit;
 mod limit;
 mod lines;
 mod manifest;
@@ -31,8 +28,6 @@ mod meshes;
 mod options;
 mod order;
 mod page;
-mod phase;
-mod phase_fit;
 mod picture;
 mod process;
 mod progress;
@@ -54,14 +49,10 @@ pub use cost::Cost;
 pub use family::Family;
 pub use found::Found;
 pub use grid::StudyGrid;
-pub use joint::{CheapestPair, MeshAndStep};
-pub use joint_fit::{JointFit, Pair, PowerLaw};
 pub use lines::{StudyLine, follows_tolerance};
 pub use meshes::{CoarserMesh, coarser};
 pub use options::{Options, StudyFault};
 pub use order::Order;
-pub use phase::Phase;
-pub use phase_fit::Split;
 pub use process::{INSTRUCTIONS, LIFELINE};
 pub use recommend::recommend;
 pub use reference::Reference;
@@ -79,8 +70,6 @@ use std::sync::atomic::AtomicBool;
 const TABLE: &str = "study.csv";
 /// The picture of error against run time.
 const PICTURE: &str = "study.svg";
-/// The table of errors split into phase and amplitude.
-const PHASES: &str = "phase.csv";
 /// The picture of what automatic steps were asked for and reached.
 const ASKED: &str = "asked.svg";
 /// The page with all.
@@ -105,8 +94,7 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
             return Err(StudyFault::Deck([given.err(), grid.err()].into_iter().flatten().flatten().collect()));
         }
     };
-    let mut manifest =
-        Manifest::begin(&options.folder, &[TABLE, PHASES, PICTURE, ASKED, PAGE], &run_all::folders(&grid))?;
+    let mut manifest = Manifest::begin(&options.folder, &[TABLE, PICTURE, ASKED, PAGE], &run_all::folders(&grid))?;
     let (mut runs, stopped) = run_all::run_all(&grid, &quantities, options, &mut manifest, stop)?;
     let reference = match given {
         Some(given) => Ok(given.into()),
@@ -122,27 +110,10 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     let orders = order::orders(&grid, &runs);
     let wanted = if asked.wanted_errors.is_empty() { vec![1e-2, 1e-3, 1e-4] } else { asked.wanted_errors.clone() };
     let cheapest = cheapest::cheapest(&grid, &runs, &wanted);
-    let (asked_for, joints) = (asked::asked(&grid, &runs), joint::joints(&grid, &runs, &wanted));
-    let phases = match &reference {
-        Ok(reference) => phase::phases(&grid, &runs, reference, quantities.len()),
-        Err(_) => Vec::new(),
-    };
+    let asked_for = asked::asked(&grid, &runs);
     let title = if model.title.is_empty() { options.deck.display().to_string() } else { model.title.clone() };
     let deck = options.deck.display().to_string();
-    let found = Found {
-        title,
-        deck,
-        quantities,
-        grid,
-        runs,
-        reference,
-        orders,
-        cheapest,
-        asked: asked_for,
-        joints,
-        phases,
-        stopped,
-    };
+    let found = Found { title, deck, quantities, grid, runs, reference, orders, cheapest, asked: asked_for, stopped };
     write(&found, options, &mut manifest)?;
     Ok(found)
 }
@@ -150,9 +121,6 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
 /// Writes the tables, the pictures and the page.
 fn write(found: &Found, options: &Options, manifest: &mut Manifest) -> std::io::Result<()> {
     manifest.write(TABLE, study_csv::table(found).as_bytes())?;
-    if !found.phases.is_empty() {
-        manifest.write(PHASES, phase::table(&found.phases, &found.quantities).as_bytes())?;
-    }
     manifest.write(PICTURE, picture::draw(found, options.axis).as_bytes())?;
     if let Some(picture) = asked_picture::draw(&found.grid, &found.asked) {
         manifest.write(ASKED, picture.as_bytes())?;

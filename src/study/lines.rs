@@ -36,8 +36,6 @@ pub struct StudyLine {
     pub automatic: bool,
     /// The order of the scheme in the time step; of load steps, the highest that they can have.
     pub order: f64,
-    /// True for a line that is run for nothing but to confirm the reference.
-    pub confirms: bool,
     /// The overrides of the deck that make this line, `KEY=VALUE`.
     pub sets: Vec<String>,
 }
@@ -55,7 +53,6 @@ impl StudyLine {
             beam_order: None,
             automatic: false,
             order: OF_LOAD_STEPS,
-            confirms: false,
             sets: Vec::new(),
         };
         match model.analysis.kind {
@@ -78,7 +75,6 @@ impl StudyLine {
             beam_order: None,
             automatic: false,
             order: 2.0,
-            confirms: false,
             sets: Vec::new(),
         }
     }

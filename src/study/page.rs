@@ -23,12 +23,11 @@ fn pictures(found: &Found, axis: Cost) -> String {
     buttons + &pictures
 }
 
-/// What a study says besides, with the picture of what automatic steps reached.
-fn sections(found: &Found) -> String {
-    let [asked, others @ ..] = table::sections(found);
+/// What automatic steps were asked for and reached, with its picture.
+fn asked(found: &Found) -> String {
     let picture = asked_picture::draw(&found.grid, &found.asked).unwrap_or_default();
     let picture = picture.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");
-    asked.html() + &picture + &others.map(|section| section.html()).concat()
+    table::asked(found).html() + &picture
 }
 
 /// The page of a study, which shows errors against this cost first.
@@ -67,7 +66,7 @@ pub fn page(found: &Found, axis: Cost) -> String {
         pictures(found, axis),
         html::table(&["setting", "order"], &orders),
         html::table(&["error", "setting", "beside the first", "cost"], &cheapest),
-        sections(found),
+        asked(found),
         html::table(&table::HEAD, &table::cells(found)),
     )
 }

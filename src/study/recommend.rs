@@ -14,7 +14,7 @@ use deck::Deck;
 /// No run reaches it; the error says by how much, and what to do.
 pub fn recommend(found: &Found, deck: &Deck, wanted: f64) -> Result<String, String> {
     let reference = found.reference.as_ref().map_err(|reason| format!("no error is known: {reason}"))?;
-    let runs = || found.runs.iter().filter(|run| run.status == RunStatus::Done && !found.grid.lines[run.line].confirms);
+    let runs = || found.runs.iter().filter(|run| run.status == RunStatus::Done);
     let most = |run: &StudyRun| run.error_range().map_or(f64::INFINITY, |[_, most]| most);
     let reaching = || runs().filter(|run| most(run) <= wanted);
     let Some(best) = reaching().min_by(|a, b| a.loop_s.total_cmp(&b.loop_s)) else {

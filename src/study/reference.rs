@@ -32,20 +32,12 @@ pub struct Reference {
     pub error_bound: f64,
     /// Where it comes from, in words.
     pub source: String,
-    /// Where meshes were extrapolated: the limit in the time step alone, on the finest mesh, and a bound of its error.
+    /// The limit in the time step alone, on the finest mesh, and a bound of its own error; `None` for a file.
     pub in_time: Option<(Vec<f64>, f64)>,
     /// The family of the schemes that it comes from; `None` for a file.
     pub family: Option<Family>,
     /// What another family says of it.
     pub confirmation: Confirmation,
-}
-
-impl Reference {
-    /// A made-up reference that is exact.
-    #[cfg(test)]
-    pub fn of_values(values: Vec<f64>) -> Reference {
-        GivenReference { values, samples: 0, source: "made up".to_owned() }.into()
-    }
 }
 
 impl From<GivenReference> for Reference {
@@ -124,18 +116,18 @@ pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity])
     if let Some(mesh) = &best.2 {
         source += &format!(" and {}", order(mesh, "mesh"));
     }
-    let in_time = best.2.as_ref().map(|_| (best.1.q.clone(), best.1.error_bound));
+    let in_time = Some((best.1.q.clone(), best.1.error_bound));
     let family = Some(grid.lines[best.0].family);
     Ok(Reference { values: limit.q, error_bound, source, in_time, family, confirmation: Confirmation::None })
 }
 
 /// The lines on the best mesh that have a limit, each with that in the time step and that in the mesh too.
 fn candidates(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<(usize, Limit, Option<Limit>)> {
-    let ended = runs.iter().filter(|run| run.status == RunStatus::Done && !grid.lines[run.line].confirms);
+    let ended = runs.iter().filter(|run| run.status == RunStatus::Done);
     // Of several meshes, degrees and tolerances the best are extrapolated.
     let ranks = ended.map(|run| grid.lines[run.line].rank());
     let finest = ranks.fold([f64::MIN; 3], |best, of| if of > best { of } else { best });
-    let lines = grid.lines.iter().enumerate().filter(|(_, line)| line.rank() == finest && !line.confirms);
+    let lines = grid.lines.iter().enumerate().filter(|(_, line)| line.rank() == finest);
     let mut candidates: Vec<_> =
         lines.filter_map(|(index, _)| over_meshes(grid, runs, index).map(|(time, mesh)| (index, time, mesh))).collect();
     // Automatic steps differ from resolution to resolution in more than their length.
@@ -159,7 +151,7 @@ fn over_meshes(grid: &StudyGrid, runs: &[StudyRun], index: usize) -> Option<(Lim
     let line = &grid.lines[index];
     let of_line = |index: usize| in_time(grid, runs, index);
     let (time, count) = of_line(index)?;
-    let same = |other: &StudyLine| other.is_like(line) && other.beam_order == line.beam_order && !other.confirms;
+    let same = |other: &StudyLine| other.is_like(line) && other.beam_order == line.beam_order;
     let meshes = grid.lines.iter().enumerate().filter(|(_, other)| same(other));
     let mut meshes: Vec<(f64, Limit)> =
         meshes.filter_map(|(i, other)| Some((1.0 / other.mesh, of_line(i)?.0))).collect();

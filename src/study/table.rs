@@ -1,5 +1,6 @@
 //! A study in words: the table of runs, measured orders, the cheapest setting.
 
+use super::asked;
 use super::cells::seconds;
 use super::cheapest::Cheapest;
 use super::columns::columns;
@@ -9,7 +10,6 @@ use super::lines::StudyLine;
 use super::order::{Order, local};
 use super::run::{RunStatus, StudyRun, spread};
 use super::section::StudySection;
-use super::{asked, joint, phase};
 use base::names::short;
 
 /// The header of the table of runs.
@@ -146,10 +146,7 @@ pub fn text(found: &Found) -> String {
             .collect();
         text += &columns(&rows, 1);
     }
-    for section in sections(found) {
-        text += &section.text();
-    }
-    text
+    text + &asked(found).text()
 }
 
 /// How dear a line is beside the cheapest: "x 1.35", or that the two are equal within noise.
@@ -163,11 +160,7 @@ pub fn rank(of: &Cheapest, list: &[Cheapest]) -> String {
     if equal { format!("x {times:.2}, equal within noise") } else { format!("x {times:.2}") }
 }
 
-/// What a study says besides: asked and reached errors, mesh and step together, phase and amplitude.
-pub fn sections(found: &Found) -> [StudySection; 3] {
-    [
-        asked::section(&found.grid, &found.asked),
-        joint::section(&found.joints),
-        phase::section(&found.grid, &found.runs, &found.phases, &found.quantities),
-    ]
+/// What a study says besides: asked and reached errors.
+pub fn asked(found: &Found) -> StudySection {
+    asked::section(&found.grid, &found.asked)
 }

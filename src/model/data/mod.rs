@@ -57,4 +57,4 @@ pub use response::{AroundResonances, ResponseAsked, ResponseMethod};
 pub use shell::{Shell, ShellElement};
 pub use stage::{Actors, RunStage, Stop, StopQuantity};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, FEWEST_STEPS, FIRST_STEP, SAFE, SAFE_WHERE_STRUCK, StepLength};
-pub use study::{Choice, Confirm, Quantity, Study};
+pub use study::{Choice, Quantity, Study};

@@ -33,19 +33,8 @@ pub struct Study {
     pub meshes: Vec<f64>,
     /// Polynomial degrees of the elements of all beams, ascending; if empty, the deck's own.
     pub beam_orders: Vec<u64>,
-    /// The scheme that is to confirm the reference.
-    pub confirm: Option<Confirm>,
     /// Errors for which the cheapest variant is wanted, largest first; if empty, 1e-2, 1e-3, 1e-4.
     pub wanted_errors: Vec<f64>,
-}
-
-/// The choice of the scheme that confirms a reference.
-#[derive(Debug, Clone)]
-pub enum Confirm {
-    /// One of another family than that of the reference, which the program takes.
-    Auto,
-    /// This one.
-    By(Arc<dyn Scheme>),
 }
 
 /// One component of the motion of one node at all times.

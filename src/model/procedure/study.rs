@@ -1,8 +1,8 @@
 //! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
 //! [`study`] alone.
 
-use crate::data::{AnalysisKind, Method, Node, Part};
-pub use crate::data::{Choice, Confirm, Quantity, Study};
+use crate::data::{Method, Node, Part};
+pub use crate::data::{Choice, Quantity, Study};
 use crate::places::place::Place;
 pub use crate::procedure::choose_scheme::choose_scheme;
 use crate::procedure::{can_be_kept, check_yielding, scheme as read_scheme};
@@ -85,7 +85,6 @@ impl<'d> Reader<'_, 'd> {
         let iteration_tolerances = self.iteration_tolerances(study);
         let meshes = self.sorted("meshes", &study.meshes);
         let beam_orders = self.beam_orders(&study.beam_orders);
-        let confirm = self.confirm(study);
         let wanted_errors = self.sorted("wanted_error", &study.wanted_error).into_iter().rev().collect();
         Study {
             quantities,
@@ -100,7 +99,6 @@ impl<'d> Reader<'_, 'd> {
             iteration_tolerances,
             meshes,
             beam_orders,
-            confirm,
             wanted_errors,
         }
     }
@@ -259,31 +257,6 @@ impl<'d> Reader<'_, 'd> {
             self.report.error_with::<()>(&at.span, "`iteration_tolerances` must lie below 1", "they are relative");
         }
         tolerances.into_iter().rev().collect()
-    }
-
-    /// The scheme that is to confirm the reference.
-    fn confirm(&mut self, study: &'d Written) -> Option<Confirm> {
-        let at = study.confirm.as_ref()?;
-        if self.scene.analysis.kind == AnalysisKind::Static {
-            let hint = "a finer ladder of load steps is what there is";
-            return self.report.error_with(&at.span, "no scheme can confirm a static analysis", hint);
-        }
-        if at.value == "auto" {
-            return Some(Confirm::Auto);
-        }
-        match scheme_of(&at.value) {
-            Some(scheme) => {
-                let yields = self.scene.parts.list.iter().any(Part::yields);
-                check_yielding(&*scheme, &at.span, yields, self.report);
-                Some(Confirm::By(scheme))
-            }
-            None => {
-                let known = || SCHEMES.iter().map(|kind| kind.word).chain(["auto"]);
-                let near = nearest(&at.value, known()).map(|near| format!("did you mean `{near}`?"));
-                let hint = near.unwrap_or_else(|| format!("there are {}", known().collect::<Vec<_>>().join(", ")));
-                self.report.error_with(&at.span, format!("no scheme is named `{}`", at.value), hint)
-            }
-        }
     }
 
     fn halvings(&mut self, study: &'d Written, time_steps: usize) -> usize {
