@@ -43,6 +43,7 @@ mod mesh;
 mod messages;
 mod model;
 mod modes;
+mod no_convergence;
 mod order;
 mod output;
 mod over_stages;

@@ -1,5 +1,6 @@
 //! The failures of steps, with the names of what failed.
 
+use super::no_convergence::NoConvergence;
 use super::warning::Instability;
 use crate::modes::ModesFault;
 use crate::plan::Plan;
@@ -40,8 +41,8 @@ pub enum Failure {
     NotConverged {
         /// The number of iterations.
         iterations: usize,
-        /// True for a load step, beyond which there may be no equilibrium nearby.
-        load_control: bool,
+        /// What the last step shows of the cause.
+        cause: NoConvergence,
         /// The part that has opened or gone slack last, while it is, by its name in quotes.
         open: Option<String>,
         /// True where something may slip, and the matrix is the symmetric part of the tangent.
@@ -184,7 +185,7 @@ keep_either!(Failure {
     0 => NoLoadIncrement { time },
     1 => Singular { label, direction, open, at_start },
     2 => MasslessDirection { label, rotation, direction, buckles, open },
-    3 => NotConverged { iterations, load_control, open, lacks_slip, largest },
+    3 => NotConverged { iterations, cause, open, lacks_slip, largest },
     4 => ConstraintsViolated { largest },
     5 => TooManySubsteps { steps, substeps, dt, cause },
     6 => NoEquilibriumOnArc { largest },
@@ -287,24 +288,6 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
     widest
 }
 
-/// What an iteration that does not come to its end says, up to the forces that it names.
-fn not_converged(iterations: usize, load_control: bool, open: Option<&str>, lacks_slip: bool) -> String {
-    let limit = match (open, load_control) {
-        (Some(name), _) => format!(
-            " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a soft spring)"
-        ),
-        (None, true) => " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned(),
-        (None, false) => String::new(),
-    };
-    let slips = match lacks_slip {
-        true => {
-            " (where friction slips the symmetric part of the tangent may not do: `gyroscopic = \"left\"` in `[iteration]` takes all of it)"
-        }
-        false => "",
-    };
-    format!("no convergence in {iterations} iterations{limit}{slips}; the largest unbalanced forces are")
-}
-
 /// The message of a direction without mass that is not held.
 fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, open: Option<&str>) -> String {
     let what = if rotation { "inertia" } else { "mass" };
@@ -375,8 +358,9 @@ impl Failure {
             Failure::MasslessDirection { label, rotation, direction, buckles, open } => {
                 massless(label, *rotation, direction, *buckles, open.as_deref())
             }
-            Failure::NotConverged { iterations, load_control, open, lacks_slip, .. } => {
-                not_converged(*iterations, *load_control, open.as_deref(), *lacks_slip)
+            Failure::NotConverged { iterations, cause, open, lacks_slip, largest } => {
+                let worst = largest.first().map(|worst| (&*worst.label, worst.direction, worst.residual));
+                cause.message(*iterations, open.as_deref(), *lacks_slip, worst)
             }
             Failure::Modes(fault) => fault.to_string(),
             Failure::Stopped => "stopped by a signal in the first step".to_owned(),

@@ -23,6 +23,7 @@ mod linear_system;
 mod march;
 pub mod modes;
 mod modes_at_end;
+mod no_convergence;
 mod node_chunks;
 mod outcome;
 pub mod plan;

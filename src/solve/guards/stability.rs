@@ -215,7 +215,7 @@ impl Stability {
         found.overwritten = !is_own;
         found.softens = cx.system.history > 0 && tangent.is_stable_with_elastic_moduli(ends);
         let looked = match self.criterion {
-            Criterion::Eigenvalues if cuts && !cx.system.rubs() && tangent.turns_unstable(ends) => {
+            Criterion::Eigenvalues if cuts && !found.softens && !cx.system.rubs() && tangent.turns_unstable(ends) => {
                 Ok(Some(Instability { certain: true, ..Instability::default() }))
             }
             _ => locate(cx, &mut tangent, ends, negative > before, path.is_some()),

@@ -3,8 +3,8 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::joints;
 use crate::guards::jump;
+use crate::no_convergence::NoConvergence;
 use crate::report::StepReport;
 use crate::step::convergence_tolerance::Ending;
 use crate::step::correct::{correct, relative, shorten, size_of_correction};
@@ -236,7 +236,7 @@ impl Newton {
                 Verdict::Restart => self.restart(cx, ws, state, stage, &mut progress),
                 Verdict::Exhausted => {
                     if !self.require_fresh_matrix(cx, ws, state, stage, &mut progress) {
-                        return Err(not_converged(cx, ws, &progress.report, self.matrix.opened_part()));
+                        return Err(self.not_converged(cx, ws, state, &progress));
                     }
                     progress.limit += cx.model.solution.iteration.limit;
                 }
@@ -390,6 +390,7 @@ impl Newton {
         }
         let judgement = progress.convergence.judge(size, residual, quadratic);
         self.ending.note(&judgement);
+        progress.remaining = judgement.remaining();
         let refresh = &mut self.matrix.refresh;
         if self.ending.carries {
             refresh.note(iterations, fresh, size, &judgement);
@@ -432,6 +433,29 @@ impl Newton {
         again
     }
 
+    /// The failure of an iteration that has used up its corrections, with what its last step shows of the cause.
+    fn not_converged(&self, cx: &Context, ws: &mut Workspace, state: &State, progress: &StepProgress) -> Failure {
+        let report = &progress.report;
+        // Forces balance while the joints are open: the constraints contradict each other.
+        if report.residual < 1e-3
+            && let Err(violated) = joints::check(cx, ws)
+        {
+            return violated;
+        }
+        /// Beyond a limit load forces miss balance by what is above it; a larger part of the forces shows iterates that are lost.
+        const NEAR: f64 = 0.1;
+        let softens = self.way.passes_unstable || !self.way.first.is_empty() && self.matrix.has_yielded();
+        let least = cx.model.analysis.least_step;
+        let cause = NoConvergence {
+            at_limit: softens && report.residual < NEAR,
+            least_step: (0.5 * (report.to - state.time) < least).then_some(least),
+            enough: progress.enough(),
+        };
+        let (open, lacks_slip) = (self.matrix.opened_part(), cx.system.rubs() && ws.matrix.solver.is_symmetric());
+        let largest = residual::largest(cx, ws);
+        Failure::NotConverged { iterations: report.iterations, cause, open, lacks_slip, largest }
+    }
+
     fn forget_corrections(&mut self) {
         if let Some(anderson) = &mut self.anderson {
             anderson.forget();
@@ -450,17 +474,4 @@ fn evaluate_residual(cx: &Context, ws: &mut Workspace, state: &State, stage: &St
     let scale = cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     let scale = if cx.is_dynamic() { scale } else { ws.load_steps.peak.scale(scale) };
     residual::gather(cx, ws, &scale)
-}
-
-fn not_converged(cx: &Context, ws: &mut Workspace, report: &StepReport, open: Option<String>) -> Failure {
-    // Forces balance while the joints are open: the constraints contradict each other.
-    if report.residual < BALANCED
-        && let Err(violated) = joints::check(cx, ws)
-    {
-        return violated;
-    }
-    let load_control = !cx.is_dynamic() && !cx.model.analysis.step_length.is_arc_length();
-    let lacks_slip = cx.system.rubs() && ws.matrix.solver.is_symmetric();
-    let largest = residual::largest(cx, ws);
-    Failure::NotConverged { iterations: report.iterations, load_control, open, lacks_slip, largest }
 }

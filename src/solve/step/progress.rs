@@ -22,6 +22,8 @@ pub struct StepProgress {
     pub predicted: bool,
     /// True where the correction at hand tells nothing of convergence: it was shortened, or answers a linearized residual.
     pub unjudged: bool,
+    /// Number of corrections still needed at the contraction seen last.
+    pub remaining: f64,
     /// Relative error of the time where it is unknown; loads are curves over it.
     time_error: f64,
 }
@@ -36,6 +38,7 @@ impl StepProgress {
             limit: cx.model.solution.iteration.limit,
             predicted: true,
             unjudged: false,
+            remaining: f64::INFINITY,
             time_error: 0.0,
         }
     }
@@ -60,6 +63,12 @@ impl StepProgress {
     /// True where the step has used up its iterations.
     pub fn is_exhausted(&self) -> bool {
         self.report.iterations >= self.limit
+    }
+
+    /// The number of iterations that would do, with half as many to spare, where corrections still shrink and ten times the limit is enough.
+    pub fn enough(&self) -> Option<usize> {
+        let needed = 1.5 * (self.report.iterations as f64 + self.remaining);
+        (needed <= 10.0 * self.limit as f64).then(|| needed.ceil() as usize)
     }
 
     /// Judges convergence to this relative `tolerance`. Where material yields, one contraction says little of the next, and what is small

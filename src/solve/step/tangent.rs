@@ -29,9 +29,11 @@ pub struct IterationMatrix {
     unheld: Option<Unheld>,
     /// True where the matrix at hand is stabilized.
     is_stabilized: bool,
+    /// True where the matrix at hand has elastic moduli because the tangent had a pivot that vanished.
+    has_yielded: bool,
 }
 
-keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight } without { unheld, is_stabilized });
+keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight } without { unheld, is_stabilized, has_yielded });
 
 impl IterationMatrix {
     /// No matrix yet, with the rule of the deck.
@@ -44,6 +46,7 @@ impl IterationMatrix {
             mass_weight: 0.0,
             unheld: None,
             is_stabilized: false,
+            has_yielded: false,
         }
     }
 
@@ -97,7 +100,7 @@ impl IterationMatrix {
         ws.matrix.make_room(cx, &now);
         let openings = self.mechanisms.look(cx, state, &ws.prescribed.instant, &now);
         let mut moduli = self.refresh.moduli();
-        self.is_stabilized = false;
+        (self.is_stabilized, self.has_yielded) = (false, false);
         loop {
             let weights = TangentWeights { stiffness: true, rate, acceleration, turning: scheme.turning, moduli };
             let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
@@ -127,7 +130,7 @@ impl IterationMatrix {
                     }
                 }
                 Err(_) if moduli == Moduli::Algorithmic && cx.system.history > 0 => {
-                    moduli = Moduli::Elastic;
+                    (moduli, self.has_yielded) = (Moduli::Elastic, true);
                     continue;
                 }
                 Err(singular) => self.mechanisms.singular(cx, &now, singular.row, openings),
@@ -148,6 +151,11 @@ impl IterationMatrix {
     /// True where the matrix at hand is stabilized: its correction leads on, but says nothing of convergence.
     pub fn is_stabilized(&self) -> bool {
         self.is_stabilized
+    }
+
+    /// True where the tangent had a pivot that vanished since all that resists has yielded.
+    pub fn has_yielded(&self) -> bool {
+        self.has_yielded
     }
 
     /// Solves for the correction, which takes the place of the residual in `ws.r`.

@@ -1,0 +1,67 @@
+//! What the last step of an iteration without convergence shows of the cause, and the message that follows from it.
+
+use base::names::short;
+use base::snapshot::keep;
+
+/// The evidence of a step that did not converge.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct NoConvergence {
+    /// True where a tangent of a load step had a negative or a vanishing pivot: no equilibrium may lie nearby.
+    pub at_limit: bool,
+    /// The `least_step` of the deck, where it forbids the next cutback.
+    pub least_step: Option<f64>,
+    /// The number of iterations that would do at the contraction seen last, where that is not far away.
+    pub enough: Option<usize>,
+}
+
+keep!(NoConvergence: Default { at_limit, least_step, enough });
+
+impl NoConvergence {
+    /// The message up to the list of forces. `open`: the part that has opened last, in quotes; `lacks_slip`: the matrix leaves out a part of
+    /// friction; `worst`: node, direction and size of the largest unbalanced force.
+    pub fn message(
+        &self,
+        iterations: usize,
+        open: Option<&str>,
+        lacks_slip: bool,
+        worst: Option<(&str, &str, f64)>,
+    ) -> String {
+        let slips = match lacks_slip {
+            true => {
+                " (where friction slips the symmetric part of the tangent may not do: `gyroscopic = \"left\"` in `[iteration]` takes all of it)"
+            }
+            false => "",
+        };
+        let cause = self.cause(open, worst);
+        format!("no convergence in {iterations} iterations{cause}{slips}; the largest unbalanced forces are")
+    }
+
+    fn cause(&self, open: Option<&str>, worst: Option<(&str, &str, f64)>) -> String {
+        if let Some(name) = open {
+            return format!(
+                " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a soft spring)"
+            );
+        }
+        if self.at_limit {
+            return " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned();
+        }
+        if let Some(enough) = self.enough {
+            return format!(" (corrections still shrink: `limit` = {enough} in `[iteration]` would do)");
+        }
+        let place = worst.map_or_else(String::new, |(label, direction, residual)| {
+            let out = if residual.is_finite() { format!("by {residual:.1e}") } else { "beyond all numbers".to_owned() };
+            format!("`{label}` is out of balance in direction {direction} {out}")
+        });
+        match self.least_step {
+            Some(least) => format!(
+                " ({place}, and `least_step` = {} forbids shorter steps: give a hundredth of it, {})",
+                short(least),
+                short(0.01 * least)
+            ),
+            None => format!(
+                " ({place}, however short the step: look there for a load or a motion that jumps, or for a part that opens, slips or yields at \
+                 once; a soft spring there, or a dynamic analysis, may lead on)"
+            ),
+        }
+    }
+}
