@@ -32,6 +32,7 @@ mod report;
 mod run;
 mod sample;
 mod search;
+mod slip_watch;
 mod start;
 mod start_of_stage;
 mod step;

@@ -2,6 +2,7 @@
 
 use super::context::{self, Context};
 use super::linear_system::LinearSystem;
+use super::slip_watch::SlipWatch;
 use super::warning::{Remark, Warnings};
 use crate::modes::ResponseSoFar;
 use crate::step::load_steps::LoadSteps;
@@ -46,6 +47,8 @@ pub struct Workspace {
     pub joint_violation: f64,
     /// What the run is warned of so far.
     pub warnings: Warnings,
+    /// Slip that begins anew.
+    pub slips: SlipWatch,
     /// What has been found of a frequency response.
     pub response: ResponseSoFar,
 }
@@ -67,6 +70,7 @@ keep!(Workspace {
     rotation_drift,
     joint_violation,
     warnings,
+    slips,
     response,
 });
 
@@ -127,6 +131,7 @@ impl Workspace {
             rotation_drift: 0.0,
             joint_violation: 0.0,
             warnings,
+            slips: SlipWatch::new(cx),
             response: ResponseSoFar::default(),
         })
     }
@@ -146,6 +151,7 @@ impl Workspace {
         (*reach, *load_steps) = (cx.length, LoadSteps::default());
         (self.rotation_drift, self.joint_violation) = (0.0, 0.0);
         self.warnings = warnings_of(&self.matrix.solver);
+        self.slips = SlipWatch::new(cx);
         self.response = ResponseSoFar::default();
     }
 }

@@ -16,6 +16,7 @@ pub mod relative_rotation;
 mod results;
 pub mod shell;
 mod slider;
+pub mod slip;
 mod wandering;
 
 pub use block::subtract;

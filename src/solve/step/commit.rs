@@ -78,6 +78,7 @@ pub fn commit(
     std::mem::swap(&mut state.nodes, &mut ws.trial);
     state.time = to;
     cx.system.remember_joint_loads(state, dt);
+    ws.slips.note(cx, &ws.history, state, dt);
     contacts::note_depth(cx, ws, state);
     strain::note(cx, ws, state, to - dt);
     drift::note(cx, ws, state, to - dt);

@@ -5,16 +5,18 @@
 //! Angles are counted over full turns from that at the end of the last step, on from there with the mean of the rates: half a turn
 //! more or less is the limit, not the turn itself. That of a drive is what the drive says, to the nearest turn.
 
-use base::math::{Mat3, Vec6, angular, linear, stack};
+use base::math::{Mat3, Vec3, Vec6, angular, linear, stack};
 use mechanics::constraints::joint::{ConstraintEquation, Drive};
 use mechanics::elements::contact::restitution::Loss;
 use mechanics::elements::coordinate_law::{
     ANCHOR, CoordinateLaw, CoordinateState, IMPACT_POWER, IMPACT_SPEED, MEMORY, RATE,
 };
 use mechanics::elements::memories::places;
+use mechanics::elements::slip::Slip;
 use mechanics::elements::{ElementBlock, Force, Moduli, subtract};
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node};
+use std::any::Any;
 use std::ops::Range;
 
 /// What acts along the coordinate of one joint.
@@ -62,6 +64,20 @@ impl CoordinateSprings {
     pub fn new(springs: Vec<CoordinateSpring>) -> CoordinateSprings {
         let memories = places(springs.iter().map(|spring| spring.law.memory()));
         CoordinateSprings { springs, memories }
+    }
+
+    /// True for a joint with friction.
+    pub fn rubs(&self, e: usize) -> bool {
+        self.springs[e].law.friction.is_some()
+    }
+
+    /// The slip of a joint with friction in a step between two histories of its group.
+    pub fn slip(&self, e: usize, [old, new]: [&[f64]; 2]) -> Slip {
+        let [old, new] = [old, new].map(|history| &history[self.memories[e].clone()]);
+        let friction = self.springs[e].law.friction_after(0.0, new);
+        let pull = friction.map_or(0.0, |friction| friction.stiffness * friction.stretch(new[0], new[ANCHOR]).0.abs());
+        let way = Vec3::new(new[ANCHOR] - old[ANCHOR], 0.0, 0.0);
+        Slip { way, pull, stiffness: friction.map_or(0.0, |friction| friction.stiffness), touches: true }
     }
 
     fn states<'a>(
@@ -176,6 +192,10 @@ impl ElementBlock for CoordinateSprings {
                 }
             }
         }
+    }
+
+    fn as_any(&self) -> Option<&dyn Any> {
+        Some(self)
     }
 
     fn energy(&self, now: &Configuration) -> f64 {

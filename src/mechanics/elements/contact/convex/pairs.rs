@@ -1,5 +1,6 @@
 //! Convex solids on bodies against one on another body or on the ground.
 
+use super::memory::Memory;
 use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
 use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::law::ContactLaw;
@@ -8,7 +9,7 @@ use crate::elements::contact::surface::Surface;
 /// Convex solids against one.
 pub struct ConvexPairs {
     /// The law, for the whole of a face.
-    pub(super) law: ContactLaw,
+    pub(in crate::elements::contact) law: ContactLaw,
     /// The one that is touched.
     pub(super) other: CarriedConvex,
     /// Those that touch it.
@@ -40,5 +41,15 @@ impl ConvexPairs {
     pub(in crate::elements::contact) fn history<'a>(&self, e: usize, history: &'a [f64]) -> PointHistory<'a> {
         let width = width(&self.law);
         PointHistory::new(&history[e * width..(e + 1) * width])
+    }
+
+    /// What a pair remembers, with the memory of its friction.
+    pub(in crate::elements::contact) fn friction_of<'a>(
+        &self,
+        e: usize,
+        history: &'a [f64],
+    ) -> (PointHistory<'a>, Memory) {
+        let old = self.history(e, history);
+        (old, Memory::read(old))
     }
 }

@@ -1,0 +1,168 @@
+//! Watches slip that begins anew under friction. It begins at rest, but the spring of friction lets go with a speed F/√(k m) and the step adds
+//! h F/m: each time the slip that follows is too long by that speed times its duration. Nothing is looked at without friction.
+
+use super::context::Context;
+use super::warning::Warning;
+use crate::system::Rubbing;
+use base::math::Vec3;
+use base::snapshot::keep;
+use mechanics::elements::slip::Slip;
+use mechanics::state::State;
+use model::{Contact, PartType, StepLength};
+
+/// The springs of friction of a scene.
+#[derive(Default)]
+pub struct SlipWatch {
+    springs: Vec<Spring>,
+}
+
+keep!(SlipWatch { springs });
+
+/// A spring of friction, with what it has slipped.
+#[derive(Default)]
+struct Spring {
+    group: usize,
+    element: usize,
+    /// True once it has come to rest since it slipped last: slip that follows begins with speed zero.
+    rests: bool,
+    /// Its force at the end of the last step, the largest so far, and the force per stretch.
+    pull: f64,
+    limit: f64,
+    stiffness: f64,
+    phase: Phase,
+    /// The sum of what has slipped, and how far it was from the start at most.
+    way: [f64; 3],
+    farthest: f64,
+    /// The sum of the errors of phases, and how large it was at most.
+    error: [f64; 3],
+    largest: f64,
+}
+
+keep!(Spring: Default { group, element, rests, pull, limit, stiffness, phase, way, farthest, error, largest });
+
+/// Slip in one direction.
+#[derive(Default, Clone)]
+struct Phase {
+    /// A vector along it; zero where nothing slips.
+    along: [f64; 3],
+    /// True where it began at rest.
+    counts: bool,
+    /// Its steps, up to three, the length and speed of the last, and the length of the first.
+    steps: usize,
+    last: [f64; 2],
+    first: f64,
+    /// Its duration and its way.
+    duration: f64,
+    length: f64,
+    /// The speed with which it began.
+    speed: f64,
+    /// What its error is so far.
+    error: f64,
+}
+
+keep!(Phase: Default { along, counts, steps, last, first, duration, length, speed, error });
+
+impl SlipWatch {
+    /// Watches the springs of friction of a scene that moves.
+    pub fn new(cx: &Context) -> SlipWatch {
+        let rubbing = if cx.is_dynamic() { cx.system.rubbing() } else { Vec::new() };
+        let spring = |Rubbing { group, element }| Spring { group, element, ..Spring::default() };
+        SlipWatch { springs: rubbing.into_iter().map(spring).collect() }
+    }
+
+    /// Takes account of a step of length `dt` to this state, from the history `before`.
+    #[inline]
+    pub fn note(&mut self, cx: &Context, before: &[f64], state: &State, dt: f64) {
+        for spring in &mut self.springs {
+            let at = Rubbing { group: spring.group, element: spring.element };
+            spring.follow(&cx.system.slip(at, [before, &state.history], dt), dt);
+        }
+    }
+
+    /// The warning of the contact or joint whose slip has the largest error, in parts of the largest slip.
+    pub fn warning(&self, cx: &Context) -> Option<Warning> {
+        /// Part of the largest slip from which the error is told, and the part that the remedy leaves.
+        const SEEN: f64 = 0.02;
+        const LEFT: f64 = 0.01;
+        let part = |spring: &Spring| spring.largest / spring.farthest;
+        let seen = self.springs.iter().filter(|spring| spring.is_seen(cx) && part(spring) > SEEN);
+        let worst = seen.max_by(|a, b| part(a).total_cmp(&part(b)))?;
+        let group = &cx.system.groups[worst.group];
+        let of = group.part_of(worst.element, cx.model);
+        let factor = part(worst) / LEFT;
+        let contact = Contact::of(of).and_then(|contact| contact.law);
+        let step = Some(cx.model.analysis.nominal_step())
+            .filter(|_| matches!(cx.model.analysis.step_length, StepLength::Fixed { .. }));
+        Some(Warning::SlipBegins {
+            name: of.name().to_owned(),
+            error: worst.largest,
+            farthest: worst.farthest,
+            stiffness: contact.map(|law| [law.stiffness, law.stiffness * factor * factor]),
+            stick: contact.is_none().then(|| worst.stick() / (factor * factor)),
+            step: step.map(|step| step / factor),
+        })
+    }
+}
+
+impl Spring {
+    /// True where it has slipped so far that its slip is a motion of the scene: not of what settles or hardly gives.
+    fn is_seen(&self, cx: &Context) -> bool {
+        const OF_LENGTH: f64 = 1e-3;
+        const OF_STRETCH: f64 = 10.0;
+        self.farthest > (OF_LENGTH * cx.length).max(OF_STRETCH * self.stick())
+    }
+
+    /// What it gives before it slips.
+    fn stick(&self) -> f64 {
+        if self.stiffness > 0.0 { self.limit / self.stiffness } else { 0.0 }
+    }
+
+    fn follow(&mut self, slip: &Slip, dt: f64) {
+        let before = self.pull;
+        if slip.stiffness > 0.0 {
+            (self.stiffness, self.pull, self.limit) = (slip.stiffness, slip.pull, self.limit.max(slip.pull));
+        }
+        if !slip.touches {
+            (self.rests, self.phase) = (false, Phase::default());
+            return;
+        }
+        let length = slip.way.norm();
+        if length == 0.0 {
+            // The spring goes back: what it holds has come to rest on the way.
+            self.rests |= slip.pull < before;
+            return;
+        }
+        let along = Vec3::from(self.phase.along);
+        if self.rests || along.dot(&slip.way) <= 0.0 {
+            let counts = self.rests || along != Vec3::zeros();
+            (self.phase, self.rests) = (Phase { counts, ..Phase::default() }, false);
+        }
+        self.phase.along = slip.way.into();
+        let way = Vec3::from(self.way) + slip.way;
+        (self.way, self.farthest) = (way.into(), self.farthest.max(way.norm()));
+        let error = Vec3::from(self.error) + self.phase.follow(length, dt) / length * slip.way;
+        (self.error, self.largest) = (error.into(), self.largest.max(error.norm()));
+    }
+}
+
+impl Phase {
+    /// Takes account of a step that slips by `length`; returns by how much the error of the phase has grown. The speed at its beginning follows
+    /// from its second and third step, since the first may slip in part.
+    fn follow(&mut self, length: f64, dt: f64) -> f64 {
+        let speed = length / dt;
+        self.steps = (self.steps + 1).min(4);
+        self.duration += dt;
+        self.length += length;
+        let [of, before] = self.last;
+        if self.steps == 3 && self.counts {
+            let slope = (speed - before) / (0.5 * (of + dt));
+            self.speed = (before - slope * 0.5 * (self.first + of)).clamp(0.0, before);
+        }
+        if self.steps == 1 {
+            self.first = dt;
+        }
+        self.last = [dt, speed];
+        let error = (self.speed * self.duration).min(self.length);
+        error - std::mem::replace(&mut self.error, error)
+    }
+}
