@@ -52,9 +52,9 @@ pub mod inner {
     pub use crate::context::Context;
     pub use crate::control::COMPARISONS;
     pub use crate::explicit::CentralDifferenceStepper;
-    pub use crate::strategy::anderson::Anderson;
-    pub use crate::load_steps::{LoadSteps, Peak};
     pub use crate::start::start;
+    pub use crate::step::load_steps::{LoadSteps, Peak};
+    pub use crate::strategy::anderson::Anderson;
     pub use crate::sudden_loads::SuddenLoads;
     pub use crate::system::inner::*;
     pub use crate::trials::Kept;

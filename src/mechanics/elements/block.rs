@@ -2,6 +2,7 @@
 
 use super::contact::PairBlock;
 use super::results::{IntegrationPoint, ShellResultants};
+use super::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 use base::math::{Mat3, Vec3};
@@ -31,6 +32,10 @@ pub trait ElementBlock: Send + Sync {
     fn nodes(&self, e: usize) -> &[usize];
     /// The block as pairs that may touch; `None` for all others.
     fn pairs(&self) -> Option<&dyn PairBlock> {
+        None
+    }
+    /// The block as springs of friction; `None` for all others.
+    fn sliding(&self) -> Option<&dyn Sliding> {
         None
     }
     /// Degrees of freedom of each node: 3, translations only, or 6, translations and rotations.

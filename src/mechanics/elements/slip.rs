@@ -1,4 +1,4 @@
-//! The way that friction has slipped in a step, as what remembers it tells.
+//! Slip of friction in a step, from the history of the springs that remember it.
 
 use base::math::Vec3;
 
@@ -13,4 +13,13 @@ pub struct Slip {
     pub stiffness: f64,
     /// False where what rubs is apart at the end of the step.
     pub touches: bool,
+}
+
+/// A group of elements with springs of friction whose slip is known.
+pub trait Sliding {
+    /// True if element `e` has friction.
+    fn has_friction(&self, e: usize) -> bool;
+
+    /// Slip of element `e` in a step of length `dt` between two histories of the group.
+    fn slip(&self, e: usize, histories: [&[f64]; 2], dt: f64) -> Slip;
 }

@@ -1,8 +1,8 @@
 //! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
 //! [`study`] alone.
 
-use crate::data::{Method, Node, Part};
 pub use crate::data::{Choice, Quantity, Study};
+use crate::data::{Method, Node, Part};
 use crate::places::place::Place;
 pub use crate::procedure::choose_scheme::choose_scheme;
 use crate::procedure::{can_be_kept, check_yielding, scheme as read_scheme};

@@ -3,7 +3,7 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::jump;
+use crate::guards::{joints, jump};
 use crate::no_convergence::NoConvergence;
 use crate::report::StepReport;
 use crate::step::convergence_tolerance::Ending;
@@ -437,7 +437,7 @@ impl Newton {
     fn not_converged(&self, cx: &Context, ws: &mut Workspace, state: &State, progress: &StepProgress) -> Failure {
         let report = &progress.report;
         // Forces balance while the joints are open: the constraints contradict each other.
-        if report.residual < 1e-3
+        if report.residual < BALANCED
             && let Err(violated) = joints::check(cx, ws)
         {
             return violated;

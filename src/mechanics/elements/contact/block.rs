@@ -10,6 +10,7 @@ use super::steps::misses;
 use super::tangent::tangent;
 use super::update::update_point;
 use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 
@@ -67,6 +68,10 @@ impl ElementBlock for Contacts {
     }
 
     fn pairs(&self) -> Option<&dyn PairBlock> {
+        Some(self)
+    }
+
+    fn sliding(&self) -> Option<&dyn Sliding> {
         Some(self)
     }
 }

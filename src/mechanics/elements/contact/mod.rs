@@ -50,7 +50,6 @@ pub use kinematics::Contacts;
 pub use law::ContactLaw;
 pub use pair_block::{PairAction, PairBlock, PairSide};
 pub use point::{ContactPoint, MOST_NODES, TouchKind};
-pub use slip::{rubbing_points, slip_of_pair, slip_of_point};
 pub use surface::Surface;
 pub use surfaces::SurfaceShape;
 pub use surfaces::kind::ClosestPoint;

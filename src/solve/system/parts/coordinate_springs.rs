@@ -12,11 +12,10 @@ use mechanics::elements::coordinate_law::{
     ANCHOR, CoordinateLaw, CoordinateState, IMPACT_POWER, IMPACT_SPEED, MEMORY, RATE,
 };
 use mechanics::elements::memories::places;
-use mechanics::elements::slip::Slip;
+use mechanics::elements::slip::{Sliding, Slip};
 use mechanics::elements::{ElementBlock, Force, Moduli, subtract};
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node};
-use std::any::Any;
 use std::ops::Range;
 
 /// What acts along the coordinate of one joint.
@@ -66,26 +65,26 @@ impl CoordinateSprings {
         CoordinateSprings { springs, memories }
     }
 
-    /// True for a joint with friction.
-    pub fn rubs(&self, e: usize) -> bool {
-        self.springs[e].law.friction.is_some()
-    }
-
-    /// The slip of a joint with friction in a step between two histories of its group.
-    pub fn slip(&self, e: usize, [old, new]: [&[f64]; 2]) -> Slip {
-        let [old, new] = [old, new].map(|history| &history[self.memories[e].clone()]);
-        let friction = self.springs[e].law.friction_after(0.0, new);
-        let pull = friction.map_or(0.0, |friction| friction.stiffness * friction.stretch(new[0], new[ANCHOR]).0.abs());
-        let way = Vec3::new(new[ANCHOR] - old[ANCHOR], 0.0, 0.0);
-        Slip { way, pull, stiffness: friction.map_or(0.0, |friction| friction.stiffness), touches: true }
-    }
-
     fn states<'a>(
         &'a self,
         now: &'a Configuration,
     ) -> impl Iterator<Item = (&'a CoordinateSpring, CoordinateState)> + 'a {
         let memories = self.memories.iter().filter_map(|memory| now.history.get(memory.clone()));
         self.springs.iter().zip(memories).map(|(spring, memory)| (spring, spring.state(now.nodes, memory, now.dt)))
+    }
+}
+
+impl Sliding for CoordinateSprings {
+    fn has_friction(&self, e: usize) -> bool {
+        self.springs[e].law.friction.is_some()
+    }
+
+    fn slip(&self, e: usize, histories: [&[f64]; 2], _dt: f64) -> Slip {
+        let [old, new] = histories.map(|history| &history[self.memories[e].clone()]);
+        let friction = self.springs[e].law.friction_after(0.0, new);
+        let pull = friction.map_or(0.0, |friction| friction.stiffness * friction.stretch(new[0], new[ANCHOR]).0.abs());
+        let way = Vec3::new(new[ANCHOR] - old[ANCHOR], 0.0, 0.0);
+        Slip { way, pull, stiffness: friction.map_or(0.0, |friction| friction.stiffness), touches: true }
     }
 }
 
@@ -194,7 +193,7 @@ impl ElementBlock for CoordinateSprings {
         }
     }
 
-    fn as_any(&self) -> Option<&dyn Any> {
+    fn sliding(&self) -> Option<&dyn Sliding> {
         Some(self)
     }
 

@@ -9,6 +9,7 @@ use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::contact::history::PointHistory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
+use crate::elements::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 
@@ -59,6 +60,10 @@ impl ElementBlock for ConvexPairs {
     }
 
     fn pairs(&self) -> Option<&dyn PairBlock> {
+        Some(self)
+    }
+
+    fn sliding(&self) -> Option<&dyn Sliding> {
         Some(self)
     }
 }
