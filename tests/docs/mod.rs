@@ -11,6 +11,7 @@
 mod deck;
 mod examples;
 mod pages;
+mod prose;
 mod results;
 mod validation;
 
