@@ -233,9 +233,23 @@ impl MaterialLaw {
         new: &[f64],
         spent: &mut Dissipation,
     ) {
-        let kept = if self.is_kinematic() { 0.5 * (0..N).map(|i| new[N + 1 + i] * new[i]).sum::<f64>() } else { 0.0 };
+        let kept = self.kept::<N>(new);
         spent.stored -= kept;
         spent.eroded += kept + self.stored::<N, S>(strain, new);
+    }
+
+    /// What kinematic hardening has kept, per volume.
+    fn kept<const N: usize>(&self, history: &[f64]) -> f64 {
+        if !self.is_kinematic() {
+            return 0.0;
+        }
+        0.5 * (0..N).map(|i| history[N + 1 + i] * history[i]).sum::<f64>()
+    }
+
+    /// What kinematic hardening has kept in a point that is lost, per volume: nothing where it has failed, which [`MaterialLaw::advance`]
+    /// has booked.
+    pub fn lost<const N: usize, S: StressState<N>>(&self, state: S, history: &[f64]) -> f64 {
+        if self.has_failed(state, history) { 0.0 } else { self.kept::<N>(history) }
     }
 
     /// The law for eight points at once; `None` where it has more than linear isotropic hardening.

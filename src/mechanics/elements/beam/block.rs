@@ -145,15 +145,15 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 }
 
 impl<const N: usize, S: BeamSection> Beams<N, S> {
-    /// The elastic energy that is left in an element that fails, in the sections that have not.
-    fn left_in(&self, e: usize, now: &Configuration) -> f64 {
+    /// The energy that is lost with an element that fails, in the fibres that have not.
+    fn lost_with(&self, e: usize, now: &Configuration) -> Dissipation {
         let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
-        let at = |g: usize| {
+        let mut sum = Dissipation::default();
+        for g in 0..self.integration_points() {
             let (gamma, kappa) = pack.interpolate(g, &motion).strains();
-            let energy = element.section.stored(g, (&gamma, &kappa), now);
-            self.shape.weight[g] * element.jacobian * energy
-        };
-        (0..self.integration_points()).map(at).sum()
+            sum += element.section.lost(g, (&gamma, &kappa), now) * (self.shape.weight[g] * element.jacobian);
+        }
+        sum
     }
 }
 
@@ -210,7 +210,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
             });
             self.subtract_from_nodes(e, &forces, F);
             if element.section.has_failed(new) && !element.section.has_failed(now.history) {
-                sum.eroded += self.left_in(e, &Configuration { history: new, ..*now });
+                sum += self.lost_with(e, &Configuration { history: new, ..*now });
             }
         }
         sum
@@ -265,7 +265,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
                 sum += dissipation * (self.shape.weight[g] * element.jacobian);
             }
             if element.section.has_failed(new) && !element.section.has_failed(now.history) {
-                sum.eroded += self.left_in(e, &Configuration { history: new, ..*now });
+                sum += self.lost_with(e, &Configuration { history: new, ..*now });
             }
         }
         sum

@@ -217,6 +217,18 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
         (self.frame * n, self.frame * m, C.rotated(&self.frame))
     }
 
+    /// Elastic energy per length at point `g` if the element had not failed, by the history variables of the group.
+    fn stored(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> f64 {
+        let FibreProfile { law, state, rest, .. } = &*self.profile;
+        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let now = self.at(g, now);
+        let energy = |(fibre, old): (&Fibre, &[f64])| {
+            fibre.area * law.elastic_energy(*state, &FibreProfile::<S, N>::strain(fibre, &gamma, &kappa), old)
+        };
+        let of_fibres = self.profile.with_history(now.history).map(energy).sum::<f64>();
+        self.profile.intact(now.history) * rest.energy(&gamma, &kappa) + of_fibres
+    }
+
     /// The configuration with the history variables of point `g` alone.
     #[inline]
     fn at<'a>(&self, g: usize, now: &Configuration<'a>) -> Configuration<'a> {
@@ -346,15 +358,11 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         self.intact(0, history) == 0.0
     }
 
-    fn stored(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> f64 {
-        let FibreProfile { law, state, rest, .. } = &*self.profile;
-        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let now = self.at(g, now);
-        let energy = |(fibre, old): (&Fibre, &[f64])| {
-            fibre.area * law.elastic_energy(*state, &FibreProfile::<S, N>::strain(fibre, &gamma, &kappa), old)
-        };
-        let of_fibres = self.profile.with_history(now.history).map(energy).sum::<f64>();
-        self.profile.intact(now.history) * rest.energy(&gamma, &kappa) + of_fibres
+    fn lost(&self, g: usize, strain: (&Vec3, &Vec3), now: &Configuration) -> Dissipation {
+        let FibreProfile { law, state, .. } = &*self.profile;
+        let history = self.profile.with_history(&now.history[self.history_range(g)]);
+        let kept = history.map(|(fibre, old)| fibre.area * law.lost(*state, old)).sum::<f64>();
+        Dissipation { stored: -kept, eroded: kept + self.stored(g, strain, now), ..Dissipation::default() }
     }
 
     fn plastic_strain(&self, g: usize, history: &[f64]) -> f64 {

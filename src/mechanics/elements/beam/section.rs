@@ -68,9 +68,10 @@ pub trait BeamSection: Send + Sync {
     fn has_failed(&self, _history: &[f64]) -> bool {
         false
     }
-    /// Elastic energy per length at point `g` if the element had not failed, by the history variables of the group.
-    fn stored(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Configuration) -> f64 {
-        0.0
+    /// What point `g` of an element that fails still stores in fibres that have not failed, per length: elastic energy, and what kinematic
+    /// hardening has kept.
+    fn lost(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Configuration) -> Dissipation {
+        Dissipation::default()
     }
     /// The number of history variables of all points.
     fn history(&self) -> usize {
