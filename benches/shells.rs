@@ -28,9 +28,9 @@ fn deck(form: &str, kind: &str, material: &str, elements: usize) -> String {
         "flat" => "",
         _ => "surface = { kind = \"cylinder\", axis = [0.0, 1.0, 0.0], center = [0.0, 0.0, 0.0] }",
     };
-    let law = match material {
-        "elastic" => "model = \"elastic\"",
-        _ => "model = \"elastic-plastic\"\nyield_stress = 275e6\nhardening_modulus = 1.5e9",
+    let (law, layers) = match material {
+        "elastic" => ("model = \"elastic\"", ""),
+        _ => ("model = \"elastic-plastic\"\nyield_stress = 275e6\nhardening_modulus = 1.5e9", "layers = 5"),
     };
     let [b, c] = match form {
         "flat" => ["[1.0, 0.0, 1.0]", "[1.0, 1.0, 1.0]"],
@@ -62,6 +62,7 @@ fn deck(form: &str, kind: &str, material: &str, elements: usize) -> String {
         kind = "{kind}"
         thickness = 0.01
         material = "steel"
+        {layers}
         {surface}
 
         [[supports]]

@@ -105,12 +105,12 @@ fn a_group_of_both_kinds_is_numbered_once() {
         read(name).lines().skip(1).map(|line| line.split(',').nth(at).unwrap().to_owned()).collect()
     };
     assert_eq!(column("shells.csv", 3), ["0", "1", "2", "3", "0", "1", "2", "3"]);
-    let layers: Vec<String> = (0..8).flat_map(|k| std::iter::repeat_n((k % 4).to_string(), 5)).collect();
+    let layers: Vec<String> = (0..8).flat_map(|k| std::iter::repeat_n((k % 4).to_string(), 8)).collect();
     assert_eq!(column("layers.csv", 3), layers);
     // The moment falls from the root to the tip.
     let moments: Vec<f64> = column("shells.csv", 7)[4..].iter().map(|m| m.parse::<f64>().unwrap().abs()).collect();
     assert!((1..3).all(|k| moments[0] > moments[k] && moments[k] > moments[3]), "{moments:?}");
     assert_eq!(read("fields.csv"), "part,kind,name\n0,shell,plate\n");
     let told = String::from_utf8(run(dir.path(), &["check", "deck.toml"]).code(0).get_output().stdout.clone()).unwrap();
-    assert_eq!(told.matches("shell `plate`: 5 layers").count(), 1, "{told}");
+    assert_eq!(told.matches("shell `plate`: 8 layers").count(), 1, "{told}");
 }

@@ -13,8 +13,8 @@ pub struct IntegrationPoint {
     pub plastic_strain: f64,
 }
 
-/// The largest number of Gauss points through the thickness of a shell.
-pub const MOST_LAYERS: usize = 10;
+/// The largest number of points through the thickness of a shell; above ten they are even in number.
+pub const MOST_LAYERS: usize = 24;
 
 /// Stress resultants of a shell element: means over its area, per length or area at t = 0, in axes that follow the surface.
 /// Moments are positive where the top, the side of the normal, is in tension; ∂M₁₁/∂1 + ∂M₁₂/∂2 = Q₁.

@@ -24,7 +24,7 @@ use std::collections::HashSet;
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
 const MOST_IN_ALL: usize = 1_000_000;
-const DEFAULT_LAYERS: usize = 5;
+const DEFAULT_LAYERS: usize = 8;
 
 /// Reads `[[shells]]`: divides each patch into elements, or takes those of a group of the mesh.
 pub fn shells(cx: &mut PartContext) {
@@ -316,6 +316,10 @@ fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'
     match &shell.layers {
         Some(at) if !(2..=MOST_LAYERS).contains(&layers) => {
             cx.report.error(&at.span, format!("`layers` must lie between 2 and {MOST_LAYERS}"))
+        }
+        Some(at) if layers > 10 && layers % 2 == 1 => {
+            let message = format!("`layers` is {layers}, but above 10 it must be even: those points lie in pairs");
+            cx.report.error_with(&at.span, message, format!("take {}", layers + 1))
         }
         _ => Some(Some(LayerModel { law, layers, logarithmic })),
     }

@@ -26,7 +26,8 @@ use std::sync::Arc;
 pub struct LayerModel {
     /// The law of the layers.
     pub law: MaterialLaw,
-    /// The number of Gauss points through the thickness, at most [`super::MOST_LAYERS`].
+    /// The number of points through the thickness, at most [`super::MOST_LAYERS`]: up to five of Gauss, beyond that those of
+    /// [`quadrature::kinked`].
     pub layers: usize,
     /// Strain of the reference surface is logarithmic, not Green's: see the file `stretch.rs`.
     pub logarithmic: bool,
@@ -35,12 +36,18 @@ pub struct LayerModel {
 impl LayerModel {
     /// The layers of a given thickness.
     pub(super) fn layers(&self, thickness: f64) -> Arc<Layers> {
-        let (points, weights) = quadrature::gauss(self.layers);
+        let points: Vec<(f64, f64)> = match self.layers {
+            n @ ..=5 => {
+                let (points, weights) = quadrature::gauss(n);
+                points.iter().copied().zip(weights.iter().copied()).collect()
+            }
+            n => quadrature::kinked(n),
+        };
         let half = 0.5 * thickness;
         Arc::new(Layers {
             law: self.law.clone(),
             eight: EightPoints::new(&self.law, PlaneStress),
-            at: points.iter().zip(weights).map(|(z, w)| [half * z, half * w]).collect(),
+            at: points.iter().map(|(z, w)| [half * z, half * w]).collect(),
             variables: self.law.history(PlaneStress),
             stiffness: self.law.stiffness(PlaneStress),
             thickness,
