@@ -61,6 +61,7 @@ mod rotations;
 mod rounding;
 mod safety_cab;
 mod schemes;
+mod shear_areas;
 mod shear_rigid;
 mod shells;
 mod signals;

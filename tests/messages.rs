@@ -433,6 +433,23 @@ fn beams_that_yield() {
 }
 
 #[test]
+fn shear_factors() {
+    let square = |factor: &str| portal(&[("height = 0.05", &format!("height = 0.05\nshear_factor = {factor}"))]);
+    for sound in ["0.8333", "1", "[0.5, 1.0]"] {
+        assert_eq!(square(sound), "");
+    }
+    assert_snapshot!("shear_factor_above_one", square("1.2"));
+    assert_snapshot!("shear_factor_of_zero", square("[0.8, 0.0]"));
+    assert_snapshot!("shear_factor_not_a_number", square("nan"));
+    assert_snapshot!("shear_factor_of_three", square("[0.8, 0.8, 0.8]"));
+    assert_snapshot!("shear_factor_empty", square("[]"));
+    let general =
+        "shape = \"general\"\narea = 1e-2\nmoments = [1e-5, 1e-5]\ntorsion_constant = 1e-5\nshear_areas = [8e-3, 8e-3]";
+    let square = "shape = \"rectangle\"\nwidth = 0.05\nheight = 0.05";
+    assert_snapshot!("shear_factor_of_general", portal(&[(square, &format!("{general}\nshear_factor = 0.8"))]));
+}
+
+#[test]
 fn geometry() {
     assert_snapshot!(
         "parallel_orientation",
@@ -905,6 +922,8 @@ fn shells() {
     assert_snapshot!("shell_layers_when_elastic", sheet("[3, 4]", "[3, 4]\nlayers = 5"));
     assert_snapshot!("shell_strain_when_elastic", sheet("[3, 4]", "[3, 4]\nstrain = \"logarithmic\""));
     let plastic = SHEET.replace("model = \"elastic\"", "model = \"elastic-plastic\"\nyield_stress = 2e8");
+    assert_snapshot!("shell_of_an_odd_number_of_layers", said(&plastic.replace("[3, 4]", "[3, 4]\nlayers = 13"), &[]));
+    assert_eq!(said(&plastic.replace("[3, 4]", "[3, 4]\nlayers = 24"), &[]), "");
     assert_snapshot!("shell_of_one_layer", said(&plastic.replace("[3, 4]", "[3, 4]\nlayers = 1"), &[]));
     assert_eq!(sheet("poisson_ratio = 0.3", "poisson_ratio = 0.5"), "");
     assert_snapshot!("shell_poisson_ratio", sheet("poisson_ratio = 0.3", "poisson_ratio = 0.51"));

@@ -8,7 +8,8 @@ use deck::Deck;
 use deck::sections as words;
 use deck::words::kinds::{Given, OneOf};
 use deck::words::{Maybe, Named};
-use mechanics::sections::{CrossSection, Fibre, Stiffness};
+use mechanics::sections::section_shape::shear_factor;
+use mechanics::sections::{CrossSection, Fibre, Section, SectionShape, Stiffness};
 use std::collections::HashMap;
 
 /// Largest number of fibres; a section's response no longer changes beyond it.
@@ -30,9 +31,11 @@ impl<'a, 'd> Sections<'a, 'd> {
         Sections { table: &deck.sections, materials, known: HashMap::new(), stiffnesses: Vec::new() }
     }
 
-    /// Fibres of a section, which is sound.
-    pub fn fibres(&self, name: &'d At<String>, report: &mut Report<'d>) -> Option<Vec<Fibre>> {
+    /// Fibres of a section of a material, both of which are sound.
+    pub fn fibres(&self, name: &'d At<String>, made_of: &'d At<String>, report: &mut Report<'d>) -> Option<Vec<Fibre>> {
         let (_, section) = report.find("section", self.table, name)?;
+        let (_, material) = self.materials.find(made_of, report)?;
+        let ratio = material.poisson_ratio.as_ref()?.value;
         let counts = section.values.place("fibres");
         let numbers: Vec<usize> = section.values.numbers("fibres").iter().map(|&n| n as usize).collect();
         if let Some(counts) = counts
@@ -41,8 +44,10 @@ impl<'a, 'd> Sections<'a, 'd> {
             return report
                 .error(counts, format!("more than {MOST_FIBRES} fibres are taken for a slip of the keyboard"));
         }
-        let CrossSection::Shape(shape) = cross_section(&name.value, section, false, report)? else { return None };
-        match shape.fibres(&numbers) {
+        let (CrossSection::Shape(shape), factor) = cross_section(&name.value, section, false, report)? else {
+            return None;
+        };
+        match whole(&*shape, ratio, factor).and_then(|section| shape.fibres(&numbers, &section)) {
             Ok(fibres) => Some(fibres),
             Err(reason) => report.error(counts.unwrap_or(&name.span), format!("section `{}`: {reason}", name.value)),
         }
@@ -96,17 +101,29 @@ impl<'a, 'd> Sections<'a, 'd> {
     }
 }
 
-/// The section that the keys give; they are read anew for each material, and errors are merged in the end.
+/// Areas and moments of a shape of a material of Poisson's ratio `nu`, with the shear factors that the deck gives.
+fn whole(shape: &dyn SectionShape, nu: f64, factor: Option<[f64; 2]>) -> Result<Section, String> {
+    let section = shape.section(nu)?;
+    Ok(match factor {
+        Some(factor) => section.with_shear_factor(factor),
+        None => section,
+    })
+}
+
+/// The section that the keys give, and its shear factors; they are read anew for each material, and errors are merged in the end.
 fn cross_section<'d>(
     name: &str,
     section: &'d At<OneOf<words::Section>>,
     needs_mass: bool,
     report: &mut Report<'d>,
-) -> Option<CrossSection> {
+) -> Option<(CrossSection, Option<[f64; 2]>)> {
     let owner = Owner::new(format!("section `{name}`"), &section.span);
     let kind = report.require(&owner, "shape", &section.kind)?.value;
     let what = format!("a section of shape \"{}\"", kind.word);
-    report.read(&owner, &what, &section.values, kind, |given| (kind.make.read)(given, needs_mass))
+    report.read(&owner, &what, &section.values, kind, |given| {
+        let factor = shear_factor(given);
+        Some(((kind.make.read)(given, needs_mass)?, factor))
+    })
 }
 
 fn stiffness<'d>(
@@ -116,11 +133,11 @@ fn stiffness<'d>(
     needs_mass: bool,
     report: &mut Report<'d>,
 ) -> Option<Stiffness> {
-    let shape = match cross_section(name, section, needs_mass, report)? {
-        CrossSection::Stiffness(stiffness) => return Some(*stiffness),
-        CrossSection::Shape(shape) => shape,
+    let (shape, factor) = match cross_section(name, section, needs_mass, report)? {
+        (CrossSection::Stiffness(stiffness), _) => return Some(*stiffness),
+        (CrossSection::Shape(shape), factor) => (shape, factor),
     };
-    match shape.section() {
+    match whole(&*shape, ratio, factor) {
         Ok(made) => Some(made.stiffness(modulus, ratio, density)),
         Err(reason) => report.error(&section.kind.as_ref()?.span, format!("section `{name}`: {reason}")),
     }

@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
-use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
+use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape};
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -23,6 +23,7 @@ pub static KIND: SectionKind = SectionKind {
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [12, 4].",
         },
+        SHEAR_FACTOR,
     ],
     make: MakeSection { read, takes_material: |_| true },
 };
@@ -47,7 +48,7 @@ pub struct C {
 }
 
 impl SectionShape for C {
-    fn section(&self) -> Result<Section, String> {
+    fn section(&self, _: f64) -> Result<Section, String> {
         channel(self.height, self.width, self.web, self.flange)
     }
 

@@ -13,13 +13,14 @@
 //! | Gauss, a rule for each half | 3.3 (2.1) | 1.7 (1.8) | 0.9 (0.5) | 0.5 (0.3) | 0 |
 //! | Gauss | 3.9 (3.6) | 2.3 (1.3) | 1.0 (0.5) | 0.6 (0.5) | 0 |
 //! | Lobatto | 5.6 (5.6) | 2.9 (2.2) | 1.3 (0.7) | 0.7 (0.6) | 0 |
+//! | least error, [`base::math::quadrature::kinked`] | 1.9 (1.4) | 1.0 (0.6) | 0.47 (0.3) | | 0 |
 //!
 //! Pairs are as good as midpoints, which miss the elastic answer, and better than any longer rule: a kink in the stress does
-//! not care for the degree, only for the longest gap.
+//! not care for the degree, only for the longest gap. Rectangles have the places of least error up to twelve rows, and pairs beyond.
 //!
 //! Shear has the shape of the elastic solution for good, scaled by Γ₂, Γ₃ and κ₁. So the elastic section is exact, and
 //! yielding does not redistribute shear: the capacities Σ A |s| τ_Y are, against the limits of plasticity, for a rectangle's
-//! shear force 5/6; its torque 1.05 (square) to 1.01 (10:1); a tube's torque and a thin one's shear force exact; a cell's torque
+//! shear force √(5k/6), 5/6 at a shear factor k of 5/6; its torque 1.05 (square) to 1.01 (10:1); a tube's torque and a thin one's shear force exact; a cell's torque
 //! exact at equal thickness, else above 2 A_m t_min τ_Y; an I's shear force about 1.15 of the web's, as its flanges share in
 //! it. A uniform mode would give the rectangle 0.91, but yields at the edges where no shear is: under bending and up to 0.7 of
 //! A τ_Y the parabola lies nearer to Drucker's M/M_p = 1 − (Q/A τ_Y)⁴ (1956, J. Appl. Mech. 23, 509-514).
@@ -41,15 +42,6 @@ pub struct Fibre {
     pub z: f64,
     /// Shear modes; in a full shape along y and z, in a thin wall along the wall and none.
     pub shear: [[f64; 3]; 2],
-}
-
-/// `n` fibres in two-point Gauss pairs side by side on [−1, 1], n even: places, and weights that sum to 2.
-pub fn pairs(n: usize) -> impl Iterator<Item = (f64, f64)> + Clone {
-    let share = 2.0 / n as f64;
-    (0..n / 2).flat_map(move |cell| {
-        let middle = share * (2 * cell + 1) as f64 - 1.0;
-        [-1.0, 1.0].map(|side| (middle + side * share / 3f64.sqrt(), share))
-    })
 }
 
 /// Fibres with modes for shear and twist about the shear centre → about the centroid, with exactly the section's stiffness.
@@ -119,6 +111,13 @@ mod tests {
     use rand::{RngExt, SeedableRng, rngs::SmallRng};
     use std::f64::consts::PI;
 
+    /// Poisson's ratio where a test does not say its own.
+    const NU: f64 = 0.3;
+
+    fn lay(shape: &dyn SectionShape, counts: &[usize]) -> Result<Vec<Fibre>, String> {
+        shape.fibres(counts, &shape.section(NU)?)
+    }
+
     fn random_shapes() -> Vec<Box<dyn SectionShape>> {
         let mut random = SmallRng::seed_from_u64(5);
         let mut shapes = Vec::new();
@@ -177,9 +176,9 @@ mod tests {
     #[test]
     fn the_elastic_section_is_exact() {
         for shape in random_shapes() {
-            let section = shape.section().unwrap();
+            let section = shape.section(NU).unwrap();
             for counts in [&[][..], &[4, 2], &[10, 4]] {
-                let fibres = shape.fibres(counts).unwrap();
+                let fibres = lay(&*shape, counts).unwrap();
                 let (A, I) = (section.area, section.Iy + section.Iz);
                 close(sum(&fibres, |_| 1.0), A, 1e-13);
                 close(sum(&fibres, |f| f.z * f.z), section.Iy, 1e-13);
@@ -202,16 +201,16 @@ mod tests {
     }
 
     /// The modes hardly need their calibration: energy of shear and twist about the shear centre as it comes.
-    /// Full shapes miss by the rule of degree three; walls by their corners, of the order of thickness over length.
+    /// Full shapes miss by the fourth moment of the rule; walls by their corners, of the order of thickness over length.
     #[test]
     fn modes_are_nearly_right_by_themselves() {
         let of_fibres = |n| shear_stiffness(&super::super::rectangle::rectangle_fibres(0.1, 0.2, [n, n]));
-        let exact = rectangle(0.1, 0.2).unwrap();
-        close(of_fibres(12)[(0, 0)], exact.shear[0], 1e-3);
-        close(of_fibres(12)[(2, 2)], exact.torsion, 2e-3);
+        let exact = rectangle(0.1, 0.2, 0.0).unwrap();
+        close(of_fibres(12)[(0, 0)], exact.shear[0], 2e-3);
+        close(of_fibres(12)[(2, 2)], exact.torsion, 3e-3);
         // Cowper's factor is the energy of the closed form; Gauss pairs meet it with their fourth order.
         for (inner, bound) in [(0.0, 1e-3), (0.05, 1e-3), (0.098, 1e-6)] {
-            let shear = tube(0.1, 0.1 - inner).unwrap().shear[0];
+            let shear = tube(0.1, 0.1 - inner, 0.0).unwrap().shear[0];
             let tube = super::super::tube::tube_fibres(0.1, inner, shear, [20, 6]);
             close(shear_stiffness(&tube)[(0, 0)], shear, bound);
         }
@@ -240,7 +239,7 @@ mod tests {
             (Box::new(Tube { radius: 0.1, thickness: 0.1 }), 4.0 / 3.0 * 1e-3, 5e-3),
         ];
         for (shape, exact, bound) in shapes {
-            let fibres = shape.fibres(&[]).unwrap();
+            let fibres = lay(&*shape, &[]).unwrap();
             close(moment(&fibres, 1e6, 0.0), exact, bound);
         }
     }
@@ -252,17 +251,18 @@ mod tests {
     fn plastic_shear_and_torque() {
         let twist = [0.0, 0.0, 1.0];
         for thickness in [0.002, 0.04, 0.1] {
-            let tube = Tube { radius: 0.1, thickness }.fibres(&[]).unwrap();
+            let tube = lay(&Tube { radius: 0.1, thickness }, &[]).unwrap();
             close(capacity(&tube, twist), 2.0 * PI / 3.0 * (1e-3 - (0.1 - thickness).powi(3)), 1e-12);
         }
         let tube = Tube { radius: 0.1, thickness: 1e-4 };
-        let area = tube.section().unwrap().area;
-        close(capacity(&tube.fibres(&[]).unwrap(), [0.0, 1.0, 0.0]), 2.0 / PI * area, 5e-3);
+        let area = tube.section(NU).unwrap().area;
+        close(capacity(&lay(&tube, &[]).unwrap(), [0.0, 1.0, 0.0]), 2.0 / PI * area, 5e-3);
         let t = 0.002;
-        let cell = HollowBox { width: 0.1, height: 0.2, web: t, flange: t }.fibres(&[]).unwrap();
+        let cell = lay(&HollowBox { width: 0.1, height: 0.2, web: t, flange: t }, &[]).unwrap();
         close(capacity(&cell, twist), 2.0 * (0.1 - t) * (0.2 - t) * t, 1e-3);
         for (height, above) in [(0.1, 0.047), (0.2, 0.043), (1.0, 0.010)] {
-            let rectangle = Rectangle { width: 0.1, height }.fibres(&[]).unwrap();
+            let rectangle = Rectangle { width: 0.1, height };
+            let rectangle = rectangle.fibres(&[], &rectangle.section(0.0).unwrap()).unwrap();
             let sand_heap = 0.1 * 0.1 * (3.0 * height - 0.1) / 6.0;
             close(capacity(&rectangle, twist), sand_heap * (1.0 + above), 2e-3);
             close(capacity(&rectangle, [0.0, 1.0, 0.0]), 5.0 / 6.0 * 0.1 * height, 1e-3);
@@ -272,23 +272,23 @@ mod tests {
     /// The default on a rectangle against the closed form, ideally plastic, without and with an axial force.
     #[test]
     fn moment_and_curvature_of_a_rectangle() {
-        let fibres = Rectangle { width: 1.0, height: 2.0 }.fibres(&[]).unwrap();
+        let fibres = lay(&Rectangle { width: 1.0, height: 2.0 }, &[]).unwrap();
         let exact = |kappa: f64| if kappa < 1.0 { 2.0 / 3.0 * kappa } else { 1.0 - 1.0 / (3.0 * kappa * kappa) };
         for i in 1..200 {
             let kappa = 0.1 * f64::from(i);
-            assert!((moment(&fibres, kappa, 0.0) - exact(kappa)).abs() < 0.006, "{kappa}");
+            assert!((moment(&fibres, kappa, 0.0) - exact(kappa)).abs() < 0.0047, "{kappa}");
         }
         let plane = flattened(&fibres, true);
         assert_eq!(plane.len(), 12);
-        close(moment(&plane, 1e6, 0.3 * 2.0), 1.0 - 0.3 * 0.3, 0.005);
+        close(moment(&plane, 1e6, 0.3 * 2.0), 1.0 - 0.3 * 0.3, 0.0045);
     }
 
     /// In the plane: area, bending and shear stiffness, and M(κ) as before, all to round-off; nothing out of it.
     #[test]
     fn flattened_keeps_the_plane() {
         for shape in random_shapes() {
-            let section = shape.section().unwrap();
-            let fibres = shape.fibres(&[]).unwrap();
+            let section = shape.section(NU).unwrap();
+            let fibres = lay(&*shape, &[]).unwrap();
             for (along_z, mode) in [(true, 1), (false, 0)] {
                 let plane = flattened(&fibres, along_z);
                 assert!(plane.len() < fibres.len());
@@ -311,11 +311,11 @@ mod tests {
     #[test]
     fn counts_out_of_range_are_named() {
         let rectangle = Rectangle { width: 1.0, height: 1.0 };
-        assert_eq!(rectangle.fibres(&[4]).unwrap().len(), 16);
-        assert!(rectangle.fibres(&[7]).unwrap_err().contains("must be even"));
-        assert!(rectangle.fibres(&[4, 4, 4]).unwrap_err().contains("two at most"));
-        assert!(Tube { radius: 1.0, thickness: 0.1 }.fibres(&[2]).unwrap_err().contains("4 fibres around"));
+        assert_eq!(lay(&rectangle, &[4]).unwrap().len(), 16);
+        assert!(lay(&rectangle, &[7]).unwrap_err().contains("must be even"));
+        assert!(lay(&rectangle, &[4, 4, 4]).unwrap_err().contains("two at most"));
+        assert!(lay(&Tube { radius: 1.0, thickness: 0.1 }, &[2]).unwrap_err().contains("4 fibres around"));
         let general = General { area: 1.0, moments: [1.0; 2], Iyz: 0.0, torsion: 1.0, shear_areas: [1.0; 2] };
-        assert!(general.fibres(&[]).unwrap_err().contains("no fibres"));
+        assert!(lay(&general, &[]).unwrap_err().contains("no fibres"));
     }
 }

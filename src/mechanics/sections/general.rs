@@ -123,7 +123,7 @@ pub struct General {
 const NO_FIBRES: &str = "a general section has no fibres: it says how much area there is, not where";
 
 impl SectionShape for General {
-    fn section(&self) -> Result<Section, String> {
+    fn section(&self, _: f64) -> Result<Section, String> {
         general(self.area, self.moments, self.Iyz, self.torsion, self.shear_areas)
     }
 

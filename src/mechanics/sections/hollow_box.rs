@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::Profile;
 use super::section::Section;
-use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
+use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
 use super::wall::Wall;
 use base::words::kinds::{Form, Given, Key};
 
@@ -27,6 +27,7 @@ pub static KIND: SectionKind = SectionKind {
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 2].",
         },
+        SHEAR_FACTOR,
     ],
     make: MakeSection { read, takes_material: |_| true },
 };
@@ -53,7 +54,7 @@ pub struct HollowBox {
 }
 
 impl SectionShape for HollowBox {
-    fn section(&self) -> Result<Section, String> {
+    fn section(&self, _: f64) -> Result<Section, String> {
         hollow_box(self.width, self.height, self.web, self.flange)
     }
 

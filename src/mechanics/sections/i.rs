@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
-use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, pair};
+use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, pair};
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -35,6 +35,7 @@ pub static KIND: SectionKind = SectionKind {
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
         },
+        SHEAR_FACTOR,
     ],
     make: MakeSection { read, takes_material: |_| true },
 };
@@ -66,7 +67,7 @@ pub struct I {
 }
 
 impl SectionShape for I {
-    fn section(&self) -> Result<Section, String> {
+    fn section(&self, _: f64) -> Result<Section, String> {
         i_section(self.height, self.top_width, self.bottom_width, self.web, self.top_flange, self.bottom_flange)
     }
 

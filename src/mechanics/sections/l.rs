@@ -4,7 +4,7 @@ use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
-use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
+use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -26,6 +26,7 @@ pub static KIND: SectionKind = SectionKind {
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
         },
+        SHEAR_FACTOR,
     ],
     make: MakeSection { read, takes_material: |_| true },
 };
@@ -52,7 +53,7 @@ pub struct L {
 }
 
 impl SectionShape for L {
-    fn section(&self) -> Result<Section, String> {
+    fn section(&self, _: f64) -> Result<Section, String> {
         angle(self.height, self.width, self.vertical, self.horizontal)
     }
 

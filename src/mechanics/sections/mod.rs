@@ -57,8 +57,9 @@ mod tests {
     #[test]
     fn constants_of_the_scenes() {
         let digits = 5e-7;
-        let c1 = rectangle(0.03, 0.005).unwrap().stiffness(210e9, 0.3, 7850.0);
-        let c2 = rectangle(0.004, 0.04).unwrap().stiffness(70e9, 0.33, 2700.0);
+        let factor = [5.0 / 6.0; 2];
+        let c1 = rectangle(0.03, 0.005, 0.3).unwrap().with_shear_factor(factor).stiffness(210e9, 0.3, 7850.0);
+        let c2 = rectangle(0.004, 0.04, 0.33).unwrap().with_shear_factor(factor).stiffness(70e9, 0.33, 2700.0);
         for (s, [EA, GA, GJ, EIy, EIz, A_rho]) in [
             (c1, [3.15e7, 1.009615e7, 90.35639, 65.625, 2362.5, 1.1775]),
             (c2, [1.12e7, 3.508772e6, 21.04084, 1493.333, 14.93333, 0.432]),
@@ -81,8 +82,8 @@ mod tests {
             let (h, w) = (r(0.05, 0.5), r(0.05, 0.5));
             let (t, u, v) = (r(1e-3, 0.012), r(1e-3, 0.012), r(1e-3, 0.012));
             sections.extend([
-                rectangle(w, h).unwrap(),
-                tube(w, t).unwrap(),
+                rectangle(w, h, 0.3).unwrap(),
+                tube(w, t, 0.3).unwrap(),
                 hollow_box(w, h, t, u).unwrap(),
                 i_section(h, w, r(0.05, 0.5), t, u, v).unwrap(),
                 channel(h, w, t, u).unwrap(),

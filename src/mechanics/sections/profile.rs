@@ -6,9 +6,10 @@
 //! fillets: the constant is up to 3 % low for sharp corners.
 
 use super::dimensions::rectangles;
-use super::fibres::{Fibre, pairs};
+use super::fibres::Fibre;
 use super::section::Section;
 use super::wall::{Wall, flow_at, shear};
+use base::math::quadrature::pairs;
 use nalgebra::Vector2;
 
 /// Straight walls, each with the rectangle it fills; the rectangles lie side by side.

@@ -22,7 +22,17 @@ pub struct Section {
     pub shear_center: [f64; 2],
 }
 
+/// (ν/(1 + ν))²: the share of the energy of anticlastic bending in the flexibility in shear, as Saint-Venant's flexure has it.
+pub(super) fn saint_venant(nu: f64) -> f64 {
+    (nu / (1.0 + nu)).powi(2)
+}
+
 impl Section {
+    /// The section with other shear areas: those along y and along z over the area. They no longer couple.
+    pub fn with_shear_factor(self, [y, z]: [f64; 2]) -> Section {
+        Section { shear: [y * self.area, z * self.area, 0.0], ..self }
+    }
+
     /// Stiffness and inertia per length of a section of one elastic material.
     ///
     /// The strain at (y, z) is Γ₁ + z κ₂ − y κ₃; shear acts on the strain of the shear centre r_s, Γ + κ×r_s.

@@ -2,7 +2,8 @@
 
 use super::fibres::{Fibre, calibrated};
 use super::section::{Section, Stiffness};
-use base::words::kinds::{Given, Kind, Values};
+use base::names::short;
+use base::words::kinds::{Form, Given, Key, Kind, Values};
 use std::fmt;
 
 /// A shape that the deck can name.
@@ -27,8 +28,8 @@ pub enum CrossSection {
 
 /// The shape of a section: from it follow the section as a whole and its fibres.
 pub trait SectionShape: fmt::Debug {
-    /// Errors: dimensions that do not go together.
-    fn section(&self) -> Result<Section, String>;
+    /// Areas and moments; shear areas of full shapes depend on Poisson's ratio. Errors: dimensions that do not go together.
+    fn section(&self, nu: f64) -> Result<Section, String>;
 
     /// The default numbers of fibres; `first` is given where the deck gives only the first number.
     fn default_fibres(&self, first: Option<usize>) -> Result<[usize; 2], String>;
@@ -39,11 +40,11 @@ pub trait SectionShape: fmt::Debug {
     /// Half its smaller side, or its radius: the distance from its axis at which a beam is in contact.
     fn half_depth(&self) -> f64;
 
-    /// The section's fibres. `counts`, even numbers, may be left out: `[]`, `[first]` or `[first, second]`.
+    /// The fibres of `section`, which is that of the shape. `counts`, even numbers, may be left out: `[]`, `[first]` or `[first, second]`.
     ///
     /// | Shape | first | second | default | worst error in M(κ) |
     /// |---|---|---|---|---|
-    /// | rectangle | along y (and z, if alone) | along z | 12, 12 | 0.6 % |
+    /// | rectangle | along y (and z, if alone) | along z | 12, 12 | 0.47 % |
     /// | tube | around | through the wall | 20, 2; from t = R/2 on 4 | 0.8 % |
     /// | box | along the longest wall | through each | 8, 2 | 1.1 % |
     /// | i, l | " | " | 8, 4 | 1.2 % |
@@ -52,9 +53,8 @@ pub trait SectionShape: fmt::Debug {
     /// Errors are for an ideally plastic material up to 20 times the curvature of first yield, about y, z and an axis between,
     /// in units of the greatest moment. Open walls need four through the thickness for their plastic torque: two give 15 % more.
     ///
-    /// Errors: as `section`; counts that are odd or too few; a general section.
-    fn fibres(&self, counts: &[usize]) -> Result<Vec<Fibre>, String> {
-        let section = self.section()?;
+    /// Errors: counts that are odd or too few; a general section.
+    fn fibres(&self, counts: &[usize], section: &Section) -> Result<Vec<Fibre>, String> {
         let default = self.default_fibres(counts.first().copied())?;
         let counts = match *counts {
             [] => default,
@@ -65,9 +65,42 @@ pub trait SectionShape: fmt::Debug {
         if let Some(n) = counts.iter().find(|&&n| n == 0 || n % 2 == 1) {
             return Err(format!("the number of fibres is {n}, but must be even, as they lie in pairs"));
         }
-        let fibres = self.lay_fibres(counts, &section)?;
-        calibrated(fibres, &section).ok_or_else(|| "these fibres cannot carry shear and torsion; take more".into())
+        let fibres = self.lay_fibres(counts, section)?;
+        calibrated(fibres, section).ok_or_else(|| "these fibres cannot carry shear and torsion; take more".into())
     }
+}
+
+/// The key with which shapes take another shear area than their own.
+pub const SHEAR_FACTOR: Key = Key {
+    name: "shear_factor",
+    form: Form::Numbers,
+    about: "Shear area over area, above 0, at most 1: one number, or [for forces along y, along z]. Default: that of the elastic shear stress.",
+};
+
+/// Reads `shear_factor`: of the forces along y and along z, where it is written.
+pub fn shear_factor(given: &mut Given) -> Option<[f64; 2]> {
+    let key = SHEAR_FACTOR.name;
+    let factors = match *given.numbers(key) {
+        [] if !given.has(key) => return None,
+        [both] => [both; 2],
+        [y, z] => [y, z],
+        ref other => {
+            let message = format!("`{key}` has {} values here; it takes one, or two for y and z", other.len());
+            return given.error(key, message);
+        }
+    };
+    if factors.iter().any(|&factor| factor <= 0.0) {
+        return given.error_with(key, format!("`{key}` must be above zero"), "5/6, 0.8333, is common for rectangles");
+    }
+    if let Some(&large) = factors.iter().find(|&&factor| factor > 1.0) {
+        let message = format!("`{key}` is {}, but no shear area is larger than the area", short(large));
+        return given.error_with(
+            key,
+            message,
+            format!("it is the inverse of the flexibility: take {}", short(1.0 / large)),
+        );
+    }
+    Some(factors)
 }
 
 /// Reports a `thickness` with more values than walls, or with a value that is not above zero.

@@ -1,9 +1,10 @@
 //! The circular tube; with a hole of any size it lies between the full circle and the thin tube.
 
 use super::dimensions::positive;
-use super::fibres::{Fibre, pairs};
-use super::section::Section;
-use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape, check_walls};
+use super::fibres::Fibre;
+use super::section::{Section, saint_venant};
+use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
+use base::math::quadrature::pairs;
 use base::words::kinds::{Form, Given, Key};
 use std::f64::consts::{PI, TAU};
 
@@ -22,6 +23,7 @@ pub static KIND: SectionKind = SectionKind {
             form: Form::Counts,
             about: "Fibres around, at least 4, and through the wall, even numbers, where the material yields. Default: [20, 2]; from half the radius on [20, 4].",
         },
+        SHEAR_FACTOR,
     ],
     make: MakeSection { read, takes_material: |_| true },
 };
@@ -47,8 +49,8 @@ pub struct Tube {
 }
 
 impl SectionShape for Tube {
-    fn section(&self) -> Result<Section, String> {
-        tube(self.radius, self.thickness)
+    fn section(&self, nu: f64) -> Result<Section, String> {
+        tube(self.radius, self.thickness, nu)
     }
 
     fn default_fibres(&self, _: Option<usize>) -> Result<[usize; 2], String> {
@@ -69,9 +71,9 @@ impl SectionShape for Tube {
 
 /// Circular tube; a thickness equal to the radius is a solid round.
 ///
-/// Shear factor: Cowper 1966 (J. Appl. Mech. 33, 335-340) for the hollow circle at ν = 0, as the section knows no
-/// material: 6/7 when solid, 1/2 when thin.
-pub fn tube(outer_radius: f64, thickness: f64) -> Result<Section, String> {
+/// Shear areas have the energy of Saint-Venant's shear stress, of Poisson's ratio `nu`. At ν = 0 their factor is that of Cowper 1966
+/// (J. Appl. Mech. 33, 335-340), 6/7 when solid and 1/2 when thin.
+pub fn tube(outer_radius: f64, thickness: f64, nu: f64) -> Result<Section, String> {
     positive(&[("radius", outer_radius), ("thickness", thickness)])?;
     if thickness > outer_radius {
         return Err(format!(
@@ -82,10 +84,10 @@ pub fn tube(outer_radius: f64, thickness: f64) -> Result<Section, String> {
     let squares = outer_radius * outer_radius + inner_radius * inner_radius;
     let area = PI * thickness * (outer_radius + inner_radius);
     let I = 0.25 * area * squares;
-    // k = 6 (1 + m²)² / (7 (1 + m²)² + 20 m²), m = inner/outer radius.
+    // 1/k = (7 (1 + m²)² + 20 m²)/(6 (1 + m²)²) + (ν/(1 + ν))²/6 ((1 − m²)/(1 + m²))², m = inner/outer radius.
     let m2 = (inner_radius / outer_radius).powi(2);
     let a = (1.0 + m2).powi(2);
-    let shear = 6.0 * a / (7.0 * a + 20.0 * m2) * area;
+    let shear = 6.0 * a / (7.0 * a + 20.0 * m2 + saint_venant(nu) * (1.0 - m2).powi(2)) * area;
     Ok(Section { area, Iy: I, Iz: I, Iyz: 0.0, torsion: 2.0 * I, shear: [shear, shear, 0.0], shear_center: [0.0; 2] })
 }
 
@@ -124,11 +126,11 @@ mod tests {
     #[test]
     fn thick_tube_is_a_circle_less_a_circle() {
         let (outer, inner): (f64, f64) = (0.05, 0.02);
-        let thick = tube(outer, outer - inner).unwrap();
+        let thick = tube(outer, outer - inner, 0.3).unwrap();
         close(thick.area, PI * (outer.powi(2) - inner.powi(2)), 1e-14);
         close(thick.Iy, PI / 4.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
         close(thick.torsion, PI / 2.0 * (outer.powi(4) - inner.powi(4)), 1e-14);
-        let round = tube(outer, outer).unwrap();
+        let round = tube(outer, outer, 0.0).unwrap();
         close(round.shear[0], 6.0 / 7.0 * round.area, 1e-15);
         close(round.Iz, PI / 4.0 * outer.powi(4), 1e-15);
     }
@@ -137,14 +139,63 @@ mod tests {
     #[test]
     fn thin_tube_has_shear_factor_one_half() {
         let (R, t) = (1.0, 1e-6);
-        let tube = tube(R, t).unwrap();
+        let tube = tube(R, t, 0.3).unwrap();
         close(tube.shear[1], 0.5 * tube.area, 1e-11);
         close(tube.area, 2.0 * PI * R * t, 1e-6);
         close(tube.torsion, 2.0 * PI * R.powi(3) * t, 2e-6);
     }
 
+    /// The energy of the stress itself, by midpoints in r and φ: Saint-Venant's flexure of the full circle (Timoshenko & Goodier, art. 122),
+    /// and of the thick tube by its stress functions. ∫|τ|² dA A/Q², to the square of the step, 1e-6.
+    #[test]
+    fn shear_areas_have_the_energy_of_the_stress() {
+        for nu in [0.0, 0.3, 0.5] {
+            let circle = |y: f64, z: f64| {
+                let up =
+                    (3.0 + 2.0 * nu) / (8.0 * (1.0 + nu)) * (1.0 - z * z - (1.0 - 2.0 * nu) / (3.0 + 2.0 * nu) * y * y);
+                [-(1.0 + 2.0 * nu) / (4.0 * (1.0 + nu)) * y * z, up]
+            };
+            close(factor(0.0, circle), tube(1.0, 1.0, nu).unwrap().shear[0] / PI, 2e-6);
+            let m: f64 = 0.6;
+            let (sum, product) = (1.0 + m * m, m * m);
+            // ∇ψ with ψ = f(r) sin θ, ∇²ψ = −z, and the curl of φ = g(r) cos θ, ∇²φ = −y, g = 0 at both radii.
+            let thick = |y: f64, z: f64| {
+                let (r, sin, cos) = (y.hypot(z), z / y.hypot(z), y / y.hypot(z));
+                let r2 = r * r;
+                let (df, f) = (0.375 * (sum - product / r2 - r2), 0.375 * (sum + product / r2 - r2 / 3.0));
+                let (g, dg) = ((sum - r2 - product / r2) / 8.0, (sum - 3.0 * r2 + product / r2) / 8.0);
+                let share = nu / (1.0 + nu);
+                [
+                    (df - f) * sin * cos + share * (dg - g) * sin * cos,
+                    df * sin * sin + f * cos * cos - share * (dg * cos * cos + g * sin * sin),
+                ]
+            };
+            let section = tube(1.0, 1.0 - m, nu).unwrap();
+            close(factor(m, thick), section.shear[0] / section.area, 2e-6);
+        }
+    }
+
+    /// Q²/(A ∫|τ|² dA) of a stress along y and along z on a tube of outer radius 1.
+    fn factor(inner: f64, stress: impl Fn(f64, f64) -> [f64; 2]) -> f64 {
+        let n = 600;
+        let step = (1.0 - inner) / n as f64;
+        let (mut area, mut force, mut energy) = (0.0, 0.0, 0.0);
+        for i in 0..n {
+            let r = inner + (i as f64 + 0.5) * step;
+            for j in 0..64 {
+                let (sin, cos) = (TAU * (j as f64 + 0.5) / 64.0).sin_cos();
+                let [along_y, along_z] = stress(r * cos, r * sin);
+                let part = r * step * TAU / 64.0;
+                area += part;
+                force += part * along_z;
+                energy += part * (along_y * along_y + along_z * along_z);
+            }
+        }
+        force * force / (area * energy)
+    }
+
     #[test]
     fn nonsense_is_named() {
-        assert!(tube(0.1, 0.2).unwrap_err().starts_with("`thickness` is 0.2, but a wall cannot be thicker"));
+        assert!(tube(0.1, 0.2, 0.3).unwrap_err().starts_with("`thickness` is 0.2, but a wall cannot be thicker"));
     }
 }

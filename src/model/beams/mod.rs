@@ -329,7 +329,8 @@ fn yielding<'d>(
     }
     let shear = deforms && flag(&beam.shear_yields, true);
     // A wrong section has been reported.
-    let fibres = if section { cx.sections.fibres(beam.section.as_ref()?, cx.report)? } else { return None };
+    let (of, made_of) = (beam.section.as_ref()?, beam.material.as_ref()?);
+    let fibres = if section { cx.sections.fibres(of, made_of, cx.report)? } else { return None };
     Some(Some(FibreModel { law, fibres, shear, rule, points }))
 }
 
