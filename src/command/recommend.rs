@@ -2,7 +2,7 @@
 //! automatic steps around the error that is wanted. Where the deck names no scheme, these have one of another family, which confirms the reference.
 
 use base::words::rungs;
-use model::{AnalysisKind, Model};
+use model::Model;
 use study::follows_tolerance;
 
 /// Halvings of the longest default time step.
@@ -12,7 +12,7 @@ const HALVINGS: u64 = 6;
 pub fn defaults(model: &Model, wanted: f64) -> Vec<String> {
     let study = model.study.clone().unwrap_or_default();
     let mut sets = Vec::new();
-    let is_dynamic = model.analysis.kind != AnalysisKind::Static;
+    let is_dynamic = model.analysis.is_dynamic();
     if study.time_steps.is_empty() && study.halvings == 0 && study.error_tolerances.is_empty() {
         sets.push(format!("study.halvings={HALVINGS}"));
         let mut listed = study.schemes.iter().map(|choice| &choice.scheme);

@@ -10,7 +10,7 @@ use super::watchers::{Watchers, stage_begins};
 use base::names::{instant, to_digits};
 use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::State;
-use model::{self, AnalysisKind, Model};
+use model::{self, Model};
 use results::checkpoint::Checkpoint;
 use results::{settle_cadence, wanted};
 use solve::plan::Plan;
@@ -112,7 +112,7 @@ impl StagesTold {
         let doubts = run.warnings().iter().map(ToString::to_string);
         self.warnings.extend(doubts.map(|text| format!("{stage}{text}")));
         self.remarks.extend(run.remarks().iter().map(|remark| format!("{stage}{remark}")));
-        if !stage.is_empty() && model.analysis.modes.is_some() {
+        if !stage.is_empty() && model.analysis.has_modes() {
             (self.counts, self.observing) = (run.counts(), self.observing + run.observing());
             return;
         }
@@ -159,7 +159,7 @@ fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> 
 fn weight_left(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> {
     let analysis = &model.analysis;
     let stage = analysis.stage.as_ref()?;
-    let grows = analysis.kind == AnalysisKind::Static && model.loading.gravity_amplitude == Some(stage.own_amplitude);
+    let grows = !analysis.is_dynamic() && model.loading.gravity_amplitude == Some(stage.own_amplitude);
     let part = (end_time? - analysis.begin) / analysis.duration();
     (grows && part < 1.0 && run.has_stopped() == Some(true) && model.loading.gravity.norm() > 0.0).then(|| {
         let part = to_digits(100.0 * part, 2);
@@ -293,14 +293,14 @@ impl StageRunner<'_> {
                 false => self.planned_anew(ends, planned)?,
             };
             // Where modes come first, nothing has happened yet.
-            let (system, handover) = match before.analysis.modes {
-                Some(_) => (System::new(&model).map_err(io::Error::other)?, None),
-                None => {
+            let (system, handover) = match before.analysis.has_modes() {
+                true => (System::new(&model).map_err(io::Error::other)?, None),
+                false => {
                     let handed = run.hand_over((&state, told.counts), &mut model).map_err(io::Error::other)?;
                     (handed.0, Some(handed.1))
                 }
             };
-            if model.analysis.modes.is_none() {
+            if !model.analysis.has_modes() {
                 return Ok(Next::Stage(Box::new(NextStage { model, system, handover })));
             }
             let plan = self.begin(&mut model, &system, course, watchers)?;

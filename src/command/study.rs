@@ -135,7 +135,7 @@ fn climbed(text: &str) -> Result<Climbed, String> {
 
 /// Refuses decks of modes, which have no steps.
 fn with_steps(loaded: Loaded) -> Result<Loaded, Exit> {
-    if loaded.model.analysis.modes.is_none() {
+    if !loaded.model.analysis.has_modes() {
         return Ok(loaded);
     }
     complain("a study compares motions in time or load steps, and this deck asks for modes, which have none");

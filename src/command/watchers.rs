@@ -4,7 +4,7 @@ use super::checkpoints::Checkpoints;
 use super::load::model_stage;
 use base::names::instant;
 use base::snapshot::{Keep, Snapshot};
-use model::{AnalysisKind, ModeKind, Model};
+use model::Model;
 use results::error_bars::ErrorBars;
 use results::expect::Expectations;
 use results::log::Log;
@@ -97,11 +97,11 @@ impl Watchers {
 /// A line on the stage of a model.
 pub fn stage_begins(model: &Model) -> String {
     let analysis = &model.analysis;
-    if let Some(asked) = &analysis.modes {
-        let kind = if asked.kind == ModeKind::Natural { "modal" } else { "buckling" };
+    if analysis.has_modes() {
+        let kind = if analysis.buckles() { "buckling" } else { "modal" };
         return format!("stage `{}`, {kind}, at t = {}", model_stage(model), instant(analysis.end_time));
     }
-    let kind = if analysis.kind == AnalysisKind::Static { "static" } else { "dynamic" };
+    let kind = if analysis.is_static() { "static" } else { "dynamic" };
     format!(
         "stage `{}`, {kind}, from t = {} to {}",
         model_stage(model),

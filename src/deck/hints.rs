@@ -140,9 +140,17 @@ mod tests {
         table.keys.iter().any(|known| known == key)
     }
 
+    /// The keys that lead to a table.
+    fn path(table: &DeckTable) -> Vec<String> {
+        match table.label.as_str() {
+            TOP => Vec::new(),
+            label => label.trim_matches(['[', ']']).split('.').map(str::to_owned).collect(),
+        }
+    }
+
     /// The tables in which a row answers.
     fn places(row: &Hint) -> Vec<&'static DeckTable> {
-        let is_at = |table: &DeckTable| row.at.iter().any(|label| tables::is_label_of(label, &table.path));
+        let is_at = |table: &DeckTable| row.at.iter().any(|label| tables::is_label_of(label, &path(table)));
         tables().iter().filter(|table| row.at.is_empty() || is_at(table)).collect()
     }
 
@@ -157,7 +165,7 @@ mod tests {
         for row in &HINTS.keys {
             let places = places(row);
             for label in &row.at {
-                let is_there = places.iter().any(|table| tables::is_label_of(label, &table.path));
+                let is_there = places.iter().any(|table| tables::is_label_of(label, &path(table)));
                 assert!(is_there, "there is no table {label}");
             }
             for table in places.iter().filter(|_| !row.at.is_empty()) {
@@ -169,7 +177,7 @@ mod tests {
                 let answers = |table: &&DeckTable| {
                     let known: Vec<&str> = table.keys.iter().map(String::as_str).collect();
                     !has(table, guess)
-                        && find(&HINTS.keys, guess, &table.path, &known).is_some_and(|found| std::ptr::eq(found, row))
+                        && find(&HINTS.keys, guess, &path(table), &known).is_some_and(|found| std::ptr::eq(found, row))
                 };
                 assert!(tables().iter().any(|table| answers(&table)), "no table answers `{guess}` by {:?}", row.ours);
             }
@@ -231,15 +239,15 @@ mod tests {
         let mut seen = 0;
         for row in rows() {
             let Some(sentence) = &row.say else { continue };
-            let begins = |path: &[String]| places(row).iter().any(|place| path.starts_with(&place.path));
-            let is_value = |table: &&DeckTable| row.guesses.iter().any(|key| table.path.last() == Some(key));
+            let begins = |keys: &[String]| places(row).iter().any(|place| keys.starts_with(&path(place)));
+            let is_value = |table: &&DeckTable| row.guesses.iter().any(|key| path(table).last() == Some(key));
             let values = crate::tables::tables().iter().filter(is_value);
             let mut tables = named(sentence);
             if HINTS.examples.iter().any(|example| std::ptr::eq(example, row)) {
                 tables.extend(values);
             }
             if tables.is_empty() || !row.at.is_empty() {
-                tables.extend(crate::tables::tables().iter().filter(|table| begins(&table.path)));
+                tables.extend(crate::tables::tables().iter().filter(|table| begins(&path(table))));
             }
             for word in recommended(sentence) {
                 seen += 1;

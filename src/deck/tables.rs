@@ -9,8 +9,6 @@ pub const TOP: &str = "the top of the deck";
 
 /// A table of the deck and its keys.
 pub struct DeckTable {
-    /// The keys that lead to it, with NAME for a name that the user gives.
-    pub path: Vec<String>,
     /// How a deck writes it: "[environment]", "[[beams]]", "[materials.NAME]", "[analysis.stop]".
     pub label: String,
     /// Its keys.
@@ -89,7 +87,7 @@ fn walk(schema: &Value, value: &Value, path: &Path, tables: &mut Vec<DeckTable>)
     let (label, keys) = (path.label(), properties.keys().cloned());
     match tables.iter_mut().find(|table| table.label == label) {
         Some(table) => table.keys.extend(keys),
-        None => tables.push(DeckTable { path: path.keys.clone(), label, keys: keys.collect() }),
+        None => tables.push(DeckTable { label, keys: keys.collect() }),
     }
     for (key, property) in properties {
         walk(schema, property, &path.with(key), tables);

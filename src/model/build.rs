@@ -11,8 +11,8 @@ use super::bodies::bodies;
 use super::contacts::contacts;
 use super::contacts::points::connect_touching_points;
 use super::data::{
-    Analysis, AnalysisKind, ArcLength, Cadence, Constraints, Contact, Iteration, Joint, MeshFile, Model, Origin, Part,
-    Rigid, Solution, StepLength,
+    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, Iteration, Joint, Load, Mass, MeshFile, Model,
+    Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
 };
 use super::doubts::all_held::check_all_held;
 use super::doubts::amplitude_ends::check_amplitude_ends;
@@ -25,14 +25,14 @@ use super::doubts::units::check_units;
 use super::doubts::unjoined::check_unjoined;
 use super::doubts::unused::drop_unused;
 use super::doubts::{check_content, check_static, check_use};
-use super::environment::{damping, environment};
+use super::environment::{AccelerationFields, damping, environment};
 use super::expects::expects;
 use super::groups::Groups;
 use super::initial::initial;
 use super::joints::along::Joints;
 use super::joints::{check_joints, joints};
-use super::links::links;
-use super::loads::loads;
+use super::links::{ModelLinks, links};
+use super::loads::{Loads, loads};
 use super::masses::masses;
 use super::materials::materials;
 use super::merge_diagnostics::merge_diagnostics;
@@ -49,9 +49,9 @@ use super::procedure::control::{control, iterate_along};
 use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start};
 use super::procedure::response::{add_expected, check_harmonic};
-use super::procedure::stops;
+use super::procedure::stops::{self, NamedActors};
 use super::procedure::study::study;
-use super::procedure::{Procedure, analysis, check_explicit};
+use super::procedure::{analysis, check_explicit};
 use super::records::{Record, load_records};
 use super::report::Report;
 use super::rigid::rigid_bodies;
@@ -62,7 +62,7 @@ use super::shells::edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::stages::{self, CurrentStage, StageSequence};
 use super::supports::supports;
-use super::supports::turns::given_turns;
+use super::supports::turns::{TurnedNode, given_turns};
 use super::values::vec3;
 use base::diagnostic::{Diagnostic, Source};
 use deck::Deck;
@@ -219,59 +219,115 @@ fn model<'d>(
     (input, records): (Option<&'d Input>, &[Option<Record>]),
     report: &mut Report<'d>,
 ) -> Model {
-    let Procedure { analysis, scheme, iteration } = analysis(deck, stage, report);
-    let mut amplitudes = amplitudes(deck, stage, records, report);
-    let Ground { mut scene, mut nodes, groups, rigid } =
-        ground(deck, (stage, analysis), (input, &mut amplitudes), report);
-    // These tables connect nodes.
-    let masses = masses(&scene, &mut nodes, report);
-    let mut links = links(&scene, &mut nodes, report);
-    let Joints { list: mut joints, efforts } = joints(&scene, &mut links, &mut amplitudes, &mut nodes, report);
-    joints.extend(attachments(&scene, &mut nodes, report));
-    connect_touching_points(&scene, &mut nodes);
-    let mut topology = Topology::new(nodes, report);
-
-    // These tables act on nodes. Contacts come before loads, for they connect points on which loads may act.
-    let fields = environment(deck, stage, report);
-    let (mut actors, turned) = supports(&scene, &amplitudes, (&mut topology, &mut joints), report);
-    set_bulges(&mut scene.parts.list, &topology, stage.map_or(&[], |stage| &stage.sequence.bulges));
-    let contacts = contacts(&scene, &masses, &joints, fields.gravity, &mut topology, report);
-    let loads = loads(&scene, [efforts, std::mem::take(&mut links.pulls)].concat(), &topology, &mut actors, report);
-    let damping = damping(&scene, &topology, report);
-    initial(&scene, &amplitudes, &mut topology, report);
-
-    // These tables say what is computed and written.
-    scene.analysis.stage = stops::stage(&scene, actors, report);
-    let arc_length = control(&scene, &amplitudes, &topology, report);
-    let expects = expects(&scene, &topology, arc_length.is_some(), report);
-    let Selection { output, all_nodes } = output(&scene, &topology.list, arc_length.is_some(), report);
-    let study = study(&scene, &scheme, &topology.list, report);
-    let mesh = check(&scene, &scheme, groups, &topology, (&joints, &amplitudes), report);
+    let procedure = analysis(deck, stage, report);
+    let amplitudes = amplitudes(deck, stage, records, report);
+    let Ground { mut scene, nodes, amplitudes, groups, rigid } =
+        ground(deck, (stage, procedure.analysis), (input, amplitudes), report);
+    let (mut frame, efforts) = connect(&scene, nodes, amplitudes, report);
+    let acting = act(&mut scene, &mut frame, efforts, report);
+    let asked = ask(&scene, &procedure.scheme, acting.actors, &frame, report);
+    let mesh = check(&scene, &procedure.scheme, groups, &frame, report);
+    let Frame { masses, links, joints, amplitudes, mut topology } = frame;
+    let contacts = acting.contacts;
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
     let (nodes, dependents, restraints) = topology.into_parts();
-    let (analysis, iteration) = lead_on(deck, scene.analysis, iteration, arc_length);
-    let mut model = Model {
+    let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };
+    add_expected(&mut analysis, &asked.expects);
+    let (analysis, iteration) = lead_on(deck, analysis, procedure.iteration, asked.arc_length);
+    let links = links.list.into_iter().map(Part::from);
+    let model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
         analysis,
-        solution: Solution { scheme, scheme_is_chosen: false, iteration },
+        solution: Solution { scheme: procedure.scheme, scheme_is_chosen: false, iteration },
         nodes,
         bodies: scene.bodies,
         masses,
         stiffnesses: scene.parts.stiffnesses,
-        parts: scene.parts.list,
-        constraints: Constraints { turns: given_turns(&turned, &restraints), dependents, joints, restraints },
-        loading: fields.with(amplitudes, loads),
-        damping,
-        expects,
+        parts: scene.parts.list.into_iter().chain(links).chain(contacts.into_iter().map(Part::from)).collect(),
+        constraints: Constraints { turns: given_turns(&acting.turned, &restraints), dependents, joints, restraints },
+        loading: acting.fields.with(amplitudes, acting.loads),
+        damping: acting.damping,
+        expects: asked.expects,
         origin: Origin { mesh, records: records.iter().flatten().map(Record::origin).collect(), rigid },
-        output,
-        study,
+        output: asked.selection.output,
+        study: asked.study,
     };
-    model.parts.extend(links.list.into_iter().map(Part::from).chain(contacts.into_iter().map(Part::from)));
-    finish(&mut model, all_nodes, deck, report);
-    model
+    finish(model, asked.selection.all_nodes, deck, report)
+}
+
+/// The nodes with all that connects them.
+struct Frame {
+    masses: Vec<Mass>,
+    links: ModelLinks,
+    joints: Vec<Joint>,
+    amplitudes: Vec<Amplitude>,
+    topology: Topology,
+}
+
+/// Reads the tables that connect nodes, and the efforts of motors in joints.
+fn connect<'d>(
+    scene: &Scene<'d>,
+    mut nodes: Nodes,
+    mut amplitudes: Vec<Amplitude>,
+    report: &mut Report<'d>,
+) -> (Frame, Vec<Load>) {
+    let masses = masses(scene, &mut nodes, report);
+    let mut links = links(scene, &mut nodes, report);
+    let Joints { list: mut joints, efforts } = joints(scene, &mut links, &mut amplitudes, &mut nodes, report);
+    joints.extend(attachments(scene, &mut nodes, report));
+    connect_touching_points(scene, &mut nodes);
+    (Frame { masses, links, joints, amplitudes, topology: Topology::new(nodes, report) }, efforts)
+}
+
+/// What acts on a scene.
+struct Acting<'d> {
+    fields: AccelerationFields,
+    actors: NamedActors<'d>,
+    turned: Vec<TurnedNode>,
+    contacts: Vec<Contact>,
+    loads: Loads,
+    damping: Damping,
+}
+
+/// Reads the tables that act on nodes. Contacts connect points on which loads may act.
+fn act<'d>(scene: &mut Scene<'d>, frame: &mut Frame, efforts: Vec<Load>, report: &mut Report<'d>) -> Acting<'d> {
+    let Frame { masses, links, joints, amplitudes, topology } = frame;
+    let fields = environment(scene.deck, scene.stage, report);
+    let (mut actors, turned) = supports(scene, amplitudes, (topology, joints), report);
+    set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
+    let contacts = contacts(scene, masses, joints, fields.gravity, topology, report);
+    let loads = loads(scene, [&efforts[..], &links.pulls[..]].concat(), topology, &mut actors, report);
+    let damping = damping(scene, topology, report);
+    initial(scene, amplitudes, topology, report);
+    Acting { fields, actors, turned, contacts, loads, damping }
+}
+
+/// What is computed and written.
+struct Asked {
+    stage: Option<RunStage>,
+    arc_length: Option<ArcLength>,
+    expects: Vec<Expect>,
+    selection: Selection,
+    study: Option<Study>,
+}
+
+/// Reads the tables that say what is computed and written.
+fn ask<'d>(
+    scene: &Scene<'d>,
+    scheme: &Arc<dyn Scheme>,
+    actors: NamedActors<'d>,
+    frame: &Frame,
+    report: &mut Report<'d>,
+) -> Asked {
+    let topology = &frame.topology;
+    let stage = stops::stage(scene, actors, report);
+    let arc_length = control(scene, &frame.amplitudes, topology, report);
+    let expects = expects(scene, topology, arc_length.is_some(), report);
+    let selection = output(scene, &topology.list, arc_length.is_some(), report);
+    let study = study(scene, scheme, &topology.list, report);
+    Asked { stage, arc_length, expects, selection, study }
 }
 
 /// Looks for what is odd about a scene without errors.
@@ -284,7 +340,7 @@ fn check_sound(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, tie
         check_all_held(scene.deck, topology, report);
     }
     // Of several stages the times are those of all.
-    if scene.stage.is_none() && scene.analysis.modes.is_none() {
+    if scene.stage.is_none() && !scene.analysis.has_modes() {
         check_amplitude_ends(scene.deck, amplitudes, scene.analysis.end_time, report);
     }
     check_unjoined(scene, topology, ties, report);
@@ -297,15 +353,16 @@ struct Ground<'d> {
     nodes: Nodes,
     groups: Groups<'d>,
     rigid: Vec<Rigid>,
+    amplitudes: Vec<Amplitude>,
 }
 
 fn ground<'d>(
     deck: &'d Deck,
     (stage, analysis): (Option<CurrentStage<'d>>, Analysis),
-    (input, amplitudes): (Option<&'d Input>, &mut Vec<Amplitude>),
+    (input, mut amplitudes): (Option<&'d Input>, Vec<Amplitude>),
     report: &mut Report<'d>,
 ) -> Ground<'d> {
-    let position_curves = position_curves(deck, stage, &analysis, amplitudes, report);
+    let position_curves = position_curves(deck, stage, &analysis, &mut amplitudes, report);
     let mut nodes = Nodes::default();
     points(deck, &mut nodes);
     let bodies = bodies(deck, &mut nodes, report);
@@ -328,7 +385,8 @@ fn ground<'d>(
     let PartContext { groups, mut parts, sections, .. } = context;
     parts.stiffnesses = sections.stiffnesses;
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
-    Ground { scene: Scene { deck, stage, analysis, names, bodies, parts, position_curves }, nodes, groups, rigid }
+    let scene = Scene { deck, stage, analysis, names, bodies, parts, position_curves };
+    Ground { scene, nodes, groups, rigid, amplitudes }
 }
 
 /// Makes a node for each of `[points]`; they are the first nodes of all.
@@ -343,11 +401,10 @@ fn check(
     scene: &Scene,
     scheme: &Arc<dyn Scheme>,
     groups: Groups,
-    topology: &Topology,
-    (joints, amplitudes): (&[Joint], &[Amplitude]),
+    Frame { joints, amplitudes, topology, .. }: &Frame,
     report: &mut Report,
 ) -> Option<MeshFile> {
-    let (deck, kind, parts) = (scene.deck, scene.analysis.kind, &scene.parts);
+    let (deck, analysis, parts) = (scene.deck, &scene.analysis, &scene.parts);
     check_content(deck, report);
     // A part left out by an error may have been the only one to use it.
     if deck.spoiled.is_empty() && !report.has_errors() {
@@ -358,14 +415,14 @@ fn check(
     check_slivers(deck, parts, topology, report);
     check_chords(deck, parts, topology, report);
     check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.sequence.whole), report);
-    if scene.analysis.modes.is_some() {
+    if analysis.has_modes() {
         check_modal(deck, report);
-    } else if kind == AnalysisKind::Static {
+    } else if analysis.is_static() {
         check_static(deck, report);
     }
-    check_explicit(deck, kind, &**scheme, &parts.list, report);
-    if kind == AnalysisKind::Dynamic {
-        check_mass_scaling(deck, &scene.analysis, &**scheme, &parts.list, report);
+    check_explicit(deck, analysis, &**scheme, &parts.list, report);
+    if analysis.is_dynamic() {
+        check_mass_scaling(scene, &**scheme, report);
     }
     check_units(deck, report);
     check_angles(deck, report);
@@ -389,26 +446,26 @@ fn lead_on(
 }
 
 /// Completes what only the whole model tells: the scheme of automatic steps, stable steps, nodes that nothing needs, and the list of all that are left.
-fn finish(model: &mut Model, all_nodes: bool, deck: &Deck, report: &mut Report) {
+fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -> Model {
     if deck.integrator.is_none() && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
-        model.solution.scheme = choose_scheme(model);
+        model.solution.scheme = choose_scheme(&model);
         model.solution.scheme_is_chosen = true;
     }
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
     }
-    if model.analysis.modes.is_some() && model.analysis.stage.is_none() {
-        hold_at_start(model);
+    if model.analysis.has_modes() && model.analysis.stage.is_none() {
+        hold_at_start(&mut model);
         // Times of a motion would cut load steps that lead to the state.
         model.output.cadence = Cadence::Steps(1);
         model.output.fields = model.output.fields.map(|_| Cadence::Steps(1));
     }
-    add_expected(model);
-    drop_unused(model);
+    drop_unused(&mut model);
     if all_nodes {
-        write_all_nodes(model);
+        write_all_nodes(&mut model);
     }
     if model.analysis.has_inertia() && !report.has_errors() {
-        model.damping.frames = moving_frames(model, deck, report);
+        model.damping.frames = moving_frames(&model, deck, report);
     }
+    model
 }

@@ -31,11 +31,10 @@ pub(super) fn expects<'d>(
     report: &mut Report<'d>,
 ) -> Vec<Expect> {
     let mut tables = Expects { scene, topology, is_arc_length, report };
-    let asked = scene.analysis.modes.as_ref();
-    let response = asked.is_some_and(|asked| asked.response.is_some());
+    let (has_modes, response) = (scene.analysis.has_modes(), scene.analysis.response().is_some());
     let is_seen = |entry: &words::Expect| {
         let of_response = response && entry.mode.is_none() && entry.time.is_none() && entry.when.is_none();
-        asked.is_none() || entry.mode.is_some() || entry.frequency.is_some() || of_response
+        !has_modes || entry.mode.is_some() || entry.frequency.is_some() || of_response
     };
     for entry in scene.deck.expect.iter().filter(|entry| !is_seen(entry)) {
         let (message, hint) = match response {
@@ -62,7 +61,7 @@ impl<'d> Expects<'_, 'd> {
         if let Some(number) = &expect.mode {
             return self.expect_mode(owner, expect, number);
         }
-        let of_response = self.scene.analysis.modes.as_ref().is_some_and(|asked| asked.response.is_some());
+        let of_response = self.scene.analysis.response().is_some();
         if of_response || expect.frequency.is_some() {
             return self.expect_response(owner, expect, of_response);
         }
@@ -126,11 +125,11 @@ impl<'d> Expects<'_, 'd> {
             ("frequency", span(&expect.frequency)),
         ];
         self.report.reject_unused("a mode", &keys);
-        let Some(asked) = &self.scene.analysis.modes else {
+        if !self.scene.analysis.has_modes() {
             let hint = "`kind = \"modal\"` or `\"buckling\"` of `[analysis]`, or of a stage, finds modes";
             return self.report.error_with(&number.span, "`mode` needs an analysis of modes", hint);
-        };
-        if !asked.lists_modes() {
+        }
+        if !self.scene.analysis.lists_modes() {
             let hint = "`method = \"modal\"` in `[analysis]` finds modes";
             return self.report.error_with(
                 &number.span,
@@ -141,7 +140,7 @@ impl<'d> Expects<'_, 'd> {
         if number.value == 0 {
             return self.report.error(&number.span, "`mode` must be at least 1");
         }
-        if let ModeExtent::Count(count) = asked.extent
+        if let ModeExtent::Count(count) = self.scene.analysis.extent()
             && number.value > count as u64
         {
             let hint = format!("`modes` is {count}");

@@ -12,7 +12,7 @@ pub fn moving_frames(model: &Model, deck: &Deck, report: &mut Report) -> MovingF
         return MovingFrames::default();
     }
     let mut structures = Structures::new(model);
-    if model.analysis.modes.is_none() {
+    if !model.analysis.has_modes() {
         structures.warn_of_drives(deck, report);
     }
     let held = held(model);

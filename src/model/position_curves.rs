@@ -1,7 +1,7 @@
 //! Tables of positions that a motion follows: straight lines between samples have no acceleration, so supports and joints that move as they say
 //! follow splines between the corners of the table.
 
-use super::data::{Analysis, AnalysisKind};
+use super::data::Analysis;
 use super::report::Report;
 use super::stages::CurrentStage;
 use base::math::cubic_curve::{CubicCurve, CurveShape};
@@ -26,9 +26,7 @@ pub(super) fn position_curves(
     amplitudes: &mut Vec<Amplitude>,
     report: &mut Report,
 ) -> HashMap<usize, usize> {
-    let is_dynamic = |kind: AnalysisKind| kind == AnalysisKind::Dynamic;
-    let any_dynamic = stage
-        .map_or(is_dynamic(analysis.kind), |stage| stage.sequence.stages.iter().any(|stage| is_dynamic(stage.kind)));
+    let any_dynamic = stage.map_or(analysis.is_dynamic(), |stage| stage.sequence.first_dynamic().is_some());
     let mut curves = HashMap::new();
     if !any_dynamic {
         return curves;
@@ -46,7 +44,7 @@ pub(super) fn position_curves(
                 amplitudes.push(Amplitude::Curve(curve));
             }
         }
-        if is_dynamic(analysis.kind) {
+        if analysis.is_dynamic() {
             let used = curves.get(&index).copied().unwrap_or(index);
             check_corners(deck, index, (&amplitudes[used], analysis), report);
         }

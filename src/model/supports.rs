@@ -2,7 +2,7 @@
 
 pub mod turns;
 
-use super::data::{Actors, AnalysisKind, DIRECTIONS, History, Joint, PrescribedMotion};
+use super::data::{Actors, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
 use super::places::nodes::Topology;
 use super::places::spot::Spot;
@@ -137,8 +137,7 @@ impl<'d> Supports<'_, 'd> {
             };
             let history: History = chosen(&motion.history);
             if let Some(at) = &motion.history
-                && self.scene.analysis.kind == AnalysisKind::Static
-                && self.scene.analysis.modes.is_none()
+                && self.scene.analysis.is_static()
                 && amplitude.is_none_or(|i| self.amplitudes[i].harmonic_phase().is_none())
                 && history != History::Displacement
             {
@@ -179,7 +178,7 @@ impl<'d> Supports<'_, 'd> {
         let mut new = [false; 6];
         for (dof, motion, place) in given {
             if let Some(motion) = motion
-                && self.scene.analysis.kind == AnalysisKind::Dynamic
+                && self.scene.analysis.is_dynamic()
                 && self.scene.analysis.begin == 0.0
                 && motion.history == History::Displacement
                 && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0

@@ -76,10 +76,10 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         system = System::new(model)?;
     }
     let (mut next, fresh) = from.state((cx, state), nodes, (model, &system))?;
-    let is_static = model.analysis.kind == AnalysisKind::Static;
+    let is_static = !model.analysis.is_dynamic();
     if is_static {
         rest(&mut next);
-        if model.analysis.modes.is_none() && hold_back(model, &system, &next, cx.length) {
+        if !model.analysis.has_modes() && hold_back(model, &system, &next, cx.length) {
             system = System::new(model)?;
         }
     }
@@ -108,7 +108,7 @@ pub fn share_plane<'m>(stages: impl Iterator<Item = &'m mut Model>) -> Result<()
     for model in &stages {
         let system = System::new(model)?;
         // Modes out of the plane need no history that was not kept, and change nothing of the motion in it.
-        if system.history > 0 || model.analysis.modes.is_none() {
+        if system.history > 0 || !model.analysis.has_modes() {
             planes.push(system.plane);
         }
     }
@@ -259,7 +259,7 @@ impl NodeMap {
 fn carry_velocities(from: &NodeMap, (before, state): (&Model, &State), model: &mut Model) {
     let [goes_on, moved] = [&*model, before].map(|model| model.analysis.kind == AnalysisKind::Dynamic);
     // About modes bodies spin as they have done, or, before any motion, as the deck says.
-    if !(goes_on || moved && model.analysis.modes.is_some()) {
+    if !(goes_on || moved && model.analysis.has_modes()) {
         return;
     }
     for (node, old) in model.nodes.iter_mut().zip(&from.old) {

@@ -11,7 +11,7 @@ use super::warning::Warning;
 use crate::modes::{Linearized, Modes, ModesFault, Search, find, multipliers_at_rest, own_stiffnesses};
 use crate::system::{Loading, Side};
 use crate::tolerances::modes_at_end::{BALANCED, ROUNDING};
-use model::{ModeKind, PrescribedMotion};
+use model::PrescribedMotion;
 
 /// The interval of a run that has come to the state of its modes.
 const AT_ITS_END: usize = usize::MAX;
@@ -21,10 +21,13 @@ const AT_ITS_END: usize = usize::MAX;
 /// # Errors
 /// The outcome that ends it early.
 pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
-    let Some(asked) = &march.cx.model.analysis.modes else { return controller.run(march, schedule) };
+    let analysis = &march.cx.model.analysis;
+    if !analysis.has_modes() {
+        return controller.run(march, schedule);
+    }
     // A stage of modes takes the state as it is; loads of buckling are factors of modes, and bring nothing on before.
-    if march.cx.model.analysis.stage.is_none() && march.place.interval < AT_ITS_END {
-        if asked.kind == ModeKind::Buckling || rests(march) {
+    if analysis.stage.is_none() && march.place.interval < AT_ITS_END {
+        if analysis.buckles() || rests(march) {
             let report = &StepReport::begin(0.0);
             march.notify(&AcceptedStep {
                 dt: 0.0,
@@ -55,7 +58,7 @@ fn loads(cx: &Context) -> [Loading; 2] {
     let (model, mut base) = (cx.model, Loading::default());
     cx.excitation.loading(model.analysis.end_time, Side::Before, &mut base);
     let nothing = base.plus(-1.0, &base);
-    if !model.analysis.modes.as_ref().is_some_and(|asked| asked.kind == ModeKind::Buckling) {
+    if !model.analysis.buckles() {
         return [base, nothing];
     }
     let Some(stage) = &model.analysis.stage else { return [nothing, base] };
@@ -132,7 +135,7 @@ fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
     let [loading, factored] = &loads(march.cx);
     let left = unbalanced(march, loading);
     let March { cx, ws, state, stop, observer, .. } = march;
-    if cx.model.analysis.modes.as_ref().is_some_and(|asked| asked.damped) {
+    if cx.model.analysis.damps_modes() {
         // Bodies spin about the equilibrium as they do at t = 0.
         for (node, given) in state.nodes.iter_mut().zip(&cx.model.nodes) {
             node.omega = given.omega;

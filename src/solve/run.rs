@@ -23,7 +23,7 @@ use crate::system::energy::Balance;
 use base::snapshot::{Keep, Snapshot};
 use linear::{Solver, TooLarge};
 use mechanics::state::State;
-use model::{AnalysisKind, Model, StepLength};
+use model::{Model, StepLength};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -70,7 +70,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, TooLarge> {
         let wants_energy = wanted.has(Wanted::ENERGY);
         // Load steps are judged by their work.
-        let is_static = model.analysis.kind == AnalysisKind::Static;
+        let is_static = !model.analysis.is_dynamic();
         let wants_forces = is_static || wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
         let context = Context::new(model, plan, system, [wants_forces, wants_energy], stop);
         let mut workspace = Workspace::new(&context)?;

@@ -7,7 +7,7 @@ use base::diagnostic::Diagnostic;
 use deck::Deck;
 use deck::analysis::{Analysis, Plane};
 use model::study::{Quantity, Study, obstacle};
-use model::{AnalysisKind, ERROR_TOLERANCE, Model, StepLength};
+use model::{ERROR_TOLERANCE, Model, StepLength};
 
 /// The number of intervals between samples where the deck gives none.
 pub const SAMPLES: usize = 200;
@@ -57,10 +57,10 @@ impl StudyGrid {
             let hint = "name a point or a body, or list `quantities` in `[study]`";
             problems.push(Diagnostic::error("there is nothing to measure errors on").hint(hint));
         }
-        if model.analysis.kind == AnalysisKind::Static && !study.schemes.is_empty() {
+        if !model.analysis.is_dynamic() && !study.schemes.is_empty() {
             problems.push(Diagnostic::error("schemes integrate in time, and a static analysis has none"));
         }
-        if model.analysis.kind == AnalysisKind::Static && !study.error_tolerances.is_empty() {
+        if !model.analysis.is_dynamic() && !study.error_tolerances.is_empty() {
             let message = "error tolerances are about steps in time, and a static analysis has none";
             problems.push(Diagnostic::error(message).hint("load steps have no error in time: give time steps"));
         }
@@ -184,7 +184,7 @@ fn error_tolerances(model: &Model, study: &Study) -> Vec<f64> {
 /// The entries of `[analysis]` besides its step. The table is replaced as a whole, for a tolerance of the deck means nothing beside
 /// a given step, and no override can unset it.
 fn analysis(model: &Model, deck: &Deck) -> String {
-    let kind = if model.analysis.kind == AnalysisKind::Static { "static" } else { "dynamic" };
+    let kind = if !model.analysis.is_dynamic() { "static" } else { "dynamic" };
     let mut text = format!("kind = \"{kind}\", end_time = {}", float(model.analysis.end_time));
     let Some(at) = &deck.analysis else { return text };
     // The keys are named one by one, so that a new one cannot be forgotten here.

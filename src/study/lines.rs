@@ -8,8 +8,8 @@ use base::diagnostic::Diagnostic;
 use base::names::short;
 use deck::Deck;
 use mechanics::integrators::{Scheme, Stepping, default_scheme};
+use model::Model;
 use model::study::{Study, choose_scheme};
-use model::{AnalysisKind, Model};
 use std::sync::Arc;
 
 /// Over a load step only material that yields makes an error, of first order in general and never above second.
@@ -55,9 +55,9 @@ impl StudyLine {
             order: OF_LOAD_STEPS,
             sets: Vec::new(),
         };
-        match model.analysis.kind {
-            AnalysisKind::Static => "static".clone_into(&mut line.scheme),
-            _ => line.take(model.solution.scheme.word(), &*model.solution.scheme),
+        match model.analysis.is_dynamic() {
+            false => "static".clone_into(&mut line.scheme),
+            true => line.take(model.solution.scheme.word(), &*model.solution.scheme),
         }
         line
     }
@@ -146,7 +146,7 @@ pub fn lines(
     kinds: &[bool],
     problems: &mut Vec<Diagnostic>,
 ) -> Vec<StudyLine> {
-    let is_static = model.analysis.kind == AnalysisKind::Static;
+    let is_static = !model.analysis.is_dynamic();
     let schemes = Schemes::new(model, deck, study);
     let listed: Vec<usize> = (0..schemes.listed.len().max(1)).collect();
     if !is_static && kinds.contains(&true) {

@@ -48,7 +48,6 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             step_length: StepLength::Fixed { step: time_step },
             least_step: time_step * 1e-3,
             plane: false,
-            modes: None,
         },
         solution: Solution {
             scheme_is_chosen: false,

@@ -40,9 +40,9 @@ impl Instant {
         m.constraints.restraints.sort_by_key(|h| (h.node, h.dof));
         let system = System::new(&m).unwrap();
         let plan = Plan::new(&m, &system, 1);
-        let scheme = match (m.analysis.kind, &m.solution.scheme) {
+        let scheme = match (&m.analysis.kind, &m.solution.scheme) {
             (AnalysisKind::Static, _) => load_steps::coefficients(),
-            (AnalysisKind::Dynamic, scheme) => scheme.coefficients(m.analysis.nominal_step()),
+            (_, scheme) => scheme.coefficients(m.analysis.nominal_step()),
         };
         let mut loading = Loading::default();
         Excitation::new(&m).loading(0.8, rdsolve::system::Side::After, &mut loading);

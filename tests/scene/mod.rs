@@ -62,7 +62,6 @@ pub fn model() -> Model {
             step_length: StepLength::Fixed { step: 0.1 },
             least_step: 1e-6,
             plane: false,
-            modes: None,
         },
         solution: Solution {
             scheme_is_chosen: false,
@@ -247,7 +246,6 @@ impl Extras {
             derived: &self.derived,
             passed: &[],
             negative_pivots: None,
-            modes: None,
         }
     }
 }

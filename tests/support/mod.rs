@@ -146,7 +146,7 @@ pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) ->
                 *next = model::replan(source, &ends, next).expect("a stage");
             }
             let (system, handover) = run.hand_over((state, counts), next).expect("a system");
-            if next.analysis.modes.is_none() {
+            if !next.analysis.has_modes() {
                 handed = Some((system, handover));
                 break;
             }

@@ -30,7 +30,7 @@ pub fn read_facets<'d>(
     name: &str,
     contact: &'d words::Contact,
 ) -> Option<Contact> {
-    if finder.scene.analysis.modes.is_some() {
+    if finder.scene.analysis.has_modes() {
         let hint = "leave it out with `stages`, or rest what touches on supports";
         return finder.report.error_with(owner.span, "modes do not know contacts of faces or balls", hint);
     }

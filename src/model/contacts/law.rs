@@ -3,7 +3,7 @@
 use crate::contacts::method::{self, is_augmented};
 use crate::contacts::opposite::Opposite;
 use crate::contacts::stiffness::{ChosenStiffness, Meets};
-use crate::data::{AnalysisKind, Mass, StepLength};
+use crate::data::{Mass, StepLength};
 use crate::places::nodes::Topology;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
@@ -104,7 +104,7 @@ impl LawReader<'_, '_> {
     }
 
     fn law(&self, contact: &words::Contact, meeting: &Meeting, stiffness: f64) -> ContactLaw {
-        let dynamic = self.scene.analysis.kind == AnalysisKind::Dynamic;
+        let dynamic = self.scene.analysis.is_dynamic();
         let mass = if meeting.least.is_finite() { meeting.least } else { meeting.mean };
         let frequency = if mass > 0.0 { (stiffness / mass).sqrt() } else { f64::INFINITY };
         let extent = self.extent();

@@ -1,6 +1,5 @@
 //! How a contact keeps things apart: by springs alone, or by multipliers besides, which leave no depth.
 
-use crate::data::AnalysisKind;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::values::span;
@@ -72,7 +71,7 @@ pub fn tolerance(
 /// Refuses analyses that are no load steps.
 fn check_analysis(scene: &Scene, place: &Span, report: &mut Report) {
     let analysis = &scene.analysis;
-    if analysis.kind != AnalysisKind::Static || analysis.modes.is_some() {
+    if !analysis.is_static() {
         let message = "`method = \"augmented-lagrangian\"` is of load steps: impacts, and modes, are those of springs";
         let hint = match scene.stage {
             Some(_) => "name the static stages in `stages` of this contact, or leave `method` out",

@@ -1,6 +1,7 @@
 //! The analysis and the solution procedure.
 
-use super::modes::{ModeKind, ModesAsked};
+use super::modes::{ModeExtent, ModesAsked};
+use super::response::{ResponseAsked, ResponseMethod};
 use super::stage::RunStage;
 use super::step_length::{FIRST_STEP, StepLength};
 use deck::analysis::{Gyroscopic, Method, Update};
@@ -10,7 +11,7 @@ use std::sync::Arc;
 /// The kind of the analysis, its time and its steps.
 #[derive(Debug, Clone)]
 pub struct Analysis {
-    /// Static or dynamic.
+    /// What is computed.
     pub kind: AnalysisKind,
     /// Time at the beginning: 0, or where the stage before ends.
     pub begin: f64,
@@ -24,30 +25,76 @@ pub struct Analysis {
     pub least_step: f64,
     /// True where out-of-plane motion that nothing can excite is omitted from the unknowns.
     pub plane: bool,
-    /// The modes that are found about the state at the end.
-    pub modes: Option<ModesAsked>,
 }
 
-/// The kind of analysis, by whether inertia acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+/// The kind of analysis. Load steps without inertia lead to the state about which modes and responses are found.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub enum AnalysisKind {
     /// Motion in time.
     #[default]
     Dynamic,
     /// Load steps without inertia.
     Static,
+    /// Natural modes.
+    Modal(ModesAsked),
+    /// So many modes of buckling.
+    Buckling(usize),
+    /// The steady response to harmonic loads and motions.
+    Response(ResponseAsked),
 }
 
 impl Analysis {
     /// True where masses matter: in motion in time, in natural modes and responses.
     pub fn has_inertia(&self) -> bool {
-        let of_modes = self.modes.as_ref().is_some_and(|asked| asked.kind == ModeKind::Natural);
-        self.kind == AnalysisKind::Dynamic || of_modes
+        !self.is_static() && !self.buckles()
+    }
+
+    /// True for motion in time.
+    pub fn is_dynamic(&self) -> bool {
+        self.kind == AnalysisKind::Dynamic
+    }
+
+    /// True where load steps are all that is computed.
+    pub fn is_static(&self) -> bool {
+        self.kind == AnalysisKind::Static
+    }
+
+    /// True where modes of buckling are found.
+    pub fn buckles(&self) -> bool {
+        matches!(self.kind, AnalysisKind::Buckling(_))
+    }
+
+    /// True where modes or a response are found about a state.
+    pub fn has_modes(&self) -> bool {
+        !self.is_dynamic() && !self.is_static()
+    }
+
+    /// The frequency response that is computed.
+    pub fn response(&self) -> Option<&ResponseAsked> {
+        match &self.kind {
+            AnalysisKind::Response(response) => Some(response),
+            _ => None,
+        }
+    }
+
+    /// The modes that are found.
+    pub fn extent(&self) -> ModeExtent {
+        match &self.kind {
+            AnalysisKind::Dynamic | AnalysisKind::Static => ModeExtent::Count(0),
+            AnalysisKind::Modal(asked) => asked.extent,
+            AnalysisKind::Buckling(count) => ModeExtent::Count(*count),
+            AnalysisKind::Response(response) => response.extent,
+        }
+    }
+
+    /// True where damping and gyroscopic moments enter the modes: bodies that spin excite and are excited with theirs.
+    pub fn damps_modes(&self) -> bool {
+        matches!(self.kind, AnalysisKind::Modal(ModesAsked { damped: true, .. }) | AnalysisKind::Response(_))
     }
 
     /// True where modes are found, and listed.
     pub fn lists_modes(&self) -> bool {
-        self.modes.as_ref().is_some_and(ModesAsked::lists_modes)
+        self.has_modes() && self.response().is_none_or(|response| response.method == ResponseMethod::Modal)
     }
 
     /// True where the motion of the stage before goes on in this one as it was.
@@ -63,7 +110,7 @@ impl Analysis {
     /// True where a longer `end_time` changes nothing of what has been computed: steps of given length in motion, in a deck without stages.
     pub fn can_be_longer(&self) -> bool {
         let steps_are_given = matches!(self.step_length, StepLength::Fixed { .. });
-        self.kind == AnalysisKind::Dynamic && steps_are_given && self.stage.is_none() && self.modes.is_none()
+        self.is_dynamic() && steps_are_given && self.stage.is_none()
     }
 
     /// How long it lasts.

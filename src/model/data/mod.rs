@@ -47,7 +47,7 @@ pub use loading::{
     BaseAcceleration, Damping, Load, LoadAlong, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure,
 };
 pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
-pub use modes::{ModeExtent, ModeKind, ModesAsked};
+pub use modes::{ModeExtent, ModesAsked};
 pub use moving_frame::{MovingFrame, MovingFrames};
 pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Output};

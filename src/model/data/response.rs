@@ -1,7 +1,9 @@
 //! The frequency response that an analysis computes.
 
+use super::modes::ModeExtent;
+
 /// The steady response to harmonic loads and motions of supports.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ResponseAsked {
     /// Frequencies, cycles per time, ascending.
     pub frequencies: Vec<f64>,
@@ -11,12 +13,14 @@ pub struct ResponseAsked {
     pub method: ResponseMethod,
     /// The part of critical damping that every mode has besides; zero with direct solution.
     pub damping_ratio: f64,
+    /// The modes that answer with their inertia.
+    pub extent: ModeExtent,
     /// True where the deck leaves open how many modes answer with their inertia.
     pub extent_is_open: bool,
 }
 
 /// More frequencies around the natural ones of a range.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AroundResonances {
     /// The first frequency of the range, and the last.
     pub range: [f64; 2],

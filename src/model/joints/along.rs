@@ -1,8 +1,8 @@
 //! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops, friction and what yields.
 
 use crate::data::{
-    AnalysisKind, History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadAlong, LoadedCoordinate, Node,
-    OwnDamping, PrescribedMotion,
+    History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadAlong, LoadedCoordinate, Node, OwnDamping,
+    PrescribedMotion,
 };
 use crate::links::ModelLinks;
 use crate::own_damping::of_spring;
@@ -156,7 +156,7 @@ impl<'d> Along<'_, 'd> {
         let amplitude = self.amplitude(&motion.amplitude);
         let (scale, history) = self.quantity(motion)?;
         // Stages that are static move on with time, by which a rate says where the joint is.
-        let is_static = self.scene.analysis.kind == AnalysisKind::Static && self.scene.analysis.modes.is_none();
+        let is_static = self.scene.analysis.is_static();
         if is_static && self.scene.stage.is_none() && history != History::Displacement {
             return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
         }
@@ -176,7 +176,7 @@ impl<'d> Along<'_, 'd> {
         let index = self.scene.amplitude_of_motion(index, history);
         let starts = scale.value * self.amplitudes[index].value(0.0);
         let begins = self.scene.stage.is_none_or(|stage| stage.is_first());
-        let moves = self.scene.analysis.kind == AnalysisKind::Dynamic && begins;
+        let moves = self.scene.analysis.is_dynamic() && begins;
         if history == History::Displacement && moves && starts != 0.0 {
             let (what, starts) = (&self.owner.what, short(starts));
             let message = format!("the motion of {what} begins at {starts}, but the coordinate is zero at t = 0");
@@ -377,17 +377,14 @@ impl<'d> Along<'_, 'd> {
     /// Friction by a coefficient follows the load of the step before.
     fn judge_steps(&mut self, friction: &'d At<f64>) {
         let analysis = &self.scene.analysis;
-        if analysis.modes.is_some() {
-            return;
-        }
-        if analysis.kind == AnalysisKind::Static {
+        if analysis.is_static() {
             let message = "`friction` follows the load of the load step before, and the first has none";
             self.report.warn(
                 &friction.span,
                 message,
                 "take several load steps, the last of them small, or a limit that is given",
             );
-        } else if analysis.step_length.is_automatic() {
+        } else if analysis.is_dynamic() && analysis.step_length.is_automatic() {
             let message = "`friction` needs a `time_step` that is given: it follows the load of the step before, which errors of steps do not tell";
             self.report.error_with::<()>(&friction.span, message, "or a limit that the joint's load does not change");
         }

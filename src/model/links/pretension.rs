@@ -1,6 +1,6 @@
 //! Links that are pulled to a force in a static stage, and then keep the length that was taken up.
 
-use crate::data::{AnalysisKind, LinkKind, Load};
+use crate::data::{LinkKind, Load};
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::values::span;
@@ -85,9 +85,9 @@ fn pulls<'d>(
     let needs = "`pretension` needs a static stage, the first in which the link is there";
     let hint = "`[[stages]]` of kind \"static\" pull it, or give `preload`, the force at zero elongation";
     let Some(stage) = scene.stage else {
-        return match scene.analysis.kind {
-            AnalysisKind::Static if scene.analysis.modes.is_none() => Some(Some(None)),
-            _ => report.error_with(place, needs, hint),
+        return match scene.analysis.is_static() {
+            true => Some(Some(None)),
+            false => report.error_with(place, needs, hint),
         };
     };
     if !stage.begins_pulling(&link.stages) {

@@ -1,6 +1,6 @@
 //! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
 
-use crate::data::{AnalysisKind, ArcLength, History, Iteration, Method, Restraint, Update};
+use crate::data::{ArcLength, History, Iteration, Method, Restraint, Update};
 use crate::doubts::usage::named_amplitudes;
 use crate::places::nodes::Topology;
 use crate::procedure::displacement_targets::displacement_target;
@@ -34,7 +34,7 @@ pub fn control<'d>(
         report.reject_unused("`control = \"time\"`", &keys);
         return None;
     };
-    if scene.analysis.kind != AnalysisKind::Static {
+    if scene.analysis.is_dynamic() {
         return report.error(&at.span, "arc-length control needs `kind = \"static\"`, and this analysis is dynamic");
     }
     check_iteration(scene.deck, report);

@@ -1,7 +1,8 @@
 //! What mass scaling of elements does not go with.
 
-use crate::data::{Analysis, FEWEST_STEPS, MassKind, Part, SAFE, SAFE_WHERE_STRUCK, StepLength};
+use crate::data::{FEWEST_STEPS, MassKind, SAFE, SAFE_WHERE_STRUCK, StepLength};
 use crate::report::Report;
+use crate::scene::Scene;
 use crate::values::span;
 use base::diagnostic::Span;
 use base::names::short;
@@ -11,7 +12,8 @@ use mechanics::integrators::Scheme;
 /// The key that asks for it, in the table of the scheme.
 pub const KEY: &str = "mass_scaling_step";
 /// Reports what a deck that asks for mass scaling cannot have, once all parts are known.
-pub fn check_mass_scaling(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, parts: &[Part], report: &mut Report) {
+pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Report) {
+    let (deck, parts) = (scene.deck, &scene.parts.list);
     let place = deck.integrator.as_ref().and_then(|integrator| integrator.values.place(KEY));
     let (Some(step), Some(place)) = (scheme.mass_scaling_step(), place) else { return };
     let kinds = || parts.iter().filter_map(|part| Some((part, part.mass_kind()?)));
@@ -38,13 +40,12 @@ pub fn check_mass_scaling(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme,
         let message = format!("no mass makes a step of {} stable with this `{key}`", short(step));
         report.error_with::<()>(&alpha.span, message, format!("below {} one does", short(1.0 / step)));
     }
-    if analysis.modes.is_none() {
-        check_length(deck, analysis, (step, place), report);
-    }
+    check_length(scene, (step, place), report);
 }
 
 /// Reports a step that is longer than the motion, or than the steps that are taken.
-fn check_length(deck: &Deck, analysis: &Analysis, (step, place): (f64, &Span), report: &mut Report) {
+fn check_length(scene: &Scene, (step, place): (f64, &Span), report: &mut Report) {
+    let (deck, analysis) = (scene.deck, &scene.analysis);
     // A stage may be shorter than the step that suits all.
     if step > analysis.end_time {
         let message = format!("`{KEY}` is longer than the motion, which takes {}", short(analysis.end_time));
@@ -64,7 +65,7 @@ fn check_length(deck: &Deck, analysis: &Analysis, (step, place): (f64, &Span), r
         (StepLength::Fixed { .. }, _) => {}
         _ => {
             let (longest, enough) = (analysis.duration() / FEWEST_STEPS, 1.0 / SAFE_WHERE_STRUCK);
-            if analysis.stage.is_none() && step > enough * longest {
+            if scene.stage.is_none() && step > enough * longest {
                 let message = format!(
                     "`{KEY}` adds mass for steps that are not taken: automatic ones are {} at most",
                     short(longest)

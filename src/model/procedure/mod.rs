@@ -58,16 +58,7 @@ pub fn analysis<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, report: &mu
                 let example = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-3";
                 report.push(Diagnostic::error("the deck has no table `[analysis]`").hint(example));
             }
-            Analysis {
-                kind: AnalysisKind::Dynamic,
-                begin: 0.0,
-                end_time: 0.0,
-                stage: None,
-                step_length: StepLength::Fixed { step: 0.0 },
-                least_step: 0.0,
-                plane: true,
-                modes: None,
-            }
+            unread(AnalysisKind::Dynamic, None)
         }
     };
     let scheme = deck.integrator.as_ref().map_or_else(default_scheme, |integrator| self::scheme(integrator, report));
@@ -82,9 +73,9 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     if let Some(analysis) = modes(analysis, owner.span, word, report) {
         return analysis;
     }
-    let kind = if word == words::AnalysisKind::Static { AnalysisKind::Static } else { AnalysisKind::Dynamic };
+    let is_static = word == words::AnalysisKind::Static;
     let end_time = report.require_positive(&owner, "end_time", &analysis.end_time);
-    let (time_step, error_tolerance) = time_step(&owner, analysis, kind, report);
+    let (time_step, error_tolerance) = time_step(&owner, analysis, is_static, report);
     let least_step = report.positive("least_step", &analysis.least_step);
     if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
         && step > end
@@ -108,33 +99,31 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
         let longest = short(FIRST_STEP * end);
         report.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
     }
-    let end_time = end_time.unwrap_or(f64::MAX);
-    let (step_length, least) = match error_tolerance {
-        Some(tolerance) => {
-            (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * end_time }, end_time / MOST_STEPS)
+    let kind = if is_static { AnalysisKind::Static } else { AnalysisKind::Dynamic };
+    let plane = analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto);
+    let run = Analysis { plane, ..unread(kind, end_time) };
+    let (step_length, least) = match (error_tolerance, time_step) {
+        (Some(tolerance), _) => {
+            (StepLength::ErrorControlled { tolerance, first: FIRST_STEP * run.end_time }, run.end_time / MOST_STEPS)
         }
-        None => {
-            let step = time_step.unwrap_or(1.0);
-            (StepLength::Fixed { step }, step * 0.5_f64.powi(HALVINGS))
-        }
+        (None, Some(step)) => (StepLength::Fixed { step }, step * 0.5_f64.powi(HALVINGS)),
+        (None, None) => return run,
     };
-    Analysis {
-        kind,
-        begin: 0.0,
-        end_time,
-        stage: None,
-        step_length,
-        least_step: least_step.unwrap_or(least),
-        plane: analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto),
-        modes: None,
-    }
+    Analysis { step_length, least_step: least_step.unwrap_or(least), ..run }
+}
+
+/// The analysis by which other tables are checked where the deck does not tell its steps, or its end: no model comes of it. No time lies
+/// beyond an end that is not known.
+fn unread(kind: AnalysisKind, end_time: Option<f64>) -> Analysis {
+    let (end_time, step_length) = (end_time.unwrap_or(f64::MAX), StepLength::Fixed { step: 1.0 });
+    Analysis { kind, begin: 0.0, end_time, stage: None, step_length, least_step: 1.0, plane: true }
 }
 
 /// The length of the steps, or the error that it follows.
 fn time_step<'d>(
     owner: &Owner,
     analysis: &'d words::Analysis,
-    kind: AnalysisKind,
+    is_static: bool,
     report: &mut Report<'d>,
 ) -> (Option<f64>, Option<f64>) {
     let Some(at) = report.require(owner, "time_step", &analysis.time_step) else { return (None, None) };
@@ -144,7 +133,7 @@ fn time_step<'d>(
             report.reject_unused("a `time_step` that is a number", &[("error_tolerance", span(tolerance))]);
             (report.positive("time_step", &Some(At { value: step, span: at.span.clone() })), None)
         }
-        NumberOrAuto::Auto if kind == AnalysisKind::Static => {
+        NumberOrAuto::Auto if is_static => {
             let hint = "load steps have no error in time: give a number";
             report.error_with::<()>(&at.span, "`time_step` is \"auto\" in a static analysis", hint);
             (None, None)
@@ -208,9 +197,9 @@ pub fn check_yielding(scheme: &dyn Scheme, place: &Span, yields: bool, report: &
 }
 
 /// Reports what an explicit scheme cannot do, once all parts are known.
-pub fn check_explicit(deck: &Deck, kind: AnalysisKind, scheme: &dyn Scheme, parts: &[Part], report: &mut Report) {
+pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, parts: &[Part], report: &mut Report) {
     let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.kind.as_ref()) else { return };
-    if kind == AnalysisKind::Static || !scheme.is_explicit() {
+    if !analysis.is_dynamic() || !scheme.is_explicit() {
         return;
     }
     check_yielding(scheme, &at.span, parts.iter().any(Part::yields), report);

@@ -3,7 +3,7 @@
 //! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
 //! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
 
-use crate::data::{Analysis, AnalysisKind, History, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
+use crate::data::{Analysis, AnalysisKind, History, ModeExtent, Model, ModesAsked, StepLength};
 use crate::procedure::response::{is_harmonic, keys_of_response, response};
 use crate::report::Report;
 use crate::values::{flag, span};
@@ -31,22 +31,19 @@ pub fn modes<'d>(
     report: &mut Report<'d>,
 ) -> Option<Analysis> {
     let of_modal = [("up_to", span(&analysis.up_to)), ("damped", span(&analysis.damped))];
-    let kind = match word {
-        Word::Modal | Word::FrequencyResponse => ModeKind::Natural,
-        Word::Buckling => ModeKind::Buckling,
-        Word::Static | Word::Dynamic => {
-            let what = if word == Word::Static { "a static analysis" } else { "a dynamic analysis" };
-            report.reject_unused(what, &[("modes", span(&analysis.modes))]);
-            report.reject_unused(what, &of_modal);
-            report.reject_unused(what, &keys_of_response(analysis));
-            return None;
-        }
-    };
     let what = match word {
+        Word::Static => "a static analysis",
+        Word::Dynamic => "a dynamic analysis",
         Word::Modal => "a modal analysis",
         Word::Buckling => "a buckling analysis",
-        _ => "a frequency response",
+        Word::FrequencyResponse => "a frequency response",
     };
+    if matches!(word, Word::Static | Word::Dynamic) {
+        report.reject_unused(what, &[("modes", span(&analysis.modes))]);
+        report.reject_unused(what, &of_modal);
+        report.reject_unused(what, &keys_of_response(analysis));
+        return None;
+    }
     let of_paths = [
         ("control", span(&analysis.control)),
         ("stop", span(&analysis.stop)),
@@ -54,33 +51,23 @@ pub fn modes<'d>(
         ("growth", span(&analysis.growth)),
     ];
     report.reject_unused(what, &of_paths);
-    if kind == ModeKind::Buckling {
+    if word == Word::Buckling {
         report.reject_unused(what, &of_modal);
     }
-    let is_response = word == Word::FrequencyResponse;
-    if !is_response {
+    if word != Word::FrequencyResponse {
         report.reject_unused(what, &keys_of_response(analysis));
     }
     note_times(analysis, what, report);
     let plane = analysis.plane.as_ref().is_some_and(|plane| plane.value == words::Plane::Auto);
-    let response = is_response.then(|| response(analysis, place, report));
-    let (response, of_response) = response.map_or((None, None), |(asked, extent)| (Some(asked), extent));
-    let extent = of_response.unwrap_or_else(|| extent(analysis, report));
-    // Bodies that spin excite and are excited with their gyroscopic moments.
-    let damped = is_response || flag(&analysis.damped, false);
-    let modes = Some(ModesAsked { kind, extent, damped, response });
-    let (end_time, least_step) = (END, LEAST_STEP);
+    let kind = match word {
+        Word::FrequencyResponse => AnalysisKind::Response(response(analysis, place, report)),
+        Word::Buckling => AnalysisKind::Buckling(count(analysis, report)),
+        _ => {
+            AnalysisKind::Modal(ModesAsked { extent: extent(analysis, report), damped: flag(&analysis.damped, false) })
+        }
+    };
     let step_length = StepLength::Fixed { step: STEP };
-    Some(Analysis {
-        kind: AnalysisKind::Static,
-        begin: 0.0,
-        end_time,
-        stage: None,
-        step_length,
-        least_step,
-        plane,
-        modes,
-    })
+    Some(Analysis { kind, begin: 0.0, end_time: END, stage: None, step_length, least_step: LEAST_STEP, plane })
 }
 
 /// Says of the keys of times that they have no effect.
@@ -99,7 +86,8 @@ fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
     }
 }
 
-fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
+/// The modes that the keys of modes ask for.
+pub fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
     if let (Some(_), Some(up_to)) = (&analysis.modes, &analysis.up_to) {
         let hint = "the number of modes follows from the frequency";
         report.error_with::<()>(&up_to.span, "`modes` or `up_to` is given, not both", hint);
@@ -107,11 +95,15 @@ fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
     if let Some(frequency) = report.positive("up_to", &analysis.up_to) {
         return ModeExtent::UpTo(frequency);
     }
+    ModeExtent::Count(count(analysis, report))
+}
+
+fn count(analysis: &words::Analysis, report: &mut Report) -> usize {
     let count = report.count("modes", &analysis.modes, MODES);
     if let Some(at) = analysis.modes.as_ref().filter(|_| count > MOST) {
         report.error_with::<()>(&at.span, "`modes` asks for too many", format!("at most {MOST} are computed at once"));
     }
-    ModeExtent::Count(count)
+    count
 }
 
 /// Warns of what has no effect on modes.
@@ -127,7 +119,7 @@ pub fn check_modal(deck: &Deck, report: &mut Report) {
 pub fn hold_at_start(model: &mut Model) {
     let loading = &mut model.loading;
     // What excites a response keeps its amplitude, which is zero over time.
-    let excites = model.analysis.modes.as_ref().is_some_and(|asked| asked.response.is_some());
+    let excites = model.analysis.response().is_some();
     let amplitudes = &loading.amplitudes;
     let at_start = |amplitude: &mut Option<usize>| match *amplitude {
         Some(_) if excites && is_harmonic(amplitudes, *amplitude) => 1.0,

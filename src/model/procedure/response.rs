@@ -1,6 +1,9 @@
 //! The frequency response of `[analysis]`, and what excites it: loads and motions with amplitudes of kind "harmonic".
 
-use crate::data::{AroundResonances, ExpectAt, ModeExtent, Model, OverFrequencies, ResponseAsked, ResponseMethod};
+use super::modes;
+use crate::data::{
+    self, AroundResonances, Expect, ExpectAt, ModeExtent, OverFrequencies, ResponseAsked, ResponseMethod,
+};
 use crate::doubts::usage::amplitudes_over_time;
 use crate::report::{Owner, Report};
 use crate::values::{chosen, span};
@@ -29,11 +32,7 @@ pub fn keys_of_response(analysis: &Analysis) -> [(&'static str, Option<&Span>); 
 }
 
 /// Reads the keys of a frequency response, with the modes that its method needs.
-pub fn response<'d>(
-    analysis: &'d Analysis,
-    place: &'d Span,
-    report: &mut Report<'d>,
-) -> (ResponseAsked, Option<ModeExtent>) {
+pub fn response<'d>(analysis: &'d Analysis, place: &'d Span, report: &mut Report<'d>) -> ResponseAsked {
     let what = "a frequency response";
     report.reject_unused(what, &[("damped", span(&analysis.damped))]);
     let method = match chosen(&analysis.method) {
@@ -62,14 +61,13 @@ pub fn response<'d>(
         );
     }
     let extent_is_open = analysis.modes.is_none() && analysis.up_to.is_none();
-    let asked = ResponseAsked { frequencies, resonances, method, damping_ratio, extent_is_open };
-    let extent = extent_is_open.then(|| extent(&asked));
-    (asked, extent)
+    let extent = if extent_is_open { extent(&frequencies) } else { modes::extent(analysis, report) };
+    ResponseAsked { frequencies, resonances, method, damping_ratio, extent, extent_is_open }
 }
 
 /// The modes that answer with their inertia, unless the deck says otherwise.
-fn extent(asked: &ResponseAsked) -> ModeExtent {
-    let highest = asked.frequencies.last().copied().unwrap_or(1.0);
+fn extent(frequencies: &[f64]) -> ModeExtent {
+    let highest = frequencies.last().copied().unwrap_or(1.0);
     ModeExtent::UpTo(BEYOND * highest.max(f64::MIN_POSITIVE))
 }
 
@@ -161,10 +159,9 @@ pub fn names_harmonic(deck: &Deck, name: &str) -> bool {
 }
 
 /// Adds the frequencies at which something is expected to those that are computed.
-pub fn add_expected(model: &mut Model) {
-    let Some(modes) = model.analysis.modes.as_mut() else { return };
-    let Some(response) = &mut modes.response else { return };
-    for expect in &model.expects {
+pub fn add_expected(analysis: &mut data::Analysis, expects: &[Expect]) {
+    let data::AnalysisKind::Response(response) = &mut analysis.kind else { return };
+    for expect in expects {
         if let ExpectAt::Response(_, OverFrequencies::At(frequency)) = expect.at {
             response.frequencies.push(frequency);
         }
@@ -172,7 +169,7 @@ pub fn add_expected(model: &mut Model) {
     response.frequencies.sort_by(f64::total_cmp);
     response.frequencies.dedup();
     if response.extent_is_open {
-        modes.extent = extent(response);
+        response.extent = extent(&response.frequencies);
     }
 }
 

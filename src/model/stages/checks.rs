@@ -2,13 +2,13 @@
 
 use super::current::CurrentStage;
 use super::sequence::{StageSequence, buckles, name_of, responds};
-use crate::data::AnalysisKind;
 use crate::procedure::mass_scaling::KEY;
 use crate::procedure::response::names_harmonic;
 use crate::report::Report;
 use crate::values::span;
 use base::diagnostic::At;
 use deck::Deck;
+use deck::stages::StageKind;
 use deck::words::{Maybe, Names};
 use std::collections::{HashMap, HashSet};
 
@@ -49,7 +49,7 @@ fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 
 /// Reports what there is too much or too little of for stages of modes.
 fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
-    let of_modes: Vec<usize> = (0..sequence.stages.len()).filter(|&index| sequence.stages[index].has_modes).collect();
+    let of_modes: Vec<usize> = (0..sequence.stages.len()).filter(|&index| sequence.stages[index].has_modes()).collect();
     if let (Some(&first), None) = (of_modes.first(), sequence.in_time().next()) {
         let message = "no stage is static or dynamic, so nothing leads to a state about which modes are found";
         let hint = "`kind` of `[analysis]` finds those about the equilibrium under the loads of the deck";
@@ -76,7 +76,7 @@ fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 
 /// Reports a motion that would go on with other masses than it has begun with.
 fn check_masses<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
-    let moves = sequence.stages.iter().filter(|stage| stage.kind == AnalysisKind::Dynamic && !stage.has_modes);
+    let moves = sequence.stages.iter().filter(|stage| stage.kind == StageKind::Dynamic);
     let mut first = None;
     for stage in moves {
         let integrator = stage.table.integrator.as_ref().or(sequence.whole.integrator.as_ref());
@@ -135,7 +135,7 @@ fn check_initial<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     let first_dynamic = sequence.first_dynamic();
     for table in &sequence.whole.initial {
         for name in table.stages.iter().flat_map(|names| &names.values) {
-            if sequence.position(name).is_some_and(|index| sequence.stages[index].kind == AnalysisKind::Static) {
+            if sequence.position(name).is_some_and(|index| sequence.stages[index].kind != StageKind::Dynamic) {
                 let message = format!("nothing moves in stage `{}`", name.value);
                 report.error_with::<()>(&name.span, message, "name a dynamic stage");
             }
@@ -178,7 +178,7 @@ fn check_expected<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
             // That there is no such stage has been said.
             continue;
         }
-        let has_modes = named.is_some_and(|named| sequence.stages[named].has_modes);
+        let has_modes = named.is_some_and(|named| sequence.stages[named].has_modes());
         let (message, hint) = match (&expect.mode, &expect.frequency) {
             (Some(_), _) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
             (_, Some(_)) => ("no response is found there", "`frequency` is expected of a stage of frequency response"),

@@ -1,7 +1,6 @@
 //! The stage whose model is built, and the deck as it sees it.
 
 use super::sequence::{PlannedStage, StageSequence, buckles, name_of};
-use crate::data::AnalysisKind;
 use crate::procedure::response::names_harmonic;
 use crate::values::span;
 use base::diagnostic::{At, Span};
@@ -92,8 +91,7 @@ impl<'d> CurrentStage<'d> {
 
     /// True where the first stage with a table of these `stages` is static, and no stage of modes.
     pub fn begins_pulling(&self, stages: &Maybe<Names>) -> bool {
-        let first = &self.sequence.stages[self.sequence.first(stages)];
-        first.kind == AnalysisKind::Static && !first.has_modes
+        self.sequence.stages[self.sequence.first(stages)].kind == StageKind::Static
     }
 
     /// True where a table with these `stages` first acts in this one.
@@ -110,7 +108,7 @@ impl<'d> CurrentStage<'d> {
 
     /// True where a support with these `stages` first acts in a static stage.
     pub fn begins_static(&self, stages: &Maybe<Names>) -> bool {
-        self.sequence.stages[self.sequence.first(stages)].kind == AnalysisKind::Static
+        self.sequence.stages[self.sequence.first(stages)].kind != StageKind::Dynamic
     }
 
     /// The time at which the clock of an amplitude starts.
@@ -138,7 +136,7 @@ impl<'d> CurrentStage<'d> {
 
     fn is_like_before(&self, held: impl Fn(usize) -> Vec<bool>) -> bool {
         let Some(before) = self.sequence.before(self.index) else { return false };
-        let dynamic = |index: usize| self.sequence.stages[index].kind == AnalysisKind::Dynamic;
+        let dynamic = |index: usize| self.sequence.stages[index].kind == StageKind::Dynamic;
         dynamic(before)
             && dynamic(self.index)
             && held(before) == held(self.index)
@@ -157,7 +155,7 @@ impl<'d> CurrentStage<'d> {
 
     /// True where modes are found, and no time passes.
     pub fn has_modes(&self) -> bool {
-        self.sequence.stages[self.index].has_modes
+        self.sequence.stages[self.index].has_modes()
     }
 
     /// The deck as this stage sees it, and which of its expected values are read here, by their index in the deck.
@@ -175,7 +173,7 @@ impl<'d> CurrentStage<'d> {
         });
         let first_dynamic = self.sequence.first_dynamic();
         // Modes before anything has moved are those of a scene that moves as it will.
-        let starts = match planned.has_modes {
+        let starts = match planned.has_modes() {
             true => first_dynamic.is_none_or(|first| self.index < first),
             false => first_dynamic == Some(self.index),
         };
@@ -198,9 +196,9 @@ impl<'d> CurrentStage<'d> {
         if let Some(own) = &planned.table.iteration {
             deck.iteration = Some(own.clone());
         }
-        if planned.kind == AnalysisKind::Static && first_dynamic.is_some() {
+        if planned.kind != StageKind::Dynamic && first_dynamic.is_some() {
             deck.integrator = None;
-            deck.damping.take_if(|_| !planned.has_modes);
+            deck.damping.take_if(|_| !planned.has_modes());
         }
         deck.study = None;
         (deck, here)
@@ -226,17 +224,18 @@ impl<'d> CurrentStage<'d> {
     /// The stage as `[analysis]` of its deck; its time counts from the beginning of the stage, and is that which the deck gives: steps that
     /// fit into it still do after rounding, and after a stop.
     fn analysis(&self) -> Analysis {
-        let PlannedStage { table, kind, has_modes, duration, .. } = &self.sequence.stages[self.index];
+        let PlannedStage { table, kind, duration, .. } = &self.sequence.stages[self.index];
+        let has_modes = self.has_modes();
         let all = self.sequence.whole.analysis.as_ref();
         let place = |own: Option<&Span>| own.unwrap_or(&table.span).clone();
         let automatic = table.time_step.as_ref().is_some_and(|at| at.value == deck::words::NumberOrAuto::Auto);
         let general = all.and_then(|all| all.error_tolerance.clone()).filter(|_| automatic);
-        let word = match table.kind.as_ref().map(|kind| kind.value) {
-            Some(StageKind::Modal) => words::AnalysisKind::Modal,
-            Some(StageKind::Buckling) => words::AnalysisKind::Buckling,
-            Some(StageKind::FrequencyResponse) => words::AnalysisKind::FrequencyResponse,
-            _ if *kind == AnalysisKind::Static => words::AnalysisKind::Static,
-            _ => words::AnalysisKind::Dynamic,
+        let word = match kind {
+            StageKind::Static => words::AnalysisKind::Static,
+            StageKind::Dynamic => words::AnalysisKind::Dynamic,
+            StageKind::Modal => words::AnalysisKind::Modal,
+            StageKind::Buckling => words::AnalysisKind::Buckling,
+            StageKind::FrequencyResponse => words::AnalysisKind::FrequencyResponse,
         };
         let least_step = table.least_step.clone().or_else(|| all.and_then(|all| all.least_step.clone()));
         Analysis {

@@ -1,6 +1,5 @@
 //! The stages of a deck, one after the other: their times, and which tables are there in which of them.
 
-use crate::data::AnalysisKind;
 use crate::report::{Owner, Report};
 use crate::shells::edges::Bulges;
 use crate::values::span;
@@ -32,9 +31,7 @@ const SHORTEST: f64 = 1e-7;
 pub struct PlannedStage<'d> {
     pub table: &'d At<Table<Stage>>,
     pub name: String,
-    pub kind: AnalysisKind,
-    /// True where modes are found, and no time passes.
-    pub has_modes: bool,
+    pub kind: StageKind,
     pub begin: f64,
     pub duration: f64,
     /// The time at which it has ended, or will if nothing stops it.
@@ -42,14 +39,19 @@ pub struct PlannedStage<'d> {
 }
 
 impl PlannedStage<'_> {
+    /// True where modes are found, and no time passes.
+    pub fn has_modes(&self) -> bool {
+        !matches!(self.kind, StageKind::Static | StageKind::Dynamic)
+    }
+
     /// True where an expected value, of a mode, at a frequency or at a time, can be read: the peak over frequencies where it names the stage.
     pub fn reads(&self, expect: &Expect) -> bool {
-        let kind = self.table.kind.as_ref().map(|kind| kind.value);
+        let responds = self.kind == StageKind::FrequencyResponse;
         match (expect.mode.is_some(), expect.frequency.is_some()) {
-            (true, _) => self.has_modes,
-            (_, true) => kind == Some(StageKind::FrequencyResponse),
-            _ if kind == Some(StageKind::FrequencyResponse) => name_of(&expect.stage) == Some(self.name.as_str()),
-            _ => !self.has_modes,
+            (true, _) => self.has_modes(),
+            (_, true) => responds,
+            _ if responds => name_of(&expect.stage) == Some(self.name.as_str()),
+            _ => !self.has_modes(),
         }
     }
 }
@@ -84,16 +86,15 @@ impl<'d> StageSequence<'d> {
                 report.error::<()>(&name.span, format!("two stages have the name `{}`", name.value));
             }
         }
-        let kind = report.require(&owner, "kind", &table.kind);
-        let is_static = kind.is_some_and(|kind| kind.value == StageKind::Static);
-        let of_modes = kind.and_then(|kind| match kind.value {
+        let kind = report.require(&owner, "kind", &table.kind).map_or(StageKind::Dynamic, |kind| kind.value);
+        let of_modes = match kind {
             StageKind::Static | StageKind::Dynamic => None,
             StageKind::Modal => Some("a modal stage"),
             StageKind::Buckling => Some("a buckling stage"),
             StageKind::FrequencyResponse => Some("a stage of a frequency response"),
-        });
+        };
         let has_modes = of_modes.is_some();
-        if let Some(what) = of_modes.or(is_static.then_some("a static stage")) {
+        if let Some(what) = of_modes.or((kind == StageKind::Static).then_some("a static stage")) {
             report.reject_unused(what, &[("integrator", span(&table.integrator))]);
         }
         if let Some(what) = of_modes {
@@ -116,8 +117,7 @@ impl<'d> StageSequence<'d> {
         PlannedStage {
             table,
             name: name.map_or_else(|| format!("stages.{}", self.stages.len()), |name| name.value.clone()),
-            kind: if is_static || has_modes { AnalysisKind::Static } else { AnalysisKind::Dynamic },
-            has_modes,
+            kind,
             begin,
             duration,
             end,
@@ -140,14 +140,13 @@ impl<'d> StageSequence<'d> {
         end.min(time.value)
     }
 
-    /// Reports what goes with a run without stages only.
     /// The end of the last stage.
     pub fn end(&self) -> f64 {
         self.stages.last().map_or(0.0, |stage| stage.end)
     }
 
     pub fn first_dynamic(&self) -> Option<usize> {
-        self.stages.iter().position(|stage| stage.kind == AnalysisKind::Dynamic)
+        self.stages.iter().position(|stage| stage.kind == StageKind::Dynamic)
     }
 
     pub fn position(&self, name: &str) -> Option<usize> {
@@ -167,7 +166,7 @@ impl<'d> StageSequence<'d> {
 
     /// The stages in which time passes.
     pub fn in_time(&self) -> impl DoubleEndedIterator<Item = usize> {
-        (0..self.stages.len()).filter(|&index| !self.stages[index].has_modes)
+        (0..self.stages.len()).filter(|&index| !self.stages[index].has_modes())
     }
 
     /// The last stage before this one in which time has passed.
@@ -192,15 +191,14 @@ impl<'d> StageSequence<'d> {
     pub fn own_amplitudes(&self) -> impl Iterator<Item = Amplitude> {
         self.stages.iter().map(|stage| {
             let planned = stage.begin + stage.duration;
-            match stage.kind {
-                AnalysisKind::Dynamic => Amplitude::Constant,
-                AnalysisKind::Static if stage.has_modes => Amplitude::Constant,
-                AnalysisKind::Static if stage.end >= planned => Amplitude::Ramp { start: stage.begin, end: planned },
-                AnalysisKind::Static => {
-                    let reached = (stage.end - stage.begin) / stage.duration;
-                    Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [stage.end, reached]]))
-                }
+            if stage.kind != StageKind::Static {
+                return Amplitude::Constant;
             }
+            if stage.end >= planned {
+                return Amplitude::Ramp { start: stage.begin, end: planned };
+            }
+            let reached = (stage.end - stage.begin) / stage.duration;
+            Amplitude::Table(StraightLines::new(vec![[stage.begin, 0.0], [stage.end, reached]]))
         })
     }
 }

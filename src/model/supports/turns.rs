@@ -1,8 +1,6 @@
 //! What several rotations of a node mean that supports give together.
 
-use crate::data::{
-    AnalysisKind, DIRECTIONS, GivenTurn, History, Joint, JointCoordinate, JointDrive, PrescribedMotion, Restraint,
-};
+use crate::data::{DIRECTIONS, GivenTurn, History, Joint, JointCoordinate, JointDrive, PrescribedMotion, Restraint};
 use crate::places::nodes::Topology;
 use crate::places::spot::Spot;
 use crate::procedure::stops::NamedActors;
@@ -135,7 +133,7 @@ impl<'d> TurnSetting<'_, 'd> {
     /// Reports a rotation beside a free one that does not begin at zero: what the node carries starts undisplaced.
     fn check_begin(&mut self, turning: &NodeRotations<'d>, dof: usize, motion: &PrescribedMotion) {
         let analysis = &self.scene.analysis;
-        let begins = analysis.kind == AnalysisKind::Dynamic && analysis.begin == 0.0;
+        let begins = analysis.is_dynamic() && analysis.begin == 0.0;
         let displaced = motion.history == History::Displacement
             && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0;
         if begins && displaced {

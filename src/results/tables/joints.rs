@@ -3,7 +3,7 @@
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
 use base::quantities::{Column, JOINT_COORDINATE, JOINT_REACTION, names};
-use model::{AnalysisKind, ExpectAt, Joint, JointCoordinate, Model};
+use model::{ExpectAt, Joint, JointCoordinate, Model};
 use solve::{Frame, Wanted};
 use std::io;
 
@@ -71,10 +71,10 @@ fn motor(coordinate: &JointCoordinate, frame: &Frame) -> f64 {
     let Some(effort) = &coordinate.effort else { return 0.0 };
     let (model, time) = (frame.model, frame.state.time);
     effort.value
-        * match (effort.amplitude, model.analysis.kind) {
+        * match (effort.amplitude, model.analysis.is_dynamic()) {
             (Some(index), _) => model.loading.amplitudes[index].value(time),
-            (None, AnalysisKind::Dynamic) => 1.0,
-            (None, AnalysisKind::Static) => time / model.analysis.end_time,
+            (None, true) => 1.0,
+            (None, false) => time / model.analysis.end_time,
         }
 }
 

@@ -14,10 +14,7 @@ pub static TABLE: TableKind = TableKind {
             motion about the state; the amplitude of its velocity is 2π `frequency` times as large, that of its acceleration the square of it. \
             Empty where the undamped scene has no steady motion. Written with `kind = \"frequency-response\"`.",
     columns: &[&[RESPONSE_FREQUENCY], &[Column::key("node", "name of the node or body")], &RESPONSE],
-    wanted: |model| {
-        let asked = model.analysis.modes.as_ref().is_some_and(|asked| asked.response.is_some());
-        asked && !(model.output.nodes.is_empty() && model.bodies.is_empty())
-    },
+    wanted: |model| model.analysis.response().is_some() && !(model.output.nodes.is_empty() && model.bodies.is_empty()),
     needs: Wanted::MODES,
     tells_failures: false,
     every_step: false,

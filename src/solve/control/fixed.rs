@@ -14,7 +14,6 @@ use crate::tolerances::fixed::{CAREFUL_HALVINGS, MANY, MOST_HALVINGS, MOST_SUBST
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::state::State;
-use model::AnalysisKind;
 
 /// A whole step, in units of the smallest substep.
 const WHOLE_STEP: u64 = 1 << MOST_HALVINGS;
@@ -235,7 +234,7 @@ impl Substeps {
     fn cut_back(&mut self, march: &mut March, failure: Failure, dt: f64) -> Result<(), Outcome> {
         let analysis = &march.cx.model.analysis;
         // Smaller loads do not help an unrestrained structure; they may help one that yields.
-        let unrestrained = analysis.kind == AnalysisKind::Static
+        let unrestrained = !analysis.is_dynamic()
             && march.cx.system.history == 0
             && matches!(failure, Failure::Singular { at_start: true, .. });
         let violated = matches!(failure, Failure::ConstraintsViolated { .. });
@@ -273,7 +272,7 @@ impl Substeps {
                 | Failure::LoadStepTurns { .. }
                 | Failure::TurnedOver { .. }
         );
-        let is_static = march.cx.model.analysis.kind == AnalysisKind::Static;
+        let is_static = !march.cx.model.analysis.is_dynamic();
         if !is_static || !is_lost || load_steps.peak.stressed || load_steps.careful {
             return false;
         }

@@ -7,6 +7,7 @@
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
+use super::mode::ModeKind;
 use super::mode::Modes;
 use super::pencil::{Pencil, weights};
 use super::rest::multipliers_at_rest;
@@ -20,7 +21,7 @@ use base::names::{joined, short};
 use linear::eigen::{Converged, EigenPair, Lanczos, SymmetricOperator};
 use linear::{Solver, Sparse};
 use mechanics::state::{Configuration, Increment, Node};
-use model::{ModeExtent, ModeKind};
+use model::AnalysisKind;
 
 /// Weights of the differences of sixth order between the states at 1, 2 and 3 steps and their opposites.
 const DIFFERENCES: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
@@ -66,8 +67,8 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     if !is_stage && at.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()) {
         return Err(ModesFault::MovedSupport);
     }
-    let wanted = match at.model.analysis.modes.as_ref().map(|asked| asked.extent) {
-        Some(ModeExtent::Count(count)) => count,
+    let wanted = match at.model.analysis.kind {
+        AnalysisKind::Buckling(count) => count,
         _ => 1,
     };
     // Of a state that a stage has reached the balance is judged with that of other modes.

@@ -9,6 +9,7 @@ use super::fault::ModesFault;
 use super::gyroscopic::Gyroscopic;
 use super::linearized::Linearized;
 use super::modal::{fewer, lowest_square, natural_pairs};
+use super::mode::ModeKind;
 use super::mode::{EigenMode, Modes};
 use super::pencil::{Pencil, weights};
 use super::shape::Shapes;
@@ -18,7 +19,7 @@ use crate::tolerances::modal::LOW;
 use base::math::Vec6;
 use linear::eigen::{Arnoldi, Complex, ComplexPair, Operator};
 use linear::{Factorization, Solver, Sparse};
-use model::{ModeExtent, ModeKind};
+use model::ModeExtent;
 use std::f64::consts::TAU;
 
 /// Where roots are looked for.
@@ -99,7 +100,7 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         Some((solver, assembly)) => Pencil::new(*at, (solver, assembly)),
         None => Pencil::new(*at, linear),
     };
-    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let extent = at.model.analysis.extent();
     let shapes = Shapes::new(&pencil);
     let pairs = allowed(&mut pencil, &gyroscopic, near, extent)?;
     let mut list =

@@ -23,39 +23,35 @@ mod steady;
 pub use fault::ModesFault;
 pub use linearized::Linearized;
 pub use matrices::SceneMatrices;
-pub use mode::{EigenMode, Modes, Share};
+pub use mode::{EigenMode, ModeKind, Modes, Share};
 pub use rest::{multipliers_at_rest, own_stiffnesses};
 pub use steady::{Response, ResponseRow, ResponseSoFar, Search};
 
 use crate::system::assembly::Assembly;
 use linear::Solver;
-use model::{ModeKind, ModesAsked};
+use model::AnalysisKind;
 
 /// Finds the modes that the model asks for about a state. The solver and its assembly are overwritten where the solver is symmetric.
 ///
 /// # Errors
 /// The reason why there are none; [`ModesFault::Stopped`] where the search is to pause or to end.
 pub fn find(at: &Linearized, linear: (&mut Solver, &mut Assembly), search: Search) -> Result<Modes, ModesFault> {
-    let Some(asked) = &at.model.analysis.modes else { return Ok(Modes::default()) };
+    if !at.model.analysis.has_modes() {
+        return Ok(Modes::default());
+    }
     if linear.0.is_symmetric() {
-        return find_with(at, asked, linear, search);
+        return find_with(at, linear, search);
     }
     let (mut solver, mut assembly) = at.symmetric_solver()?;
-    find_with(at, asked, (&mut solver, &mut assembly), search)
+    find_with(at, (&mut solver, &mut assembly), search)
 }
 
-fn find_with(
-    at: &Linearized,
-    asked: &ModesAsked,
-    linear: (&mut Solver, &mut Assembly),
-    search: Search,
-) -> Result<Modes, ModesFault> {
-    if let Some(asked) = &asked.response {
-        return response::find_response(at, asked, linear, search);
-    }
-    match asked.kind {
-        ModeKind::Natural if asked.damped => damped::damped_modes(at, linear),
-        ModeKind::Natural => modal::natural_modes(at, linear),
-        ModeKind::Buckling => buckling::buckling_modes(at, linear),
+fn find_with(at: &Linearized, linear: (&mut Solver, &mut Assembly), search: Search) -> Result<Modes, ModesFault> {
+    match &at.model.analysis.kind {
+        AnalysisKind::Dynamic | AnalysisKind::Static => Ok(Modes::default()),
+        AnalysisKind::Modal(asked) if asked.damped => damped::damped_modes(at, linear),
+        AnalysisKind::Modal(_) => modal::natural_modes(at, linear),
+        AnalysisKind::Buckling(_) => buckling::buckling_modes(at, linear),
+        AnalysisKind::Response(asked) => response::find_response(at, asked, linear, search),
     }
 }

@@ -7,6 +7,7 @@
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
+use super::mode::ModeKind;
 use super::mode::{EigenMode, Modes};
 use super::pencil::Pencil;
 use super::shape::Shapes;
@@ -17,7 +18,7 @@ use crate::tolerances::modal::{
 use base::names::short;
 use linear::Solver;
 use linear::eigen::{Converged, EigenPair, Lanczos};
-use model::{ModeExtent, ModeKind};
+use model::ModeExtent;
 use std::f64::consts::TAU;
 
 /// Finds the natural modes that the model asks for.
@@ -29,7 +30,7 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
     if pencil.mass.is_zero() {
         return Err(ModesFault::NoMass);
     }
-    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let extent = at.model.analysis.extent();
     let pairs = natural_pairs(&mut pencil, extent)?;
     let shapes = Shapes::new(&pencil);
     let list = shapes.natural(&pencil, &pairs);

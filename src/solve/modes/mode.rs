@@ -3,8 +3,17 @@
 use super::steady::Response;
 use base::math::Vec6;
 use linear::eigen::Complex;
-use model::ModeKind;
 use std::f64::consts::TAU;
+
+/// The kinds of modes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModeKind {
+    /// Natural modes.
+    #[default]
+    Natural,
+    /// Modes of buckling.
+    Buckling,
+}
 
 /// The modes about a state, the lowest first.
 #[derive(Debug, Clone, Default)]

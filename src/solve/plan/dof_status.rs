@@ -29,10 +29,10 @@ pub type NodeStatus = [DofStatus; 6];
 pub fn classify(model: &Model, system: &System) -> Vec<NodeStatus> {
     let n = model.nodes.len();
     let resisted = resistance(system, n);
-    let moved = match model.analysis.modes {
+    let moved = match model.analysis.has_modes() {
         // Whatever can move has modes.
-        Some(_) => vec![[true; 6]; n],
-        None => causes(model, system, &resisted),
+        true => vec![[true; 6]; n],
+        false => causes(model, system, &resisted),
     };
     let normal = system.plane;
     let mut statuses = vec![[DofStatus::Unused; 6]; n];

@@ -5,7 +5,7 @@ use crate::step::convergence::Judgement;
 use crate::tolerances::refresh::{GROWTH, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
-use model::{AnalysisKind, Iteration, Method, Update};
+use model::{Iteration, Method, Update};
 
 /// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
 /// always takes the same path.
@@ -55,8 +55,8 @@ impl Refresh {
             return (Method::TangentStiffness, Update::Iteration);
         }
         let mixes = system.yields() && method != Method::TangentStiffness;
-        match (model.analysis.kind, update) {
-            (AnalysisKind::Static, Update::Auto) if !mixes => (method, Update::Iteration),
+        match (model.analysis.is_dynamic(), update) {
+            (false, Update::Auto) if !mixes => (method, Update::Iteration),
             (_, update) => (method, update),
         }
     }

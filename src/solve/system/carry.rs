@@ -3,7 +3,7 @@
 use super::equations::System;
 use super::parts::links::{RememberingLink, is_shared, remembering_links};
 use mechanics::elements::coordinate_law::{IMPACT_POWER, IMPACT_SPEED, RATE};
-use model::{AnalysisKind, Model, PartKind};
+use model::{Model, PartKind};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -30,7 +30,7 @@ pub fn carry_history(from: Scene, old: &[f64], to: Scene, new: &mut [f64]) -> Re
     let remembering = |(model, system): Scene| remembering_links(model, &system.links, &system.groups);
     let known: HashMap<String, RememberingLink> =
         remembering(from).into_iter().map(|link| (link.name.clone(), link)).collect();
-    let rests = to.0.analysis.kind == AnalysisKind::Static;
+    let rests = !to.0.analysis.is_dynamic();
     for link in remembering(to) {
         let Some(of) = known.get(&link.name).filter(|of| of.slots.len() == link.slots.len()) else { continue };
         for (k, (&slot, &of)) in link.slots.iter().zip(&of.slots).enumerate() {

@@ -118,9 +118,9 @@ impl<'a> Excitation<'a> {
 
     /// Factor of a load without an amplitude: constant in dynamics, growing linearly over a static analysis.
     fn plain_factor(&self, t: f64) -> f64 {
-        match self.model.analysis.kind {
-            AnalysisKind::Dynamic => 1.0,
-            AnalysisKind::Static => t / self.model.analysis.end_time,
+        match self.model.analysis.is_dynamic() {
+            true => 1.0,
+            false => t / self.model.analysis.end_time,
         }
     }
 
@@ -162,9 +162,9 @@ impl<'a> Excitation<'a> {
 
     /// Writes the rates of the loads at time `t` into `loading`; at a kink those to its right.
     pub fn rates(&self, t: f64, loading: &mut Loading) {
-        let plain = match self.model.analysis.kind {
-            AnalysisKind::Dynamic => 0.0,
-            AnalysisKind::Static => 1.0 / self.model.analysis.end_time,
+        let plain = match self.model.analysis.is_dynamic() {
+            true => 0.0,
+            false => 1.0 / self.model.analysis.end_time,
         };
         let beyond = |i: usize| self.loads.get(i).and_then(|beyond| beyond.at(t));
         let rate = |i: usize| {

@@ -14,6 +14,7 @@ use super::frequencies::frequencies;
 use super::look_up::look_up;
 use super::matrices::Matrices;
 use super::resonance::resonances_in_words;
+use crate::modes::mode::ModeKind;
 use crate::system::assembly::Assembly;
 use crate::tolerances::direct_response::{
     ASIDE, BESIDE_RESONANCE, BEYOND, CLOSINGS, DOUBTFUL, LARGE, NEXT_TO_ZERO, SAME, SAME_FREQUENCY,
@@ -21,7 +22,7 @@ use crate::tolerances::direct_response::{
 use base::math::Vec6;
 use base::names::short;
 use linear::{Factorization, Solver};
-use model::{ModeExtent, ModeKind, ResponseAsked};
+use model::{ModeExtent, ResponseAsked};
 use std::f64::consts::TAU;
 
 /// Finds the response.

@@ -21,12 +21,13 @@ use super::frequencies::frequencies;
 use super::look_up::look_up;
 use super::matrices::Matrices;
 use super::resonance::resonances_in_words;
+use crate::modes::mode::ModeKind;
 use crate::system::assembly::Assembly;
 use crate::tolerances::modal_response::{COUPLED, NEAR, NOTHING_LEFT, UNDRIVEN, ZERO};
 use base::math::Vec6;
 use base::names::short;
 use linear::{Solver, Sparse};
-use model::{ModeExtent, ModeKind, ResponseAsked};
+use model::{ModeExtent, ResponseAsked};
 use nalgebra::{DMatrix, DVector};
 use std::f64::consts::TAU;
 
@@ -51,7 +52,7 @@ pub fn response(
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
-    let extent = at.model.analysis.modes.as_ref().map_or(ModeExtent::Count(1), |asked| asked.extent);
+    let extent = at.model.analysis.extent();
     let pairs = natural_pairs(&mut pencil, extent)?;
     let shapes = Shapes::new(&pencil);
     let list = shapes.natural(&pencil, &pairs);

@@ -2,21 +2,16 @@
 
 use super::explanation::Explanation;
 use super::response;
-use model::{AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, ModeKind, Model, ModesAsked, StepLength};
+use model::{Analysis, AnalysisKind, ArcLength, DIRECTIONS, ModeExtent, Model, StepLength};
 
 /// Adds lines about the analysis.
 pub fn explain(text: &mut Explanation, model: &Model) {
     let analysis = &model.analysis;
     let steps = (analysis.duration() / analysis.nominal_step() - 1e-9).ceil().max(1.0);
     let end = analysis.end_time;
-    match (analysis.kind, &analysis.step_length) {
-        (AnalysisKind::Static, _) if analysis.modes.is_some() => {
-            let said = |asked: &ModesAsked| match &asked.response {
-                Some(of) => response::explain(of, asked, model),
-                None => modes(asked, analysis.stage.is_some()),
-            };
-            analysis.modes.iter().for_each(|asked| text.add("analysis", said(asked)));
-        }
+    match (&analysis.kind, &analysis.step_length) {
+        (AnalysisKind::Response(asked), _) => text.add("analysis", response::explain(asked, model)),
+        (AnalysisKind::Modal(_) | AnalysisKind::Buckling(_), _) => text.add("analysis", modes(analysis)),
         (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
         (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
         (AnalysisKind::Dynamic, step_length) => {
@@ -37,22 +32,23 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     }
 }
 
-fn modes(asked: &ModesAsked, is_stage: bool) -> String {
+fn modes(analysis: &Analysis) -> String {
+    let is_stage = analysis.stage.is_some();
     let state = if is_stage { "the state that has been reached" } else { "the equilibrium under what acts at t = 0" };
-    let which = match asked.extent {
+    let which = match analysis.extent() {
         ModeExtent::Count(1) => "the lowest".to_owned(),
         ModeExtent::Count(count) => format!("the {count} lowest"),
         ModeExtent::UpTo(frequency) => format!("all up to {frequency} per time"),
     };
-    match (asked.kind, asked.damped) {
-        (ModeKind::Natural, false) => format!("natural modes, {which}, about {state}"),
-        (ModeKind::Natural, true) => {
+    match (analysis.buckles(), analysis.damps_modes()) {
+        (false, false) => format!("natural modes, {which}, about {state}"),
+        (false, true) => {
             format!("complex modes, {which}, with damping and gyroscopic moments, about {state}")
         }
-        (ModeKind::Buckling, _) if is_stage => {
+        (true, _) if is_stage => {
             format!("linear buckling about {state}, {which} factors of the loads that first act here")
         }
-        (ModeKind::Buckling, _) => format!("linear buckling, {which} factors of what acts at t = 0"),
+        (true, _) => format!("linear buckling, {which} factors of what acts at t = 0"),
     }
 }
 

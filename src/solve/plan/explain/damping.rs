@@ -2,15 +2,14 @@
 
 use super::explanation::Explanation;
 use base::names::{joined, short};
-use model::{AnalysisKind, MassKind, Model, MovingFrame, Part};
+use model::{MassKind, Model, MovingFrame, Part};
 
 /// The most parts that a line names one by one.
 const NAMED: usize = 6;
 
 /// Adds a line for α and one for β where they act.
 pub fn explain(text: &mut Explanation, model: &Model) {
-    let is_modal = model.analysis.modes.is_some();
-    if model.analysis.kind == AnalysisKind::Static && !is_modal {
+    if model.analysis.is_static() {
         return;
     }
     let has_mass = !model.bodies.is_empty() || !model.masses.is_empty();

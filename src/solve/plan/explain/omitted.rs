@@ -3,7 +3,7 @@
 use crate::plan::Plan;
 use crate::plan::dof_status::DofStatus;
 use crate::system::System;
-use model::{AnalysisKind, MassKind, Model, Part};
+use model::{MassKind, Model, Part};
 use std::ops::Range;
 
 /// One line for each kind of omission.
@@ -55,13 +55,13 @@ fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
     let kinds = || model.parts.iter().filter_map(Part::mass_kind);
     let deformable = kinds().next().is_some();
     let mut out = Vec::new();
-    if let Some(asked) = &model.analysis.modes {
-        if asked.response.is_some() && !system.is_damped() {
+    if model.analysis.has_modes() {
+        if model.analysis.response().is_some() && !system.is_damped() {
             out.push("damping: none is given");
-        } else if !asked.damped && system.is_damped() {
+        } else if !model.analysis.damps_modes() && system.is_damped() {
             out.push("damping: `damped = true` takes it into modes");
         }
-    } else if model.analysis.kind == AnalysisKind::Static {
+    } else if model.analysis.is_static() {
         out.push("inertia and damping: the analysis is static");
     } else {
         out.extend(gyroscopic(plan, model, system));

@@ -1,10 +1,10 @@
 //! A frequency response in words.
 
 use base::names::{joined, short};
-use model::{ModeExtent, Model, ModesAsked, ResponseAsked, ResponseMethod};
+use model::{ModeExtent, Model, ResponseAsked, ResponseMethod};
 
 /// What a frequency response is to, where, and how it is found.
-pub fn explain(response: &ResponseAsked, asked: &ModesAsked, model: &Model) -> String {
+pub fn explain(response: &ResponseAsked, model: &Model) -> String {
     let all = &response.frequencies;
     let range = match (all.as_slice(), all.len()) {
         ([only], _) => format!("at frequency {}", short(*only)),
@@ -14,7 +14,7 @@ pub fn explain(response: &ResponseAsked, asked: &ModesAsked, model: &Model) -> S
     let around = response.resonances.map_or(String::new(), |around| {
         format!(", {} more on each side of every natural frequency there", around.count)
     });
-    let how = match (response.method, asked.extent) {
+    let how = match (response.method, response.extent) {
         (ResponseMethod::Direct, _) => "by a factorization at each frequency".to_owned(),
         (ResponseMethod::Modal, ModeExtent::Count(count)) => {
             format!("by the {count} lowest modes, all others as springs")

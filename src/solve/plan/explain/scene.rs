@@ -35,8 +35,9 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
 
 /// The note on a scene that lies in a plane, out of which its modes may lead.
 pub fn plane_modes(model: &Model, system: &System) -> Option<String> {
-    let asked = model.analysis.modes.as_ref()?;
-    let normal = system.plane_that_holds(model).filter(|_| !model.analysis.plane && asked.response.is_none())?;
+    let analysis = &model.analysis;
+    let lists_all = analysis.has_modes() && analysis.response().is_none() && !analysis.plane;
+    let normal = system.plane_that_holds(model).filter(|_| lists_all)?;
     let axis = ["x", "y", "z"][normal];
     Some(format!(
         "the scene lies in a plane normal to {axis}, and its modes may lead out of it: `plane = \"auto\"` in [analysis] finds those in the plane alone"

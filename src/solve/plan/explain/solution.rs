@@ -4,7 +4,7 @@ use super::explanation::Explanation;
 use crate::plan::Plan;
 use crate::system::System;
 use linear::Factorization;
-use model::{AnalysisKind, Gyroscopic, Method, Model, Update};
+use model::{Gyroscopic, Method, Model, Update};
 
 /// Adds lines about the iteration and the matrix.
 pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &System) {
@@ -51,7 +51,7 @@ fn formed(plan: &Plan, model: &Model, system: &System) -> &'static str {
         _ if model.analysis.step_length.is_arc_length() => "in every iteration: arc length needs the path's tangent",
         (true, _) => "once per step length: the scene is linear",
         (_, Update::Iteration) => "in every iteration",
-        (_, Update::Auto) if model.analysis.kind == AnalysisKind::Static && !mixes => {
+        (_, Update::Auto) if !model.analysis.is_dynamic() && !mixes => {
             "in every iteration: load steps are long and few"
         }
         (_, Update::Step) => "once per step",
