@@ -49,14 +49,16 @@ mod workspace;
 
 /// Parts of steps by themselves, which tests look at.
 pub mod inner {
-    pub use crate::context::Context;
+    pub use crate::context::{Context, at_rest};
     pub use crate::control::COMPARISONS;
     pub use crate::explicit::CentralDifferenceStepper;
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
     pub use crate::strategy::anderson::Anderson;
+    pub use crate::strategy::rotated_matrix::Turning;
     pub use crate::sudden_loads::SuddenLoads;
     pub use crate::system::inner::*;
+    pub use crate::tolerances::rotated_matrix::MANY;
     pub use crate::trials::Kept;
     pub use crate::workspace::Workspace;
 }

@@ -7,3 +7,4 @@ mod element_stability;
 mod load_steps;
 mod schur_factor;
 mod trials;
+mod turning;
