@@ -1,6 +1,6 @@
 //! Two tables are joined row by row: the rows of one time belong together, and among them those of one name.
 
-use super::prefetch::Cursor;
+use super::cursor::Cursor;
 use crate::table_reader::FAILED;
 use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};

@@ -3,19 +3,19 @@
 //! Tables are read once, side by side, and never held. The grids of the fields, `run.log`, and all of `result.json` but its status
 //! are left out. `steps.csv` is compared and shown but not judged unless one of its columns is named, for it says what a run cost.
 
+mod cursor;
 mod join;
-mod prefetch;
 mod scale;
 mod select;
 
+pub use cursor::shown;
 pub use join::{Alone, Matched, Worst};
-pub use prefetch::shown;
 pub use select::{ColumnTolerance, Selector, size};
 
 use super::disk::at;
 use super::table_reader::{TableReader, fields, number};
 use base::text_file::read_regular;
-use prefetch::{Pick, read};
+use cursor::{Cursor, Pick};
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
@@ -241,16 +241,13 @@ fn table(
     let values: Vec<&str> = shared.iter().map(String::as_str).filter(|&c| c != "step" && !is_key(c)).collect();
     let has_time = shared.iter().any(|column| column == "time");
     let by = matched_by(name, &shared, by_step);
-    let [first, second] = rows.map(|rows| (pick(&rows, &shared, &values, has_time, by), rows));
-    let (joined, summaries, all_rows) = std::thread::scope(|scope| {
-        let (a, _) = read(scope, first.1, first.0);
-        let (b, _) = read(scope, second.1, second.0);
-        let mut sides = [a, b];
-        let joined = join::join(&mut sides, values.len(), by)?;
-        let all_rows = [sides[0].rows, sides[1].rows];
-        io::Result::Ok((joined, sides.map(|side| side.summary), all_rows))
-    })?;
-
+    let mut sides = rows.map(|rows| {
+        let pick = pick(&rows, &shared, &values, has_time, by);
+        Cursor::new(rows, &pick)
+    });
+    let joined = join::join(&mut sides, values.len(), by)?;
+    let all_rows = [sides[0].rows, sides[1].rows];
+    let summaries = sides.map(|side| side.summary);
     let scales = scale::scales(name, &values, [&summaries[0].ranges, &summaries[1].ranges]);
     let named = |column: &str| {
         let by = |selector: &Selector| *selector != Selector::default() && selector.takes(name, column);

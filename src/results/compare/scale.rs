@@ -1,14 +1,14 @@
 //! The scale that a difference in a column is measured against: the range of the column, and where a column does not vary, the
 //! largest number of its kind in the file.
 
-use super::prefetch::Range;
+use super::cursor::Range;
 use crate::table::TableKind;
 use crate::tables::{self, TABLES};
 
 /// The kind of a column. Columns of one kind are components of one thing, or amounts that are exchanged with each other; a column
 /// without a kind stands alone.
 fn kind(file: &str, column: &str) -> Option<&'static str> {
-    let of = |table: &TableKind| table.columns().find(|known| known.answers_to(column)).map(|known| known.kind);
+    let of = |table: &TableKind| table.columns().find(|known| known.name == column).map(|known| known.kind);
     match tables::of_file(file) {
         Some(table) => of(table),
         None => TABLES.iter().copied().find_map(of),
