@@ -234,19 +234,6 @@ fn links_are_never_followed() {
     assert!(code == 6 && said.contains("energy.csv` was not written by a run"), "{code} {said}");
 }
 
-/// Results of a version that wrote no list are known by its log, and go by their names as they did.
-#[test]
-fn a_folder_of_an_earlier_version_is_replaced() {
-    let desk = Desk::new();
-    assert_eq!(desk.run(&["x.toml", "-o", "out"]).0, 0);
-    fs::remove_file(desk.at("out/run.list")).unwrap();
-    fs::write(desk.at("out/fields_000000.vtu"), "old").unwrap();
-    fs::write(desk.at("out/notes.txt"), "mine").unwrap();
-    assert_eq!(desk.run(&["x.toml", "-o", "out", "--overwrite"]).0, 0);
-    let names = desk.names("out");
-    assert!(!names.contains(&"fields_000000.vtu".into()) && names.contains(&"notes.txt".into()), "{names:?}");
-}
-
 /// True once a process catches a signal.
 #[cfg(target_os = "linux")]
 fn catches(child: &Child, number: u32) -> bool {

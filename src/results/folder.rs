@@ -5,7 +5,6 @@ use super::files::names;
 use super::lock;
 use super::run_list::{self, RunList, foreign};
 use super::{checkpoint, fields, log, result_json, tables};
-use base::text_file::read_text;
 use model::Model;
 use std::collections::HashSet;
 use std::fs;
@@ -24,7 +23,7 @@ pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -
     if !overwrite && files.iter().any(|name| name != lock::NAME) {
         return Err(at(dir, io::Error::new(io::ErrorKind::AlreadyExists, "the folder holds files already")));
     }
-    let older = ours(dir, &files)?;
+    let older = ours(dir)?;
     let mut written: Vec<&str> = models.iter().copied().flat_map(names).collect();
     let draws = models.iter().any(|model| model.output.fields.is_some());
     written.extend([log::NAME, result_json::NAME, checkpoint::NAME]);
@@ -60,25 +59,11 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
-/// The files of a folder that a run has written, with what it left unfinished. Its list names them; where an earlier version left
-/// no list, they are known by their names, provided that a log or a result shows that there was a run.
-fn ours(dir: &Path, files: &[String]) -> io::Result<HashSet<String>> {
-    if let Some(listed) = run_list::read(dir)? {
-        let unfinished: Vec<String> = listed.iter().map(|name| format!("{name}{UNFINISHED}")).collect();
-        return Ok(listed.into_iter().chain(unfinished).collect());
-    }
-    let is_file = |name: &&String| fs::symlink_metadata(dir.join(name)).is_ok_and(|found| found.is_file());
-    let without_list = || files.iter().filter(|name| is_of_a_run(name)).filter(is_file).cloned().collect();
-    Ok(if is_of_earlier_version(dir) { without_list() } else { HashSet::new() })
-}
-
-/// Whether the log or the result in a folder is that of a run.
-fn is_of_earlier_version(dir: &Path) -> bool {
-    let text = |name: &str| read_text(dir.join(name)).unwrap_or_default();
-    let has_log =
-        text(log::NAME).lines().next().is_some_and(|line| line.starts_with("rdsolve ") && line.contains(", deck "));
-    let result: serde_json::Value = serde_json::from_str(&text(result_json::NAME)).unwrap_or_default();
-    has_log || result["deck_hash"].is_string() && result["exit_code"].is_u64()
+/// The files of a folder that its list names, with what a run left unfinished.
+fn ours(dir: &Path) -> io::Result<HashSet<String>> {
+    let listed = run_list::read(dir)?.unwrap_or_default();
+    let unfinished: Vec<String> = listed.iter().map(|name| format!("{name}{UNFINISHED}")).collect();
+    Ok(listed.into_iter().chain(unfinished).collect())
 }
 
 /// Removes files of a run. The result goes first, so that it never stands beside tables that are not its own, and the list last,
@@ -110,7 +95,7 @@ fn is_of_a_run(name: &str) -> bool {
 /// The folder cannot be read, or a file in it cannot be removed; the error names it.
 pub fn remove_run(dir: &Path) -> io::Result<()> {
     let files = entries(dir)?;
-    let mut ours = ours(dir, &files)?;
+    let mut ours = ours(dir)?;
     // A run that was killed leaves its lock.
     ours.insert(lock::NAME.to_owned());
     take_away(dir, &files, &ours)?;
