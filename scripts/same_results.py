@@ -3,17 +3,11 @@
 
 Runs every deck of decks/ with both programs, as it stands and in variants (schemes, iteration methods, automatic steps, all
 outputs), and compares exit codes, counts, expectations, every column of every table and every array of every field file to
-the last bit. Columns that were renamed are named in RENAMED; nothing else may differ. Results of OLD are kept in --cache.
+the last bit. Nothing may differ. Results of OLD are kept in --cache.
 """
 import argparse, concurrent.futures, csv, hashlib, json, os, pathlib, re, shutil, struct, subprocess, sys, zlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-RENAMED = {
-    "energy.csv": {"total": "mechanical", "viscous": "viscoplastic"},
-    "nodes.csv": {"bx": "alphax", "by": "alphay", "bz": "alphaz"},
-    "bodies.csv": {"bx": "alphax", "by": "alphay", "bz": "alphaz"},
-    "sections.csv": {"Qy": "Vy", "Qz": "Vz"},
-}
 EVERYTHING = ["output.reactions=true", "output.sections=true", "output.layers=true", "output.parts=true", 'output.nodes="all"']
 VARIANTS = {
     "": [],
@@ -64,7 +58,7 @@ def tables(folder):
     found = {}
     for path in sorted(folder.glob("*.csv")):
         rows = list(csv.reader(path.open()))
-        names = [RENAMED.get(path.name, {}).get(n, n) for n in rows[0]]
+        names = rows[0]
         for i, name in enumerate(names):
             found[f"{path.name}:{name}"] = hashlib.sha256("\n".join(r[i] for r in rows[1:] if i < len(r)).encode()).hexdigest()
         found[f"{path.name}: columns"] = sorted(names)

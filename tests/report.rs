@@ -148,7 +148,7 @@ fn a_table_alone_is_enough_and_an_unfinished_run_says_so() {
     let folder = tempfile::tempdir().unwrap();
     let results = folder.path().join("killed");
     fs::create_dir(&results).unwrap();
-    fs::write(results.join("energy.csv"), "step,time,kinetic,total\n0,0.0,1.0,1.0\n1,0.1,2.0,2.0\n2,0.").unwrap();
+    fs::write(results.join("energy.csv"), "step,time,kinetic,mechanical\n0,0.0,1.0,1.0\n1,0.1,2.0,2.0\n2,0.").unwrap();
     let done = rdsolve(folder.path(), &["report", "killed", "-o", "page.html"]).code(0);
     assert!(String::from_utf8(done.get_output().stdout.clone()).unwrap().starts_with("page.html, "));
     let page = fs::read_to_string(folder.path().join("page.html")).unwrap();

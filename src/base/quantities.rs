@@ -132,8 +132,6 @@ pub struct Column {
     /// Columns of one kind are components of one vector or amounts of one balance. A constant column is measured against the largest of its
     /// kind.
     pub kind: &'static str,
-    /// A name that the column had in earlier versions.
-    pub old_name: Option<&'static str>,
 }
 
 impl Column {
@@ -144,7 +142,7 @@ impl Column {
 
     /// A number without axes, of its own kind.
     pub const fn scalar(name: &'static str, meaning: &'static str, unit: Unit) -> Column {
-        Column { name, meaning, unit, axes: Axes::None, sign: "", kind: name, old_name: None }
+        Column { name, meaning, unit, axes: Axes::None, sign: "", kind: name }
     }
 
     /// Returns the column with the meaning of a positive number.
@@ -162,19 +160,9 @@ impl Column {
         Column { axes, ..self }
     }
 
-    /// Returns the column with an earlier name, which decks may still use.
-    pub const fn formerly(self, name: &'static str) -> Column {
-        Column { old_name: Some(name), ..self }
-    }
-
     /// True for a label column.
     pub fn is_key(&self) -> bool {
         self.unit == Unit::Label
-    }
-
-    /// Whether a deck may mean this column by a word.
-    pub fn answers_to(&self, word: &str) -> bool {
-        self.name == word || self.old_name == Some(word)
     }
 }
 
@@ -227,10 +215,8 @@ pub const ANGULAR_VELOCITY: [Column; 3] = vector(["wx", "wy", "wz"], "angular ve
 /// The acceleration of a node or a body, x y z.
 pub const ACCELERATION: [Column; 3] = vector(["ax", "ay", "az"], "acceleration", Unit::Acceleration);
 /// The angular acceleration of a node or a body, x y z.
-pub const ANGULAR_ACCELERATION: [Column; 3] = {
-    let [x, y, z] = vector(["alphax", "alphay", "alphaz"], "angular acceleration", Unit::AngularAcceleration);
-    [x.formerly("bx"), y.formerly("by"), z.formerly("bz")]
-};
+pub const ANGULAR_ACCELERATION: [Column; 3] =
+    vector(["alphax", "alphay", "alphaz"], "angular acceleration", Unit::AngularAcceleration);
 
 /// Force and moment of a joint on its first part; contacts and links reuse the columns with their own meanings.
 pub const JOINT: [Column; 6] =
@@ -322,9 +308,7 @@ pub const ENERGY: [Column; 19] = {
         energy("kinetic", "kinetic energy"),
         energy("strain", "elastic energy of beams, bars and shells, and what kinematic hardening stores"),
         energy("plastic", "dissipated so far by rate-independent plastic flow").positive("dissipated"),
-        energy("viscoplastic", "dissipated so far by the overstress of viscoplastic flow")
-            .positive("dissipated")
-            .formerly("viscous"),
+        energy("viscoplastic", "dissipated so far by the overstress of viscoplastic flow").positive("dissipated"),
         energy("damping", "dissipated so far by dampers, nodal and Rayleigh damping").positive("dissipated"),
         energy("links", "stored in links"),
         energy("contact", "stored in contacts"),
@@ -336,7 +320,7 @@ pub const ENERGY: [Column; 19] = {
             "algorithmic dissipation, the remainder of the balance: initial + external − dissipated − `mechanical`",
         )
         .positive("taken by the time integration; negative: energy growth"),
-        energy("mechanical", "kinetic + strain + links + contact").formerly("total"),
+        energy("mechanical", "kinetic + strain + links + contact"),
         px,
         py,
         pz,
@@ -479,8 +463,8 @@ pub const AXIAL_FORCE: Column = section_force("N", "axial force, damping include
 /// Forces and moments in a section of a beam.
 pub const SECTION_FORCES: [Column; 6] = [
     section_force("N", "normal force", "tension"),
-    section_force("Vy", "shear force along y", "along +y").formerly("Qy"),
-    section_force("Vz", "shear force along z", "along +z").formerly("Qz"),
+    section_force("Vy", "shear force along y", "along +y"),
+    section_force("Vz", "shear force along z", "along +z"),
     section_moment("T", "torsional moment", "right-handed about the beam axis"),
     section_moment("My", "bending moment about y", "tension on the side of +z"),
     section_moment("Mz", "bending moment about z", "tension on the side of −y"),
@@ -508,22 +492,4 @@ pub const MOTION: [&[Column]; 7] =
 /// Names of columns, in their order.
 pub fn names(groups: &[&'static [Column]]) -> Vec<&'static str> {
     groups.iter().copied().flatten().map(|column| column.name).collect()
-}
-
-/// The column for a word of the deck, which may be an earlier name.
-pub fn named(groups: &[&'static [Column]], word: &str) -> Option<&'static str> {
-    groups.iter().copied().flatten().find(|column| column.answers_to(word)).map(|column| column.name)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn earlier_names_are_understood() {
-        assert_eq!(named(&[&ENERGY], "total"), Some("mechanical"));
-        assert_eq!(named(&[&ENERGY], "mechanical"), Some("mechanical"));
-        assert_eq!(named(&MOTION, "by"), Some("alphay"));
-        assert_eq!(named(&MOTION, "qw"), None);
-    }
 }

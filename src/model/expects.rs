@@ -338,7 +338,7 @@ impl<'d> Expects<'_, 'd> {
 
     /// The name of the column that a word stands for.
     fn column(&mut self, columns: &[Column], quantity: &At<String>, name: &At<String>) -> Option<&'static str> {
-        if let Some(column) = columns.iter().find(|column| column.answers_to(quantity)) {
+        if let Some(column) = columns.iter().find(|column| column.name == quantity.value) {
             return Some(column.name);
         }
         let known: Vec<&str> = columns.iter().map(|column| column.name).collect();

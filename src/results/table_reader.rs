@@ -56,7 +56,7 @@ impl TableReader {
         let file = self.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         if let Some(table) = tables::of_file(file) {
             let is_key = |column: &String| {
-                column == STAGE || table.columns().any(|known| known.is_key() && known.answers_to(column))
+                column == STAGE || table.columns().any(|known| known.is_key() && known.name == column)
             };
             return Ok(self.header.iter().map(is_key).collect());
         }
@@ -213,7 +213,7 @@ mod tests {
             let rows = TableReader::open(&path).unwrap();
             (0..rows.header.len()).filter(|&i| rows.is_key(i)).map(|i| rows.header[i].clone()).collect()
         };
-        // `contact` is an energy here, whatever contacts.csv calls by this word; `total` is a column of an older version.
+        // `contact` is an energy here, whatever contacts.csv calls by this word; `total` is a column of another program.
         assert!(keys("energy.csv", "step,time,kinetic,contact,total\n0,0.0,1.0,2.0,3.0\n").is_empty());
         assert_eq!(keys("contacts.csv", "step,time,contact,touching,gap\n"), ["contact"]);
         assert_eq!(keys("sections.csv", "step,time,beam,element,point,s\n"), ["beam", "element", "point"]);

@@ -22,7 +22,7 @@ pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64
     for table in first.into_iter().chain(others) {
         let about_all = !table.columns().any(|column| column.is_key());
         let has_it = |one: &Collected| {
-            let has_it = table.columns().any(|column| !column.is_key() && column.answers_to(&one.quantity));
+            let has_it = table.columns().any(|column| !column.is_key() && column.name == one.quantity);
             has_it && (one.at == "energy") == (about_all && table.file == "energy.csv")
         };
         let asked: Vec<usize> =

@@ -10,12 +10,12 @@ use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use ::deck::analysis as deck;
 use ::deck::study::Study as Written;
-use ::deck::words::kinds::{Given, OneOf, Values};
+use ::deck::words::kinds::OneOf;
 use ::deck::words::{Ladder, Maybe, OneOrMany, PER_DECADE, rungs};
 use base::diagnostic::{At, Span};
 use base::names::nearest;
 use base::quantities::{self, MOTION};
-use mechanics::integrators::{RotationUpdate, SCHEMES, Scheme};
+use mechanics::integrators::{SCHEMES, Scheme};
 use std::sync::Arc;
 
 /// Quantities of a node or body besides its motion: angular velocity in body axes, and the rotation matrix.
@@ -161,8 +161,7 @@ impl<'d> Reader<'_, 'd> {
         };
         let motion = quantities::names(&MOTION).into_iter().filter(|word| !(body && ["rx", "ry", "rz"].contains(word)));
         let known: Vec<&'static str> = motion.chain(DERIVED).collect();
-        let asked = quantities::named(&MOTION, column).unwrap_or(column);
-        match known.iter().find(|known| **known == asked) {
+        match known.iter().find(|known| **known == column) {
             Some(&column) => Some(Quantity { name: name.value, label, body, column }),
             None => {
                 let message = format!("there is no quantity `{column}` at `{}`", name.value);
@@ -330,14 +329,6 @@ impl<'d> Reader<'_, 'd> {
 pub fn obstacle(model: &crate::data::Model) -> Option<&'static str> {
     let along = model.analysis.step_length.is_arc_length();
     along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
-}
-
-/// The scheme of this word, with its own defaults.
-pub fn scheme_of(word: &str) -> Option<Arc<dyn Scheme>> {
-    let kind = SCHEMES.iter().find(|kind| kind.word == word)?;
-    let (place, values) = (0..0, Values::default());
-    let mut given = Given::new("a scheme", &place, &values, Vec::new());
-    Some((kind.make.scheme)(&mut given, RotationUpdate::default()))
 }
 
 /// The keys of an integrator besides its scheme, as TOML.

@@ -175,7 +175,7 @@ impl History {
 
 /// A column as its table describes it; `None` where the table is not one of a run.
 fn described(file: &str, column: &str) -> Option<Column> {
-    tables::of_file(file)?.columns().find(|known| known.answers_to(column))
+    tables::of_file(file)?.columns().find(|known| known.name == column)
 }
 
 /// Half the width of the band that the error bars of a column make, over all its rows and times; 0 where there are none.

@@ -122,7 +122,7 @@ fn filled(page: &str, parts: &[(&str, String)]) -> String {
 fn energy(histories: &[History]) -> String {
     let has_balance = |history: &&History| history.columns.iter().any(|name| name == BALANCE);
     let Some(history) = histories.iter().find(has_balance) else { return String::new() };
-    let is_energy = |name: &&String| ENERGY.iter().any(|known| known.unit == Unit::Energy && known.answers_to(name));
+    let is_energy = |name: &&String| ENERGY.iter().any(|known| known.unit == Unit::Energy && known.name == *name);
     let number = |value: f32| base::names::short(f64::from(value));
     let mut largest = 0.0_f32;
     let mut lost = 0.0_f32;
