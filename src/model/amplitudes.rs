@@ -4,7 +4,7 @@ use super::doubts::record_units::check_record_units;
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
-use super::values::span;
+use super::values::keys;
 use base::diagnostic::{At, Span};
 use base::math::cubic_curve::{CubicCurve, CurveShape};
 use deck::Deck;
@@ -45,9 +45,9 @@ fn read_amplitude<'d>(
     let owner = Owner::new(format!("amplitude `{name}`"), &a.span);
     let kind = report.require(&owner, "kind", &a.kind)?.value;
     let points = keys_of_tables(a);
-    let waves = [("frequency", span(&a.frequency)), ("angular_frequency", span(&a.angular_frequency))];
-    let phase = [("phase", span(&a.phase)), ("phase_degrees", span(&a.phase_degrees))];
-    let window = [("start", span(&a.start)), ("end", span(&a.end))];
+    let waves = keys!(a; frequency, angular_frequency);
+    let phase = keys!(a; phase, phase_degrees);
+    let window = keys!(a; start, end);
     let start = a.start.as_ref().map_or(0.0, |start| start.value);
     let end = a.end.as_ref().map_or(f64::INFINITY, |end| end.value);
     if let Some(at) = &a.end
@@ -93,18 +93,7 @@ fn read_amplitude<'d>(
 
 /// The keys of tables, and where they are written.
 fn keys_of_tables(a: &words::Amplitude) -> [(&'static str, Option<&Span>); 10] {
-    [
-        ("points", span(&a.points)),
-        ("file", span(&a.file)),
-        ("columns", span(&a.columns)),
-        ("time_step", span(&a.time_step)),
-        ("rows", span(&a.rows)),
-        ("before", span(&a.before)),
-        ("after", span(&a.after)),
-        ("scale", span(&a.scale)),
-        ("shift", span(&a.shift)),
-        ("interpolation", span(&a.interpolation)),
-    ]
+    keys!(a; points, file, columns, time_step, rows, before, after, scale, shift, interpolation)
 }
 
 /// The phase in radians.
@@ -127,9 +116,9 @@ fn of_points_or_file<'d>(
     record: Option<&Record>,
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
-    let of_file = [("columns", span(&a.columns)), ("time_step", span(&a.time_step)), ("rows", span(&a.rows))];
+    let of_file = keys!(a; columns, time_step, rows);
     if a.file.is_some() {
-        report.reject_unused("a table from a file", &[("points", span(&a.points))]);
+        report.reject_unused("a table from a file", &keys!(a; points));
         return table(a, record?.points.clone(), report);
     }
     report.reject_unused("a table without a file", &of_file);

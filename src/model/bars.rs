@@ -5,15 +5,13 @@ use super::data::{Bar, MassKind, Part, PartIndex, PartKind};
 use super::own_damping;
 use super::part_context::PartContext;
 use super::report::Owner;
-use super::values::{chosen, flag, span};
+use super::values::{chosen, flag, keys};
 use deck::bars as words;
 
 /// Reads `[[bars]]`: makes the nodes of each path and the elements between them.
 pub(super) fn bars(cx: &mut PartContext) {
     for (index, bar) in cx.deck.bars.iter().enumerate() {
-        let name = bar.name.as_ref().map_or_else(|| format!("bars.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("bar `{name}`"), &bar.span);
-        cx.report.require(&owner, "name", &bar.name);
+        let (name, owner) = cx.report.named(("bar", "bars", index), bar.name.as_ref(), &bar.span);
         let at = PartIndex { kind: PartKind::Bar, index };
         cx.parts.begin(at);
         let made = read_bar(at, name, &owner, bar, cx);
@@ -69,7 +67,7 @@ fn bar_stiffness<'d>(
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<(f64, f64)> {
     if bar.axial_stiffness.is_some() {
-        let unused = [("material", span(&bar.material)), ("area", span(&bar.area))];
+        let unused = keys!(bar; material, area);
         cx.report.reject_unused("a bar with `axial_stiffness`", &unused);
         let stiffness = cx.report.positive("axial_stiffness", &bar.axial_stiffness);
         if cx.materials.needs_mass(mass) {
@@ -80,7 +78,7 @@ fn bar_stiffness<'d>(
     if cx.report.is_spoiled(owner.span, "axial_stiffness") {
         return None;
     }
-    cx.report.reject_unused("a bar with `material`", &[("mass_per_length", span(&bar.mass_per_length))]);
+    cx.report.reject_unused("a bar with `material`", &keys!(bar; mass_per_length));
     if bar.material.is_none() && bar.area.is_none() && !cx.report.is_spoiled(owner.span, "material") {
         let message = format!("{} needs `material` and `area`, or `axial_stiffness`", owner.what);
         return cx.report.error(owner.span, message);

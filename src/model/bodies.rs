@@ -3,7 +3,7 @@
 use super::data::Body;
 use super::places::nodes::Nodes;
 use super::report::{Owner, Report};
-use super::values::{span, vec3, vec3_or_zero};
+use super::values::{keys, vec3, vec3_or_zero};
 use base::diagnostic::{At, Span};
 use base::math::{Mat3, Vec3};
 use base::names::{nearest, short};
@@ -39,9 +39,7 @@ pub(super) struct Bodies<'d> {
 pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<'d>) -> Bodies<'d> {
     let mut bodies = Bodies::default();
     for (index, body) in deck.bodies.iter().enumerate() {
-        let label = body.name.as_ref().map_or_else(|| format!("bodies.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("body `{label}`"), &body.span);
-        report.require(&owner, "name", &body.name);
+        let (label, owner) = report.named(("body", "bodies", index), body.name.as_ref(), &body.span);
         let sound = if body.parts.is_some() { None } else { mass_properties(&owner, body, report) };
         let center = match (&body.parts, &body.center, sound.as_ref().and_then(|sound| sound.center)) {
             (Some(_), ..) => Vec3::zeros(),
@@ -54,12 +52,7 @@ pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<
         let node = &mut nodes.list[bodies.list[index].node];
         (node.v, node.omega) = (vec3_or_zero(&body.velocity), vec3_or_zero(&body.angular_velocity));
         if let Some(list) = &body.parts {
-            let unused = [
-                ("center", span(&body.center)),
-                ("mass", span(&body.mass)),
-                ("inertia", span(&body.inertia)),
-                ("shape", span(&body.shape)),
-            ];
+            let unused = keys!(body; center, mass, inertia, shape);
             report.reject_unused("a body with `parts`", &unused);
             bodies.take_parts(index, deck, list, report);
         } else {

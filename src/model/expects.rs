@@ -6,7 +6,7 @@ use super::places::place::Place;
 use super::procedure::displacement_targets::displacement_target;
 use super::report::{Owner, Report};
 use super::scene::Scene;
-use super::values::span;
+use super::values::keys;
 use base::diagnostic::{At, Diagnostic};
 use base::names::nearest;
 use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION};
@@ -117,13 +117,7 @@ impl<'d> Expects<'_, 'd> {
 
     /// A quantity of a mode.
     fn expect_mode(&mut self, owner: &Owner<'d>, expect: &'d words::Expect, number: &At<u64>) -> Option<Expect> {
-        let keys = [
-            ("at", span(&expect.at)),
-            ("time", span(&expect.time)),
-            ("when", span(&expect.when)),
-            ("peak", span(&expect.peak)),
-            ("frequency", span(&expect.frequency)),
-        ];
+        let keys = keys!(expect; at, time, when, peak, frequency);
         self.report.reject_unused("a mode", &keys);
         if !self.scene.analysis.has_modes() {
             let hint = "`kind = \"modal\"` or `\"buckling\"` of `[analysis]`, or of a stage, finds modes";
@@ -169,8 +163,7 @@ impl<'d> Expects<'_, 'd> {
             let hint = "`kind = \"frequency-response\"` in `[analysis]` goes over frequencies";
             return self.report.error_with(&at.span, "`frequency` needs a frequency response", hint);
         }
-        self.report
-            .reject_unused("a frequency response", &[("time", span(&expect.time)), ("when", span(&expect.when))]);
+        self.report.reject_unused("a frequency response", &keys!(expect; time, when));
         let over = self.over_frequencies(owner, expect);
         let name = self.report.require(owner, "at", &expect.at);
         let node = name.and_then(|name| match self.scene.place_or_node(name) {
@@ -356,7 +349,7 @@ impl<'d> Expects<'_, 'd> {
 
     fn when(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<When> {
         if let Some(when) = &expect.when {
-            for (key, place) in [("time", span(&expect.time)), ("peak", span(&expect.peak))] {
+            for (key, place) in keys!(expect; time, peak) {
                 if let Some(place) = place {
                     self.report.error::<()>(place, format!("an expected value has `{key}` or `when`, not both"));
                 }
@@ -425,11 +418,7 @@ impl<'d> Expects<'_, 'd> {
                 return Some((value?.value, tolerance?));
             }
         };
-        let keys = [
-            ("value", span(&expect.value)),
-            ("tolerance", span(&expect.tolerance)),
-            ("absolute_tolerance", span(&expect.absolute_tolerance)),
-        ];
+        let keys = keys!(expect; value, tolerance, absolute_tolerance);
         self.report.reject_unused("a bound", &keys);
         Some((bound.value, tolerance))
     }

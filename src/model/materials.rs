@@ -2,7 +2,7 @@
 
 use super::data::MassKind;
 use super::report::{Owner, Report};
-use super::values::span;
+use super::values::keys;
 use base::diagnostic::At;
 use deck::Deck;
 use deck::environment::Environment;
@@ -96,7 +96,7 @@ fn law_of<'d>(
     let viscosity = if model.is_viscous {
         report.require(owner, "viscosity", &material.viscosity).map(|table| viscosity(table, report))
     } else {
-        report.reject_unused(model.noun, &[("viscosity", span(&material.viscosity))]);
+        report.reject_unused(model.noun, &keys!(material; viscosity));
         Some(None)
     };
     let modulus = material.youngs_modulus.as_ref().map(|modulus| modulus.value);

@@ -7,7 +7,7 @@ use base::math::Vec3;
 use base::names::{nearest, quoted};
 use deck::Deck;
 use deck::read::ROOT;
-use deck::words::kinds::{Given, Kind, Values};
+use deck::words::kinds::{Given, Kind, Values, unit};
 use deck::words::{Maybe, Named, Numbers, Vector};
 
 /// A table of the deck as messages name it, "beam `portal`", and where it stands.
@@ -121,6 +121,22 @@ impl<'d> Report<'d> {
         self.deck.spoiled.iter().any(|entry| entry.table.as_ref() == Some(table))
     }
 
+    /// The name of the `index`-th of the tables in a `list`, which must have one, or one by its place: "links.2"; and the table as messages
+    /// name it, by the `word` for such a thing.
+    pub fn named(
+        &mut self,
+        (word, list, index): (&str, &str, usize),
+        name: Option<&'d At<String>>,
+        span: &'d Span,
+    ) -> (String, Owner<'d>) {
+        let called = name.map_or_else(|| format!("{list}.{index}"), |name| name.value.clone());
+        let owner = Owner::new(format!("{word} `{called}`"), span);
+        if name.is_none() && !self.is_spoiled(span, "name") {
+            self.error::<()>(span, format!("{} needs `name`", owner.what));
+        }
+        (called, owner)
+    }
+
     /// The value of a key that must be there.
     pub fn require<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
         if value.is_none() && !self.is_spoiled(owner.span, key) {
@@ -179,10 +195,7 @@ impl<'d> Report<'d> {
 
     /// The unit vector along a direction, which must not be zero.
     pub fn unit(&mut self, key: &str, value: &At<Vector>) -> Option<Vec3> {
-        // It is scaled first: the square of a large component may overflow, that of a small one vanish.
-        let v = Vec3::from(value.0);
-        let unit = v.try_normalize(0.0).or_else(|| (v / v.amax()).try_normalize(0.0)).filter(|u| u.amax().is_finite());
-        unit.or_else(|| self.error(&value.span, format!("`{key}` must not be zero")))
+        unit(&Vec3::from(value.0)).or_else(|| self.error(&value.span, format!("`{key}` must not be zero")))
     }
 
     /// The table `key` of two points or more whose first numbers, of the quantity `what`, increase.

@@ -21,6 +21,14 @@ pub(super) fn span<T>(value: &Maybe<T>) -> Option<&Span> {
     value.as_ref().map(|value| &value.span)
 }
 
+/// The keys of a table with the places of their values: `keys!(link; stiffness, gap)`.
+macro_rules! keys {
+    ($table:expr; $($key:ident),+) => {
+        [$((stringify!($key), $crate::values::span(&$table.$key))),+]
+    };
+}
+pub(super) use keys;
+
 /// The word of a key that takes one of a few, or its default.
 pub(super) fn chosen<T: Copy + Default>(value: &Maybe<T>) -> T {
     value.as_ref().map_or_else(T::default, |value| value.value)

@@ -11,7 +11,7 @@ use crate::own_damping;
 use crate::part_context::PartContext;
 use crate::report::Owner;
 use crate::sections;
-use crate::values::{chosen, flag, span, vec3};
+use crate::values::{chosen, flag, keys, vec3};
 use base::diagnostic::At;
 use base::math::quadrature::lobatto;
 use base::math::{Mat3, Vec3};
@@ -34,11 +34,7 @@ const HALF_WAY: f64 = 1e-6;
 pub fn beams(cx: &mut PartContext) {
     for (index, beam) in cx.deck.beams.iter().enumerate() {
         let name = beam.name.as_ref().or(beam.group.as_ref());
-        let name = name.map_or_else(|| format!("beams.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("beam `{name}`"), &beam.span);
-        if beam.group.is_none() {
-            cx.report.require(&owner, "name", &beam.name);
-        }
+        let (name, owner) = cx.report.named(("beam", "beams", index), name, &beam.span);
         let at = PartIndex { kind: PartKind::Beam, index };
         cx.parts.begin(at);
         cx.parts.entry_mut(at).contact_radius = half_depth(cx.deck, beam);
@@ -103,13 +99,7 @@ struct Line<'b, 'd> {
 impl<'d> Line<'_, 'd> {
     /// Makes elements along the segments of a group of the mesh, as yet without their sections.
     fn along_group(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
-        let unused = [
-            ("path", span(&self.beam.path)),
-            ("elements", span(&self.beam.elements)),
-            ("grading", span(&self.beam.grading)),
-            ("offset_start", span(&self.beam.offset_start)),
-            ("offset_end", span(&self.beam.offset_end)),
-        ];
+        let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end);
         cx.report.reject_unused("a beam made of a group of the mesh", &unused);
         let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
         // The group is read also without an orientation, whose lack has been reported.
@@ -291,11 +281,7 @@ fn yielding<'d>(
     section: bool,
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Option<FibreModel>> {
-    let unused = [
-        ("integration", span(&beam.integration)),
-        ("points", span(&beam.points)),
-        ("shear_yields", span(&beam.shear_yields)),
-    ];
+    let unused = keys!(beam; integration, points, shear_yields);
     let Some(law) = cx.materials.yielding_of(&beam.material)? else {
         cx.report.reject_unused(&format!("{}, whose material is elastic", owner.what), &unused);
         return Some(None);

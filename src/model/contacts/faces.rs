@@ -6,7 +6,7 @@ use crate::data::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
 use crate::places::place::Place;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
-use crate::values::span;
+use crate::values::{keys, span};
 use base::diagnostic::At;
 use base::math::curved_faces;
 use deck::contacts as words;
@@ -76,7 +76,7 @@ fn faces<'d>(
             let hint = "give what else touches it a contact of its own";
             return finder.report.error_with(&names.span, "`itself` stands alone in `with`", hint);
         }
-        finder.report.reject_unused("a part that touches itself", &[("points", span(&contact.points))]);
+        finder.report.reject_unused("a part that touches itself", &keys!(contact; points));
         faces.touchers = FacetTouchers::Itself;
         let radius = contact.radius.as_ref().map_or(half, |at| at.value);
         if is_line {
@@ -238,7 +238,7 @@ fn balls<'d>(
     among: &'d At<deck::words::Names>,
 ) -> Option<(FacetSurface, Vec<ContactPoint>)> {
     let what = "a contact of bodies `among` themselves";
-    let keys = [("surface", span(&contact.surface)), ("with", span(&contact.with)), ("points", span(&contact.points))];
+    let keys = keys!(contact; surface, with, points);
     finder.report.reject_unused(what, &keys);
     let given = contact.radius.as_ref().map(|_| finder.report.not_negative("radius", &contact.radius, 0.0));
     let Members { mut balls, mut convex, has_tubes } = members(finder, among, given)?;

@@ -2,7 +2,7 @@
 
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
-use crate::values::span;
+use crate::values::{keys, span};
 use base::diagnostic::Span;
 use base::names::short;
 use deck::contacts::{Contact, ContactMethod};
@@ -44,7 +44,7 @@ pub fn tolerance(
         let hint = "points, nodes of parts and spheres have them on any shape, bodies on planes and cylinders";
         report.error_with::<()>(&at.span, message, hint);
     }
-    let keys = [("restitution", span(&contact.restitution)), ("damping", span(&contact.damping))];
+    let keys = keys!(contact; restitution, damping);
     report.reject_unused("`method = \"augmented-lagrangian\"`, which is of load steps", &keys);
     let given = match given {
         Some(given) if given.value <= LEAST * extent || !given.value.is_finite() => {

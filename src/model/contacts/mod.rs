@@ -23,7 +23,7 @@ use crate::data::{CarriedSurface, Contact, FacetSurface, Joint, Mass, TouchedSur
 use crate::places::nodes::Topology;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
-use crate::values::span;
+use crate::values::keys;
 use base::math::Vec3;
 use base::names::short;
 use deck::contacts as words;
@@ -51,9 +51,7 @@ pub fn contacts<'d>(
     let setting = LawSetting { scene, masses, joints, at_nodes: &at_nodes, gravity };
     let mut contacts = Vec::new();
     for (index, contact) in scene.deck.contacts.iter().enumerate() {
-        let name = contact.name.as_ref().map_or_else(|| format!("contacts.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("contact `{name}`"), &contact.span);
-        report.require(&owner, "name", &contact.name);
+        let (name, owner) = report.named(("contact", "contacts", index), contact.name.as_ref(), &contact.span);
         let of = if is_of_facets(contact) { of_facets } else { of_shape };
         contacts.extend(of(&setting, &owner, &name, contact, topology, report));
     }
@@ -229,13 +227,7 @@ fn is_zone<'d>(
     friction::check(owner, contact, has_inertia, report);
     let is_zone = contact.stiffness.as_ref().is_some_and(|at| at.value == 0.0);
     if is_zone {
-        let keys = [
-            ("method", span(&contact.method)),
-            ("penetration_tolerance", span(&contact.penetration_tolerance)),
-            ("restitution", span(&contact.restitution)),
-            ("damping", span(&contact.damping)),
-            ("friction", span(&contact.friction)),
-        ];
+        let keys = keys!(contact; method, penetration_tolerance, restitution, damping, friction);
         report.reject_unused("a clearance monitor, a contact of stiffness 0 where nothing acts", &keys);
     }
     if let Some(at) = &contact.restitution {

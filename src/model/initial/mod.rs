@@ -8,7 +8,7 @@ use crate::places::nodes::Topology;
 use crate::places::spot::{Label, Spot};
 use crate::report::{Owner, Report};
 use crate::scene::{Reach, Scene};
-use crate::values::{flag, span, vec3, vec3_or_zero};
+use crate::values::{flag, keys, vec3, vec3_or_zero};
 use base::diagnostic::At;
 use base::math::Vec3;
 use deck::initial::{Initial, Profile};
@@ -93,7 +93,7 @@ impl<'d> Motions<'_, 'd> {
             self.report.error_with::<()>(owner.span, "this initial motion is empty", hint);
         }
         if normal.is_some() {
-            let others = [("velocity", span(&initial.velocity)), ("about", span(&initial.about))];
+            let others = keys!(initial; velocity, about);
             self.report.reject_unused("a velocity along normals", &others);
         } else if let (Some(_), Some(profile)) = (&initial.about, &initial.profile) {
             self.report.reject_unused("the motion of a rigid body", &[("profile", Some(&profile.span))]);

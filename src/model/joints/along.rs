@@ -9,7 +9,7 @@ use crate::own_damping::of_spring;
 use crate::places::nodes::Nodes;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
-use crate::values::{flag, span};
+use crate::values::{flag, keys, span};
 use base::diagnostic::{At, Span};
 use base::math::{Mat3, Vec3};
 use base::names::short;
@@ -211,17 +211,10 @@ impl<'d> Along<'_, 'd> {
     /// Keys that contradict a prescribed motion, where they are written.
     fn against_motion(&self) -> Vec<(&'static str, &'d Span)> {
         let joint = self.joint;
-        let keys = [
-            ("gear", span(&joint.gear)),
-            ("effort", span(&joint.effort)),
-            ("limits", span(&joint.limits)),
-            ("friction", span(&joint.friction)),
-            ("friction_moment", span(&joint.friction_moment)),
-            ("friction_force", span(&joint.friction_force)),
-            ("yield_moment", span(&joint.yield_moment)),
-            ("yield_force", span(&joint.yield_force)),
-            ("backbone", span(&joint.backbone)),
-        ];
+        let keys = keys!(
+            joint; gear, effort, limits, friction, friction_moment, friction_force, yield_moment, yield_force,
+            backbone
+        );
         keys.into_iter().filter_map(|(key, place)| Some((key, place?))).collect()
     }
 
@@ -279,8 +272,7 @@ impl<'d> Along<'_, 'd> {
     fn stops(&mut self) -> Option<Stops> {
         let joint = self.joint;
         let Some(limits) = &joint.limits else {
-            let of_stops =
-                [("limit_stiffness", span(&joint.limit_stiffness)), ("restitution", span(&joint.restitution))];
+            let of_stops = keys!(joint; limit_stiffness, restitution);
             if !self.report.is_spoiled(self.owner.span, "limits") {
                 self.report.reject_unused("a joint without `limits`", &of_stops);
             }
@@ -367,7 +359,7 @@ impl<'d> Along<'_, 'd> {
         let unread =
             self.report.is_spoiled(self.owner.span, key) || self.report.is_spoiled(self.owner.span, "friction");
         if !slips && !unread {
-            self.report.reject_unused("a joint without friction", &[("stick", span(&joint.stick))]);
+            self.report.reject_unused("a joint without friction", &keys!(joint; stick));
         }
         let limit = self.report.not_negative(key, value, 0.0);
         let per_load = self.friction_per_load(kind, coordinate);
@@ -394,7 +386,7 @@ impl<'d> Along<'_, 'd> {
     fn friction_per_load(&mut self, kind: &JointKind, coordinate: Coordinate) -> f64 {
         let joint = self.joint;
         let Some(friction) = &joint.friction else {
-            self.report.reject_unused("a joint without `friction`", &[("radius", span(&joint.radius))]);
+            self.report.reject_unused("a joint without `friction`", &keys!(joint; radius));
             return 0.0;
         };
         let (coefficient, turns) =
@@ -411,7 +403,7 @@ impl<'d> Along<'_, 'd> {
         }
         self.judge_steps(friction);
         if !turns {
-            self.report.reject_unused("friction against a distance", &[("radius", span(&joint.radius))]);
+            self.report.reject_unused("friction against a distance", &keys!(joint; radius));
             return coefficient;
         }
         self.report.require_positive(self.owner, "radius", &joint.radius).map_or(0.0, |radius| coefficient * radius)
@@ -500,25 +492,9 @@ const NEEDS_NO_ORIGIN: [&str; 7] =
 
 /// The keys about the coordinate, with the places where they stand.
 fn keys(joint: &words::Joint) -> [(&'static str, Option<&Span>); 19] {
-    [
-        ("coordinate", span(&joint.coordinate)),
-        ("motion", span(&joint.motion)),
-        ("gear", span(&joint.gear)),
-        ("effort", span(&joint.effort)),
-        ("stiffness", span(&joint.stiffness)),
-        ("rest", span(&joint.rest)),
-        ("damping", span(&joint.damping)),
-        ("limits", span(&joint.limits)),
-        ("limit_stiffness", span(&joint.limit_stiffness)),
-        ("restitution", span(&joint.restitution)),
-        ("friction", span(&joint.friction)),
-        ("radius", span(&joint.radius)),
-        ("friction_moment", span(&joint.friction_moment)),
-        ("friction_force", span(&joint.friction_force)),
-        ("stick", span(&joint.stick)),
-        ("yield_moment", span(&joint.yield_moment)),
-        ("yield_force", span(&joint.yield_force)),
-        ("post_yield_stiffness", span(&joint.post_yield_stiffness)),
-        ("backbone", span(&joint.backbone)),
-    ]
+    keys!(
+        joint; coordinate, motion, gear, effort, stiffness, rest, damping, limits, limit_stiffness, restitution,
+        friction, radius, friction_moment, friction_force, stick, yield_moment, yield_force,
+        post_yield_stiffness, backbone
+    )
 }

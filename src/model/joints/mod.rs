@@ -29,9 +29,7 @@ pub fn joints<'d>(
     let mut joints = Joints::default();
     let mut gears = Vec::new();
     for (index, joint) in scene.deck.joints.iter().enumerate() {
-        let name = joint.name.as_ref().map_or_else(|| format!("joints.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("joint `{name}`"), &joint.span);
-        report.require(&owner, "name", &joint.name);
+        let (name, owner) = report.named(("joint", "joints", index), joint.name.as_ref(), &joint.span);
         let kind = report.require(&owner, "kind", &joint.kind).map(|kind| kind.value);
         let mut end = |key, end, default| {
             let table = EndTable { owner: &owner, key, end, label: format!("{name}.{key}"), rotations: true, default };

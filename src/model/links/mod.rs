@@ -10,7 +10,7 @@ use crate::places::ends::EndTable;
 use crate::places::nodes::Nodes;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
-use crate::values::span;
+use crate::values::{keys, span};
 use base::diagnostic::{At, Span};
 use base::math::Mat3;
 use deck::links as words;
@@ -48,9 +48,7 @@ impl ModelLinks {
 pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) -> ModelLinks {
     let mut links = ModelLinks::default();
     for (index, link) in scene.deck.links.iter().enumerate() {
-        let name = link.name.as_ref().map_or_else(|| format!("links.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("link `{name}`"), &link.span);
-        report.require(&owner, "name", &link.name);
+        let (name, owner) = report.named(("link", "links", index), link.name.as_ref(), &link.span);
         let rotations = link.bushing.is_some();
         let mut end = |key, end| {
             let end = EndTable { owner: &owner, key, end, label: format!("{name}.{key}"), rotations, default: None };
@@ -92,7 +90,7 @@ fn line<'d>(
     nodes: &Nodes,
     report: &mut Report<'d>,
 ) -> Option<LinkKind> {
-    let unused = [("bushing_damping", span(&link.bushing_damping)), ("axes", span(&link.axes))];
+    let unused = keys!(link; bushing_damping, axes);
     report.reject_unused("a link without `bushing`", &unused);
     let law = law(owner, link, report);
     let free_length = link.free_length.as_ref().map(|length| length.value);
@@ -123,8 +121,8 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
         None if report.is_spoiled(owner.span, "law") => return None,
         None => words::LinkLaw::Linear,
     };
-    let [stiffness, gap] = [("stiffness", span(&link.stiffness)), ("gap", span(&link.gap))];
-    let [preload, points] = [("preload", span(&link.preload)), ("points", span(&link.points))];
+    let [stiffness, gap] = keys!(link; stiffness, gap);
+    let [preload, points] = keys!(link; preload, points);
     match law {
         words::LinkLaw::Linear => {
             report.reject_unused("the law \"linear\"", &[gap, points]);

@@ -9,7 +9,7 @@ use crate::places::nodes::Topology;
 use crate::procedure::stops::NamedActors;
 use crate::report::{Owner, Report};
 use crate::scene::{Reach, Scene};
-use crate::values::{directions, flag, span, vec3_or_zero};
+use crate::values::{directions, flag, keys, span, vec3_or_zero};
 use base::diagnostic::At;
 use deck::loads as words;
 use deck::words::Table;
@@ -72,7 +72,7 @@ fn nodal_load<'d>(
     let spots = if names_part { Vec::new() } else { scene.spots(&owner, "at", &load.at, Reach::Nodes, report) };
     let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
     let keys = ["force", "moment", "force_per_length", "local", "force_per_area", "pressure"];
-    let unused = [("part", span(&load.part)), ("projected", span(&load.projected)), ("profile", span(&load.profile))];
+    let unused = keys!(load; part, projected, profile);
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
     if load.force.is_none() && load.moment.is_none() && !unread {
         report.error_with::<()>(

@@ -8,7 +8,7 @@ use crate::places::spot::Spot;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::shells::edges::{Edge, edges_of_shells};
-use crate::values::{flag, span, vec3, vec3_or_zero};
+use crate::values::{flag, keys, span, vec3, vec3_or_zero};
 use base::diagnostic::At;
 use base::math::{Vec3, curved_faces, quadrature};
 use deck::loads as words;
@@ -27,7 +27,7 @@ pub fn spread_load<'d>(
     report: &mut Report<'d>,
 ) -> (Vec<Load>, Option<Pressure>) {
     let owner = Owner::new("`[[loads]]`", &load.span);
-    let unused = [("force", span(&load.force)), ("moment", span(&load.moment))];
+    let unused = keys!(load; force, moment);
     report.reject_unused("a spread load", &unused);
     let follower = load.follower.as_ref().filter(|follower| follower.value);
     if let Some(at) = follower
@@ -90,7 +90,7 @@ fn names_of<'d>(load: &'d words::Load, owner: &Owner, report: &mut Report<'d>) -
 /// Reads a load per length; `None` where it is one over areas.
 fn line_load(load: &words::Load, amplitude: Option<usize>, report: &mut Report) -> Option<LineLoad> {
     let given = load.force_per_length.as_ref().or(load.local.as_ref());
-    let keys = [("projected", span(&load.projected)), ("profile", span(&load.profile))];
+    let keys = keys!(load; projected, profile);
     if given.is_none() {
         report.reject_unused("a load over areas", &keys);
     } else if let Some(at) = [span(&load.pressure), span(&load.force_per_area)].into_iter().flatten().next() {
@@ -237,7 +237,7 @@ impl<'d> Spread<'_, 'd> {
         }
         let has_axes = |part: &Part| part.line(0, 1.0, &parts.stiffnesses).is_some_and(|line| line.axes.is_some());
         if !parts.of(at).iter().all(has_axes) {
-            let without = [("local", span(&self.words.local)), ("follower", span(&self.words.follower))];
+            let without = keys!(self.words; local, follower);
             report.reject_unused("a load on a bar, which has no axes", &without);
         }
         for index in entry.range.clone() {
@@ -264,7 +264,7 @@ impl<'d> Spread<'_, 'd> {
                 None => edges.push([a, b]),
             }
         }
-        let without = [("profile", span(&self.words.profile))];
+        let without = keys!(self.words; profile);
         report.reject_unused("a load on segments of a group", &without);
         if edges.is_empty() || !self.acts_on_edges(name, report) {
             return;
@@ -280,8 +280,7 @@ impl<'d> Spread<'_, 'd> {
     fn acts_on_edges(&self, name: &'d At<String>, report: &mut Report<'d>) -> bool {
         let words = self.words;
         let follower = words.follower.as_ref().filter(|follower| follower.value).map(|at| &at.span);
-        let keys =
-            [("local", span(&words.local)), ("projected", span(&words.projected)), ("profile", span(&words.profile))];
+        let keys = keys!(words; local, projected, profile);
         let wrong = keys.into_iter().chain([("follower", follower)]).find_map(|(key, at)| Some((key, at?)));
         let Some((key, at)) = wrong else { return true };
         let message =

@@ -3,7 +3,7 @@
 use crate::places::nodes::Nodes;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
-use crate::values::{span, vec3};
+use crate::values::{keys, vec3};
 use base::diagnostic::Diagnostic;
 use base::math::Vec3;
 use deck::links as words;
@@ -31,7 +31,7 @@ impl<'d> EndTable<'_, 'd> {
         let end = report.require_nodes(self.owner, self.key, self.end)?;
         let node = match (&end.node, &end.body, &end.ground) {
             (Some(point), None, None) => {
-                report.reject_unused("an end on a point", &[("point", span(&end.point))]);
+                report.reject_unused("an end on a point", &keys!(end; point));
                 scene.names.point("node", point, &scene.parts, report)?
             }
             (None, Some(body), None) => {
@@ -49,7 +49,7 @@ impl<'d> EndTable<'_, 'd> {
                 }
             }
             (None, None, Some(ground)) => {
-                report.reject_unused("an end on the ground", &[("point", span(&end.point))]);
+                report.reject_unused("an end on the ground", &keys!(end; point));
                 let node = nodes.add(self.label, false, vec3(ground));
                 (0..6).for_each(|dof| nodes.restrain(node, dof, None));
                 node

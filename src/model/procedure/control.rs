@@ -6,7 +6,7 @@ use crate::places::nodes::Topology;
 use crate::procedure::displacement_targets::displacement_target;
 use crate::report::Report;
 use crate::scene::Scene;
-use crate::values::span;
+use crate::values::keys;
 use base::diagnostic::At;
 use base::names::short;
 use deck::Deck;
@@ -29,8 +29,7 @@ pub fn control<'d>(
         return Some(ArcLength { first, stop: None, steps: None, growth: 1.0 });
     }
     let Some(at) = analysis.control.as_ref().filter(|at| at.value == words::Control::ArcLength) else {
-        let keys =
-            [("stop", span(&analysis.stop)), ("steps", span(&analysis.steps)), ("growth", span(&analysis.growth))];
+        let keys = keys!(analysis; stop, steps, growth);
         report.reject_unused("`control = \"time\"`", &keys);
         return None;
     };

@@ -14,7 +14,7 @@ use crate::data::{ERROR_TOLERANCE, FIRST_STEP};
 use crate::procedure::modes::modes;
 use crate::report::{Owner, Report};
 use crate::stages::CurrentStage;
-use crate::values::{chosen, span};
+use crate::values::{chosen, keys, span};
 use base::diagnostic::{At, Diagnostic, Span};
 use base::names::short;
 use deck::Deck;
@@ -181,7 +181,7 @@ pub fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Rep
     let kind = integrator.kind.as_ref().map_or(SCHEMES[0], |kind| kind.value);
     let owner = Owner::new(format!("the scheme \"{}\"", kind.word), &integrator.span);
     if !kind.make.rotation_update {
-        report.reject_unused(&owner.what, &[("rotation_update", span(&integrator.rotation_update))]);
+        report.reject_unused(&owner.what, &keys!(integrator; rotation_update));
     }
     let rotation = chosen(&integrator.rotation_update);
     report.read(&owner, &owner.what, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))

@@ -6,7 +6,7 @@
 use crate::data::{Analysis, AnalysisKind, History, ModeExtent, Model, ModesAsked, StepLength};
 use crate::procedure::response::{is_harmonic, keys_of_response, response};
 use crate::report::Report;
-use crate::values::{flag, span};
+use crate::values::{flag, keys, span};
 use base::diagnostic::{Diagnostic, Span};
 use deck::Deck;
 use deck::analysis::{self as words, AnalysisKind as Word};
@@ -30,7 +30,7 @@ pub fn modes<'d>(
     word: Word,
     report: &mut Report<'d>,
 ) -> Option<Analysis> {
-    let of_modal = [("up_to", span(&analysis.up_to)), ("damped", span(&analysis.damped))];
+    let of_modal = keys!(analysis; up_to, damped);
     let what = match word {
         Word::Static => "a static analysis",
         Word::Dynamic => "a dynamic analysis",
@@ -39,17 +39,12 @@ pub fn modes<'d>(
         Word::FrequencyResponse => "a frequency response",
     };
     if matches!(word, Word::Static | Word::Dynamic) {
-        report.reject_unused(what, &[("modes", span(&analysis.modes))]);
+        report.reject_unused(what, &keys!(analysis; modes));
         report.reject_unused(what, &of_modal);
         report.reject_unused(what, &keys_of_response(analysis));
         return None;
     }
-    let of_paths = [
-        ("control", span(&analysis.control)),
-        ("stop", span(&analysis.stop)),
-        ("steps", span(&analysis.steps)),
-        ("growth", span(&analysis.growth)),
-    ];
+    let of_paths = keys!(analysis; control, stop, steps, growth);
     report.reject_unused(what, &of_paths);
     if word == Word::Buckling {
         report.reject_unused(what, &of_modal);
@@ -72,12 +67,7 @@ pub fn modes<'d>(
 
 /// Says of the keys of times that they have no effect.
 fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
-    for (key, place) in [
-        ("end_time", span(&analysis.end_time)),
-        ("time_step", span(&analysis.time_step)),
-        ("error_tolerance", span(&analysis.error_tolerance)),
-        ("least_step", span(&analysis.least_step)),
-    ] {
+    for (key, place) in keys!(analysis; end_time, time_step, error_tolerance, least_step) {
         if let Some(place) = place {
             let message = format!("`{key}` has no effect in {what}");
             let hint = "loads are those at t = 0, brought on in load steps of the program's own";

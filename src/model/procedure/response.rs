@@ -6,7 +6,7 @@ use crate::data::{
 };
 use crate::doubts::usage::amplitudes_over_time;
 use crate::report::{Owner, Report};
-use crate::values::{chosen, span};
+use crate::values::{chosen, keys};
 use base::diagnostic::{At, Span};
 use deck::Deck;
 use deck::amplitudes::AmplitudeKind;
@@ -24,27 +24,19 @@ const BEYOND: f64 = 4.0;
 
 /// The keys of `[analysis]` that a frequency response alone has.
 pub fn keys_of_response(analysis: &Analysis) -> [(&'static str, Option<&Span>); 3] {
-    [
-        ("frequencies", span(&analysis.frequencies)),
-        ("method", span(&analysis.method)),
-        ("damping_ratio", span(&analysis.damping_ratio)),
-    ]
+    keys!(analysis; frequencies, method, damping_ratio)
 }
 
 /// Reads the keys of a frequency response, with the modes that its method needs.
 pub fn response<'d>(analysis: &'d Analysis, place: &'d Span, report: &mut Report<'d>) -> ResponseAsked {
     let what = "a frequency response";
-    report.reject_unused(what, &[("damped", span(&analysis.damped))]);
+    report.reject_unused(what, &keys!(analysis; damped));
     let method = match chosen(&analysis.method) {
         ResponseWord::Direct => ResponseMethod::Direct,
         ResponseWord::Modal => ResponseMethod::Modal,
     };
     if method == ResponseMethod::Direct {
-        let of_modes = [
-            ("modes", span(&analysis.modes)),
-            ("up_to", span(&analysis.up_to)),
-            ("damping_ratio", span(&analysis.damping_ratio)),
-        ];
+        let of_modes = keys!(analysis; modes, up_to, damping_ratio);
         report.reject_unused("the direct solution of a frequency response (`method = \"modal\"`)", &of_modes);
     }
     let damping_ratio = report.not_negative("damping_ratio", &analysis.damping_ratio, 0.0);

@@ -5,7 +5,7 @@ use crate::places::place::Place;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use crate::stages::CurrentStage;
-use crate::values::span;
+use crate::values::keys;
 use base::diagnostic::At;
 use base::names::short;
 use deck::stages as words;
@@ -55,10 +55,7 @@ fn stop<'d>(
 ) -> Option<Stop> {
     let owner = Owner::new(format!("`stop` of stage `{}`", current.name()), &at.span);
     let table: &'d words::Stop = &at.value;
-    let [of_node, of_load] = [
-        [("at", span(&table.at)), ("quantity", span(&table.quantity)), ("value", span(&table.value))],
-        [("load", span(&table.load)), ("work", span(&table.work)), ("force", span(&table.force))],
-    ];
+    let [of_node, of_load] = [keys!(table; at, quantity, value), keys!(table; load, work, force)];
     if table.time.is_some() {
         report.reject_unused("a stop at a time", &[of_node, of_load].concat());
         return None;

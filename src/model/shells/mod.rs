@@ -13,7 +13,7 @@ use crate::places::nodes::Nodes;
 use crate::report::Owner;
 use crate::shells::patch::{Edges, Patch};
 use crate::shells::surface_map::Map;
-use crate::values::{chosen, span};
+use crate::values::{chosen, keys, span};
 use base::diagnostic::At;
 use base::math::{Vec3, curved_faces};
 use deck::shells as words;
@@ -31,11 +31,7 @@ pub fn shells(cx: &mut PartContext) {
     let mut edges = Edges::default();
     for (index, shell) in cx.deck.shells.iter().enumerate() {
         let name = shell.name.as_ref().or(shell.group.as_ref());
-        let name = name.map_or_else(|| format!("shells.{index}"), |name| name.value.clone());
-        let owner = Owner::new(format!("shell `{name}`"), &shell.span);
-        if shell.group.is_none() {
-            cx.report.require(&owner, "name", &shell.name);
-        }
+        let (name, owner) = cx.report.named(("shell", "shells", index), name, &shell.span);
         let at = PartIndex { kind: PartKind::Shell, index };
         cx.parts.begin(at);
         let made = read_shell(at, name, &owner, shell, &mut edges, cx);
@@ -62,13 +58,7 @@ fn read_shell<'d>(
         Shell { name, plate, density, mass, damping, yielding, axis, corners: 0, order: 1, elements, numbers }
     });
     if let Some(group) = &shell.group {
-        let unused = [
-            ("corners", span(&shell.corners)),
-            ("elements", span(&shell.elements)),
-            ("kind", span(&shell.kind)),
-            ("surface", span(&shell.surface)),
-            ("order", span(&shell.order)),
-        ];
+        let unused = keys!(shell; corners, elements, kind, surface, order);
         cx.report.reject_unused("a shell made of a group of the mesh", &unused);
         return of_group(at, owner, group, part, cx);
     }
@@ -305,10 +295,7 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
 fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<LayerModel>> {
     // Errors of the material have been reported.
     let Some(law) = cx.materials.yielding_of(&shell.material)? else {
-        cx.report.reject_unused(
-            &format!("{}, whose material is elastic", owner.what),
-            &[("layers", span(&shell.layers)), ("strain", span(&shell.strain))],
-        );
+        cx.report.reject_unused(&format!("{}, whose material is elastic", owner.what), &keys!(shell; layers, strain));
         return Some(None);
     };
     let layers = cx.report.count("layers", &shell.layers, DEFAULT_LAYERS);

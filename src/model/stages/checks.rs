@@ -5,7 +5,7 @@ use super::sequence::{StageSequence, buckles, name_of, responds};
 use crate::procedure::mass_scaling::KEY;
 use crate::procedure::response::names_harmonic;
 use crate::report::Report;
-use crate::values::span;
+use crate::values::keys;
 use base::diagnostic::At;
 use deck::Deck;
 use deck::stages::StageKind;
@@ -29,21 +29,10 @@ fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
         report.error::<()>(&study.span, "a study does not go over stages");
     }
     let Some(analysis) = &sequence.whole.analysis else { return };
-    let keys = [
-        ("kind", span(&analysis.kind)),
-        ("control", span(&analysis.control)),
-        ("end_time", span(&analysis.end_time)),
-        ("time_step", span(&analysis.time_step)),
-        ("stop", span(&analysis.stop)),
-        ("steps", span(&analysis.steps)),
-        ("growth", span(&analysis.growth)),
-        ("modes", span(&analysis.modes)),
-        ("up_to", span(&analysis.up_to)),
-        ("damped", span(&analysis.damped)),
-        ("frequencies", span(&analysis.frequencies)),
-        ("method", span(&analysis.method)),
-        ("damping_ratio", span(&analysis.damping_ratio)),
-    ];
+    let keys = keys!(
+        analysis; kind, control, end_time, time_step, stop, steps, growth, modes, up_to, damped, frequencies,
+        method, damping_ratio
+    );
     report.reject_unused("a deck with `[[stages]]`, which have kinds, durations and steps of their own", &keys);
 }
 

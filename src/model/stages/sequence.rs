@@ -2,7 +2,7 @@
 
 use crate::report::{Owner, Report};
 use crate::shells::edges::Bulges;
-use crate::values::span;
+use crate::values::keys;
 use base::diagnostic::{At, Span};
 use base::names::short;
 use deck::Deck;
@@ -95,7 +95,7 @@ impl<'d> StageSequence<'d> {
         };
         let has_modes = of_modes.is_some();
         if let Some(what) = of_modes.or((kind == StageKind::Static).then_some("a static stage")) {
-            report.reject_unused(what, &[("integrator", span(&table.integrator))]);
+            report.reject_unused(what, &keys!(table; integrator));
         }
         if let Some(what) = of_modes {
             report.reject_unused(what, &keys_of_time(table));
@@ -215,14 +215,7 @@ pub fn responds(table: &Stage) -> bool {
 
 /// The keys of a stage in which time passes.
 fn keys_of_time(table: &Stage) -> [(&'static str, Option<&Span>); 6] {
-    [
-        ("duration", span(&table.duration)),
-        ("time_step", span(&table.time_step)),
-        ("error_tolerance", span(&table.error_tolerance)),
-        ("least_step", span(&table.least_step)),
-        ("stop", span(&table.stop)),
-        ("iteration", span(&table.iteration)),
-    ]
+    keys!(table; duration, time_step, error_tolerance, least_step, stop, iteration)
 }
 
 pub fn name_of(name: &Maybe<String>) -> Option<&str> {
