@@ -9,8 +9,20 @@ const LONG: usize = 28;
 const OPENINGS: [&str; 8] = ["What ", "Those ", "That of ", "Nor ", "So are ", "So is ", "As is ", "As are "];
 /// Turns that replace a subject, a verb or a quantity.
 const TURNS: [&str; 14] = [
-    " is told", " are told", " is had", " is borne", " of which", " by which", " for which", " in which", " what is ", " what it ",
-    " what the ", " what a ", " by itself", " at hand",
+    " is told",
+    " are told",
+    " is had",
+    " is borne",
+    " of which",
+    " by which",
+    " for which",
+    " in which",
+    " what is ",
+    " what it ",
+    " what the ",
+    " what a ",
+    " by itself",
+    " at hand",
 ];
 /// Largest share of flagged sentences in pages, in per cent.
 const PAGES: usize = 8;
@@ -29,7 +41,8 @@ fn paragraphs(lines: impl Iterator<Item = String>) -> Vec<String> {
         let text = line.trim();
         let fence = text.starts_with("```");
         is_code ^= fence;
-        let is_prose = !is_code && !fence && !text.is_empty() && !text.starts_with(['|', '#', '<']) && !text.starts_with("![");
+        let is_prose =
+            !is_code && !fence && !text.is_empty() && !text.starts_with(['|', '#', '<']) && !text.starts_with("![");
         let item = text.strip_prefix("- ").or_else(|| text.strip_prefix("* "));
         if !is_prose || item.is_some() {
             close(&mut run);
@@ -57,7 +70,8 @@ fn sentences(paragraph: &str) -> Vec<String> {
     let bytes = text.as_bytes();
     for at in 1..text.len().saturating_sub(2) {
         let ends = b".!?".contains(&bytes[at]) && bytes[at + 1] == b' ';
-        let before = bytes[at - 1].is_ascii_lowercase() || bytes[at - 1].is_ascii_digit() || b")E]".contains(&bytes[at - 1]);
+        let before =
+            bytes[at - 1].is_ascii_lowercase() || bytes[at - 1].is_ascii_digit() || b")E]".contains(&bytes[at - 1]);
         if ends && before && (bytes[at + 2].is_ascii_uppercase() || bytes[at + 2] == b'(') {
             found.push(text[start..=at].trim().to_owned());
             start = at + 1;
@@ -92,7 +106,10 @@ fn hold(texts: Vec<(PathBuf, Vec<String>)>, limit: usize) {
     flagged.sort_by_key(|line| std::cmp::Reverse(line.len()));
     let share = 100.0 * flagged.len() as f64 / all as f64;
     let worst = flagged[..flagged.len().min(10)].join("\n");
-    assert!(share <= limit as f64, "{share:.1} % of {all} sentences are long or indirect, and {limit} are allowed:\n{worst}");
+    assert!(
+        share <= limit as f64,
+        "{share:.1} % of {all} sentences are long or indirect, and {limit} are allowed:\n{worst}"
+    );
 }
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

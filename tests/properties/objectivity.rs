@@ -99,7 +99,7 @@ fn answers_shift_with_the_scene() {
 fn small_loads_far_away_meet_rounding_and_go_on() {
     for (kind, load) in [(AnalysisKind::Static, 1.0), (AnalysisKind::Static, 1e-6), (AnalysisKind::Dynamic, 1e-6)] {
         let tip = |x: f64| {
-            let mut m = empty(kind, 1.0, 0.1);
+            let mut m = empty(kind.clone(), 1.0, 0.1);
             m.solution.iteration.tolerance = 1e-8;
             let inertia = [0.1, 0.05, 0.05];
             m.stiffnesses.push(Stiffness::general(2e9, [8e8; 2], 1e6, [1.6e6; 2], 78.0, inertia));

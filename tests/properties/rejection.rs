@@ -74,7 +74,7 @@ fn told(times: &[f64]) -> Vec<Expect> {
 #[test]
 fn rejected_steps_leave_no_trace() {
     for (kind, limit) in LIMITS {
-        let m = bent(kind, limit);
+        let m = bent(kind.clone(), limit);
         let (cut, end, counts, outcome) = steps(&m);
         eprintln!("{kind:?}: {counts:?}");
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
@@ -92,7 +92,7 @@ fn rejected_steps_leave_no_trace() {
 #[test]
 fn a_run_that_fails_ends_with_its_last_step() {
     for (kind, limit) in LIMITS {
-        let mut m = bent(kind, limit);
+        let mut m = bent(kind.clone(), limit);
         // Short steps first, which succeed, until one is too long.
         m.expects = told(&[0.03, 0.06, 0.09, 0.12, 0.15, 0.18, 0.21, 0.24, 0.27, 0.3]);
         m.analysis.least_step = m.analysis.nominal_step();

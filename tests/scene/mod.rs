@@ -240,6 +240,7 @@ impl Extras {
                 || step == 10,
             last: step == 10,
             inside: false,
+            modes: None,
             rows: 0..0,
             compared: false,
             reactions: &self.reactions,
