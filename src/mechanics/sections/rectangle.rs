@@ -105,8 +105,8 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
     a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * (b / a) * (31.0 / 32.0 * ZETA_5 - rest))
 }
 
-/// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), which no fibre at the edges feels; twist is
-/// Saint-Venant's.
+/// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), which no fibre at the edges feels, until
+/// [`super::fibres::calibrated`] scales it to the shear area; twist is Saint-Venant's.
 pub(super) fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
     let parabola = |x: f64| 1.25 * (1.0 - x * x);
     let mut fibres = Vec::new();
