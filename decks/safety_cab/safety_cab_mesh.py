@@ -1,14 +1,16 @@
 """Writes the meshes of decks/safety_cab: the tractor's backbone and its cab, as Gmsh ASCII 2.2.
 
-    python3 scripts/safety_cab_mesh.py          # cab_coarse.msh, cab.msh, cab_fine.msh, into decks/safety_cab
+    python3 decks/safety_cab/safety_cab_mesh.py          # cab_coarse.msh, cab.msh, cab_fine.msh, into decks/safety_cab
 
 x forward, y to the left, z up, metres; x = 0 at the rear axle, z = 0 on the ground. Groups of segments are beams, groups
 of quadrilaterals shells, groups of one node named points. Python's standard library only.
 """
 
+import sys
 from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parent.parent / "decks" / "safety_cab"
+FOLDER = Path(__file__).resolve().parent
+sys.path.append(str(FOLDER.parent.parent / "scripts"))  # where `scenes` is, which runs a deck
 
 # The cab, between its floor and its roof; walls lean inwards, straight.
 FLOOR, WAIST, ROOF = 1.05, 1.65, 2.60

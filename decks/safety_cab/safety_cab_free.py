@@ -1,9 +1,9 @@
 """The safety cab by free meshes of triangles and of quadrilaterals, as a mesher makes them, beside the meshes of rows and columns.
 
     python3 -m venv /tmp/gmsh && /tmp/gmsh/bin/pip install gmsh
-    /tmp/gmsh/bin/python scripts/safety_cab_free.py            # the three blows; a table in Markdown on standard output
+    /tmp/gmsh/bin/python decks/safety_cab/safety_cab_free.py            # the three blows; a table in Markdown on standard output
 
-Frame, points and backbone are those of scripts/safety_cab_mesh.py; each flat piece of sheet between members of the frame is meshed by
+Frame, points and backbone are those of decks/safety_cab/safety_cab_mesh.py; each flat piece of sheet between members of the frame is meshed by
 Gmsh from the nodes of the frame round it, and shares them. A hole in the roof, for a hatch, is what rows and columns do not have:
 there the two kinds of meshes are compared with each other. Needs the package gmsh, which needs the system's libraries of X11 and OpenGL.
 """

@@ -1,7 +1,7 @@
 """Writes decks/safety_cab/approval.toml: the three blows, a crushing test and the pull of the belts on one cab, by stages.
 
-    python3 scripts/safety_cab.py decks            # first: rear.toml, front.toml, side.toml, from which this one is made
-    python3 scripts/safety_cab_approval.py         # approval.toml
+    python3 decks/safety_cab/safety_cab.py decks            # first: rear.toml, front.toml, side.toml, from which this one is made
+    python3 decks/safety_cab/safety_cab_approval.py         # approval.toml
 
 Python's standard library only.
 """
@@ -32,7 +32,7 @@ HEAD = """# A tractor with a safety cab: the whole approval in one deck
 # The cab of rear.toml, front.toml and side.toml takes all three blows one after the other, is crushed by a beam across its roof
 # with 20 N for each kilogram of the tractor, and then holds the pull of a seat belt at the feet of its middle posts. What one
 # stage bends, the next one finds; between two blows a static stage brings the tractor to rest, as the test does, and the pendulum is
-# placed anew. Written by scripts/safety_cab_approval.py.
+# placed anew. Written by decks/safety_cab/safety_cab_approval.py.
 #
 # Beside what the three decks assume: two doors, rigid, 28 kg each, hang on the front posts with hinges that turn from 0 to 1.4 rad and
 # rub, and on a latch that tears at 6 kN; the bolts of the mounts tear at 90 kN of tension or 70 kN of shear. A belt pulls with 2.5 kN forward and as much

@@ -1,8 +1,8 @@
 """The tractor of decks/safety_cab and its pendulum: writes the decks, runs them, draws the tables of the README.
 
-    python3 scripts/safety_cab_mesh.py             # the meshes
-    python3 scripts/safety_cab.py decks            # rear.toml, front.toml, side.toml: one tractor, three blows
-    python3 scripts/safety_cab.py run [blow ...]   # runs them and their variants; tables in Markdown on standard output
+    python3 decks/safety_cab/safety_cab_mesh.py             # the meshes
+    python3 decks/safety_cab/safety_cab.py decks            # rear.toml, front.toml, side.toml: one tractor, three blows
+    python3 decks/safety_cab/safety_cab.py run [blow ...]   # runs them and their variants; tables in Markdown on standard output
 
 Python's standard library only.
 """
@@ -308,7 +308,7 @@ COMMON = """\
 #
 # A test of the pendulum for tractors and their safety cabs, as OECD Code 3 and directive 86/298/EEC have it: a block of
 # 2000 kg on chains swings into the upper edge of the cab, the tractor being lashed to the ground. One tractor, three decks
-# (rear.toml, front.toml, side.toml), written by scripts/safety_cab.py; each is a fresh tractor.
+# (rear.toml, front.toml, side.toml), written by decks/safety_cab/safety_cab.py; each is a fresh tractor.
 #
 # This blow: {what}
 #
