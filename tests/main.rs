@@ -1,44 +1,14 @@
 //! All tests of the crate in one program: each idea is a module, and generic code of the crate is compiled once for all.
 //!
-//! `cargo test --test all explicit::` runs one module. Who may import whom is held by `architecture`, a program of its own.
+//! `cargo test --test all solve::explicit::` runs one module. Who may import whom is held by `architecture`, a program of its own.
 
 mod allocations;
-mod auto_step;
-mod beams_side_by_side;
-mod breaking;
-mod chains;
-mod cli;
-mod commands;
-mod compare;
+mod command;
 mod contact;
-mod damping;
 mod decks;
-mod determinism;
 mod docs;
-mod driven;
-mod edges;
-mod elements;
-mod error_bars;
-mod esdirk;
-mod events;
-mod expected_quantities;
-mod explicit;
-mod extreme;
-mod factor_in_file;
-mod folders;
-mod foreign_input;
-mod inside_steps;
-mod instructions;
-mod iterations;
-mod joint_coordinates;
-mod joint_forces;
-mod joints;
-mod kinks;
-mod left_out;
-mod line_loads;
 mod linear;
-mod massless;
-mod materials;
+mod mechanics;
 mod mesh;
 mod messages;
 mod model;
@@ -80,7 +50,11 @@ mod thin_rods;
 mod thin_rods_in_loops;
 mod turning;
 
+mod properties;
+mod results;
 mod scene;
-mod strange_input;
+mod solve;
 mod structures;
+mod study;
 mod support;
+mod sweep;

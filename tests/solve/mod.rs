@@ -1,10 +1,42 @@
-//! Parts of steps by themselves.
+//! Integration in time: steps and their parts, schemes, statics, stages, modes.
 
 mod anderson;
+mod arc_length;
+mod auto_step;
+mod breakage;
 mod central_difference;
+mod chains;
 mod dependents;
+mod determinism;
+mod edge_cases;
 mod element_stability;
+mod esdirk;
+mod events;
+mod explicit;
+mod handover;
+mod inside_steps;
+mod iterations;
+mod joint_forces;
+mod kinks;
 mod load_steps;
+mod massless;
+pub mod modes;
+mod order;
+mod plan;
+mod plasticity;
+mod pretension;
+mod reruns;
+mod rounding;
+mod schemes;
 mod schur_factor;
+mod singular_positions;
+mod small_motions;
+mod soft_starts;
+mod stability;
+mod stages;
+pub mod statics;
+mod sudden_loads;
+mod thin_rods;
+mod thin_rods_in_loops;
 mod trials;
 mod turning;

@@ -1,6 +1,6 @@
 //! Load steps from states that resist hardly anything: flat membranes, what only pretension holds, and what presses on joints.
 
-use crate::statics::{Said, said};
+use crate::solve::statics::{Said, said};
 use crate::support::{node, read_deck};
 use rdsolve::solve::Outcome;
 

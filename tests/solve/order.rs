@@ -1,5 +1,5 @@
 //! Order of convergence, measured: error against references over ladders of time steps and of element sizes.
-//! `cargo test --test order -- --nocapture --test-threads 1` shows the tables.
+//! `cargo test --test all order -- --nocapture --test-threads 1` shows the tables.
 
 use crate::support::{self, body_omega, error, node, position, read, reference, run_to_the_end, slope};
 use rdsolve::model::Model;

@@ -1,5 +1,5 @@
 //! The tractor of decks/safety_cab: each blow until the cab has sprung back from it. Whole runs, finer meshes and the balance
-//! of energies are the business of scripts/safety_cab.py.
+//! of energies are the business of decks/safety_cab/safety_cab.py.
 
 use crate::support;
 use rdsolve::diagnostic::Source;

@@ -1,7 +1,7 @@
 //! Loads of a static analysis that act in full at t = 0, or jump: they are brought on in the step that follows, which closes the balance
 //! of work and lets the step be cut.
 
-use crate::statics::{GRAVITY, beam, head};
+use crate::solve::statics::{GRAVITY, beam, head};
 use crate::support::{doubts, node, position, read_deck, run};
 use rdsolve::model::Model;
 use rdsolve::solve::Outcome;

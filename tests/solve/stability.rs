@@ -1,6 +1,6 @@
 //! Buckling is told of whatever matrix leads the iteration, whatever else acts, in the plane of a motion and out of it.
 
-use crate::statics::{Said, beam, column, head, said, truss};
+use crate::solve::statics::{Said, beam, column, head, said, truss};
 use crate::support::{doubts, read_deck};
 use rdsolve::solve::Outcome;
 use rdsolve::system::System;

@@ -12,7 +12,7 @@ use rdsolve::model::{
 use rdsolve::sections::Fibre;
 
 /// Every table once.
-const ALL: &str = include_str!("everything.toml");
+const ALL: &str = include_str!("../everything.toml");
 const PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/everything.toml");
 
 fn everything() -> Model {

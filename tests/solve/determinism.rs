@@ -307,7 +307,7 @@ fn shells_under_pressure() {
 /// A roof of enough shells for threads, along its path: the first three steps.
 #[test]
 fn a_path_of_a_roof() {
-    let deck = include_str!("../decks/hinged_roof/deck.toml").split("# ---- expected").next().unwrap();
+    let deck = include_str!("../../decks/hinged_roof/deck.toml").split("# ---- expected").next().unwrap();
     let deck = deck.replace("[16, 16]", "[34, 34]").replace("time_step = 0.05", "time_step = 0.2\nsteps = 3");
     assert_same(&format!("{deck}\n[output]\nnodes = \"all\"\nreactions = true\n"), 4);
 }

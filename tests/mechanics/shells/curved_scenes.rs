@@ -1,7 +1,7 @@
 //! Scenes of elements of order 2: motion, buckling, layers that yield, meshes, contact, results.
 
 use super::benchmarks::{displacements, hemisphere, read};
-use crate::modes::modes_of;
+use crate::solve::modes::modes_of;
 use crate::support;
 use rdsolve::math::Vec3;
 use rdsolve::model::{Contact, Model, Shell};

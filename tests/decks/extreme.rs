@@ -1,4 +1,4 @@
-//! The extreme set: variants of the decks in decks/extreme, compared with each other as numbers. (`tests/decks.rs` holds the decks to
+//! The extreme set: variants of the decks in decks/extreme, compared with each other as numbers. (`tests/decks/values.rs` holds the decks to
 //! the values they carry.)
 
 use crate::support::{self, node, read, run_to_the_end};

@@ -1,5 +1,5 @@
 //! Structures that yield: energy balance, agreement of the methods of iteration, cut and rejected steps, threads.
-//! `cargo test --test plasticity -- --nocapture --test-threads 1` shows the figures.
+//! `cargo test --test all plasticity -- --nocapture --test-threads 1` shows the figures.
 
 use crate::support::{Done, error, position, read, run_to_the_end, slope};
 use rdsolve::diagnostic::Source;

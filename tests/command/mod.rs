@@ -1,0 +1,9 @@
+//! The program from outside: arguments in, exit codes out.
+
+mod around_a_run;
+mod cli;
+mod foreign_input;
+mod instructions;
+mod resume;
+mod signals;
+mod strange_input;

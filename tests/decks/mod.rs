@@ -1,0 +1,5 @@
+//! The decks of the repository.
+
+mod extreme;
+mod safety_cab;
+mod values;

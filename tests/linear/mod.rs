@@ -1,0 +1,4 @@
+//! Matrices and their factors.
+
+mod factor_store;
+mod factorizations;

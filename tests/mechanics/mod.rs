@@ -1,0 +1,10 @@
+//! Elements, materials and constraints.
+
+mod beams_side_by_side;
+mod elements;
+mod joint_coordinates;
+mod joints;
+mod materials;
+mod shear_rigid;
+mod shells;
+mod unlimited_rotations;

@@ -1,0 +1,10 @@
+//! The files of the output folder, and what reads them.
+
+mod compare;
+mod error_bars;
+mod expect;
+mod files;
+mod folder;
+mod report;
+mod resultants;
+mod table_size;
