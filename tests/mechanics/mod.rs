@@ -5,6 +5,7 @@ mod elements;
 mod joint_coordinates;
 mod joints;
 mod materials;
+mod shear_areas;
 mod shear_rigid;
 mod shells;
 mod unlimited_rotations;

@@ -21,6 +21,7 @@ mod kinks;
 mod load_steps;
 mod massless;
 pub mod modes;
+mod no_convergence;
 mod order;
 mod plan;
 mod plasticity;

@@ -1,6 +1,6 @@
 //! What a load step without convergence names as its cause: a limit load with evidence alone, else the place and what to change.
 
-use crate::statics::{said, truss};
+use crate::solve::statics::{said, truss};
 use rdsolve::solve::Outcome;
 
 /// The failure of a deck, in words.
