@@ -327,6 +327,11 @@ impl Failure {
         matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. } | Failure::Buckles(_))
     }
 
+    /// True where the equilibrium that was refused says that the matrix of its iteration leads elsewhere.
+    pub fn blames_matrix(&self) -> bool {
+        matches!(self, Failure::ConstraintsViolated { .. } | Failure::UnstableStep | Failure::Buckles(_))
+    }
+
     /// True where the memory does not hold what was asked for.
     pub fn is_of_memory(&self) -> bool {
         matches!(self, Failure::Modes(ModesFault::TooLarge(_)))

@@ -38,11 +38,11 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State, before: Op
         return;
     }
     let factor = solve(cx, ws, state, dt);
-    ws.trial.clone_from(&state.nodes);
+    ws.trial.nodes.clone_from(&state.nodes);
     let Some(factor) = factor else { return };
     for &node in &cx.independent_nodes {
         let (own, rows) = (accelerations(state, node), cx.plan.dofs.of(node));
-        let seen = Vec6::from_fn(|dof, _| rows.get(dof).map_or(own[dof], |row| factor * ws.r[row]));
+        let seen = Vec6::from_fn(|dof, _| rows.get(dof).map_or(own[dof], |row| factor * ws.correction.values[row]));
         let [moves, turns] = leaps(state, node);
         let node = &mut state.nodes[node];
         let (a, alpha) = (linear(&seen), angular(&seen));
@@ -57,7 +57,7 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State, before: Op
     for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
         *acceleration = stack(&node.a, &node.alpha);
     }
-    ws.trial.clone_from(&state.nodes);
+    ws.place(&state.nodes);
 }
 
 /// True where an acceleration differs from another by a large part.
@@ -66,16 +66,16 @@ fn differs(acceleration: &Vec3, other: &Vec3) -> bool {
 }
 
 /// Solves the matrix of a step for the forces without those of inertia; returns the factor that makes accelerations of the solution in
-/// `ws.r`, or `None` where there is none.
+/// `ws.correction`, or `None` where there is none.
 fn solve(cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Option<f64> {
-    ws.trial.clone_from(&state.nodes);
+    ws.trial.nodes.clone_from(&state.nodes);
     for &node in &cx.independent_nodes {
         let rows = cx.plan.dofs.of(node);
-        let trial = &mut ws.trial[node];
+        let trial = &mut ws.trial.nodes[node];
         (0..3).filter(|&i| rows.has(i)).for_each(|i| trial.a[i] = 0.0);
         (0..3).filter(|&i| rows.has(3 + i)).for_each(|i| trial.alpha[i] = 0.0);
     }
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
+    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     let (rate, acceleration) = cx.model.solution.scheme.coefficients(dt).weights();
@@ -85,11 +85,9 @@ fn solve(cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Option<f64
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
     ws.factorizations += 1;
     matrix.solver.factor().ok()?;
-    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-        *r = ws.forces.on_nodes[node][dof];
-    }
+    ws.residual.write(cx, &ws.forces, 1.0);
     ws.forces.multipliers.gaps.fill(0.0);
-    matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
+    matrix.solve(&ws.forces.multipliers, &ws.residual, &mut ws.correction);
     ws.solves += 1;
     Some(acceleration)
 }

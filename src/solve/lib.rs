@@ -55,7 +55,7 @@ pub mod inner {
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
     pub use crate::strategy::anderson::Anderson;
-    pub use crate::strategy::rotated_matrix::Turning;
+    pub use crate::strategy::rotated_matrix::RotatedMatrix;
     pub use crate::sudden_loads::SuddenLoads;
     pub use crate::system::inner::*;
     pub use crate::tolerances::rotated_matrix::MANY;

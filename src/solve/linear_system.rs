@@ -1,6 +1,9 @@
 //! A matrix with its factorization, and the one protocol by which systems with joints are solved.
 
 use super::context::Context;
+use super::failure::Failure;
+use crate::step::correct::Correction;
+use crate::step::residual::Residual;
 use crate::system::Multipliers;
 use crate::system::assembly::Assembly;
 use base::snapshot::{Keep, Snapshot, keep};
@@ -18,20 +21,26 @@ pub struct LinearSystem {
     pub loses_nothing: bool,
     /// True while a step is under way that may be taken again.
     pub in_step: bool,
+    /// True where the matrix is no longer that of the step, since something else has been looked at by it.
+    pub overwritten: bool,
 }
 
-keep!(LinearSystem { solver } without { assembly, loses_nothing, in_step });
+keep!(LinearSystem { solver } without { assembly, loses_nothing, in_step, overwritten });
 
 impl LinearSystem {
     /// A matrix, to be assembled and factorised.
     pub fn new(solver: Solver, assembly: Assembly) -> LinearSystem {
-        LinearSystem { solver, assembly, loses_nothing: true, in_step: false }
+        LinearSystem { solver, assembly, loses_nothing: true, in_step: false, overwritten: false }
     }
 
-    /// True where a signal ends what is computed: before the first step of a run is done, and where the step under way takes too long.
+    /// Looks whether a signal ends what is computed: before the first step of a run is done, and where the step under way takes too long.
+    ///
+    /// # Errors
+    /// [`Failure::Stopped`] where one does.
     #[inline]
-    pub fn is_given_up(&self, cx: &Context) -> bool {
-        cx.stop.is_made() && (self.loses_nothing || self.in_step && cx.stop.is_overdue())
+    pub fn check_stop(&self, cx: &Context) -> Result<(), Failure> {
+        let stops = cx.stop.is_made() && (self.loses_nothing || self.in_step && cx.stop.is_overdue());
+        if stops { Err(Failure::Stopped) } else { Ok(()) }
     }
 
     /// Factors the matrix. False where a signal has ended that.
@@ -67,6 +76,13 @@ impl LinearSystem {
         if let Ok((solver, assembly)) = cx.plan.build_with(cx.system, partners) {
             (self.solver, self.assembly) = (solver, assembly);
         }
+    }
+
+    /// Solves for the correction that answers a residual and the gaps of joints.
+    #[inline]
+    pub fn solve(&mut self, multipliers: &Multipliers, residual: &Residual, correction: &mut Correction) {
+        correction.values.copy_from_slice(&residual.values);
+        self.solve_augmented(multipliers, &mut correction.values);
     }
 
     /// Solves for nodal unknowns and multipliers together. `rhs` holds the forces on the nodal unknowns and becomes the

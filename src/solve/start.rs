@@ -8,7 +8,7 @@ use crate::guards::joints;
 use crate::system::Side;
 use crate::system::TangentWeights;
 use crate::tolerances::start::{DIGITS, FIXED, NOWHERE};
-use base::math::{Vec3, Vec6, rotation, stack};
+use base::math::{Vec3, Vec6, angular, linear, rotation, stack};
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Increment, Node, State, Work};
 
@@ -30,8 +30,8 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
     if cx.is_dynamic() {
         let massless = factor_mass(cx, ws, &state.configuration())?;
         if !cx.system.joints.is_empty() {
-            ws.trial.clone_from(&state.nodes);
-            joints::check(cx, ws)?;
+            ws.place(&state.nodes);
+            joints::note(cx, ws)?;
             let change = project_velocities(cx, ws, &mut state.nodes, &[]);
             if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
                 ws.warnings.add(Warning::InitialVelocities { change });
@@ -51,7 +51,7 @@ pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
     if cx.is_dynamic() {
         state.work.damping_power = cx.system.damping_power(&state.configuration(), cx.plan.threads);
     }
-    ws.trial.clone_from(&state.nodes);
+    ws.place(&state.nodes);
     Ok(state)
 }
 
@@ -120,13 +120,13 @@ fn update_history(cx: &Context, ws: &mut Workspace, state: &mut State) {
 
 /// Writes the rates of dependent nodes from those of their masters; nothing is displaced.
 pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) {
-    for (increment, node) in ws.increments.iter_mut().zip(&*nodes) {
+    for (increment, node) in ws.trial.increments.iter_mut().zip(&*nodes) {
         let (d, dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
         *increment = Increment { q: Vec6::zeros(), d, dd };
     }
     for dependent in &cx.system.rigid_links {
         let start = nodes[dependent.node];
-        dependent.move_with_master(nodes, &mut ws.increments, &start);
+        dependent.move_with_master(nodes, &mut ws.trial.increments, &start);
     }
 }
 
@@ -142,14 +142,14 @@ pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], 
             break;
         }
         match pushes {
-            true => ws.r[..cx.nodal_unknowns()].copy_from_slice(impulse),
-            false => ws.r[..cx.nodal_unknowns()].fill(0.0),
+            true => ws.residual.of_nodes_mut(cx).copy_from_slice(impulse),
+            false => ws.residual.of_nodes_mut(cx).fill(0.0),
         }
-        ws.matrix.solve_augmented(&ws.forces.multipliers, &mut ws.r);
+        ws.matrix.solve(&ws.forces.multipliers, &ws.residual, &mut ws.correction);
         ws.solves += 1;
         for (node, rows) in nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
-            let entry = |i: usize| rows.get(i).map_or(0.0, |row| ws.r[row]);
-            let (dv, domega) = (Vec3::new(entry(0), entry(1), entry(2)), Vec3::new(entry(3), entry(4), entry(5)));
+            let found = ws.correction.of(rows);
+            let (dv, domega) = (linear(&found), angular(&found));
             largest = largest.max(speed(cx, &node.v, &node.omega));
             node.v += dv;
             node.omega += domega;
@@ -170,7 +170,7 @@ fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool
         return true;
     }
     let largest = nodes.iter().map(|node| speed(cx, &node.v, &node.omega)).fold(0.0, f64::max);
-    let pairs = cx.model.nodes.iter().zip(ws.trial.iter().zip(nodes));
+    let pairs = cx.model.nodes.iter().zip(ws.trial.nodes.iter().zip(nodes));
     pairs
         .filter(|(given, _)| speed(cx, &given.v, &given.omega) > 0.0)
         .any(|(_, (before, after))| speed(cx, &(after.v - before.v), &(after.omega - before.omega)) > DIGITS * largest)
@@ -184,14 +184,12 @@ pub fn speed(cx: &Context, v: &Vec3, omega: &Vec3) -> f64 {
 /// Adds M⁻¹ f to the accelerations, with the mass matrix factorized. Degrees of freedom without mass have no equation
 /// for their acceleration, which stays.
 pub fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, massless: &[usize]) {
-    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-        *r = ws.forces.on_nodes[node][dof];
-    }
-    massless.iter().for_each(|&row| ws.r[row] = 0.0);
+    ws.residual.write(cx, &ws.forces, 1.0);
+    massless.iter().for_each(|&row| ws.residual.values[row] = 0.0);
     solve_accelerations(cx, ws, state);
     // Redundant equations leave a fraction of the gaps: a second solution is enough.
     if !cx.system.joints.is_empty() {
-        ws.r[..cx.nodal_unknowns()].fill(0.0);
+        ws.residual.of_nodes_mut(cx).fill(0.0);
         solve_accelerations(cx, ws, state);
     }
     cx.system.remember_joint_loads(state, 0.0);
@@ -201,21 +199,21 @@ pub fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, ma
     }
 }
 
-/// Solves for accelerations with the forces in `r`, and with the accelerations of the gaps.
+/// Solves for accelerations with the residual, and with the accelerations of the gaps.
 fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
     let multipliers = &mut ws.forces.multipliers;
     multipliers.values.copy_from_slice(&state.multipliers);
     cx.system.gaps(&state.nodes, 2, &mut multipliers.gaps);
-    ws.matrix.solve_augmented(multipliers, &mut ws.r);
+    ws.matrix.solve(multipliers, &ws.residual, &mut ws.correction);
     ws.solves += 1;
-    multipliers.add(&ws.r[cx.nodal_unknowns()..]);
+    multipliers.add(ws.correction.of_multipliers(cx));
     for (node, rows) in state.nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
         for dof in 0..3 {
             if let Some(row) = rows.get(dof) {
-                node.a[dof] += ws.r[row];
+                node.a[dof] += ws.correction.values[row];
             }
             if let Some(row) = rows.get(3 + dof) {
-                node.alpha[dof] += ws.r[row];
+                node.alpha[dof] += ws.correction.values[row];
             }
         }
     }

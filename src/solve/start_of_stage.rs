@@ -39,7 +39,7 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
     } else {
         balance(cx, ws, handover, &mut state)?;
     }
-    ws.trial.clone_from(&state.nodes);
+    ws.place(&state.nodes);
     Ok(state)
 }
 
@@ -54,9 +54,9 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
         let massless = factor_mass(cx, ws, &state.configuration())?;
         let impulse = impulse(cx, ws, state, (&before, &massless));
         if !cx.system.joints.is_empty() || !impulse.is_empty() {
-            ws.trial.clone_from(&state.nodes);
+            ws.place(&state.nodes);
             if !cx.system.joints.is_empty() {
-                joints::check(cx, ws)?;
+                joints::note(cx, ws)?;
             }
             let change = project_velocities(cx, ws, &mut state.nodes, &impulse);
             if change > DIGITS && given_velocities_change(cx, ws, &state.nodes) {
@@ -104,7 +104,7 @@ fn go_on_algorithmic(state: &mut State, (before, algorithmic): (&[Node], &[Vec6]
 /// stage before has left doubts nothing.
 fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool {
     let largest = nodes.iter().map(|node| speed(cx, &node.v, &node.omega)).fold(0.0, f64::max);
-    let given = cx.model.nodes.iter().zip(ws.trial.iter().zip(nodes));
+    let given = cx.model.nodes.iter().zip(ws.trial.nodes.iter().zip(nodes));
     let given = given.filter(|(spec, _)| spec.given.iter().any(Option::is_some));
     let change = |before: &Node, after: &Node| speed(cx, &(after.v - before.v), &(after.omega - before.omega));
     given.map(|(_, (before, after))| change(before, after)).any(|change| change > DIGITS * largest)

@@ -9,8 +9,8 @@ pub mod iteration {
     pub const BALANCED: f64 = 1e-3;
     /// By how much longer an iteration may be whose corrections are shortened.
     pub const LONGER: usize = 4;
-    /// Part of the motion by which the residual is differentiated; a power of two, so that it is taken back exactly.
-    pub const PART: f64 = 1.0 / (1 << 20) as f64;
+    /// Residual beyond a limit load is the excess load; a larger part of the forces shows lost iterates.
+    pub const NEAR_LIMIT: f64 = 0.1;
 }
 
 pub mod convergence {
@@ -102,6 +102,11 @@ pub mod load_steps {
 }
 
 // Strategies of the iteration.
+
+pub mod linearized_prediction {
+    /// Part of the motion by which the residual is differentiated; a power of two, so that it is taken back exactly.
+    pub const PART: f64 = 1.0 / (1 << 20) as f64;
+}
 
 pub mod refresh {
     /// Largest number of steps that begin with a fresh matrix because old ones have misled.

@@ -1,30 +1,33 @@
 //! The workspace of a step: plain data, allocated once, without behaviour of its own.
 
-use super::context::{self, Context};
+use super::context::Context;
 use super::linear_system::LinearSystem;
 use super::slip_watch::SlipWatch;
 use super::warning::{Remark, Warnings};
 use crate::modes::ResponseSoFar;
+use crate::step::correct::Correction;
 use crate::step::load_steps::LoadSteps;
-use crate::system::{Forces, Loading, Prescribed, TurningStart};
+use crate::step::residual::Residual;
+use crate::step::trial::Trial;
+use crate::system::{Forces, Loading, Prescribed};
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};
-use mechanics::state::{Increment, Node};
+use mechanics::state::Node;
 
 /// The numbers of the step at hand.
 pub struct Workspace {
-    /// Motion of the nodes at the instant of equilibrium, later at the end of the step.
-    pub trial: Vec<Node>,
-    /// Increments of the nodes from the start of the step, with their rates.
-    pub increments: Vec<Increment>,
-    /// What the rotations of bodies start from in the stage at hand, in the order of the system's.
-    pub(super) turning: Vec<TurningStart>,
+    /// The motion to the instant of equilibrium; of explicit steps, to their end.
+    pub trial: Trial,
+    /// The motion to the end of an implicit step; after the step its nodes are those at the start.
+    pub end: Trial,
     /// History variables at the end of the step.
     pub history: Vec<f64>,
     /// Residual forces of the trial motion, and the multipliers of joints.
     pub forces: Forces,
-    /// The residual, then the correction, by unknown.
-    pub r: Vec<f64>,
+    /// Forces out of balance by unknown: the right-hand side of a linear system.
+    pub residual: Residual,
+    /// The solution of that system.
+    pub correction: Correction,
     /// Loads.
     pub loads: AtTimes<Loading>,
     /// Prescribed motion, in the order of the model's restraints; at the instant of equilibrium displacements count
@@ -55,11 +58,11 @@ pub struct Workspace {
 
 keep!(Workspace {
     trial,
-    increments,
-    turning,
+    end,
     history,
     forces,
-    r,
+    residual,
+    correction,
     loads,
     prescribed,
     reach,
@@ -111,16 +114,15 @@ impl Workspace {
     /// # Errors
     /// There is no memory for the solver.
     pub fn new(cx: &Context) -> Result<Workspace, TooLarge> {
-        let n = cx.model.nodes.len();
         let (solver, assembly) = cx.plan.build(cx.system)?;
         let warnings = warnings_of(&solver);
         Ok(Workspace {
-            trial: context::at_rest(cx.model),
-            increments: vec![Increment::ZERO; n],
-            turning: Vec::with_capacity(cx.system.turning_bodies().len()),
+            trial: Trial::new(cx),
+            end: Trial::new(cx),
             history: vec![0.0; cx.system.history],
-            forces: Forces::new(cx.system, n).on_threads(cx.plan.threads),
-            r: vec![0.0; cx.plan.dofs.unknowns()],
+            forces: Forces::new(cx.system, cx.model.nodes.len()).on_threads(cx.plan.threads),
+            residual: Residual::new(cx),
+            correction: Correction::new(cx),
             loads: AtTimes::default(),
             prescribed: PrescribedStep::default(),
             reach: cx.length,
@@ -139,20 +141,25 @@ impl Workspace {
     /// Forgets everything about earlier runs of the same scene. The matrix keeps its memory, for each run forms it before the first use; the
     /// caller counts the factorizations and solves.
     pub fn begin_run(&mut self, cx: &Context) {
-        let Workspace { trial, increments, turning, history, forces, r, loads, prescribed, reach, load_steps, .. } =
-            self;
-        trial.clone_from(&context::at_rest(cx.model));
-        increments.fill(Increment::ZERO);
-        turning.clear();
+        let Workspace {
+            trial, end, history, forces, residual, correction, loads, prescribed, reach, load_steps, ..
+        } = self;
+        trial.begin_run(cx);
+        end.begin_run(cx);
         history.fill(0.0);
-        *forces = Forces::new(cx.system, trial.len()).on_threads(cx.plan.threads);
-        r.fill(0.0);
+        *forces = Forces::new(cx.system, cx.model.nodes.len()).on_threads(cx.plan.threads);
+        (*residual, *correction) = (Residual::new(cx), Correction::new(cx));
         (*loads, *prescribed) = (AtTimes::default(), PrescribedStep::default());
         (*reach, *load_steps) = (cx.length, LoadSteps::default());
         (self.rotation_drift, self.joint_violation) = (0.0, 0.0);
         self.warnings = warnings_of(&self.matrix.solver);
         self.slips = SlipWatch::new(cx);
         self.response = ResponseSoFar::default();
+    }
+
+    /// Places all nodes, those too that no step moves.
+    pub fn place(&mut self, nodes: &[Node]) {
+        [&mut self.trial, &mut self.end].into_iter().for_each(|motion| motion.nodes.copy_from_slice(nodes));
     }
 }
 

@@ -7,7 +7,7 @@ use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
-use rdsolve::solve::inner::{Context, MANY, Turning, at_rest};
+use rdsolve::solve::inner::{Context, MANY, RotatedMatrix, at_rest};
 use rdsolve::state::{Configuration, Node};
 use rdsolve::system::System;
 use std::sync::atomic::AtomicBool;
@@ -110,7 +110,7 @@ fn a_motion_is_carried_along_with_its_strains() {
     let system = System::new(&model).unwrap();
     let plan = Plan::new(&model, &system, 1);
     let cx = Context::new(&model, &plan, &system, [false; 2], &NEVER);
-    let mut turning = Turning::new(&cx).expect("two slender arms on a hub");
+    let mut turning = RotatedMatrix::new(&cx).expect("two slender arms on a hub");
     let mut rng = StdRng::seed_from_u64(3);
     let mut number = |size: f64| rng.random_range(-size..size);
     let start = at_rest(&model);

@@ -11,8 +11,8 @@ use crate::recorder::AcceptedStep;
 use crate::report::StepReport;
 use crate::step::equilibrium::EquilibriumSolver;
 use crate::step::residual;
-use crate::step::trial::Stage;
-use crate::strategy::arc_length::{ArcLengthConstraint, Condition, StepMotion};
+use crate::step::trial::{Stage, Step};
+use crate::strategy::arc_length::{ArcLengthConstraint, Condition, PathCondition, StepMotion};
 use crate::tolerances::arc_length::{BENT, CHANGE, DESIRED, HARD, MOST_STEPS, MOST_TARGETS, STRAIGHT, TRIES};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
@@ -90,7 +90,7 @@ impl ArcLengthController {
     fn apply_initial_loads(&mut self, march: &mut March) -> Result<(), Outcome> {
         let March { cx, ws, state, .. } = march;
         let scale = cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
-        if residual::gather(cx, ws, &scale) > cx.model.solution.iteration.tolerance {
+        if ws.residual.gather(cx, &ws.forces, &scale) > cx.model.solution.iteration.tolerance {
             let scheme = load_steps::coefficients();
             let settled = self.solver.stage(cx, ws, state, &Stage::from(&scheme), 0.0);
             settled.map_err(|failure| march.failed(failure))?;
@@ -139,7 +139,7 @@ impl ArcLengthController {
             Some(unit) => (state.time, Some(Condition::Arc(self.size * unit))),
         };
         let found = self.find(cx, ws, state, to, condition);
-        let motion = self.constraint.motion(cx, ws);
+        let motion = self.constraint.motion(cx, &ws.trial);
         let may_cut = 0.5 * self.size >= self.least;
         match found {
             Ok(_) if motion.cosine < BENT && self.bent < TRIES && may_cut => self.bent += 1,
@@ -170,8 +170,9 @@ impl ArcLengthController {
         condition: Option<Condition>,
     ) -> Result<(StepReport, Option<usize>), Failure> {
         let scheme = load_steps::coefficients();
-        self.solver.newton.predict(cx, ws, state, &Stage::from(&scheme));
-        let mut report = self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?;
+        let mut step = Step { state, stage: Stage::from(&scheme), to };
+        self.solver.newton.predict(cx, ws, &step);
+        let mut report = self.equilibrate(cx, ws, step, condition)?;
         let mut reached = None;
         for _ in 0..MOST_TARGETS {
             let Some((index, part)) = self.targets.first_passed(cx, ws, state, report.to, reached) else {
@@ -187,23 +188,23 @@ impl ArcLengthController {
                 }
             };
             shorten(cx, ws, state, part);
-            report = report.then(self.equilibrate(cx, ws, state, &Stage::from(&scheme), to, condition)?);
+            step.to = to;
+            report = report.then(self.equilibrate(cx, ws, step, condition)?);
             reached = Some(index);
         }
-        Err(residual::no_equilibrium(cx, ws))
+        Err(residual::no_equilibrium(cx, &ws.forces))
     }
 
     fn equilibrate(
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
-        state: &State,
-        stage: &Stage,
-        to: f64,
+        step: Step,
         condition: Option<Condition>,
     ) -> Result<StepReport, Failure> {
-        let constraint = condition.map(|condition| (&mut self.constraint, condition));
-        self.solver.newton.equilibrate(cx, ws, state, stage, to, constraint)
+        let constraint = &mut self.constraint;
+        let path = condition.map(|condition| PathCondition { constraint, condition });
+        self.solver.equilibrate(cx, ws, step, path)
     }
 
     /// Accepts the equilibrium that was found.
@@ -211,8 +212,8 @@ impl ArcLengthController {
         let March { cx, ws, state, .. } = march;
         let to = found.report.to;
         self.targets.pass(cx, ws, state, to, found.reached);
-        self.constraint.keep_motion(cx, ws, &found.motion);
-        self.solver.grows = self.constraint.loads_grow(cx, ws);
+        self.constraint.keep_motion(cx, &ws.trial, &found.motion);
+        self.solver.grows = self.constraint.loads_grow(cx, &ws.trial);
         // A first step may have ended early at a target, even before loads begin.
         let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
         let is_one = self.unit.is_some() || to > self.begin;
@@ -254,7 +255,7 @@ impl ArcLengthController {
 /// Shortens the motion that was found to a fraction, from which the search for a point on the way begins.
 fn shorten(cx: &Context, ws: &mut Workspace, state: &State, part: f64) {
     for &node in &cx.independent_nodes {
-        ws.increments[node].q *= part;
+        ws.trial.increments[node].q *= part;
     }
     let values = ws.forces.multipliers.values.iter_mut().zip(&state.multipliers);
     values.for_each(|(value, start)| *value = start + part * (*value - start));

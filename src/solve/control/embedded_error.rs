@@ -60,7 +60,7 @@ impl EmbeddedErrorController {
         let mut motion = self.motion;
         let (mut speed, mut spin) = (0.0f64, 0.0f64);
         for &node in cx.independent_nodes.iter().filter(|node| !cx.numbers.contains(node)) {
-            let (now, first) = (&ws.trial[node], &cx.model.nodes[node]);
+            let (now, first) = (&ws.trial.nodes[node], &cx.model.nodes[node]);
             motion.translation = motion.translation.max((now.x - first.x).norm());
             motion.rotation = motion.rotation.max(2.0 * now.rotation.imag().norm());
             speed = speed.max(now.v.norm());

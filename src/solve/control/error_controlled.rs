@@ -235,14 +235,10 @@ fn third_derivative(start: &State, end: &State, node: usize) -> Vec6 {
 /// Filters the errors by node, e ← (K + w M)⁻¹ w M e, with w the weight of the mass in the matrix at hand.
 fn filter(cx: &Context, ws: &mut Workspace, state: &State, matrix: &mut IterationMatrix, errors: &mut [Vec6]) {
     cx.system.apply_mass(&state.nodes, errors, &mut ws.forces);
-    for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-        *r = matrix.mass_weight * ws.forces.on_nodes[node][dof];
-    }
-    ws.r[cx.nodal_unknowns()..].fill(0.0);
+    ws.residual.write(cx, &ws.forces, matrix.mass_weight);
     matrix.solve_at(ws, &state.nodes);
     for &node in &cx.independent_nodes {
-        let rows = cx.plan.dofs.of(node);
-        errors[node] = rows.gather(&ws.r);
+        errors[node] = ws.correction.of(cx.plan.dofs.of(node));
     }
     cx.system.project(&state.nodes, errors);
 }
@@ -252,7 +248,7 @@ impl FollowTolerance for ErrorController<'_> {
     fn follow(&mut self, cx: &Context, tolerance: f64, longest: Option<f64>) {
         self.tolerance = tolerance;
         self.stepper.begin_run(cx);
-        self.stepper.solver.newton.ending.follow(tolerance);
+        self.stepper.solver.newton.tolerance.follow(tolerance);
         // A trial has a longer first step too, or what that decides would be the same in both runs.
         self.length = self.first * (tolerance / self.asked).powf(1.0 / f64::from(self.order)).clamp(1.0, 2.0);
         self.longest = longest.unwrap_or(self.most);

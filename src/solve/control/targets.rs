@@ -133,7 +133,11 @@ impl Target {
                 let from = start.moved(&cx.model.nodes[node].x)[dof];
                 // Dependent nodes have no increment.
                 let moves = cx.independent_nodes.binary_search(&node).is_ok();
-                let way = if moves { ws.increments[node].q[dof] } else { ws.trial[node].relative_position(start)[dof] };
+                let way = if moves {
+                    ws.trial.increments[node].q[dof]
+                } else {
+                    ws.trial.nodes[node].relative_position(start)[dof]
+                };
                 (from, from + way)
             }
         }

@@ -88,7 +88,9 @@ impl Accelerations {
         scheme: &Coefficients,
         dt: f64,
     ) -> Result<(), Failure> {
-        self.projection.as_mut().map_or(Ok(()), |projection| projection.project(cx, ws, state, scheme, dt))
+        self.projection
+            .as_mut()
+            .map_or(Ok(()), |projection| projection.project(cx, (&mut ws.trial, ws.reach), state, (scheme, dt)))
     }
 
     /// Solves for the accelerations with the forces on the trial motion at hand, which includes some accelerations, and
@@ -102,15 +104,15 @@ impl Accelerations {
         let Accelerations { masses: Some(masses), schur, missing, .. } = self else {
             return self.solve_coupled(cx, ws, state, joints);
         };
-        masses.accelerate(&ws.trial, &ws.forces.on_nodes, missing);
+        masses.accelerate(&ws.trial.nodes, &ws.forces.on_nodes, missing);
         if let Some(schur) = schur {
             if joints {
-                cx.system.gaps(&ws.trial, 2, &mut schur.x);
+                cx.system.gaps(&ws.trial.nodes, 2, &mut schur.x);
             } else {
                 schur.x.fill(0.0);
             }
-            if !schur.form(cx.system, masses, &ws.trial) {
-                return Err(constraints_violated(cx, ws));
+            if !schur.form(cx.system, masses, &ws.trial.nodes) {
+                return Err(constraints_violated(cx, &ws.forces.multipliers.gaps));
             }
             schur.add_rates(missing);
             schur.solve();
@@ -125,9 +127,7 @@ impl Accelerations {
     /// Solves with the coupled matrix of masses and joints.
     fn solve_coupled(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
         factor_mass(cx, ws, state)?;
-        for (r, &(node, dof)) in ws.r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
-            *r = ws.forces.on_nodes[node][dof];
-        }
+        ws.residual.write(cx, &ws.forces, 1.0);
         for &node in &cx.independent_nodes {
             self.missing[node] = Vec6::zeros();
         }
@@ -139,35 +139,34 @@ impl Accelerations {
         self.visit_dependent_dofs(cx, ws, |missing, now| *missing = now);
         // The trial motion is restored.
         for &node in &cx.independent_nodes {
-            ws.trial[node].a -= linear(&self.missing[node]);
-            ws.trial[node].alpha -= angular(&self.missing[node]);
+            ws.trial.nodes[node].a -= linear(&self.missing[node]);
+            ws.trial.nodes[node].alpha -= angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
         self.visit_dependent_dofs(cx, ws, |missing, given| *missing -= given);
         Ok(())
     }
 
-    /// Solves with the forces in `r` and the gaps of the joints, and adds the solution to the trial motion and to the
+    /// Solves with the residual and the gaps of the joints, and adds the solution to the trial motion and to the
     /// difference.
     fn add_solution(&mut self, cx: &Context, ws: &mut Workspace, joints: bool) {
         let multipliers = &mut ws.forces.multipliers;
         if joints {
-            cx.system.gaps(&ws.trial, 2, &mut multipliers.gaps);
+            cx.system.gaps(&ws.trial.nodes, 2, &mut multipliers.gaps);
         } else {
             multipliers.gaps.fill(0.0);
         }
-        ws.matrix.solve_augmented(multipliers, &mut ws.r);
+        ws.matrix.solve(multipliers, &ws.residual, &mut ws.correction);
         if joints {
-            multipliers.add(&ws.r[cx.nodal_unknowns()..]);
+            multipliers.add(ws.correction.of_multipliers(cx));
         }
         for &node in &cx.independent_nodes {
-            let rows = cx.plan.dofs.of(node);
-            let found = rows.gather(&ws.r);
+            let found = ws.correction.of(cx.plan.dofs.of(node));
             self.missing[node] += found;
-            ws.trial[node].a += linear(&found);
-            ws.trial[node].alpha += angular(&found);
+            ws.trial.nodes[node].a += linear(&found);
+            ws.trial.nodes[node].alpha += angular(&found);
         }
-        ws.r[..cx.nodal_unknowns()].fill(0.0);
+        ws.residual.of_nodes_mut(cx).fill(0.0);
         update_dependent_accelerations(cx, ws);
     }
 
@@ -175,7 +174,7 @@ impl Accelerations {
     /// the trial motion.
     fn visit_dependent_dofs(&mut self, cx: &Context, ws: &Workspace, visit: impl Fn(&mut f64, f64)) {
         for dependent in &cx.system.rigid_links {
-            let (missing, node) = (&mut self.missing[dependent.node], &ws.trial[dependent.node]);
+            let (missing, node) = (&mut self.missing[dependent.node], &ws.trial.nodes[dependent.node]);
             let now = stack(&node.a, &node.alpha);
             (0..6).filter(|&i| dependent.dofs[i]).for_each(|i| visit(&mut missing[i], now[i]));
         }
@@ -185,23 +184,23 @@ impl Accelerations {
     pub fn update_reactions(&self, cx: &Context, ws: &mut Workspace, state: &State, ahead: f64) {
         if let (Some(masses), None) = (&self.masses, &self.schur) {
             for block in &masses.blocks {
-                let (node, F) = (&ws.trial[block.node], &mut ws.forces.on_nodes[block.node]);
+                let (node, F) = (&ws.trial.nodes[block.node], &mut ws.forces.on_nodes[block.node]);
                 block.subtract_inertia(node, &self.missing[block.node], F);
             }
             return;
         }
         for &node in &cx.independent_nodes {
-            ws.trial[node].a += linear(&self.missing[node]);
-            ws.trial[node].alpha += angular(&self.missing[node]);
+            ws.trial.nodes[node].a += linear(&self.missing[node]);
+            ws.trial.nodes[node].alpha += angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
+        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, lead: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 
     /// True where the accelerations and positions found are numbers.
     pub fn are_finite(&self, cx: &Context, ws: &Workspace) -> bool {
-        let sum = |&node: &usize| self.missing[node].sum() + ws.trial[node].x.sum();
+        let sum = |&node: &usize| self.missing[node].sum() + ws.trial.nodes[node].x.sum();
         cx.independent_nodes.iter().map(sum).sum::<f64>().is_finite()
     }
 }
@@ -210,7 +209,7 @@ impl Accelerations {
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
     let weights =
         TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
+    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: 0.0, lead: None };
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
     ws.factorizations += 1;
@@ -221,10 +220,10 @@ fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Fa
 /// Writes the accelerations of dependent nodes from those of their masters.
 fn update_dependent_accelerations(cx: &Context, ws: &mut Workspace) {
     for dependent in &cx.system.rigid_links {
-        let master = ws.trial[dependent.master];
+        let master = ws.trial.nodes[dependent.master];
         let S = dependent.arm(&master);
         let a = master.a + master.alpha.cross(&S) + master.omega.cross(&master.omega.cross(&S));
-        let node = &mut ws.trial[dependent.node];
+        let node = &mut ws.trial.nodes[dependent.node];
         for i in 0..3 {
             if dependent.dofs[i] {
                 node.a[i] = a[i];

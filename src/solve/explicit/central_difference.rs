@@ -9,11 +9,14 @@ use super::node_sums::StepSums;
 use super::stiffening::{change, is_growing, is_growing_by, resistance, resistance_of_nodes};
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::guards::guard::{Guard, Taken};
+use crate::guards::list::Guards;
 use crate::guards::{contacts, joints, links};
 use crate::report::StepReport;
-use crate::step::commit::{Account, commit};
+use crate::step::commit::{Account, commit_trial};
+use crate::step::predict::excite;
 use crate::step::residual;
-use crate::step::trial::{excite, measure_reach, move_to_step_end};
+use crate::step::trial::reach;
 use crate::system::masses::NodeRates;
 use crate::tolerances::masses::CORRECTIONS;
 use crate::workspace::Workspace;
@@ -27,6 +30,8 @@ use mechanics::state::{Configuration, State, Work};
 /// Central differences, with what they need besides the workspace. It is allocated once.
 pub struct CentralDifferenceStepper {
     accelerations: Accelerations,
+    /// Guards of explicit steps.
+    guards: Guards,
     /// The limit of the step.
     pub critical: CriticalStep,
     /// True where steps find their own length; the advice of a failure depends on it.
@@ -35,7 +40,7 @@ pub struct CentralDifferenceStepper {
     dissipated: Dissipation,
 }
 
-keep!(CentralDifferenceStepper { accelerations, critical } without { automatic, dissipated });
+keep!(CentralDifferenceStepper { accelerations, critical } without { guards, automatic, dissipated });
 
 impl CentralDifferenceStepper {
     /// A stepper for central differences.
@@ -45,6 +50,7 @@ impl CentralDifferenceStepper {
     pub fn new(cx: &Context) -> Result<Self, TooLarge> {
         Ok(CentralDifferenceStepper {
             accelerations: Accelerations::new(cx)?,
+            guards: Guards::of(cx)?,
             critical: CriticalStep::new(cx.model, cx.plan),
             automatic: cx.model.analysis.step_length.is_automatic(),
             dissipated: Dissipation::default(),
@@ -121,10 +127,11 @@ impl CentralDifferenceStepper {
         } else {
             project_onto_constraints(cx, ws, &mut self.accelerations, state, dt)?;
         }
-        contacts::check_passage(cx, ws, state, dt)?;
-        joints::check(cx, ws)?;
-        links::check(cx, ws, state, dt)?;
-        commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
+        contacts::check_passage(cx, &ws.trial.nodes, state, dt)?;
+        joints::note(cx, ws)?;
+        links::check(cx, &ws.trial.nodes, state, dt)?;
+        commit_trial(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
+        self.guards.after_step(cx, ws, &Taken { state, from: to - dt, grows: true });
         self.critical.count(aMa);
         offset_energy(&mut state.work, aMa, dt);
         Ok(StepReport { iterations: evaluations, ..StepReport::begin(to) })
@@ -158,7 +165,7 @@ impl CentralDifferenceStepper {
         // coupled.
         let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
         loop {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
+            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
             // What is evaluated last is the motion that the step ends with, unless it is refused.
             self.dissipated = cx.system.advance(&now, &ws.loads.instant, &mut ws.forces, &mut ws.history);
             evaluations += 1;
@@ -167,7 +174,7 @@ impl CentralDifferenceStepper {
                 return if sums.all.is_finite() {
                     Ok((evaluations, Some(sums)))
                 } else {
-                    Err(residual::not_finite(cx, ws))
+                    Err(residual::not_finite(cx, &ws.forces))
                 };
             }
             self.accelerations.solve(cx, ws, state, true)?;
@@ -175,15 +182,19 @@ impl CentralDifferenceStepper {
                 break;
             }
             for &node in &cx.independent_nodes {
-                let trial = &ws.trial[node];
+                let trial = &ws.trial.nodes[node];
                 let NodeRates { v, omega, .. } =
                     NodeRates::mean(&state.nodes[node], trial, &self.accelerations.missing[node], dt);
                 let (a, alpha) = (trial.a, trial.alpha);
-                set_rates(&mut ws.increments[node], &NodeRates { v, omega, a, alpha });
+                set_rates(&mut ws.trial.increments[node], &NodeRates { v, omega, a, alpha });
             }
-            move_to_step_end(cx, ws, state, scheme);
+            ws.trial.advance(cx, state, &ws.prescribed.moved, scheme.rotation);
         }
-        if self.accelerations.are_finite(cx, ws) { Ok((evaluations, None)) } else { Err(residual::not_finite(cx, ws)) }
+        if self.accelerations.are_finite(cx, ws) {
+            Ok((evaluations, None))
+        } else {
+            Err(residual::not_finite(cx, &ws.forces))
+        }
     }
 
     /// Writes the multipliers that the search for accelerations begins with.
@@ -191,7 +202,7 @@ impl CentralDifferenceStepper {
         if cx.system.joints.is_empty() {
             return;
         }
-        measure_reach(cx, ws, state);
+        ws.reach = reach(cx, state);
         let values = &mut ws.forces.multipliers.values;
         match self.accelerations.schur {
             Some(_) => values.fill(0.0),
@@ -241,7 +252,7 @@ impl CentralDifferenceStepper {
         if cx.wants_forces {
             self.accelerations.update_reactions(cx, ws, state, dt);
         }
-        move_to_step_end(cx, ws, state, scheme);
+        ws.trial.advance(cx, state, &ws.prescribed.moved, scheme.rotation);
         account
     }
 
@@ -257,7 +268,7 @@ impl CentralDifferenceStepper {
         dt: f64,
     ) -> Result<(), Failure> {
         for &node in &cx.independent_nodes {
-            self.critical.hints[node] = change(&self.accelerations.missing, &ws.trial, state, node);
+            self.critical.hints[node] = change(&self.accelerations.missing, &ws.trial.nodes, state, node);
         }
         self.critical.measure_ahead(cx, ws, &mut self.accelerations, state, dt)?;
         self.check_stability(dt)
@@ -271,7 +282,7 @@ impl CentralDifferenceStepper {
             schur.subtract_forces(&mut ws.forces.on_nodes);
         }
         for &node in &cx.independent_nodes {
-            let (start, now) = (&state.nodes[node], &ws.trial[node]);
+            let (start, now) = (&state.nodes[node], &ws.trial.nodes[node]);
             let motion = match masses.as_ref().and_then(|masses| masses.of(node)) {
                 Some(block) => {
                     let F = &ws.forces.on_nodes[node];
@@ -279,7 +290,7 @@ impl CentralDifferenceStepper {
                 }
                 None => NodeRates::mean(start, now, &missing[node], dt),
             };
-            set_rates(&mut ws.increments[node], &motion);
+            set_rates(&mut ws.trial.increments[node], &motion);
         }
     }
 
@@ -287,7 +298,7 @@ impl CentralDifferenceStepper {
     fn account(&self, cx: &Context, ws: &Workspace, state: &State, dt: f64) -> Account {
         let mut account = Account { damping_power: Some(0.0), dissipated: self.dissipated, ..Account::default() };
         if cx.wants_forces && cx.system.is_damped() {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
+            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
             account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
         }
         account

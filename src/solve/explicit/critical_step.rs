@@ -8,7 +8,7 @@ use super::scaled_step::check_scaled_step;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::plan::Plan;
-use crate::step::trial::{excite, update_dependent_nodes};
+use crate::step::predict::excite;
 use crate::tolerances::critical_step::{AGAIN, AT_FIRST, BELOW, LONGER, SETTLED, SHORTER, SMALL, TURN};
 use crate::workspace::Workspace;
 use base::math::rotation::RotationUpdate;
@@ -199,7 +199,7 @@ impl CriticalStep {
         state: &State,
         dt: f64,
     ) -> Result<(), Failure> {
-        self.place.copy_from_slice(&ws.trial);
+        self.place.copy_from_slice(&ws.trial.nodes);
         // The motion that has just met more resistance shows where it is.
         let [of_mode, of_hints] = [&self.mode, &self.hints].map(|motion| largest(cx, motion));
         if of_mode > 0.0 && of_hints > 0.0 && of_hints.is_finite() {
@@ -318,11 +318,11 @@ impl CriticalStep {
         for &node in &cx.independent_nodes {
             let (start, mode) = (&self.place[node], &self.mode[node]);
             let d = stack(&start.v, &start.omega) + mode * of_rate;
-            ws.increments[node] = Increment { q: mode * of_place, d, dd: Vec6::zeros() };
-            ws.trial[node].advance(start, &ws.increments[node], RotationUpdate::Exponential);
+            ws.trial.increments[node] = Increment { q: mode * of_place, d, dd: Vec6::zeros() };
+            ws.trial.nodes[node].advance(start, &ws.trial.increments[node], RotationUpdate::Exponential);
         }
-        update_dependent_nodes(cx, ws, &self.place);
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
+        ws.trial.update_dependent_nodes(cx, &self.place);
+        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 
@@ -346,16 +346,16 @@ impl CriticalStep {
         let Accelerations { masses, missing, operand, .. } = accelerations;
         let (mode, answer) = (&self.mode, &*missing);
         let Some(masses) = masses else {
-            apply_mass(cx, &ws.trial, operand, &mut ws.forces, |node| mode[node]);
+            apply_mass(cx, &ws.trial.nodes, operand, &mut ws.forces, |node| mode[node]);
             let [own, cross] = [mode, answer].map(|other| times_applied(cx, &ws.forces, |node| other[node]));
-            apply_mass(cx, &ws.trial, operand, &mut ws.forces, |node| answer[node]);
+            apply_mass(cx, &ws.trial.nodes, operand, &mut ws.forces, |node| answer[node]);
             return [own, cross, times_applied(cx, &ws.forces, |node| answer[node])];
         };
         let mut sums = [0.0; 3];
         for block in &masses.blocks {
             let (a, b) = (&mode[block.node], &answer[block.node]);
             for (sum, (a, b)) in sums.iter_mut().zip([(a, a), (a, b), (b, b)]) {
-                *sum += block.inner_product(&ws.trial[block.node], a, b);
+                *sum += block.inner_product(&ws.trial.nodes[block.node], a, b);
             }
         }
         sums

@@ -5,7 +5,6 @@ use super::accelerations::Accelerations;
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::guards::joints::constraints_violated;
-use crate::step::trial::update_dependent_nodes;
 use crate::system::constraint_schur::ConstraintSchur;
 use crate::system::masses::Masses;
 use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};
@@ -43,20 +42,20 @@ fn project_positions(
 ) -> Result<(), Failure> {
     let mut last = f64::INFINITY;
     for round in 0.. {
-        cx.system.gaps(&ws.trial, 0, &mut schur.x);
+        cx.system.gaps(&ws.trial.nodes, 0, &mut schur.x);
         let gap = cx.system.largest_gap(&schur.x, ws.reach);
         if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
             break;
         }
-        if round == MOST_CORRECTIONS || !schur.form(cx.system, masses, &ws.trial) || gap.is_nan() {
-            cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
-            return Err(constraints_violated(cx, ws));
+        if round == MOST_CORRECTIONS || !schur.form(cx.system, masses, &ws.trial.nodes) || gap.is_nan() {
+            cx.system.gaps(&ws.trial.nodes, 0, &mut ws.forces.multipliers.gaps);
+            return Err(constraints_violated(cx, &ws.forces.multipliers.gaps));
         }
         last = gap;
         least_change(schur, masses, change);
         for block in &masses.blocks {
-            let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
-            let node = &mut ws.trial[block.node];
+            let (change, increment) = (change[block.node], &mut ws.trial.increments[block.node]);
+            let node = &mut ws.trial.nodes[block.node];
             let Node { x, low, .. } = *node;
             node.place(&x, &low, &linear(&change));
             node.rotation = renormalise(&(exp(&angular(&change)) * node.rotation));
@@ -64,7 +63,7 @@ fn project_positions(
             increment.q += stack(&linear(&change), &turn);
             increment.d = stack(&node.v, &inverse_tangent(&angular(&increment.q), &node.omega));
         }
-        update_dependent_nodes(cx, ws, &state.nodes);
+        ws.trial.update_dependent_nodes(cx, &state.nodes);
     }
     Ok(())
 }
@@ -80,24 +79,24 @@ fn project_velocities(
 ) -> Result<(), Failure> {
     let mut last = f64::INFINITY;
     loop {
-        cx.system.gaps(&ws.trial, 1, &mut schur.x);
+        cx.system.gaps(&ws.trial.nodes, 1, &mut schur.x);
         let gap = cx.system.largest_gap(&schur.x, ws.reach);
         if gap * dt <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
             return Ok(());
         }
-        if last == f64::INFINITY && !schur.form(cx.system, masses, &ws.trial) {
-            return Err(constraints_violated(cx, ws));
+        if last == f64::INFINITY && !schur.form(cx.system, masses, &ws.trial.nodes) {
+            return Err(constraints_violated(cx, &ws.forces.multipliers.gaps));
         }
         last = gap;
         least_change(schur, masses, change);
         for block in &masses.blocks {
-            let (change, increment) = (change[block.node], &mut ws.increments[block.node]);
-            let node = &mut ws.trial[block.node];
+            let (change, increment) = (change[block.node], &mut ws.trial.increments[block.node]);
+            let node = &mut ws.trial.nodes[block.node];
             node.v += linear(&change);
             node.omega += angular(&change);
             increment.d = stack(&node.v, &inverse_tangent(&angular(&increment.q), &node.omega));
         }
-        update_dependent_nodes(cx, ws, &state.nodes);
+        ws.trial.update_dependent_nodes(cx, &state.nodes);
     }
 }
 

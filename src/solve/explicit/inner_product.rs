@@ -33,7 +33,7 @@ pub fn times_applied(cx: &Context, forces: &Forces, motion: impl Fn(usize) -> Ve
 /// freely have by themselves.
 pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> f64 {
     let Accelerations { masses, operand, missing, .. } = accelerations;
-    let trial = &ws.trial;
+    let trial = &ws.trial.nodes;
     let a = |node: usize| stack(&trial[node].a, &trial[node].alpha) + missing[node];
     let Some(masses) = masses else {
         apply_mass(cx, trial, operand, &mut ws.forces, a);

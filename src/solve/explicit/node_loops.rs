@@ -4,7 +4,7 @@
 use super::node_sums::StepSums;
 use crate::context::Context;
 use crate::node_chunks::{Largest, NodeChunk, Nothing};
-use crate::step::trial::{prescribe, rates_of, update_dependent_nodes};
+use crate::step::trial::{prescribe, rates_of};
 use crate::system::masses::{Masses, NodeRates};
 use crate::workspace::Workspace;
 use base::math::rotation::Chart;
@@ -21,7 +21,7 @@ pub fn move_ahead(
     state: &State,
     (scheme, dt): (&Coefficients, f64),
 ) {
-    let (trial, increments, given) = (&mut ws.trial[..], &mut ws.increments[..], &ws.prescribed.instant);
+    let (trial, increments, given) = (&mut ws.trial.nodes[..], &mut ws.trial.increments[..], &ws.prescribed.instant);
     let restraints = &cx.model.constraints.restraints;
     let drift = cx.chunks.run((trial, increments), &|chunk: &NodeChunk, (trial, increments): Moving| {
         let first = chunk.nodes.start;
@@ -44,7 +44,7 @@ pub fn move_ahead(
         drift
     });
     ws.rotation_drift = ws.rotation_drift.max(drift.0);
-    update_dependent_nodes(cx, ws, &state.nodes);
+    ws.trial.update_dependent_nodes(cx, &state.nodes);
 }
 
 /// The motion of the nodes of a chunk: where they are, and what they have moved by.
@@ -59,7 +59,7 @@ pub fn accelerate(
     dt: f64,
 ) -> StepSums {
     ws.solves += 1;
-    let (trial, increments, F) = (&ws.trial, &ws.increments, &ws.forces.on_nodes);
+    let (trial, increments, F) = (&ws.trial.nodes, &ws.trial.increments, &ws.forces.on_nodes);
     cx.chunks.run(missing, &|chunk: &NodeChunk, missing: &mut [Vec6]| {
         let mut sums = StepSums::default();
         for &node in &cx.independent_nodes[chunk.independent.clone()] {
@@ -80,7 +80,7 @@ pub fn accelerate(
 pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State, dt: f64) {
     let given = &ws.prescribed.moved;
     let restraints = &cx.model.constraints.restraints;
-    let data = ((&mut ws.trial[..], &mut ws.increments[..]), &mut ws.forces.on_nodes[..]);
+    let data = ((&mut ws.trial.nodes[..], &mut ws.trial.increments[..]), &mut ws.forces.on_nodes[..]);
     cx.chunks.run(data, &|chunk: &NodeChunk, ((trial, increments), F): (Moving, &mut [[f64; 6]])| {
         let first = chunk.nodes.start;
         let mut held = cx.chunks.restraints[chunk.restraints.clone()].iter().peekable();
@@ -111,5 +111,5 @@ pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &
         }
         Nothing
     });
-    update_dependent_nodes(cx, ws, &state.nodes);
+    ws.trial.update_dependent_nodes(cx, &state.nodes);
 }

@@ -4,12 +4,15 @@ use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::guards::guard::{Guard, Taken};
+use crate::guards::list::Guards;
 use crate::guards::{contacts, joints, links};
 use crate::report::StepReport;
-use crate::step::commit::{Account, commit};
+use crate::step::commit::{Account, commit_trial};
+use crate::step::predict::excite;
 use crate::step::residual;
 use crate::step::size::Size;
-use crate::step::trial::{excite, measure_reach, rates_of, update_dependent_nodes};
+use crate::step::trial::{rates_of, reach};
 use crate::step::work::{Power, WorkQuadrature, weight_of};
 use crate::system::Side;
 use crate::system::masses::NodeRates;
@@ -27,6 +30,8 @@ use model::Restraint;
 pub struct RungeKuttaStepper {
     tableau: &'static Tableau,
     accelerations: Accelerations,
+    /// What is noted at the ends of steps.
+    guards: Guards,
     /// Rates of (q, v) of each independent node, by stage.
     stages: Vec<[Vec6; 2]>,
     /// True where loads change with time.
@@ -36,7 +41,7 @@ pub struct RungeKuttaStepper {
     work: WorkQuadrature,
 }
 
-keep!(RungeKuttaStepper { accelerations, stages, work } without { tableau, varying, driven });
+keep!(RungeKuttaStepper { accelerations, stages, work } without { guards, tableau, varying, driven });
 
 /// A stage of a step: its number, its weights of earlier rates, and its time within the step.
 #[derive(Clone, Copy)]
@@ -60,6 +65,7 @@ impl RungeKuttaStepper {
             || !model.loading.base_accelerations.is_empty();
         Ok(RungeKuttaStepper {
             accelerations: Accelerations::new(cx)?,
+            guards: Guards::of(cx)?,
             stages: vec![[Vec6::zeros(); 2]; tableau.stages() * cx.independent_nodes.len()],
             tableau,
             varying,
@@ -97,7 +103,7 @@ impl RungeKuttaStepper {
         contacts::check_length(cx, state, dt)?;
         excite(cx, ws, state.time, to, 1.0);
         if !cx.system.joints.is_empty() {
-            measure_reach(cx, ws, state);
+            ws.reach = reach(cx, state);
             ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
         }
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
@@ -124,7 +130,7 @@ impl RungeKuttaStepper {
         self.move_to(cx, ws, state, At { stage: end, weights: tableau.b, c: 1.0 }, to)?;
         project_onto_constraints(cx, ws, &mut self.accelerations, state, dt)?;
         self.evaluate(cx, ws, state, end, dt)?;
-        if self.accelerations.are_finite(cx, ws) { Ok(()) } else { Err(residual::not_finite(cx, ws)) }
+        if self.accelerations.are_finite(cx, ws) { Ok(()) } else { Err(residual::not_finite(cx, &ws.forces)) }
     }
 
     /// Accepts the motion that [`RungeKuttaStepper::evaluate_stages`] has found. On failure `state` is untouched.
@@ -145,23 +151,24 @@ impl RungeKuttaStepper {
         }
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
             let [_, rate] = self.stages[end * cx.independent_nodes.len() + k];
-            let trial = &mut ws.trial[node];
+            let trial = &mut ws.trial.nodes[node];
             (trial.a, trial.alpha) = (linear(&rate), angular(&rate));
             let motion = NodeRates { v: trial.v, omega: trial.omega, a: trial.a, alpha: trial.alpha };
-            set_rates(&mut ws.increments[node], &motion);
+            set_rates(&mut ws.trial.increments[node], &motion);
         }
-        update_dependent_nodes(cx, ws, &state.nodes);
+        ws.trial.update_dependent_nodes(cx, &state.nodes);
         let scheme = cx.model.solution.scheme.coefficients(dt);
         self.accelerations.project(cx, ws, state, &scheme, dt)?;
         let mut account = Account::default();
         if cx.system.history > 0 {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt, lead: None };
+            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
             account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
         }
-        contacts::check_passage(cx, ws, state, dt)?;
-        joints::check(cx, ws)?;
-        links::check(cx, ws, state, dt)?;
-        commit(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
+        contacts::check_passage(cx, &ws.trial.nodes, state, dt)?;
+        joints::note(cx, ws)?;
+        links::check(cx, &ws.trial.nodes, state, dt)?;
+        commit_trial(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
+        self.guards.after_step(cx, ws, &Taken { state, from: to - dt, grows: true });
         if cx.wants_forces {
             for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
                 *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];
@@ -209,7 +216,7 @@ impl RungeKuttaStepper {
                 q += dq * weight;
                 v += dv * weight;
             }
-            let increment = &mut ws.increments[node];
+            let increment = &mut ws.trial.increments[node];
             increment.q = q * dt;
             increment.d = stack(&start.v, &start.omega) + v * dt;
             increment.dd = Vec6::zeros();
@@ -219,15 +226,15 @@ impl RungeKuttaStepper {
         }
         let mut farthest = 0.0f64;
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
-            let increment = &mut ws.increments[node];
-            let angle = advance(&mut ws.trial[node], &state.nodes[node], increment);
+            let increment = &mut ws.trial.increments[node];
+            let angle = advance(&mut ws.trial.nodes[node], &state.nodes[node], increment);
             farthest = farthest.max(angle);
             self.stages[at.stage * nodes + k][0] = increment.d;
         }
         if farthest > FARTHEST || farthest.is_nan() {
             return Err(Failure::RotationTooLarge { dt });
         }
-        update_dependent_nodes(cx, ws, &state.nodes);
+        ws.trial.update_dependent_nodes(cx, &state.nodes);
         if self.varying {
             let time = if at.c < 1.0 { state.time + at.c * dt } else { to };
             cx.excitation.loading(time, Side::Before, &mut ws.loads.instant);
@@ -247,12 +254,12 @@ impl RungeKuttaStepper {
         if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);
         }
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
+        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, lead: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
         self.accelerations.solve(cx, ws, state, true)?;
         let nodes = cx.independent_nodes.len();
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
-            let trial = &ws.trial[node];
+            let trial = &ws.trial.nodes[node];
             self.stages[stage * nodes + k][1] = stack(&trial.a, &trial.alpha) + self.accelerations.missing[node];
         }
         Ok(())
@@ -273,7 +280,7 @@ fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
     let moves = |(i, restraint): &(usize, &Restraint)| restraint.motion.is_some() || cx.excitation.is_turned(*i);
     for (i, restraint) in cx.model.constraints.restraints.iter().enumerate().filter(moves) {
         let (moved, now) = (&ws.prescribed.moved[i], &ws.prescribed.instant[i]);
-        let increment = &mut ws.increments[restraint.node];
+        let increment = &mut ws.trial.increments[restraint.node];
         // A prescribed rotation beside free ones is integrated from its rate alone.
         let alone = restraint.dof < 3 || (3..6).all(|dof| !cx.plan.is_unknown(restraint.node, dof));
         if alone {

@@ -24,7 +24,9 @@ pub fn check_scaled_step(
         return;
     }
     let energy = |&node: &usize| match accelerations.masses.as_ref() {
-        Some(masses) => masses.of(node).map_or(0.0, |of| of.inner_product(&ws.trial[node], &mode[node], &mode[node])),
+        Some(masses) => {
+            masses.of(node).map_or(0.0, |of| of.inner_product(&ws.trial.nodes[node], &mode[node], &mode[node]))
+        }
         None => mode[node].norm_squared(),
     };
     let Some(node) = cx.independent_nodes.iter().copied().max_by(|a, b| energy(a).total_cmp(&energy(b))) else {
@@ -39,8 +41,8 @@ pub fn check_scaled_step(
 /// The link or contact that has most of the stiffness of a mode; empty where none has.
 fn cause(cx: &Context, ws: &Workspace, state: &State, (mode, stiffness): (&[Vec6], f64)) -> String {
     let mut motions = mode.to_vec();
-    cx.system.project(&ws.trial, &mut motions);
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
+    cx.system.project(&ws.trial.nodes, &mut motions);
+    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: 0.0, lead: None };
     let mut K = Vec::new();
     for group in cx.system.groups.iter().filter(|group| !group.kind.is_deformable()) {
         let (now, dofs) = (group.configuration(&now), group.block.dofs());

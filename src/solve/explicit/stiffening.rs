@@ -28,7 +28,7 @@ pub fn resistance(
     dt: f64,
 ) -> (f64, [f64; 2]) {
     let Accelerations { masses, missing, operand, .. } = accelerations;
-    let (trial, increments) = (&ws.trial, &ws.increments);
+    let (trial, increments) = (&ws.trial.nodes, &ws.trial.increments);
     let change = |node: usize| change(missing, trial, state, node);
     let Some(masses) = masses else {
         apply_mass(cx, trial, operand, &mut ws.forces, |node| increments[node].q);
@@ -62,8 +62,8 @@ pub fn resistance_of_nodes(
 fn quotient(ws: &Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State) -> f64 {
     let (mut force, mut size) = (0.0, 0.0);
     for block in &masses.blocks {
-        let (da, q) = (change(missing, &ws.trial, state, block.node), &ws.increments[block.node].q);
-        let node = &ws.trial[block.node];
+        let (da, q) = (change(missing, &ws.trial.nodes, state, block.node), &ws.trial.increments[block.node].q);
+        let node = &ws.trial.nodes[block.node];
         force -= block.inner_product(node, &da, q);
         size += block.inner_product(node, q, q);
     }
@@ -74,7 +74,7 @@ fn quotient(ws: &Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State
 /// over the modes, in which the gross motion does not hide the fast ones; decaying modes do no harm.
 pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> bool {
     let Accelerations { masses, missing, operand, .. } = accelerations;
-    let trial = &ws.trial;
+    let trial = &ws.trial.nodes;
     let before = |node: usize| stack(&state.nodes[node].a, &state.nodes[node].alpha);
     let change = |node: usize| change(missing, trial, state, node);
     let Some(masses) = masses else {

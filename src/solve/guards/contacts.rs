@@ -2,12 +2,46 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::guards::guard::{Guard, Taken};
+use crate::step::trial::Step;
 use crate::tolerances::contacts::{BEGINS_CLOSED, MEANT, SEEN, SUNK, TO_THE_MIDDLE};
 use crate::warning::Warning;
 use crate::workspace::Workspace;
-use mechanics::state::{Configuration, State};
+use mechanics::materials::Dissipation;
+use mechanics::state::{Configuration, Node, State};
 use model::{Contact, Model, PartType};
 use std::ops::Range;
+
+/// Refuses steps that are too long for the contacts that they meet, and notes how deep these are.
+pub struct ContactGuard;
+
+impl Guard for ContactGuard {
+    fn before_step(&mut self, cx: &Context, step: &Step) -> Result<(), Failure> {
+        check_length(cx, step.state, step.ahead())
+    }
+
+    fn at_equilibrium(&mut self, cx: &Context, ws: &Workspace, step: &Step) -> Result<(), Failure> {
+        check_passage(cx, &ws.trial.nodes, step.state, step.ahead())
+    }
+
+    fn at_end(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        step: &Step,
+        _dissipated: &Dissipation,
+    ) -> Result<(), Failure> {
+        // Elsewhere the end is the instant of equilibrium.
+        if step.stage.scheme.instant == 1.0 {
+            return Ok(());
+        }
+        check_passage(cx, &ws.end.nodes, step.state, step.dt())
+    }
+
+    fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
+        note_depth(cx, ws, taken.state);
+    }
+}
 
 /// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.
 ///
@@ -24,19 +58,16 @@ pub fn check_length(cx: &Context, state: &State, ahead: f64) -> Result<(), Failu
 ///
 /// # Errors
 /// [`Failure::ContactNotResolved`] where something has.
-pub fn check_passage(cx: &Context, ws: &Workspace, state: &State, ahead: f64) -> Result<(), Failure> {
+pub fn check_passage(cx: &Context, nodes: &[Node], state: &State, ahead: f64) -> Result<(), Failure> {
     if !cx.system.has_contacts() {
         return Ok(());
     }
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
+    let now = Configuration { nodes, history: &state.history, dt: ahead, lead: None };
     cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
 }
 
 /// Notes how deep contacts are pressed in at the end of a step, and warns where that is seen.
-pub fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
-    if !cx.system.has_contacts() {
-        return;
-    }
+fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
     let name = |part: usize| cx.model.parts[part].name().to_owned();
     if !ws.warnings.knows(|known| matches!(known, Warning::SideBySide { .. }))
         && let Some(part) = cx.system.side_by_side(state)

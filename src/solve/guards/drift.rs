@@ -2,20 +2,27 @@
 //! turns about other axes too.
 
 use crate::context::Context;
+use crate::guards::guard::{Guard, Taken};
 use crate::tolerances::drift::{LOOKS, NOTICED};
 use crate::workspace::Workspace;
 use base::math::rotation;
 use mechanics::state::State;
 use model::DIRECTIONS;
 
-/// Notes the largest drift at the end of a step that began at `from`, where that passes one of a hundred equal parts of the run. A later stage
-/// begins with rotations that are no drift.
-pub fn note(cx: &Context, ws: &mut Workspace, state: &State, from: f64) {
-    let end = cx.model.analysis.end_time;
-    let part = |time: f64| (LOOKS * time / end).floor();
-    if cx.model.analysis.begin > 0.0 || part(from) == part(state.time) {
-        return;
+/// Notes the largest drift at the end of a step that passes one of a hundred equal parts of the run. A later stage begins with rotations that
+/// are no drift.
+pub struct DriftGuard;
+
+impl Guard for DriftGuard {
+    fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
+        let part = |time: f64| (LOOKS * time / cx.model.analysis.end_time).floor();
+        if part(taken.from) != part(taken.state.time) {
+            look(cx, ws, taken.state);
+        }
     }
+}
+
+fn look(cx: &Context, ws: &mut Workspace, state: &State) {
     let fixed = cx.model.constraints.restraints.iter().filter(|held| held.dof > 2 && held.motion.is_none());
     for held in fixed {
         let others = (3..6).filter(|&dof| dof != held.dof && cx.plan.is_unknown(held.node, dof)).count();

@@ -2,28 +2,57 @@
 
 use crate::context::Context;
 use crate::failure::{self, Failure};
+use crate::guards::guard::Guard;
+use crate::step::trial::Step;
 use crate::tolerances::joints::LARGEST_GAP;
 use crate::workspace::Workspace;
+use mechanics::materials::Dissipation;
+use mechanics::state::Node;
 
-/// Measures the gaps of the trial motion and keeps the largest in the workspace.
+/// Refuses a step whose joints are open at its end.
+pub struct JointGuard;
+
+impl Guard for JointGuard {
+    fn at_end(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        _step: &Step,
+        _dissipated: &Dissipation,
+    ) -> Result<(), Failure> {
+        let gap = check(cx, &ws.end.nodes, ws.reach, &mut ws.forces.multipliers.gaps)?;
+        ws.joint_violation = ws.joint_violation.max(gap);
+        Ok(())
+    }
+}
+
+/// As [`check`] for the trial motion, of which the workspace keeps the largest gap.
 ///
 /// # Errors
-/// [`Failure::ConstraintsViolated`] where joints have not closed, however well forces balance: they contradict each other.
-pub fn check(cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
-    if cx.system.joints.is_empty() {
-        return Ok(());
-    }
-    let gaps = &mut ws.forces.multipliers.gaps;
-    cx.system.gaps(&ws.trial, 0, gaps);
-    let gap = cx.system.largest_gap(gaps, ws.reach);
-    if gap > LARGEST_GAP || gap.is_nan() {
-        return Err(constraints_violated(cx, ws));
-    }
+/// As for [`check`].
+pub fn note(cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
+    let gap = check(cx, &ws.trial.nodes, ws.reach, &mut ws.forces.multipliers.gaps)?;
     ws.joint_violation = ws.joint_violation.max(gap);
     Ok(())
 }
 
-/// The failure of joints that cannot be closed; the gaps at hand say where.
-pub fn constraints_violated(cx: &Context, ws: &Workspace) -> Failure {
-    Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, &ws.forces.multipliers.gaps) }
+/// Writes the gaps of the joints between these nodes. Returns the largest relative to the largest coordinate, `reach`.
+///
+/// # Errors
+/// [`Failure::ConstraintsViolated`] where joints have not closed, however well forces balance: they contradict each other.
+pub fn check(cx: &Context, nodes: &[Node], reach: f64, gaps: &mut [f64]) -> Result<f64, Failure> {
+    if cx.system.joints.is_empty() {
+        return Ok(0.0);
+    }
+    cx.system.gaps(nodes, 0, gaps);
+    let gap = cx.system.largest_gap(gaps, reach);
+    if gap > LARGEST_GAP || gap.is_nan() {
+        return Err(constraints_violated(cx, gaps));
+    }
+    Ok(gap)
+}
+
+/// The failure of joints that cannot be closed; the gaps say where.
+pub fn constraints_violated(cx: &Context, gaps: &[f64]) -> Failure {
+    Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, gaps) }
 }

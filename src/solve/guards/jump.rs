@@ -4,6 +4,8 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::guards::guard::{Guard, Iterate};
+use crate::step::trial::{Step, Trial};
 use crate::system::Scale;
 use crate::tolerances::jump::{ACCURACY, CURVED, DOUBTFUL, LARGEST_TURN, LARGEST_TWIST, LEVER, NOTHING, STILL};
 use crate::workspace::Workspace;
@@ -12,25 +14,44 @@ use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State};
 use model::DIRECTIONS;
 
-/// Refuses a load step that turns a node too far or an element over, and a step of a motion that turns a node of a shell against its element.
-///
-/// # Errors
-/// [`Failure::LoadStepTurns`], [`Failure::TurnedOver`], [`Failure::NodeTurns`].
-pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Result<(), Failure> {
-    if cx.plan.linear {
-        return Ok(());
+/// Refuses a step that leaves the path of equilibria, or turns nodes too far.
+pub struct JumpGuard;
+
+impl Guard for JumpGuard {
+    fn at_iterate(&mut self, cx: &Context, ws: &Workspace, step: &Step, iterate: &Iterate) -> Result<(), Failure> {
+        match iterate.converged {
+            true if cx.is_dynamic() => check_shells(cx, &ws.trial),
+            true => check_turns(cx, &ws.trial, step),
+            false => Ok(()),
+        }
     }
-    if cx.is_dynamic() {
-        return check_shells(cx, ws);
+
+    fn at_end(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        step: &Step,
+        dissipated: &Dissipation,
+    ) -> Result<(), Failure> {
+        // The work of rounding is none.
+        let exempt = cx.is_dynamic() || cx.model.analysis.step_length.is_arc_length() || ws.load_steps.peak.unstressed;
+        if exempt || step.dt() <= 0.0 {
+            return Ok(());
+        }
+        check_work(cx, ws, step.state, dissipated, step.to)
     }
+}
+
+/// Refuses a load step that turns a node too far or an element over.
+fn check_turns(cx: &Context, trial: &Trial, step: &Step) -> Result<(), Failure> {
     for &node in &cx.independent_nodes {
-        let turn = angular(&cx.plan.dofs.of(node).mask(&ws.increments[node].q)).norm();
-        if turn > LARGEST_TURN && to > state.time {
+        let turn = angular(&cx.plan.dofs.of(node).mask(&trial.increments[node].q)).norm();
+        if turn > LARGEST_TURN && step.to > step.state.time {
             return Err(Failure::LoadStepTurns { label: cx.model.nodes[node].label.clone(), angle: turn });
         }
     }
     for group in &cx.system.groups {
-        let over = |&e: &usize| group.block.is_turned_over(e, &state.nodes, &ws.trial);
+        let over = |&e: &usize| group.block.is_turned_over(e, &step.state.nodes, &trial.nodes);
         if let Some(e) = (0..group.block.len()).find(over) {
             return Err(Failure::TurnedOver { name: group.part_of(e, cx.model).name().to_owned() });
         }
@@ -40,12 +61,9 @@ pub fn check_motion(cx: &Context, ws: &Workspace, state: &State, to: f64) -> Res
 
 /// Refuses a step in which a node of a shell turns too far against the others of its element. Drilling has next to no inertia and is resisted
 /// little, the less the farther it has gone: an iteration may end where a node has turned about the normal by a right angle.
-fn check_shells(cx: &Context, ws: &Workspace) -> Result<(), Failure> {
+fn check_shells(cx: &Context, trial: &Trial) -> Result<(), Failure> {
     let shells = || cx.system.groups.iter().filter(|group| group.kind.is_surface());
-    if shells().next().is_none() {
-        return Ok(());
-    }
-    let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&ws.increments[node].q));
+    let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&trial.increments[node].q));
     if !cx.independent_nodes.iter().any(|&node| turn(node).norm() > LARGEST_TWIST) {
         return Ok(());
     }
@@ -62,28 +80,15 @@ fn check_shells(cx: &Context, ws: &Workspace) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Refuses a load step whose work is neither stored nor dissipated. The trial motion is that of the end of the step.
-///
-/// # Errors
-/// [`Failure::EquilibriumJumps`].
-pub fn check_work(
+/// Refuses a load step whose work is neither stored nor dissipated.
+fn check_work(
     cx: &Context,
     ws: &mut Workspace,
     state: &State,
     dissipated: &Dissipation,
     to: f64,
 ) -> Result<(), Failure> {
-    if cx.is_dynamic() || cx.plan.linear {
-        return Ok(());
-    }
-    if cx.model.analysis.step_length.is_arc_length() || to <= state.time {
-        return Ok(());
-    }
-    if ws.load_steps.peak.unstressed {
-        // The work of rounding is none.
-        return Ok(());
-    }
-    let end = Configuration { nodes: &ws.trial, history: &ws.history, dt: 0.0, lead: None };
+    let end = Configuration { nodes: &ws.end.nodes, history: &ws.history, dt: 0.0, lead: None };
     let before = match ws.load_steps.stored {
         Some((time, energy)) if time == state.time => energy,
         _ => cx.system.stored_energy(&state.configuration(), cx.plan.threads),
@@ -91,7 +96,7 @@ pub fn check_work(
     let after = cx.system.stored_energy(&end, cx.plan.threads);
     let Dissipation { plastic, viscous, stored, friction, impact, eroded } = *dissipated;
     let books = [before, after, plastic, viscous, stored, friction, impact, eroded];
-    let loads = cx.system.load_work((&state.nodes, &ws.loads.start), (&ws.trial, &ws.loads.end));
+    let loads = cx.system.load_work((&state.nodes, &ws.loads.start), (&ws.end.nodes, &ws.loads.end));
     if loads[1] == 0.0 && books == [0.0; 8] {
         // Without loads, energies and losses there is nowhere to jump to; drives of a linkage work against rounding then.
         return Ok(());
@@ -152,7 +157,7 @@ fn unbalanced_work(cx: &Context, ws: &mut Workspace, state: &State) -> f64 {
     forces.multipliers.values.copy_from_slice(&state.multipliers);
     cx.system.residual(&state.configuration(), &ws.loads.start, &mut forces);
     let work = |&node: &usize| {
-        let q = cx.plan.dofs.of(node).mask(&ws.increments[node].q);
+        let q = cx.plan.dofs.of(node).mask(&ws.end.increments[node].q);
         (0..6).map(|i| (forces.on_nodes[node][i] * q[i]).abs()).sum::<f64>()
     };
     cx.independent_nodes.iter().map(work).sum()
@@ -163,7 +168,7 @@ fn unbalanced_work(cx: &Context, ws: &mut Workspace, state: &State) -> f64 {
 fn largest_motion(cx: &Context, ws: &Workspace) -> (f64, (usize, usize)) {
     let (mut largest, mut place) = (0.0, (0, 0));
     for &node in &cx.independent_nodes {
-        let q = cx.plan.dofs.of(node).mask(&ws.increments[node].q);
+        let q = cx.plan.dofs.of(node).mask(&ws.end.increments[node].q);
         let turn = angular(&q) * (LEVER * cx.length);
         for (dof, size) in linear(&q).iter().chain(turn.iter()).map(|q| q.abs()).enumerate() {
             if size > largest {

@@ -4,13 +4,15 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::guards::guard::Guard;
 use crate::guards::mechanism::open_part;
-use crate::step::trial::Stage;
+use crate::step::trial::{Stage, Step};
 use crate::tolerances::massless::{MOST, ROUNDING, SMALL};
+use crate::workspace::Workspace;
 use base::math::Vec3;
-use base::snapshot::keep;
+use base::snapshot::{Keep, Snapshot};
 use mechanics::elements::Moduli;
-use mechanics::state::{Configuration, Node, State};
+use mechanics::state::{Configuration, Node};
 use nalgebra::DMatrix;
 
 /// The nodes without mass that springs, dampers, bars and contacts alone hold. Beams and shells hold theirs by bending, and the
@@ -22,8 +24,6 @@ pub struct MasslessNodes {
     /// True once the scene has been found held before anything moves.
     started: bool,
 }
-
-keep!(MasslessNodes { started } without { clusters, K });
 
 /// Nodes that elements join to one another.
 struct Cluster {
@@ -43,9 +43,9 @@ struct Element {
 }
 
 impl MasslessNodes {
-    /// The nodes of a scene; none in statics.
+    /// The nodes of a dynamic scene.
     pub fn new(cx: &Context) -> MasslessNodes {
-        let light = if cx.is_dynamic() { light_dofs(cx) } else { Vec::new() };
+        let light = light_dofs(cx);
         let largest = cx.system.groups.iter().map(|group| {
             let nodes = (0..group.block.len()).map(|e| group.block.nodes(e).len()).max().unwrap_or(0);
             (group.block.dofs() * nodes).pow(2)
@@ -55,27 +55,8 @@ impl MasslessNodes {
         MasslessNodes { K: vec![0.0; if has_any { largest.max().unwrap_or(0) } else { 0 }], clusters, started: false }
     }
 
-    /// Refuses a scene in which a direction without mass is not held before anything moves: dampers hold along their lines alone, for
-    /// their forces follow from velocities that nodes without mass have not at t = 0.
-    ///
-    /// # Errors
-    /// [`Failure::MasslessDirection`].
-    pub fn check_start(&mut self, cx: &Context, state: &State, stage: &Stage, dt: f64) -> Result<(), Failure> {
-        if self.clusters.is_empty() || self.started {
-            return Ok(());
-        }
-        let nodes: Vec<Node> =
-            state.nodes.iter().map(|node| Node { v: Vec3::zeros(), omega: Vec3::zeros(), ..*node }).collect();
-        self.check(cx, &Configuration { nodes: &nodes, history: &state.history, dt, lead: None }, stage)?;
-        self.started = true;
-        Ok(())
-    }
-
-    /// Refuses an equilibrium in which a direction without mass is not held.
-    ///
-    /// # Errors
-    /// [`Failure::MasslessDirection`].
-    pub fn check(&mut self, cx: &Context, now: &Configuration, stage: &Stage) -> Result<(), Failure> {
+    /// Refuses a configuration in which a direction without mass is not held.
+    fn check(&mut self, cx: &Context, now: &Configuration, stage: &Stage) -> Result<(), Failure> {
         let (rate, _) = stage.scheme.weights();
         for cluster in &mut self.clusters {
             cluster.assemble(cx, now, rate, &mut self.K);
@@ -85,6 +66,34 @@ impl MasslessNodes {
             }
         }
         Ok(())
+    }
+}
+
+impl Guard for MasslessNodes {
+    /// Refuses a scene in which a direction without mass is not held before anything moves: dampers hold along their lines alone, for
+    /// their forces follow from velocities that nodes without mass have not at t = 0.
+    fn before_step(&mut self, cx: &Context, step: &Step) -> Result<(), Failure> {
+        if self.clusters.is_empty() || self.started {
+            return Ok(());
+        }
+        let at_rest = |node: &Node| Node { v: Vec3::zeros(), omega: Vec3::zeros(), ..*node };
+        let nodes: Vec<Node> = step.state.nodes.iter().map(at_rest).collect();
+        self.check(cx, &step.at_instant(&nodes), &step.stage)?;
+        self.started = true;
+        Ok(())
+    }
+
+    /// Refuses an equilibrium in which a direction without mass is not held.
+    fn before_end(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) -> Result<(), Failure> {
+        self.check(cx, &step.at_instant(&ws.trial.nodes), &step.stage)
+    }
+
+    fn begin_run(&mut self) {
+        self.started = false;
+    }
+
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.started.keep(snapshot);
     }
 }
 

@@ -10,15 +10,16 @@ use linear::Solver;
 use mechanics::state::{Configuration, State};
 
 /// What is known of open parts.
-#[derive(Default)]
 pub struct MechanismWatch {
+    /// False in dynamics, where masses resist every motion.
+    is_due: bool,
     /// The number of elements that were open when a matrix was last searched; none before the first of the run.
     searched: Option<usize>,
     /// The part that has opened or gone slack last.
     opened: Option<String>,
 }
 
-keep!(MechanismWatch { searched, opened });
+keep!(MechanismWatch { searched, opened } without { is_due });
 
 /// What is open where a matrix is formed.
 #[derive(Clone, Copy)]
@@ -39,10 +40,15 @@ impl Openings {
 }
 
 impl MechanismWatch {
+    /// A watch that has seen nothing yet.
+    pub fn new(cx: &Context) -> MechanismWatch {
+        MechanismWatch { is_due: !cx.is_dynamic(), searched: None, opened: None }
+    }
+
     /// Looks at what is open `now`, in a step from `state`.
     pub fn look(&mut self, cx: &Context, state: &State, prescribed: &[Prescribed], now: &Configuration) -> Openings {
         // What lifts off, or goes slack, may leave a mechanism behind.
-        let count = if cx.is_dynamic() { 0 } else { mechanism::open_elements(cx.system, now) };
+        let count = if self.is_due { mechanism::open_elements(cx.system, now) } else { 0 };
         match self.searched {
             Some(known) if count > known => {
                 // Where nothing was open before, it may have opened as the last step ended.
@@ -54,7 +60,7 @@ impl MechanismWatch {
         }
         Openings {
             count,
-            suspect: !cx.is_dynamic() && self.searched.is_none_or(|known| count > known),
+            suspect: self.is_due && self.searched.is_none_or(|known| count > known),
             at_start: self.searched.is_none() && state.time == 0.0 && prescribed.iter().all(|given| given.u == 0.0),
         }
     }

@@ -3,9 +3,11 @@
 pub mod breakage;
 pub mod contacts;
 pub mod drift;
+pub mod guard;
 pub mod joints;
 pub mod jump;
 pub mod links;
+pub mod list;
 pub mod massless;
 pub mod mechanism;
 pub mod mechanism_watch;

@@ -5,6 +5,7 @@ use crate::guards::mechanism;
 use crate::guards::stability_tangent::{Criterion, Ends, Tangent, WEIGHTS};
 use crate::linear_system::LinearSystem;
 use crate::plan::Sideways;
+use crate::step::trial::Trial;
 use crate::system::{DofMap, Forces, Loading, System};
 use crate::tolerances::out_of_plane::MOST_HELD;
 use crate::warning::{Remark, Warning};
@@ -58,9 +59,9 @@ impl OutOfPlane {
     /// Judges an equilibrium that an accepted step from the time `from` has reached; returns false where there is nothing to be watched any
     /// more.
     pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64) -> bool {
-        let Workspace { loads, trial, warnings, .. } = ws;
+        let Workspace { loads, end: Trial { nodes: start, .. }, warnings, .. } = ws;
         if !std::mem::replace(&mut self.searched, true) {
-            let held = self.hold(cx, trial, &loads.start);
+            let held = self.hold(cx, start, &loads.start);
             match held {
                 Ok(places) if places.is_empty() => {}
                 Ok(places) => warnings.remark(Remark::JudgedAsHeld { places }),
@@ -76,7 +77,7 @@ impl OutOfPlane {
         tangent.form(&end, &loads.end);
         let stable = tangent.unstable_modes() == Some(0);
         if !stable {
-            let start = Configuration { nodes: trial, history: old, dt: 0.0, lead: None };
+            let start = Configuration { nodes: start, history: old, dt: 0.0, lead: None };
             let ends =
                 Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
             if let Some(instability) = tangent.locate(cx, &ends) {

@@ -12,16 +12,21 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::guards::guard::{Guard, Iterate, Taken};
 use crate::guards::out_of_plane::OutOfPlane;
 use crate::guards::stability_tangent::{Criterion, Ends, Tangent};
 use crate::linear_system::LinearSystem;
+use crate::step::trial::{Step, Trial};
+use crate::strategy::refresh::Refresh;
 use crate::system::Forces;
 use crate::tolerances::stability::SHORTEST;
 use crate::warning::{Instability, Remark, Warning};
 use crate::workspace::Workspace;
-use base::snapshot::keep;
+use base::math::{Vec6, angular, linear};
+use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Factorization, TooLarge};
-use mechanics::state::{Configuration, State};
+use mechanics::state::Configuration;
+use model::{Method, Update};
 
 /// The watch over the equilibria of a static analysis.
 pub struct Stability {
@@ -38,9 +43,31 @@ pub struct Stability {
     found: Found,
     /// The motion out of the plane, where a plane motion leaves it out, until it has buckled.
     sideways: Option<Box<OutOfPlane>>,
+    /// What has led to the last equilibrium of a load step.
+    way: Way,
 }
 
-keep!(Stability { counts, path, own, seen, sideways } without { criterion, found });
+keep!(Stability { counts, path, own, seen, sideways } without { criterion, found, way });
+
+/// The way of an iteration to an equilibrium of a load step.
+struct Way {
+    /// The increments after the first correction, by node.
+    first: Vec<Vec6>,
+    /// True where a tangent behind the first correction had negative eigenvalues.
+    passes_unstable: bool,
+}
+
+impl Way {
+    /// True where the equilibrium lies beyond an unstable branch, on the other side of the state than the loads push it: it may be the mirror
+    /// image of the one that they lead to.
+    fn has_turned_back(&self, cx: &Context, trial: &Trial) -> bool {
+        let way = self.first.iter().zip(&trial.increments).map(|(first, increment)| {
+            let turns = angular(first).dot(&angular(&increment.q));
+            linear(first).dot(&linear(&increment.q)) + cx.length * cx.length * turns
+        });
+        self.passes_unstable && way.sum::<f64>() < 0.0
+    }
+}
 
 /// What was found of an equilibrium.
 #[derive(Default)]
@@ -52,8 +79,6 @@ struct Found {
     softens: bool,
     /// True where something slips along a path of given arc length, where nothing is judged.
     slips: bool,
-    /// True where the matrix of the step has been overwritten.
-    overwritten: bool,
 }
 
 /// What was seen of a path.
@@ -65,26 +90,24 @@ struct Path {
 keep!(Path { grows });
 
 impl Stability {
-    /// The watch of a static analysis; `None` in dynamics, and where the tangent never changes. `kept`: the matrix of the iteration is not
-    /// the tangent at the end of each step.
+    /// The watch of a static analysis whose tangent changes.
     ///
     /// # Errors
-    /// There is no memory for the motion out of the plane.
-    pub fn for_statics(cx: &Context, kept: bool) -> Result<Option<Stability>, TooLarge> {
-        if cx.is_dynamic() || cx.plan.linear {
-            return Ok(None);
-        }
+    /// There is no memory for a matrix of its own, or for the motion out of the plane.
+    pub fn new(cx: &Context) -> Result<Stability, TooLarge> {
         let along = cx.model.analysis.step_length.is_arc_length();
         let criterion = match cx.plan.kind {
             _ if cx.system.loads_have_potential(cx.system.plane) => Criterion::Eigenvalues,
             Factorization::BlockLu => Criterion::Determinant,
             Factorization::Cholesky => Criterion::SymmetricPart,
         };
+        let (method, update) = Refresh::rule(cx);
+        let kept = update != Update::Iteration || method == Method::InitialLoad;
         let own = match kept || cx.system.history > 0 {
             true => Some(cx.plan.build(cx.system)?),
             false => None,
         };
-        Ok(Some(Stability {
+        Ok(Stability {
             // Along a path limit points change the sign of a determinant too.
             counts: !along || criterion == Criterion::Eigenvalues,
             criterion,
@@ -93,84 +116,8 @@ impl Stability {
             seen: 0,
             found: Found::default(),
             sideways: OutOfPlane::new(cx)?.map(Box::new),
-        }))
-    }
-
-    /// Judges the equilibrium of a load step from `state` to the time `to`, which is left in `ws.trial`, before it is accepted. `turned_back`:
-    /// as in [`Newton::has_turned_back`](crate::step::newton::Newton::has_turned_back).
-    ///
-    /// # Errors
-    /// [`Failure::UnstableStep`] where it lies on an unstable branch and a shorter step may not, [`Failure::Buckles`] where none would help.
-    pub fn judge(
-        &mut self,
-        cx: &Context,
-        ws: &mut Workspace,
-        state: &State,
-        (to, turned_back): (f64, bool),
-    ) -> Result<(), Failure> {
-        self.found = Found::default();
-        if self.path.is_some() {
-            return Ok(());
-        }
-        let Workspace { matrix, forces, loads, trial, .. } = ws;
-        let [start, end] = [(&state.nodes, 0.0), (&*trial, to - state.time)].map(|(nodes, dt)| Configuration {
-            nodes,
-            history: &state.history,
-            dt,
-            lead: None,
-        });
-        let ends = Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [state.time, to] };
-        let analysis = &cx.model.analysis;
-        let shortest = (SHORTEST * analysis.nominal_step()).max(2.0 * analysis.least_step);
-        let cuts = to - state.time > shortest;
-        self.look(cx, (matrix, forces), &ends, None, cuts);
-        match self.found.instability.take_if(|found| found.certain && !found.already && !self.found.softens) {
-            Some(_) if cuts => Err(Failure::UnstableStep),
-            Some(instability) => Err(Failure::Buckles(instability)),
-            None if turned_back && cuts && self.seen == 0 && self.criterion == Criterion::Eigenvalues => {
-                Err(Failure::UnstableStep)
-            }
-            None => Ok(()),
-        }
-    }
-
-    /// Takes account of the equilibrium at the end of an accepted step, whose start is left in `ws.trial` and which began at the time `from`.
-    /// `grows`: loads grow along the path there, which only a path of given arc length may not do.
-    /// Returns true where the matrix of the step has been overwritten.
-    pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64, grows: bool) -> bool {
-        if from == 0.0 && cx.system.plane.is_some() && !cx.system.joints.is_empty() {
-            ws.warnings.remark(Remark::Jointed);
-        }
-        if self.sideways.as_mut().is_some_and(|out| !out.check(cx, ws, state, from)) {
-            self.sideways = None;
-        }
-        if self.path.is_some() {
-            let Workspace { matrix, forces, loads, trial, history, .. } = ws;
-            let [start, end] = [(&*trial, 0.0), (&state.nodes, state.time - from)].map(|(nodes, dt)| Configuration {
-                nodes,
-                history,
-                dt,
-                lead: None,
-            });
-            let ends =
-                Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
-            self.look(cx, (matrix, forces), &ends, Some(grows), false);
-        }
-        let Found { negative, instability, slips, overwritten, .. } = std::mem::take(&mut self.found);
-        self.seen = negative.unwrap_or(self.seen);
-        if slips {
-            ws.warnings.remark(Remark::Slipping);
-        }
-        if let Some(instability) = instability {
-            ws.warnings.add(Warning::Unstable(instability));
-            self.counts = false;
-        }
-        overwritten
-    }
-
-    /// True where the equilibrium judged last has left no matrix of the step.
-    pub fn has_overwritten(&self) -> bool {
-        self.found.overwritten
+            way: Way { first: vec![Vec6::zeros(); cx.model.nodes.len()], passes_unstable: false },
+        })
     }
 
     /// Looks at the equilibrium at the end of a step. Along a path of given arc length `grows` tells whether loads grow; of a step that `cuts`
@@ -212,7 +159,7 @@ impl Stability {
         if !suspicious {
             return;
         }
-        found.overwritten = !is_own;
+        tangent.matrix.overwritten = true;
         found.softens = cx.system.history > 0 && tangent.is_stable_with_elastic_moduli(ends);
         let looked = match self.criterion {
             Criterion::Eigenvalues if cuts && !found.softens && !cx.system.rubs() && tangent.turns_unstable(ends) => {
@@ -227,8 +174,84 @@ impl Stability {
         if path.is_some() && !is_own {
             // The negative pivots of the equilibrium are told of each step.
             tangent.form(end, ends.loads[1]);
-            found.overwritten = tangent.matrix.solver.factor().is_err();
+            tangent.matrix.overwritten = tangent.matrix.solver.factor().is_err();
         }
+    }
+}
+
+impl Guard for Stability {
+    /// Notes the first increments, and whether later tangents have negative eigenvalues. The first is left out: prescribed motion strains the
+    /// elements beside it alone until it is answered.
+    fn at_iterate(&mut self, cx: &Context, ws: &Workspace, _step: &Step, iterate: &Iterate) -> Result<(), Failure> {
+        if self.path.is_some() {
+            return Ok(());
+        }
+        if iterate.number == 1 {
+            self.way.first.iter_mut().zip(&ws.trial.increments).for_each(|(first, increment)| *first = increment.q);
+            self.way.passes_unstable = false;
+        } else if iterate.new_matrix {
+            self.way.passes_unstable |= ws.matrix.solver.negative_eigenvalues() > cx.system.multipliers();
+        }
+        Ok(())
+    }
+
+    /// Judges the equilibrium of a load step: refused is one on an unstable branch, where a shorter step may not end there, and one at
+    /// buckling.
+    fn before_end(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) -> Result<(), Failure> {
+        self.found = Found::default();
+        if self.path.is_some() {
+            return Ok(());
+        }
+        let turned_back = self.way.has_turned_back(cx, &ws.trial);
+        let Workspace { matrix, forces, loads, trial, .. } = ws;
+        let end = Configuration { nodes: &trial.nodes, history: &step.state.history, dt: step.dt(), lead: None };
+        let start = Configuration { nodes: &step.state.nodes, dt: 0.0, ..end };
+        let ends =
+            Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [step.state.time, step.to] };
+        let analysis = &cx.model.analysis;
+        let shortest = (SHORTEST * analysis.nominal_step()).max(2.0 * analysis.least_step);
+        let cuts = step.dt() > shortest;
+        self.look(cx, (matrix, forces), &ends, None, cuts);
+        match self.found.instability.take_if(|found| found.certain && !found.already && !self.found.softens) {
+            Some(_) if cuts => Err(Failure::UnstableStep),
+            Some(instability) => Err(Failure::Buckles(instability)),
+            None if turned_back && cuts && self.seen == 0 && self.criterion == Criterion::Eigenvalues => {
+                Err(Failure::UnstableStep)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Takes account of the equilibrium at the end of the step. Along a path of given arc length it is judged here, for nothing refuses it.
+    fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
+        let Taken { state, from, grows } = *taken;
+        if from == 0.0 && cx.system.plane.is_some() && !cx.system.joints.is_empty() {
+            ws.warnings.remark(Remark::Jointed);
+        }
+        if self.sideways.as_mut().is_some_and(|out| !out.check(cx, ws, state, from)) {
+            self.sideways = None;
+        }
+        if self.path.is_some() {
+            let Workspace { matrix, forces, loads, end, history, .. } = ws;
+            let [start, end] = [(&end.nodes, 0.0), (&state.nodes, state.time - from)]
+                .map(|(nodes, dt)| Configuration { nodes, history, dt, lead: None });
+            let ends =
+                Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
+            self.look(cx, (matrix, forces), &ends, Some(grows), false);
+        }
+        let Found { negative, instability, slips, .. } = std::mem::take(&mut self.found);
+        self.seen = negative.unwrap_or(self.seen);
+        if slips {
+            ws.warnings.remark(Remark::Slipping);
+        }
+        if let Some(instability) = instability {
+            ws.warnings.add(Warning::Unstable(instability));
+            self.counts = false;
+        }
+    }
+
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        Keep::keep(self, snapshot);
     }
 }
 

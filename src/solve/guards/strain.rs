@@ -1,17 +1,25 @@
 //! Watches shells that yield: where they are stretched beyond what their measure of strain is for, their forces are wrong.
 
 use crate::context::Context;
+use crate::guards::guard::{Guard, Taken};
 use crate::tolerances::strain::{LARGE, LARGE_LOGARITHMIC, LOOKS};
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
-/// Notes the largest strain at the end of a step that began at `from`, where that passes one of a hundred equal parts of the run.
-pub fn note(cx: &Context, ws: &mut Workspace, state: &State, from: f64) {
-    let (begin, end) = (cx.model.analysis.begin, cx.model.analysis.end_time);
-    let part = |time: f64| (LOOKS * (time - begin) / (end - begin)).floor();
-    if part(from) == part(state.time) {
-        return;
+/// Notes the largest strain at the end of a step that passes one of a hundred equal parts of the run.
+pub struct StrainGuard;
+
+impl Guard for StrainGuard {
+    fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
+        let (begin, end) = (cx.model.analysis.begin, cx.model.analysis.end_time);
+        let part = |time: f64| (LOOKS * (time - begin) / (end - begin)).floor();
+        if part(taken.from) != part(taken.state.time) {
+            look(cx, ws, taken.state);
+        }
     }
+}
+
+fn look(cx: &Context, ws: &mut Workspace, state: &State) {
     let now = state.configuration();
     for group in &cx.system.groups {
         let own = group.configuration(&now);

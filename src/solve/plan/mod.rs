@@ -5,6 +5,7 @@ mod choose;
 mod dof_status;
 pub mod explain;
 pub mod explicit;
+mod guards;
 mod redundant_constraints;
 mod savings;
 mod sideways;
@@ -15,6 +16,7 @@ use crate::system::connectivity::connectivity;
 use crate::system::{DofMap, NodeRows, System};
 use crate::tolerances::threads::NODES_WORTH_THREADS;
 use dof_status::DofStatus;
+pub use guards::GuardKind;
 use linear::{self, Solver, Structure, TooLarge};
 use mechanics::elements::Partners;
 use model::{AnalysisKind, Model};
@@ -33,6 +35,8 @@ pub struct Plan {
     pub explicit: bool,
     /// True where the matrix never changes: it is factorized once for each length of step.
     pub linear: bool,
+    /// What refuses steps, or warns of them, in the order in which it is asked.
+    pub guards: Vec<GuardKind>,
     /// Cost of forming and factorizing the matrix, in units of one residual and one solve.
     pub refresh_cost: f64,
     /// Number of threads.
@@ -72,6 +76,7 @@ impl Plan {
         let linear = system.is_linear() && !system.inertias.iter().any(|i| i.rotary && turns(i.node));
         let mut plan = Plan {
             refresh_cost: choose::refresh_cost(kind),
+            guards: guards::choose(model, system, linear, explicit),
             explicit,
             linear,
             dofs,
@@ -169,6 +174,7 @@ impl Plan {
             structure,
             nodes,
             places: self.places.clone(),
+            guards: self.guards.clone(),
             redundant_constraints: self.redundant_constraints.clone(),
             ..*self
         }

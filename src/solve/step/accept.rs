@@ -3,60 +3,55 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::jump;
-use crate::guards::{contacts, joints, links};
+use crate::guards::guard::Guard;
+use crate::guards::list::Guards;
 use crate::step::commit::{Account, commit};
+use crate::step::predict::move_trial;
 use crate::step::projection::ConstraintProjection;
-use crate::step::trial::{Stage, differentiate, finish, move_to_step_end, move_trial};
+use crate::step::trial::{Stage, Step};
 use crate::step::work::WorkQuadrature;
 use crate::system::contact_work;
 use crate::workspace::Workspace;
-use mechanics::state::{Configuration, State};
+use mechanics::state::State;
 
 /// Accepts the equilibrium that was found: the state moves to the time `to`, written once. `work` is that of loads and damping where the
 /// stages of the step tell it better than its ends.
 ///
 /// # Errors
-/// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, [`Failure::ContactNotResolved`] where something would have gone
-/// through a surface there, [`Failure::BushingTurnedOver`] or [`Failure::BushingTurnsTooFar`] where a bushing has lost count of its turns, [`Failure::EquilibriumJumps`] where a load step does not end on the path that it began on; `state` is untouched.
+/// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, and what guards refuse there; `state` is untouched.
 pub fn accept(
     cx: &Context,
     ws: &mut Workspace,
-    mut projection: Option<&mut ConstraintProjection>,
+    (guards, mut projection): (&mut Guards, Option<&mut ConstraintProjection>),
     state: &mut State,
-    stage: &Stage,
-    to: f64,
+    (stage, to): (&Stage, f64),
     work: Option<WorkQuadrature>,
 ) -> Result<(), Failure> {
-    let dt = to - state.time;
-    let mut account = Account { work, ..account(cx, ws, state, stage, dt) };
-    finish(cx, ws, state, stage);
-    move_to_step_end(cx, ws, state, stage.scheme);
+    let step = Step { state, stage: *stage, to };
+    let mut account = Account { work, ..account(cx, ws, &step) };
+    ws.end.finish(cx, &ws.trial, step.state, stage);
+    ws.end.advance(cx, step.state, &ws.prescribed.moved, stage.scheme.rotation);
     if let Some(projection) = projection.as_deref_mut().filter(|_| cx.is_dynamic()) {
-        projection.project(cx, ws, state, stage.scheme, dt)?;
+        projection.project(cx, (&mut ws.end, ws.reach), step.state, (stage.scheme, step.dt()))?;
     }
-    if stage.scheme.instant != 1.0 {
-        contacts::check_passage(cx, ws, state, dt)?;
-    }
-    joints::check(cx, ws)?;
-    links::check(cx, ws, state, dt)?;
-    jump::check_work(cx, ws, state, &account.dissipated, to)?;
+    guards.at_end(cx, ws, &step, &account.dissipated)?;
     if !cx.is_dynamic() && cx.system.has_contacts() && cx.wants_forces {
-        account.contact_excess = contact_work::excess_of_mean(cx.system, state, (&ws.trial, dt), &mut ws.history);
+        let end = (&ws.end.nodes[..], step.dt());
+        account.contact_excess = contact_work::excess_of_mean(cx.system, step.state, end, &mut ws.history);
     }
     commit(cx, ws, projection, state, (stage.scheme, to), account);
     Ok(())
 }
 
 /// Evaluates the forces and updates the history variables at the instant of equilibrium.
-fn account(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, dt: f64) -> Account {
+fn account(cx: &Context, ws: &mut Workspace, step: &Step) -> Account {
     let has_history = cx.system.history > 0;
     if cx.wants_forces || has_history {
-        move_trial(cx, ws, state, stage);
+        move_trial(cx, ws, step);
     } else {
-        differentiate(cx, ws, state, stage);
+        ws.trial.differentiate(cx, step.state, &step.stage);
     }
-    let now = Configuration { nodes: &ws.trial, history: &state.history, dt: stage.scheme.instant * dt, lead: None };
+    let now = step.at_instant(&ws.trial.nodes);
     let mut account = Account { damping_power: Some(0.0), ..Account::default() };
     if cx.wants_forces {
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
@@ -67,8 +62,8 @@ fn account(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage, dt: f
     if has_history {
         // Plastic strains, like reactions, are taken where equilibrium is written and extrapolated linearly to the end
         // of the step: at the end itself stiff parts are not in equilibrium, and would yield from step to step.
-        account.dissipated =
-            cx.system.update_history(&now, 1.0 / stage.scheme.instant, &mut ws.history, cx.plan.threads);
+        let ahead = 1.0 / step.stage.scheme.instant;
+        account.dissipated = cx.system.update_history(&now, ahead, &mut ws.history, cx.plan.threads);
     }
     account
 }

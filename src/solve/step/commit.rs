@@ -1,8 +1,6 @@
 //! The end of a step: multipliers and reactions extrapolated to it, work accounted for, the state written once.
 
 use crate::context::Context;
-use crate::guards::contacts;
-use crate::guards::{drift, strain};
 use crate::node_chunks::{NodeChunk, Nothing};
 use crate::step::projection::ConstraintProjection;
 use crate::step::work::WorkQuadrature;
@@ -27,7 +25,7 @@ pub struct Account {
     pub contact_excess: f64,
 }
 
-/// Makes the trial motion the state at the time `to`.
+/// Makes the motion at the end of the step the state at the time `to`.
 pub fn commit(
     cx: &Context,
     ws: &mut Workspace,
@@ -38,10 +36,10 @@ pub fn commit(
 ) {
     let dt = to - state.time;
     if cx.is_dynamic() {
-        let (nodes, trial) = (&state.nodes, &ws.trial);
+        let (nodes, ends) = (&state.nodes, &ws.end.nodes);
         cx.chunks.run(&mut state.jerk[..], &|chunk: &NodeChunk, jerk: &mut [Vec6]| {
             for &node in &cx.independent_nodes[chunk.independent.clone()] {
-                let (start, end) = (&nodes[node], &trial[node]);
+                let (start, end) = (&nodes[node], &ends[node]);
                 jerk[node - chunk.nodes.start] = stack(&(end.a - start.a), &(end.alpha - start.alpha)) / dt;
             }
             Nothing
@@ -56,7 +54,7 @@ pub fn commit(
     let mut reaction_changes: &[f64] = &[];
     if let Some(projection) = projection {
         projection.carry_multipliers(&mut state.multipliers);
-        projection.distribute_multipliers(cx, ws, state);
+        projection.distribute_multipliers(cx, &ws.end.nodes, state);
         reaction_changes = projection.reaction_changes();
     }
     if let Some(damping_power) = account.damping_power.filter(|_| cx.wants_forces) {
@@ -75,13 +73,24 @@ pub fn commit(
     if cx.system.history > 0 {
         std::mem::swap(&mut state.history, &mut ws.history);
     }
-    std::mem::swap(&mut state.nodes, &mut ws.trial);
+    std::mem::swap(&mut state.nodes, &mut ws.end.nodes);
     state.time = to;
     cx.system.remember_joint_loads(state, dt);
     ws.slips.note(cx, &ws.history, state, dt);
-    contacts::note_depth(cx, ws, state);
-    strain::note(cx, ws, state, to - dt);
-    drift::note(cx, ws, state, to - dt);
+}
+
+/// As [`commit`] for explicit steps, whose trial motion is that at the end.
+pub fn commit_trial(
+    cx: &Context,
+    ws: &mut Workspace,
+    projection: Option<&mut ConstraintProjection>,
+    state: &mut State,
+    end: (&Coefficients, f64),
+    account: Account,
+) {
+    std::mem::swap(&mut ws.trial, &mut ws.end);
+    commit(cx, ws, projection, state, end, account);
+    std::mem::swap(&mut ws.trial, &mut ws.end);
 }
 
 /// Updates the algorithmic accelerations of schemes that have them.
@@ -89,7 +98,7 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
     let Some([of_a, of_start, of_end]) = cx.algorithmic_acceleration else { return };
     let mut bodies = cx.system.turning_bodies().iter().peekable();
     for &node in &cx.independent_nodes {
-        let (start, end, increment) = (&state.nodes[node], &ws.trial[node], &ws.increments[node]);
+        let (start, end, increment) = (&state.nodes[node], &ws.end.nodes[node], &ws.end.increments[node]);
         let before = stack(&start.a, &start.alpha);
         // The combination holds for the second derivative of the rotation vector of the step, or for the rates of a body's angular
         // momentum; it is stored as a spatial vector like every other acceleration.
@@ -127,8 +136,8 @@ fn update_reactions_and_work(
         driven += work;
         state.reactions[i] = new;
     }
-    state.work.external += cx.system.external_work((&state.nodes, &ws.loads.start), (&ws.trial, &ws.loads.end));
-    let carrying = cx.system.carrying_power(&state.nodes) + cx.system.carrying_power(&ws.trial);
+    state.work.external += cx.system.external_work((&state.nodes, &ws.loads.start), (&ws.end.nodes, &ws.loads.end));
+    let carrying = cx.system.carrying_power(&state.nodes) + cx.system.carrying_power(&ws.end.nodes);
     state.work.external += 0.5 * dt * carrying;
     let old = state.work.damping_power;
     let new = extrapolate(old, damping_power);

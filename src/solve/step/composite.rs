@@ -86,7 +86,7 @@ impl<'a> Composite<'a> {
         for &node in &cx.independent_nodes {
             let start = &self.start.nodes[node];
             // The velocity at the start of the step belongs to the rotation vector counted from between the stages.
-            let q0 = ws.increments[node].q;
+            let q0 = ws.end.increments[node].q;
             let v0 = stack(&start.v, &inverse_tangent(&-angular(&q0), &start.omega));
             let [v, _] = rates_of(&between.nodes[node]);
             self.start_rates[node] = [q0 * b.start, v0 * b.start + v * b.between];

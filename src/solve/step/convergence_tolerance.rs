@@ -18,7 +18,7 @@ use model::StepLength;
 
 /// The end of the iteration.
 #[derive(Clone, Copy)]
-pub struct Ending {
+pub struct ConvergenceTolerance {
     /// Relative tolerance of the correction.
     pub tolerance: f64,
     /// Relative tolerance of the residual.
@@ -33,16 +33,16 @@ pub struct Ending {
     of_own_error: bool,
 }
 
-keep!(Ending { tolerance, residual, bounds, contraction, carries } without { of_own_error });
+keep!(ConvergenceTolerance { tolerance, residual, bounds, contraction, carries } without { of_own_error });
 
-impl Ending {
+impl ConvergenceTolerance {
     /// The end of the iteration of a scene.
-    pub fn new(cx: &Context) -> Ending {
+    pub fn new(cx: &Context) -> ConvergenceTolerance {
         let given = &cx.model.solution.iteration;
         let of_own_error = follows_own_error(cx);
         let bounds = [given.tolerance.min(DIGITS), if given.follows_step { f64::INFINITY } else { given.tolerance }];
         let tolerance = if of_own_error { bounds[0] } else { given.tolerance };
-        Ending { tolerance, residual: tolerance, bounds, contraction: None, carries: false, of_own_error }
+        ConvergenceTolerance { tolerance, residual: tolerance, bounds, contraction: None, carries: false, of_own_error }
     }
 
     /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.

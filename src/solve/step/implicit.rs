@@ -10,7 +10,7 @@ use crate::step::trial::Stage;
 use crate::workspace::Workspace;
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::TooLarge;
-use mechanics::integrators::{Coefficients, Stepping, load_steps};
+use mechanics::integrators::Stepping;
 use mechanics::state::State;
 
 /// Takes load steps of a static analysis, and time steps of one stage or several.
@@ -110,13 +110,9 @@ impl<'a> Implicit<'a> {
             Stages::Composite(composite) => composite.step(&mut self.solver, cx, ws, state, to),
             Stages::RungeKutta(stages) => stages.step(&mut self.solver, cx, ws, state, to),
             Stages::One => {
-                let scheme = coefficients(cx, to - state.time);
+                let scheme = self.solver.newton.regime.coefficients(cx, to - state.time);
                 self.solver.stage(cx, ws, state, &Stage::from(&scheme), to)
             }
         }
     }
-}
-
-fn coefficients(cx: &Context, dt: f64) -> Coefficients {
-    if cx.is_dynamic() { cx.model.solution.scheme.coefficients(dt) } else { load_steps::coefficients() }
 }

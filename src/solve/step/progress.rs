@@ -1,12 +1,14 @@
 //! How far the iteration of a step has come.
 
 use crate::context::Context;
+use crate::guards::guard::Iterate;
 use crate::report::StepReport;
 use crate::step::convergence::{Convergence, Judgement};
-use crate::step::convergence_tolerance::Ending;
+use crate::step::convergence_tolerance::ConvergenceTolerance;
 use crate::step::correct::is_rounding;
+use crate::step::regime::Regime;
 use crate::step::size::Size;
-use crate::tolerances::progress::{SURE, UNBALANCED};
+use crate::tolerances::progress::SURE;
 use crate::warning::Warning;
 use crate::workspace::Workspace;
 
@@ -20,24 +22,31 @@ pub struct StepProgress {
     pub limit: usize,
     /// True where the increments at hand are the prediction.
     pub predicted: bool,
+    /// True where the time of the step is given, not found.
+    pub has_given_time: bool,
     /// True where the correction at hand tells nothing of convergence: it was shortened, or answers a linearized residual.
     pub unjudged: bool,
     /// Number of corrections still needed at the contraction seen last.
     pub remaining: f64,
+    /// True where a tangent of a load step behind the first had negative eigenvalues.
+    pub passes_unstable: bool,
     /// Relative error of the time where it is unknown; loads are curves over it.
     time_error: f64,
 }
 
 impl StepProgress {
-    /// Begins the iteration of a step to the time `to`, with a matrix that is `exact` or not, from the prediction.
-    pub fn begin(cx: &Context, to: f64, exact: bool, ending: &Ending) -> StepProgress {
+    /// Begins the iteration of a step to the time `to`, which is given or not, from the prediction.
+    pub fn begin(cx: &Context, to: f64, has_given_time: bool, of: &ConvergenceTolerance) -> StepProgress {
+        let exact = cx.plan.linear && has_given_time;
         StepProgress {
             report: StepReport::begin(to),
-            convergence: Convergence::new([ending.tolerance, ending.residual], exact, ending.usual()),
+            convergence: Convergence::new([of.tolerance, of.residual], exact, of.usual()),
             new_matrix: false,
             limit: cx.model.solution.iteration.limit,
             predicted: true,
+            has_given_time,
             unjudged: false,
+            passes_unstable: false,
             remaining: f64::INFINITY,
             time_error: 0.0,
         }
@@ -53,6 +62,11 @@ impl StepProgress {
     pub fn move_time(&mut self, cx: &Context, to: f64) {
         self.time_error = ((to - self.report.to) / cx.model.analysis.duration()).powi(2);
         self.report.to = to;
+    }
+
+    /// The iterate that has been judged.
+    pub fn iterate(&self, converged: bool) -> Iterate {
+        Iterate { number: self.report.iterations, new_matrix: self.new_matrix, converged }
     }
 
     /// True where the matrix at hand was formed in this step.
@@ -78,7 +92,7 @@ impl StepProgress {
         cx: &Context,
         ws: &mut Workspace,
         correction: Size,
-        tolerance: f64,
+        (tolerance, regime): (f64, &dyn Regime),
         judgement: &Judgement,
     ) -> bool {
         if self.time_error > tolerance {
@@ -86,14 +100,12 @@ impl StepProgress {
         }
         let residual = self.report.residual;
         let sure = cx.system.history == 0 || residual <= (SURE[0] * judgement.tolerance).min(SURE[1]);
-        let small = is_rounding(cx, ws, correction, self.has_own_matrix() && sure);
+        let small = is_rounding(cx, ws.reach, correction, self.has_own_matrix() && sure);
         let rounding = judgement.stalled() && small;
         if sure && judgement.converged() {
             return true;
         }
-        // Corrections below the digits of positions still matter to a motion that is small itself: a load step waits for its forces.
-        let precise =
-            cx.is_dynamic() || residual <= UNBALANCED * tolerance || ws.load_steps.peak.is_unstressed(residual);
+        let precise = regime.is_precise(ws, residual, tolerance);
         if small && !precise && (self.is_exhausted() || rounding && judgement.is_stagnant()) {
             ws.warnings.add(Warning::Unbalanced { residual });
             return true;

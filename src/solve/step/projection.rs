@@ -10,12 +10,11 @@ use crate::failure::Failure;
 use crate::guards::joints;
 use crate::linear_system::LinearSystem;
 use crate::plan::Plan;
-use crate::step::trial::update_dependent_nodes;
+use crate::step::trial::Trial;
 use crate::system::TangentWeights;
 use crate::system::{Forces, Loading, System};
 use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};
 use crate::tolerances::projection::TRACE;
-use crate::workspace::Workspace;
 use base::math::rotation::inverse_tangent;
 use base::math::{Vec3, angular};
 use base::snapshot::keep;
@@ -64,6 +63,16 @@ impl ForceChange {
     }
 }
 
+/// A motion at the end of a step that is being projected.
+struct End<'e> {
+    motion: &'e mut Trial,
+    /// The largest coordinate of a node.
+    reach: f64,
+    state: &'e State,
+    scheme: &'e Coefficients,
+    dt: f64,
+}
+
 /// A slot on the diagonal of the matrix.
 struct DiagonalSlot {
     slot: usize,
@@ -108,22 +117,25 @@ impl ConstraintProjection {
         needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
     }
 
-    /// Projects the trial motion, at the end of a step of length `dt` from `state`, onto the constraints, and writes
-    /// the increments that lead there.
+    /// Projects the motion at the end of a step of length `dt` from `state` onto the constraints, and writes the increments that lead there;
+    /// `reach` is the largest coordinate of a node.
     ///
     /// # Errors
     /// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
     pub fn project(
         &mut self,
         cx: &Context,
-        ws: &mut Workspace,
+        (motion, reach): (&mut Trial, f64),
         state: &State,
-        scheme: &Coefficients,
-        dt: f64,
+        (scheme, dt): (&Coefficients, f64),
     ) -> Result<(), Failure> {
-        let closed = self.factor(&ws.trial) && self.close(cx, ws, state, scheme, dt);
-        cx.system.gaps(&ws.trial, 0, &mut ws.forces.multipliers.gaps);
-        if closed { Ok(()) } else { Err(joints::constraints_violated(cx, ws)) }
+        let mut end = End { motion, reach, state, scheme, dt };
+        if self.factor(&end.motion.nodes) && self.close(cx, &mut end) {
+            return Ok(());
+        }
+        let gaps = &mut self.forces.multipliers.gaps;
+        cx.system.gaps(&end.motion.nodes, 0, gaps);
+        Err(joints::constraints_violated(cx, gaps))
     }
 
     /// Factorizes masses and joints at the given configuration; false where the matrix is singular and the joints
@@ -147,64 +159,56 @@ impl ConstraintProjection {
     }
 
     /// Corrects positions until the gaps are at rounding, then their rates; false where the gaps do not close.
-    fn close(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) -> bool {
+    fn close(&mut self, cx: &Context, end: &mut End) -> bool {
         let mut last = f64::INFINITY;
         for _ in 0..MOST_CORRECTIONS {
-            let gap = self.gap(cx, ws, 0);
+            let gap = self.gap(cx, end, 0);
             // The gap is at rounding, or near it and no longer decreasing.
             if gap <= ROUNDING || (gap >= 0.5 * last && gap <= 1e3 * ROUNDING) {
-                self.close_rates(cx, ws, state, scheme, dt);
+                self.close_rates(cx, end);
                 return true;
             }
             if gap.is_nan() {
                 return false;
             }
             last = gap;
-            self.correct(cx, ws, state, scheme, 0);
+            self.correct(cx, end, 0);
         }
         false
     }
 
     /// Projects velocities, then accelerations, and notes what the joints carry in addition for the latter.
-    fn close_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, dt: f64) {
-        self.close_rate(cx, ws, state, scheme, dt, 1);
+    fn close_rates(&mut self, cx: &Context, end: &mut End) {
+        self.close_rate(cx, end, 1);
         // Trial steps may have another scheme.
         self.change.forget();
-        if scheme.instant != 1.0 {
-            self.close_rate(cx, ws, state, scheme, dt, 2);
+        if end.scheme.instant != 1.0 {
+            self.close_rate(cx, end, 2);
             return;
         }
         let wants_reactions = cx.wants_forces && !cx.model.constraints.restraints.is_empty();
         self.forces.multipliers.values.fill(0.0);
         if wants_reactions {
-            self.on_restraints(cx, &ws.trial);
+            self.on_restraints(cx, &end.motion.nodes);
         }
-        self.close_rate(cx, ws, state, scheme, dt, 2);
+        self.close_rate(cx, end, 2);
         self.change.multipliers.copy_from_slice(&self.forces.multipliers.values);
         if wants_reactions {
-            self.on_restraints(cx, &ws.trial);
+            self.on_restraints(cx, &end.motion.nodes);
         }
     }
 
     /// Corrects velocities (1) or accelerations (2). The constraints are linear in them, so one correction is exact at given
     /// positions.
-    fn close_rate(
-        &mut self,
-        cx: &Context,
-        ws: &mut Workspace,
-        state: &State,
-        scheme: &Coefficients,
-        dt: f64,
-        derivative: usize,
-    ) {
+    fn close_rate(&mut self, cx: &Context, end: &mut End, derivative: usize) {
         let mut last = f64::INFINITY;
         loop {
-            let gap = self.gap(cx, ws, derivative);
-            if gap * dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
+            let gap = self.gap(cx, end, derivative);
+            if gap * end.dt.powi(derivative as i32) <= ROUNDING || gap >= 0.1 * last || gap.is_nan() {
                 break;
             }
             last = gap;
-            self.correct(cx, ws, state, scheme, derivative);
+            self.correct(cx, end, derivative);
         }
     }
 
@@ -231,15 +235,16 @@ impl ConstraintProjection {
         &self.change.reactions
     }
 
-    /// The largest gap of the trial motion, or of its first or second derivative, relative to the reach.
-    fn gap(&mut self, cx: &Context, ws: &Workspace, derivative: usize) -> f64 {
+    /// The largest gap of the motion, or of its first or second derivative, relative to the reach.
+    fn gap(&mut self, cx: &Context, end: &End, derivative: usize) -> f64 {
         let gaps = &mut self.forces.multipliers.gaps;
-        cx.system.gaps(&ws.trial, derivative, gaps);
-        cx.system.largest_gap(gaps, ws.reach)
+        cx.system.gaps(&end.motion.nodes, derivative, gaps);
+        cx.system.largest_gap(gaps, end.reach)
     }
 
     /// Makes one correction of the motion, its velocity or its acceleration: the least that closes the gaps at hand.
-    fn correct(&mut self, cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients, derivative: usize) {
+    fn correct(&mut self, cx: &Context, end: &mut End, derivative: usize) {
+        let End { motion, state, scheme, .. } = end;
         self.r[..cx.nodal_unknowns()].fill(0.0);
         self.matrix.solve_augmented(&self.forces.multipliers, &mut self.r);
         if derivative == 2 {
@@ -247,7 +252,7 @@ impl ConstraintProjection {
         }
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
-            let increment = &mut ws.increments[node];
+            let increment = &mut motion.increments[node];
             let theta = angular(&increment.q);
             let entry = |i: usize| rows.get(i).map_or(0.0, |row| self.r[row]);
             let turn = inverse_tangent(&theta, &Vec3::new(entry(3), entry(4), entry(5)));
@@ -262,20 +267,20 @@ impl ConstraintProjection {
                     change[3 + i] += turn[i];
                 }
             }
-            ws.trial[node].advance(&state.nodes[node], increment, scheme.rotation);
+            motion.nodes[node].advance(&state.nodes[node], increment, scheme.rotation);
         }
-        update_dependent_nodes(cx, ws, &state.nodes);
+        motion.update_dependent_nodes(cx, &state.nodes);
     }
 
     /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least
     /// ones with the same forces. In a load step the regularization alone would not do: gaps of second order on the way to equilibrium, over
     /// ε, stay in what redundant joints do to each other, and grow from step to step.
-    pub fn distribute_multipliers(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State) {
+    pub fn distribute_multipliers(&mut self, cx: &Context, nodes: &[Node], state: &mut State) {
         if !cx.plan.has_redundant_constraints() {
             return;
         }
         // A step in time has factorized for its projection.
-        if !cx.is_dynamic() && !self.factor(&ws.trial) {
+        if !cx.is_dynamic() && !self.factor(nodes) {
             return;
         }
         let ConstraintProjection { bare, forces, r, matrix, .. } = self;
@@ -285,7 +290,7 @@ impl ConstraintProjection {
         // M δ + Gᵀμ = Gᵀλ, G δ = 0. A solution leaves the part ε of the forces, which a second one shares out.
         for _ in 0..2 {
             forces.multipliers.values.copy_from_slice(&left);
-            bare.joint_forces(&ws.trial, forces);
+            bare.joint_forces(nodes, forces);
             for (r, &(node, dof)) in r.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
                 *r = -forces.on_nodes[node][dof];
             }

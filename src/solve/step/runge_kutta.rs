@@ -11,7 +11,8 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::report::StepReport;
 use crate::step::equilibrium::EquilibriumSolver;
-use crate::step::trial::{Stage, differentiate, excite, move_trial, rates_of};
+use crate::step::predict::{excite, move_trial};
+use crate::step::trial::{Stage, Step, rates_of};
 use crate::step::work::{Power, WorkQuadrature};
 use crate::workspace::Workspace;
 use base::math::Vec6;
@@ -85,18 +86,18 @@ impl StageStepper {
         for stage in 1..=last {
             let time = if stage == last { to } else { state.time + self.tableau.c[stage - 1] * dt };
             self.start_stage(cx, state, stage, dt);
-            let relation = self.relation(&scheme);
-            report = report.then(solver.find(cx, ws, state, &relation, time)?);
-            differentiate(cx, ws, state, &relation);
+            let found = Step { state, stage: self.relation(&scheme), to: time };
+            report = report.then(solver.find(cx, ws, &found)?);
+            ws.trial.differentiate(cx, state, &found.stage);
             if cx.wants_energy {
-                self.powers[1] = self.power(cx, ws, state, &relation, time - state.time);
+                self.powers[1] = self.power(cx, ws, &found);
                 work.add(&self.powers[1], self.tableau.weight_at_end(stage) * dt);
             }
             self.keep_rates(cx, ws, stage);
         }
         self.keep_end(cx, ws);
         self.work = work;
-        solver.accept_with(cx, ws, state, &self.relation(&scheme), to, cx.wants_energy.then_some(work))?;
+        solver.accept_with(cx, ws, state, (&self.relation(&scheme), to), cx.wants_energy.then_some(work))?;
         Ok(report)
     }
 
@@ -117,9 +118,9 @@ impl StageStepper {
         let scheme = cx.model.solution.scheme.coefficients(dt);
         state.copy_from(start);
         self.start_inside(cx, part, dt);
-        let report = solver.find_inside(cx, ws, state, &self.relation(&scheme), time)?;
+        let report = solver.find_inside(cx, ws, &Step { state, stage: self.relation(&scheme), to: time })?;
         let work = cx.wants_energy.then(|| self.work.up_to(part, dt, &self.powers));
-        solver.accept_with(cx, ws, state, &self.relation(&scheme), time, work)?;
+        solver.accept_with(cx, ws, state, (&self.relation(&scheme), time), work)?;
         Ok(report)
     }
 
@@ -188,25 +189,25 @@ impl StageStepper {
 
     fn keep_end(&mut self, cx: &Context, ws: &Workspace) {
         for (end, &node) in self.ends[1].iter_mut().zip(&cx.independent_nodes) {
-            let increment = &ws.increments[node];
+            let increment = &ws.trial.increments[node];
             *end = [increment.q, increment.d, increment.dd];
         }
     }
 
-    /// The power of the equilibrium that was found, `ahead` of the start of the step; the forces at hand are lost.
-    fn power(&self, cx: &Context, ws: &mut Workspace, state: &State, relation: &Stage, ahead: f64) -> Power {
-        move_trial(cx, ws, state, relation);
+    /// The power of the equilibrium that was found; the forces at hand are lost.
+    fn power(&self, cx: &Context, ws: &mut Workspace, found: &Step) -> Power {
+        move_trial(cx, ws, found);
         if self.driven {
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None };
+            let now = Configuration { dt: found.dt(), ..found.at_instant(&ws.trial.nodes) };
             cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
         }
-        Power::of_trial(cx, ws, state, ahead, self.driven)
+        Power::of_trial(cx, ws, found.state, found.dt(), self.driven)
     }
 
     fn keep_rates(&mut self, cx: &Context, ws: &Workspace, stage: usize) {
         let moving = cx.independent_nodes.len();
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
-            let increment = &ws.increments[node];
+            let increment = &ws.trial.increments[node];
             self.rates[stage * moving + k] = [increment.d, increment.dd];
         }
     }

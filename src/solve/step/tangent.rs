@@ -4,16 +4,16 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::guards::mechanism_watch::MechanismWatch;
 use crate::report::StepReport;
-use crate::step::trial::Stage;
+use crate::step::trial::Step;
 use crate::strategy::refresh::Refresh;
-use crate::strategy::rotated_matrix::Turning;
+use crate::strategy::rotated_matrix::RotatedMatrix;
 use crate::strategy::stabilization::{self, HeldByForces, Unheld};
 use crate::system::TangentWeights;
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use mechanics::integrators::Coefficients;
-use mechanics::state::{Configuration, Node, State};
+use mechanics::state::{Configuration, Node};
 use model::Update;
 
 /// The matrix at hand; its numbers are in the workspace.
@@ -21,7 +21,7 @@ pub struct IterationMatrix {
     /// The rule by which it is renewed.
     pub refresh: Refresh,
     /// What carries it along with a scene that turns.
-    turning: Option<Turning>,
+    rotated: Option<RotatedMatrix>,
     mechanisms: MechanismWatch,
     /// The factor of the mass in it.
     pub mass_weight: f64,
@@ -33,7 +33,7 @@ pub struct IterationMatrix {
     has_yielded: bool,
 }
 
-keep!(IterationMatrix { refresh, turning, mechanisms, mass_weight } without { unheld, is_stabilized, has_yielded });
+keep!(IterationMatrix { refresh, rotated, mechanisms, mass_weight } without { unheld, is_stabilized, has_yielded });
 
 impl IterationMatrix {
     /// No matrix yet, with the rule of the deck.
@@ -41,8 +41,8 @@ impl IterationMatrix {
         let (method, update) = Refresh::rule(cx);
         IterationMatrix {
             refresh: Refresh::new(method, update, cx.plan.linear, cx.plan.refresh_cost),
-            turning: Turning::new(cx).filter(|_| update != Update::Iteration),
-            mechanisms: MechanismWatch::default(),
+            rotated: RotatedMatrix::new(cx).filter(|_| update != Update::Iteration),
+            mechanisms: MechanismWatch::new(cx),
             mass_weight: 0.0,
             unheld: None,
             is_stabilized: false,
@@ -59,20 +59,18 @@ impl IterationMatrix {
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
-        state: &State,
-        stage: &Stage,
+        step: &Step,
         lead: Option<&[Node]>,
         report: &mut StepReport,
     ) -> Result<bool, Failure> {
-        let dt = report.to - state.time;
-        let key = key(stage.scheme, dt);
+        let key = key(step.stage.scheme, step.dt());
         if !self.refresh.due(report.iterations, key) {
             return Ok(false);
         }
         let may_stabilize = report.iterations == 0 && stabilization::may_help(cx);
-        self.form(cx, ws, state, stage.scheme, (stage.scheme.instant * dt, lead), may_stabilize)?;
-        if let Some(turning) = &mut self.turning {
-            turning.note(&ws.trial);
+        self.form(cx, ws, step, lead, may_stabilize)?;
+        if let Some(rotated) = &mut self.rotated {
+            rotated.note(&ws.trial.nodes);
         }
         match self.is_stabilized {
             // It leads one correction alone; the next matrix has the forces of joints in it.
@@ -89,16 +87,16 @@ impl IterationMatrix {
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
-        state: &State,
-        scheme: &Coefficients,
-        (ahead, lead): (f64, Option<&[Node]>),
+        step: &Step,
+        lead: Option<&[Node]>,
         may_stabilize: bool,
     ) -> Result<(), Failure> {
+        let scheme = step.stage.scheme;
         let (rate, acceleration) = scheme.weights();
         self.mass_weight = acceleration;
-        let now = Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead };
+        let now = Configuration { lead, ..step.at_instant(&ws.trial.nodes) };
         ws.matrix.make_room(cx, &now);
-        let openings = self.mechanisms.look(cx, state, &ws.prescribed.instant, &now);
+        let openings = self.mechanisms.look(cx, step.state, &ws.prescribed.instant, &now);
         let mut moduli = self.refresh.moduli();
         (self.is_stabilized, self.has_yielded) = (false, false);
         loop {
@@ -138,7 +136,7 @@ impl IterationMatrix {
             if !may_stabilize || self.is_stabilized || openings.any() {
                 return Err(failure);
             }
-            self.unheld = Some(Unheld::new(cx, &ws.r, failure));
+            self.unheld = Some(Unheld::new(cx, &ws.residual.values, failure));
             self.is_stabilized = true;
         }
     }
@@ -158,30 +156,33 @@ impl IterationMatrix {
         self.has_yielded
     }
 
-    /// Solves for the correction, which takes the place of the residual in `ws.r`.
+    /// Solves for the correction that answers the residual and the gaps of joints.
     ///
     /// # Errors
     /// [`Failure::Singular`] where the matrix is stabilized and what nothing else holds would go far.
     pub fn solve(&mut self, cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
-        let Workspace { matrix, forces, r, trial, .. } = ws;
-        turned(&mut self.turning, trial, r, |r| matrix.solve_augmented(&forces.multipliers, r));
+        let Workspace { matrix, forces, residual, correction, trial, .. } = ws;
+        correction.values.copy_from_slice(&residual.values);
+        let solve = |r: &mut [f64]| matrix.solve_augmented(&forces.multipliers, r);
+        rotate(&mut self.rotated, &trial.nodes, &mut correction.values, solve);
         ws.solves += 1;
-        let goes_far = self.is_stabilized && !stabilization::stays_in_place(cx, &ws.r);
+        let goes_far = self.is_stabilized && !stabilization::stays_in_place(cx, &ws.correction.values);
         self.unheld.take_if(|_| goes_far).map_or(Ok(()), |unheld| Err(unheld.failure))
     }
 
-    /// Solves with the matrix carried along to the configuration `nodes`, for right-hand sides without gaps in `ws.r`.
+    /// As [`IterationMatrix::solve`] with the matrix carried along to the configuration `nodes`, for residuals without gaps.
     pub fn solve_at(&mut self, ws: &mut Workspace, nodes: &[Node]) {
-        let Workspace { matrix, r, .. } = ws;
-        turned(&mut self.turning, nodes, r, |r| matrix.solver.solve(r));
+        let Workspace { matrix, residual, correction, .. } = ws;
+        correction.values.copy_from_slice(&residual.values);
+        rotate(&mut self.rotated, nodes, &mut correction.values, |r| matrix.solver.solve(r));
         ws.solves += 1;
     }
 
     /// Discards the matrix, which belongs to a motion that was not taken or to other loads.
     pub fn discard(&mut self) {
         self.refresh.rejected();
-        if let Some(turning) = &mut self.turning {
-            turning.rest();
+        if let Some(rotated) = &mut self.rotated {
+            rotated.rest();
         }
     }
 
@@ -197,12 +198,12 @@ impl IterationMatrix {
 }
 
 /// Solves in the configuration of the matrix at hand for right-hand sides in that of `nodes`.
-fn turned(turning: &mut Option<Turning>, nodes: &[Node], r: &mut [f64], solve: impl FnOnce(&mut [f64])) {
-    let Some(turning) = turning else { return solve(r) };
-    let turns = turning.take_back(nodes, r);
+fn rotate(rotated: &mut Option<RotatedMatrix>, nodes: &[Node], r: &mut [f64], solve: impl FnOnce(&mut [f64])) {
+    let Some(rotated) = rotated else { return solve(r) };
+    let turns = rotated.take_back(nodes, r);
     solve(r);
     if turns {
-        turning.carry_along(nodes, r);
+        rotated.carry_along(nodes, r);
     }
 }
 

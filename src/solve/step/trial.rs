@@ -1,12 +1,11 @@
-//! The motion of a step: prescribed motion, prediction, the trial motion from the increments, and the motion at the end
-//! of the step.
+//! The motion of a step: the relation of its rates, prescribed motion, and a trial of it.
 
-use crate::context::Context;
-use crate::system::{Prescribed, Side, TurningBody, between};
-use crate::workspace::Workspace;
+use crate::context::{self, Context};
+use crate::system::{Prescribed, TurningBody, TurningStart};
 use base::math::{Vec3, Vec6, angular, stack};
-use mechanics::integrators::Coefficients;
-use mechanics::state::{Increment, Node, State};
+use base::snapshot::keep;
+use mechanics::integrators::{Coefficients, RotationUpdate};
+use mechanics::state::{Configuration, Increment, Node, State};
 
 /// The relation between displacements, velocities and accelerations in a stage of a step.
 #[derive(Clone, Copy)]
@@ -44,144 +43,149 @@ impl Stage<'_> {
     }
 }
 
+/// A step, or one of its stages: where it starts, by which relation, and when it ends.
+#[derive(Clone, Copy)]
+pub struct Step<'s> {
+    /// The state at its start.
+    pub state: &'s State,
+    /// The relation between displacements and their rates.
+    pub stage: Stage<'s>,
+    /// The time at its end.
+    pub to: f64,
+}
+
+impl<'s> Step<'s> {
+    /// Its length.
+    pub fn dt(&self) -> f64 {
+        self.to - self.state.time
+    }
+
+    /// The time from its start to the instant where equilibrium is written.
+    pub fn ahead(&self) -> f64 {
+        self.stage.scheme.instant * self.dt()
+    }
+
+    /// The configuration of these nodes at the instant of equilibrium, with the history at the start.
+    pub fn at_instant<'n>(&self, nodes: &'n [Node]) -> Configuration<'n>
+    where
+        's: 'n,
+    {
+        Configuration { nodes, history: &self.state.history, dt: self.ahead(), lead: None }
+    }
+}
+
 /// The velocity and the acceleration of a node, translations first.
 #[inline]
 pub fn rates_of(node: &Node) -> [Vec6; 2] {
     [stack(&node.v, &node.omega), stack(&node.a, &node.alpha)]
 }
 
-/// Evaluates loads and prescribed motion at the ends of the step, and at the instant of equilibrium by interpolation or
-/// extrapolation from the ends.
-pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64) {
-    let loads = &mut ws.loads;
-    cx.excitation.loading(from, Side::After, &mut loads.start);
-    cx.excitation.loading(to, Side::Before, &mut loads.end);
-    if let Some(sudden) = &ws.load_steps.sudden {
-        sudden.bring_on(from, &mut loads.start);
-        sudden.bring_on(to, &mut loads.end);
-    }
-    between(&loads.start, &loads.end, instant, &mut loads.instant);
-    let prescribed = &mut ws.prescribed;
-    cx.excitation.prescribed(from, Side::After, &mut prescribed.start);
-    cx.excitation.prescribed(to, Side::Before, &mut prescribed.end);
-    cx.excitation.moved(&prescribed.start, &prescribed.end, &mut prescribed.moved);
-    prescribed.instant.clear();
-    prescribed.instant.extend(prescribed.start.iter().zip(&prescribed.moved).map(|(a, b)| Prescribed {
-        u: instant * b.u,
-        v: a.v + instant * (b.v - a.v),
-        a: a.a + instant * (b.a - a.a),
-    }));
-    if instant > 1.0 {
-        // Joints take accelerations of what they tie to a prescribed motion from its positions, so positions and
-        // accelerations must be consistent. Past the end of the step, linear extrapolation of positions would leave six
-        // sevenths of the acceleration out.
-        let tau = instant * (to - from);
-        for &i in &cx.driving {
-            let (start, now) = (&prescribed.start[i], &mut prescribed.instant[i]);
-            now.u = tau * start.v + tau * tau / 6.0 * (2.0 * start.a + now.a);
-        }
-    }
+/// A motion from the state at the start of a step: at the instant of equilibrium, or at the end of the step.
+pub struct Trial {
+    /// The nodes where the motion leads.
+    pub nodes: Vec<Node>,
+    /// Increments of the nodes from the start of the step, with their rates.
+    pub increments: Vec<Increment>,
+    /// What the rotations of bodies start from in the stage at hand, in the order of the system's.
+    turning: Vec<TurningStart>,
 }
 
-/// Writes the predicted increments, what rotations of bodies start from, and the multipliers of the last step as a first guess.
-pub fn predict(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    for &node in &cx.independent_nodes {
-        ws.increments[node].q = match stage.prediction {
-            Some(prediction) => prediction[node],
-            None => {
-                let [v, a] = rates_of(&state.nodes[node]);
-                stage.scheme.predict(&v, &a, &state.jerk[node])
+keep!(Trial { nodes, increments, turning });
+
+impl Trial {
+    /// The nodes of the model at rest.
+    pub fn new(cx: &Context) -> Trial {
+        Trial {
+            nodes: context::at_rest(cx.model),
+            increments: vec![Increment::ZERO; cx.model.nodes.len()],
+            turning: Vec::with_capacity(cx.system.turning_bodies().len()),
+        }
+    }
+
+    /// Forgets the motion of earlier runs.
+    pub fn begin_run(&mut self, cx: &Context) {
+        self.nodes.clone_from(&context::at_rest(cx.model));
+        self.increments.fill(Increment::ZERO);
+        self.turning.clear();
+    }
+
+    /// Writes the predicted increments, and what rotations of bodies start from.
+    pub fn predict(&mut self, cx: &Context, state: &State, stage: &Stage) {
+        for &node in &cx.independent_nodes {
+            self.increments[node].q = match stage.prediction {
+                Some(prediction) => prediction[node],
+                None => {
+                    let [v, a] = rates_of(&state.nodes[node]);
+                    stage.scheme.predict(&v, &a, &state.jerk[node])
+                }
+            };
+        }
+        if stage.scheme.turning.is_some() {
+            self.start_turning(cx, state, stage);
+        }
+    }
+
+    /// Writes what the rotations of bodies start from in a stage, as the scheme uses it.
+    fn start_turning(&mut self, cx: &Context, state: &State, stage: &Stage) {
+        self.turning.clear();
+        self.turning.extend(cx.system.turning_bodies().iter().enumerate().map(|(index, body)| {
+            let node = &state.nodes[body.node];
+            let [v, a] = stage.start_rates(cx, state, body.node, rates_of(node)).map(|rates| angular(&rates));
+            match stage.turning {
+                Some(rates) => body.start_of_stage(node, &v, rates[index], stage.scheme),
+                None => body.start(node, &a, stage.scheme),
             }
-        };
+        }));
     }
-    start_turning(cx, ws, state, stage);
-    measure_reach(cx, ws, state);
-    ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
-}
 
-/// Writes the largest coordinate of a node, by which rounding is measured.
-pub fn measure_reach(cx: &Context, ws: &mut Workspace, state: &State) {
-    let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
-    let placed = cx.independent_nodes.iter().filter(|node| !cx.numbers.contains(node));
-    ws.reach = placed.fold(cx.length, farthest);
-}
-
-/// Writes the rates of the increments by the scheme.
-pub fn differentiate(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    for &node in &cx.independent_nodes {
-        let [own_v, own_a] = rates_of(&state.nodes[node]);
-        let [v, a] = stage.start_rates(cx, state, node, [own_v, own_a]);
-        stage.scheme.differentiate(&mut ws.increments[node], &v, &a, &own_a);
-    }
-    if stage.scheme.turning.is_some() {
-        for (body, start) in cx.system.turning_bodies().iter().zip(&ws.turning) {
-            body.differentiate(start, &mut ws.increments[body.node], stage.scheme);
+    /// Writes the rates of the increments by the scheme.
+    pub fn differentiate(&mut self, cx: &Context, state: &State, stage: &Stage) {
+        for &node in &cx.independent_nodes {
+            let [own_v, own_a] = rates_of(&state.nodes[node]);
+            let [v, a] = stage.start_rates(cx, state, node, [own_v, own_a]);
+            stage.scheme.differentiate(&mut self.increments[node], &v, &a, &own_a);
+        }
+        if stage.scheme.turning.is_some() {
+            for (body, start) in cx.system.turning_bodies().iter().zip(&self.turning) {
+                body.differentiate(start, &mut self.increments[body.node], stage.scheme);
+            }
         }
     }
-}
 
-/// Writes the increments at the end of the step in place of those at the instant of equilibrium.
-pub fn finish(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { cx.system.turning_bodies() } else { &[] };
-    let mut bodies = bodies.iter().peekable();
-    for &node in &cx.independent_nodes {
-        let start = &state.nodes[node];
-        let [v, a] = stage.start_rates(cx, state, node, rates_of(start));
-        let at_instant = ws.increments[node];
-        let end = &mut ws.increments[node];
-        *end = stage.scheme.finish(&at_instant, &v, &a);
-        if let Some(body) = TurningBody::next_at(&mut bodies, node) {
-            body.finish(start, &at_instant, end, stage.scheme);
+    /// Writes the increments at the end of a step from those of `at_instant`, the instant of equilibrium.
+    pub fn finish(&mut self, cx: &Context, at_instant: &Trial, state: &State, stage: &Stage) {
+        let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { cx.system.turning_bodies() } else { &[] };
+        let mut bodies = bodies.iter().peekable();
+        for &node in &cx.independent_nodes {
+            let (start, at_instant) = (&state.nodes[node], &at_instant.increments[node]);
+            let [v, a] = stage.start_rates(cx, state, node, rates_of(start));
+            let end = &mut self.increments[node];
+            *end = stage.scheme.finish(at_instant, &v, &a);
+            if let Some(body) = TurningBody::next_at(&mut bodies, node) {
+                body.finish(start, at_instant, end, stage.scheme);
+            }
         }
     }
-}
 
-/// Writes what the rotations of bodies start from in a stage, as the scheme uses it.
-fn start_turning(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    if stage.scheme.turning.is_none() {
-        return;
-    }
-    ws.turning.clear();
-    ws.turning.extend(cx.system.turning_bodies().iter().enumerate().map(|(index, body)| {
-        let node = &state.nodes[body.node];
-        let [v, a] = stage.start_rates(cx, state, body.node, rates_of(node)).map(|rates| angular(&rates));
-        match stage.turning {
-            Some(rates) => body.start_of_stage(node, &v, rates[index], stage.scheme),
-            None => body.start(node, &a, stage.scheme),
+    /// Moves the nodes by the increments, after the prescribed ones are written. Returns the largest departure of a truncated rotation from
+    /// orthogonality before it was corrected.
+    pub fn advance(&mut self, cx: &Context, state: &State, given: &[Prescribed], rotation: RotationUpdate) -> f64 {
+        for (restraint, given) in cx.model.constraints.restraints.iter().zip(given) {
+            prescribe(&mut self.increments[restraint.node], restraint.dof, given);
         }
-    }));
-}
+        let mut drift = 0.0f64;
+        for &node in &cx.independent_nodes {
+            drift = drift.max(self.nodes[node].advance(&state.nodes[node], &self.increments[node], rotation));
+        }
+        self.update_dependent_nodes(cx, &state.nodes);
+        drift
+    }
 
-/// Writes the trial motion at the instant of equilibrium from the increments: rates by the scheme, then prescribed
-/// degrees of freedom, then dependent nodes.
-pub fn move_trial(cx: &Context, ws: &mut Workspace, state: &State, stage: &Stage) {
-    differentiate(cx, ws, state, stage);
-    for (restraint, given) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.instant) {
-        prescribe(&mut ws.increments[restraint.node], restraint.dof, given);
-    }
-    for &node in &cx.independent_nodes {
-        let drift = ws.trial[node].advance(&state.nodes[node], &ws.increments[node], stage.scheme.rotation);
-        ws.rotation_drift = ws.rotation_drift.max(drift);
-    }
-    update_dependent_nodes(cx, ws, &state.nodes);
-}
-
-/// Writes the trial motion at the end of the step from the increments, with prescribed degrees of freedom and dependent
-/// nodes.
-pub fn move_to_step_end(cx: &Context, ws: &mut Workspace, state: &State, scheme: &Coefficients) {
-    for (restraint, moved) in cx.model.constraints.restraints.iter().zip(&ws.prescribed.moved) {
-        prescribe(&mut ws.increments[restraint.node], restraint.dof, moved);
-    }
-    for &node in &cx.independent_nodes {
-        ws.trial[node].advance(&state.nodes[node], &ws.increments[node], scheme.rotation);
-    }
-    update_dependent_nodes(cx, ws, &state.nodes);
-}
-
-/// Moves dependent nodes with their masters; `start` are the nodes at the start of the step.
-pub fn update_dependent_nodes(cx: &Context, ws: &mut Workspace, start: &[Node]) {
-    for dependent in &cx.system.rigid_links {
-        dependent.move_with_master(&mut ws.trial, &mut ws.increments, &start[dependent.node]);
+    /// Moves dependent nodes with their masters; `start` are the nodes at the start of the step.
+    pub fn update_dependent_nodes(&mut self, cx: &Context, start: &[Node]) {
+        for dependent in &cx.system.rigid_links {
+            dependent.move_with_master(&mut self.nodes, &mut self.increments, &start[dependent.node]);
+        }
     }
 }
 
@@ -191,4 +195,11 @@ pub fn prescribe(increment: &mut Increment, dof: usize, given: &Prescribed) {
     increment.q[dof] = given.u;
     increment.d[dof] = given.v;
     increment.dd[dof] = given.a;
+}
+
+/// The largest coordinate of a node, by which rounding is measured.
+pub fn reach(cx: &Context, state: &State) -> f64 {
+    let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
+    let placed = cx.independent_nodes.iter().filter(|node| !cx.numbers.contains(node));
+    placed.fold(cx.length, farthest)
 }

@@ -38,16 +38,18 @@ impl Power {
             let power = |((i, restraint), given): ((usize, &Restraint), &Prescribed)| {
                 let &Restraint { node, dof, .. } = restraint;
                 // A moment does its power at the angular velocity, and the rates of increments are those of a rotation vector.
-                let rate = if cx.excitation.is_turned(i) { ws.trial[node].omega[dof - 3] } else { given.v };
+                let rate = if cx.excitation.is_turned(i) { ws.trial.nodes[node].omega[dof - 3] } else { given.v };
                 -ws.forces.on_nodes[node][dof] * rate
             };
             external = restraints.map(power).sum();
         }
-        let damping =
-            damping_power(cx, &Configuration { nodes: &ws.trial, history: &state.history, dt: ahead, lead: None });
-        cx.system.external(&ws.trial, &ws.loads.instant, &mut ws.forces);
-        let carrying = cx.system.carrying_power(&ws.trial);
-        Power { external: external + external_power(&ws.forces, &ws.trial) + carrying, damping }
+        let damping = damping_power(
+            cx,
+            &Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, lead: None },
+        );
+        cx.system.external(&ws.trial.nodes, &ws.loads.instant, &mut ws.forces);
+        let carrying = cx.system.carrying_power(&ws.trial.nodes);
+        Power { external: external + external_power(&ws.forces, &ws.trial.nodes) + carrying, damping }
     }
 }
 

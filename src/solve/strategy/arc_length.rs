@@ -7,16 +7,18 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
+use crate::step::correct::Correction;
+use crate::step::predict::{excite, move_trial};
+use crate::step::progress::StepProgress;
 use crate::step::residual::no_equilibrium;
-use crate::step::trial::{Stage, excite, move_trial};
+use crate::step::trial::{Step, Trial};
 use crate::system::{Forces, Loading};
 use crate::tolerances::arc_length_constraint::{DIFFERENCE, SHORT};
 use crate::workspace::Workspace;
 use base::math::rotation::inverse_tangent;
 use base::math::{Vec6, angular, linear, stack};
 use base::snapshot::keep;
-use mechanics::integrators::load_steps;
-use mechanics::state::{Configuration, State};
+use mechanics::state::Configuration;
 
 /// The condition in place of a given time.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +27,32 @@ pub enum Condition {
     Arc(f64),
     /// One unknown translation moves by this in the step.
     Displacement { node: usize, dof: usize, by: f64 },
+}
+
+/// The condition of a step, with the equation that it adds.
+pub struct PathCondition<'c> {
+    /// The equation.
+    pub constraint: &'c mut ArcLengthConstraint,
+    /// The condition.
+    pub condition: Condition,
+}
+
+impl PathCondition<'_> {
+    /// Adds to the correction what meets the condition, and moves the end of the step.
+    ///
+    /// # Errors
+    /// As for an arc that no line of corrections meets, and where nothing changes with the time.
+    pub fn close(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        step: &mut Step,
+        progress: &mut StepProgress,
+    ) -> Result<(), Failure> {
+        step.to = self.constraint.close(cx, ws, step, self.condition)?;
+        progress.move_time(cx, step.to);
+        Ok(())
+    }
 }
 
 /// The equation that is added where the time is unknown, with its data. It is allocated once.
@@ -79,57 +107,50 @@ impl ArcLengthConstraint {
             },
             forces: ws.forces.clone(),
             gaps: vec![0.0; cx.system.multipliers()],
-            last: vec![Vec6::zeros(); ws.increments.len()],
+            last: vec![Vec6::zeros(); ws.trial.increments.len()],
             driven: cx.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()),
             weight: cx.length * cx.length,
         }
     }
 
-    /// Writes a + δt b into `r`, which holds a, and the loads and prescribed motion at the new time, which it returns.
+    /// Adds δt b to the correction, which is a, and evaluates loads and prescribed motion at the new time, which it returns.
     ///
     /// # Errors
     /// [`Failure::NoEquilibriumOnArc`] where the line of corrections misses the arc, [`Failure::NoLoadIncrement`] where nothing changes with the time.
-    pub fn close(
-        &mut self,
-        cx: &Context,
-        ws: &mut Workspace,
-        state: &State,
-        to: f64,
-        condition: Condition,
-    ) -> Result<f64, Failure> {
-        self.differentiate_residual(cx, ws, state, to);
+    fn close(&mut self, cx: &Context, ws: &mut Workspace, step: &Step, condition: Condition) -> Result<f64, Failure> {
+        self.differentiate_residual(cx, ws, step);
         ws.matrix.solve_augmented(&self.forces.multipliers, &mut self.rate);
         ws.solves += 1;
         let unloaded = self.rate.iter().all(|&b| b == 0.0);
         let dt = match condition {
             _ if unloaded => None,
-            Condition::Arc(length) => self.on_arc(cx, ws, length),
+            Condition::Arc(length) => self.on_arc(cx, &ws.trial, &ws.correction, length),
             Condition::Displacement { node, dof, by } => {
                 let row = cx.plan.dofs.row(node, dof);
-                row.map(|row| (by - ws.increments[node].q[dof] - ws.r[row]) / self.rate[row])
+                row.map(|row| (by - ws.trial.increments[node].q[dof] - ws.correction.values[row]) / self.rate[row])
             }
         };
         if let Some(dt) = dt {
-            ws.r.iter_mut().zip(&self.rate).for_each(|(r, b)| *r += dt * b);
+            ws.correction.values.iter_mut().zip(&self.rate).for_each(|(r, b)| *r += dt * b);
         }
-        match dt.map(|dt| to + dt).filter(|to| to.is_finite()) {
+        match dt.map(|dt| step.to + dt).filter(|to| to.is_finite()) {
             Some(to) => {
-                excite(cx, ws, state.time, to, 1.0);
+                excite(cx, ws, step.state.time, to, 1.0);
                 Ok(to)
             }
-            None if unloaded => Err(Failure::NoLoadIncrement { time: to }),
-            None => Err(no_equilibrium(cx, ws)),
+            None if unloaded => Err(Failure::NoLoadIncrement { time: step.to }),
+            None => Err(no_equilibrium(cx, &ws.forces)),
         }
     }
 
     /// Writes ∂r/∂t at fixed unknowns, and the derivative of the gaps. For loads it is exact; where prescribed degrees
     /// of freedom move it is a difference quotient, whose error only slows the iteration.
-    fn differentiate_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
+    fn differentiate_residual(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) {
         if self.driven {
-            return self.difference_residual(cx, ws, state, to);
+            return self.difference_residual(cx, ws, step);
         }
-        cx.excitation.rates(to, &mut self.loading);
-        cx.system.external(&ws.trial, &self.loading, &mut self.forces);
+        cx.excitation.rates(step.to, &mut self.loading);
+        cx.system.external(&ws.trial.nodes, &self.loading, &mut self.forces);
         // Loads alone do not open joints.
         self.forces.multipliers.gaps.fill(0.0);
         for (rate, &(node, dof)) in self.rate.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
@@ -137,16 +158,15 @@ impl ArcLengthConstraint {
         }
     }
 
-    fn difference_residual(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
+    fn difference_residual(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) {
         let h = DIFFERENCE * cx.model.analysis.end_time;
-        let scheme = load_steps::coefficients();
         self.rate.fill(0.0);
         self.forces.multipliers.copy_from(&ws.forces.multipliers);
         self.gaps.fill(0.0);
         for side in [1.0, -1.0] {
-            excite(cx, ws, state.time, to + side * h, 1.0);
-            move_trial(cx, ws, state, &Stage::from(&scheme));
-            let now = Configuration { nodes: &ws.trial, history: &state.history, dt: 0.0, lead: None };
+            excite(cx, ws, step.state.time, step.to + side * h, 1.0);
+            move_trial(cx, ws, step);
+            let now = Configuration { dt: 0.0, ..step.at_instant(&ws.trial.nodes) };
             cx.system.residual(&now, &ws.loads.instant, &mut self.forces);
             for (rate, &(node, dof)) in self.rate.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
                 *rate += side * self.forces.on_nodes[node][dof] / (2.0 * h);
@@ -158,8 +178,8 @@ impl ArcLengthConstraint {
     }
 
     /// Solves |D + a + δt b|² = ℓ² for δt; `None` where no point of the line lies on the arc.
-    fn on_arc(&self, cx: &Context, ws: &Workspace, length: f64) -> Option<f64> {
-        let Products { DD, Da, Db, aa, ab, bb, ahead_b } = self.products(cx, ws);
+    fn on_arc(&self, cx: &Context, trial: &Trial, correction: &Correction, length: f64) -> Option<f64> {
+        let Products { DD, Da, Db, aa, ab, bb, ahead_b } = self.products(cx, trial, correction);
         let (half, rest) = (Db + ab, DD + 2.0 * Da + aa - length * length);
         let discriminant = half * half - bb * rest;
         if discriminant.is_nan() || discriminant < 0.0 {
@@ -173,19 +193,19 @@ impl ArcLengthConstraint {
         Some(if ahead_b >= 0.0 { high } else { low })
     }
 
-    fn products(&self, cx: &Context, ws: &Workspace) -> Products {
+    fn products(&self, cx: &Context, trial: &Trial, correction: &Correction) -> Products {
         let mut sum = Products::default();
         let mut last_b = 0.0;
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);
-            let D = unknown_part(cx, node, &ws.increments[node].q);
-            let theta = angular(&ws.increments[node].q);
+            let D = unknown_part(cx, node, &trial.increments[node].q);
+            let theta = angular(&trial.increments[node].q);
             let vector = |x: &[f64]| {
                 let x = rows.gather(x);
                 // The correction is added as δΘ = T⁻¹ δθ.
                 unknown_part(cx, node, &stack(&linear(&x), &inverse_tangent(&theta, &angular(&x))))
             };
-            let (a, b) = (vector(&ws.r), vector(&self.rate));
+            let (a, b) = (vector(&correction.values), vector(&self.rate));
             sum.DD += self.dot(&D, &D);
             sum.Da += self.dot(&D, &a);
             sum.Db += self.dot(&D, &b);
@@ -203,20 +223,20 @@ impl ArcLengthConstraint {
     }
 
     /// True where loads grow along the path at the end of the step that was found.
-    pub fn loads_grow(&self, cx: &Context, ws: &Workspace) -> bool {
+    pub fn loads_grow(&self, cx: &Context, trial: &Trial) -> bool {
         let mut along = 0.0;
         for &node in &cx.independent_nodes {
             let rate = cx.plan.dofs.of(node).gather(&self.rate);
-            along += self.dot(&unknown_part(cx, node, &ws.increments[node].q), &unknown_part(cx, node, &rate));
+            along += self.dot(&unknown_part(cx, node, &trial.increments[node].q), &unknown_part(cx, node, &rate));
         }
         along >= 0.0
     }
 
     /// The extent of the step that was found.
-    pub fn motion(&self, cx: &Context, ws: &Workspace) -> StepMotion {
+    pub fn motion(&self, cx: &Context, trial: &Trial) -> StepMotion {
         let (mut along, mut last, mut now) = (0.0, 0.0, 0.0);
         for &node in &cx.independent_nodes {
-            let (D, L) = (unknown_part(cx, node, &ws.increments[node].q), &self.last[node]);
+            let (D, L) = (unknown_part(cx, node, &trial.increments[node].q), &self.last[node]);
             along += self.dot(&D, L);
             last += self.dot(L, L);
             now += self.dot(&D, &D);
@@ -227,12 +247,12 @@ impl ArcLengthConstraint {
     }
 
     /// Keeps the motion that was found as the direction of the next step, unless it is too short to show one.
-    pub fn keep_motion(&mut self, cx: &Context, ws: &Workspace, motion: &StepMotion) {
+    pub fn keep_motion(&mut self, cx: &Context, trial: &Trial, motion: &StepMotion) {
         if motion.short {
             return;
         }
         for &node in &cx.independent_nodes {
-            self.last[node] = unknown_part(cx, node, &ws.increments[node].q);
+            self.last[node] = unknown_part(cx, node, &trial.increments[node].q);
         }
     }
 }

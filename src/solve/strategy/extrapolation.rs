@@ -1,7 +1,8 @@
 //! The iterate from which stresses are extrapolated to the one at hand, see [`Configuration::lead`](mechanics::state::Configuration).
 
 use crate::context::Context;
-use crate::workspace::Workspace;
+use crate::step::correct::Correction;
+use crate::step::trial::Trial;
 use base::math::{Vec6, angular, linear};
 use base::snapshot::keep;
 use mechanics::state::Node;
@@ -9,7 +10,7 @@ use model::StepLength;
 
 /// The iterate before, and the one that led to the last equilibrium, from which predictions start. It is allocated once, where elements
 /// turn.
-pub struct Lead {
+pub struct StressExtrapolation {
     last: Iterate,
     of_equilibrium: Iterate,
     corrections: Vec<Vec6>,
@@ -17,7 +18,7 @@ pub struct Lead {
     trusted: bool,
 }
 
-keep!(Lead { last, of_equilibrium, corrections, trusted });
+keep!(StressExtrapolation { last, of_equilibrium, corrections, trusted });
 
 /// Motion with a correction in place of its velocities.
 #[derive(Clone)]
@@ -28,17 +29,22 @@ struct Iterate {
 
 keep!(Iterate { nodes, known });
 
-impl Lead {
+impl StressExtrapolation {
     /// Room for the iterates of a scene, where steps are automatic: equilibria are found from farther away, and some of these are not those
     /// of the motion at hand. The error of the step tells that; with load steps, and with steps of given length, nothing would. There is none
     /// where the tangent is constant, nor for shells, whose matrices are kept.
-    pub fn new(cx: &Context) -> Lead {
+    pub fn new(cx: &Context) -> StressExtrapolation {
         let judged = cx.is_dynamic() && matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. });
         let used = judged && !cx.plan.linear && !cx.model.has_surfaces();
         let count = if used { cx.model.nodes.len() } else { 0 };
         let nodes = cx.model.nodes.iter().take(count).map(|node| Node::at_rest(node.x)).collect();
         let last = Iterate { nodes, known: false };
-        Lead { of_equilibrium: last.clone(), last, corrections: vec![Vec6::zeros(); count], trusted: true }
+        StressExtrapolation {
+            of_equilibrium: last.clone(),
+            last,
+            corrections: vec![Vec6::zeros(); count],
+            trusted: true,
+        }
     }
 
     /// Forgets what led to nothing.
@@ -73,15 +79,15 @@ impl Lead {
     }
 
     /// Keeps the trial motion and the correction at hand, before it is added.
-    pub fn keep(&mut self, cx: &Context, ws: &Workspace) {
+    pub fn keep(&mut self, cx: &Context, trial: &Trial, correction: &Correction) {
         if self.corrections.is_empty() {
             return;
         }
         for &node in &cx.independent_nodes {
-            self.corrections[node] = cx.plan.dofs.of(node).gather(&ws.r);
+            self.corrections[node] = correction.of(cx.plan.dofs.of(node));
         }
-        cx.system.project(&ws.trial, &mut self.corrections);
-        for ((node, now), correction) in self.last.nodes.iter_mut().zip(&ws.trial).zip(&self.corrections) {
+        cx.system.project(&trial.nodes, &mut self.corrections);
+        for ((node, now), correction) in self.last.nodes.iter_mut().zip(&trial.nodes).zip(&self.corrections) {
             *node = *now;
             (node.v, node.omega) = (linear(correction), angular(correction));
         }

@@ -20,7 +20,7 @@ use mechanics::state::Node;
 use nalgebra::Quaternion;
 
 /// The trees of a scene, in the configuration of the matrix and in the one at hand. It is allocated once.
-pub struct Turning {
+pub struct RotatedMatrix {
     trees: BeamTrees,
     /// The shapes of beams by number of nodes.
     shapes: Vec<LineShape>,
@@ -45,7 +45,7 @@ pub struct Turning {
     matrices: usize,
 }
 
-keep!(Turning { formed, turns, turned, before, now, points_turned, fresh, matrices } without { trees, shapes, first_points, masters, members, mass });
+keep!(RotatedMatrix { formed, turns, turned, before, now, points_turned, fresh, matrices } without { trees, shapes, first_points, masters, members, mass });
 
 /// A configuration with displacements and spins of all nodes, or forces and moments.
 struct MotionAt {
@@ -69,9 +69,9 @@ impl MotionAt {
     }
 }
 
-impl Turning {
+impl RotatedMatrix {
     /// The trees of a dynamic scene; `None` where there are none, or where the matrix never changes.
-    pub fn new(cx: &Context) -> Option<Turning> {
+    pub fn new(cx: &Context) -> Option<RotatedMatrix> {
         if !cx.is_dynamic() || cx.plan.linear {
             return None;
         }
@@ -89,7 +89,7 @@ impl Turning {
             first_points.push(points);
             points += if branch.master.is_none() { branch.nodes().len() - 1 } else { 0 };
         }
-        Some(Turning {
+        Some(RotatedMatrix {
             mass: parts_of_mass(cx, &trees),
             shapes: (2..=MOST_NODES).map(LineShape::new).collect(),
             trees,
@@ -163,7 +163,7 @@ impl Turning {
         true
     }
 
-    /// Takes a correction for the configuration of the matrix to the one at hand, 𝒯 x, after [`Turning::take_back`].
+    /// Takes a correction for the configuration of the matrix to the one at hand, 𝒯 x, after [`RotatedMatrix::take_back`].
     pub fn carry_along(&mut self, nodes: &[Node], x: &mut [f64]) {
         self.before.clear(&self.trees.nodes);
         self.now.clear(&self.trees.nodes);

@@ -1,0 +1,90 @@
+//! The guards of a scene, as its plan asks for them.
+
+use crate::context::Context;
+use crate::failure::Failure;
+use crate::guards::contacts::ContactGuard;
+use crate::guards::drift::DriftGuard;
+use crate::guards::guard::{Guard, Iterate, Taken};
+use crate::guards::joints::JointGuard;
+use crate::guards::jump::JumpGuard;
+use crate::guards::links::LinkGuard;
+use crate::guards::massless::MasslessNodes;
+use crate::guards::stability::Stability;
+use crate::guards::strain::StrainGuard;
+use crate::plan::GuardKind;
+use crate::step::trial::Step;
+use crate::workspace::Workspace;
+use base::snapshot::{Keep, Snapshot};
+use linear::TooLarge;
+use mechanics::materials::Dissipation;
+
+/// The guards of a scene, in the order in which they are asked.
+pub struct Guards(Vec<Box<dyn Guard>>);
+
+impl Guards {
+    /// The guards that the plan asks for.
+    ///
+    /// # Errors
+    /// There is no memory for the matrices of the guard of stability.
+    pub fn of(cx: &Context) -> Result<Guards, TooLarge> {
+        let make = |kind: &GuardKind| -> Result<Box<dyn Guard>, TooLarge> {
+            Ok(match kind {
+                GuardKind::Contacts => Box::new(ContactGuard),
+                GuardKind::Massless => Box::new(MasslessNodes::new(cx)),
+                GuardKind::Joints => Box::new(JointGuard),
+                GuardKind::Links => Box::new(LinkGuard),
+                GuardKind::Jump => Box::new(JumpGuard),
+                GuardKind::Strain => Box::new(StrainGuard),
+                GuardKind::Drift => Box::new(DriftGuard),
+                GuardKind::Stability => Box::new(Stability::new(cx)?),
+            })
+        };
+        cx.plan.guards.iter().map(make).collect::<Result<_, _>>().map(Guards)
+    }
+
+    fn ask(&mut self, mut of: impl FnMut(&mut dyn Guard) -> Result<(), Failure>) -> Result<(), Failure> {
+        self.0.iter_mut().try_for_each(|guard| of(guard.as_mut()))
+    }
+}
+
+impl Keep for Guards {
+    fn keep(&mut self, snapshot: &mut Snapshot) {
+        self.0.iter_mut().for_each(|guard| guard.keep(snapshot));
+    }
+}
+
+impl Guard for Guards {
+    fn before_step(&mut self, cx: &Context, step: &Step) -> Result<(), Failure> {
+        self.ask(|guard| guard.before_step(cx, step))
+    }
+
+    fn at_iterate(&mut self, cx: &Context, ws: &Workspace, step: &Step, iterate: &Iterate) -> Result<(), Failure> {
+        self.ask(|guard| guard.at_iterate(cx, ws, step, iterate))
+    }
+
+    fn at_equilibrium(&mut self, cx: &Context, ws: &Workspace, step: &Step) -> Result<(), Failure> {
+        self.ask(|guard| guard.at_equilibrium(cx, ws, step))
+    }
+
+    fn before_end(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) -> Result<(), Failure> {
+        self.ask(|guard| guard.before_end(cx, ws, step))
+    }
+
+    fn at_end(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        step: &Step,
+        dissipated: &Dissipation,
+    ) -> Result<(), Failure> {
+        self.ask(|guard| guard.at_end(cx, ws, step, dissipated))
+    }
+
+    fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
+        self.0.iter_mut().for_each(|guard| guard.after_step(cx, ws, taken));
+    }
+
+    fn begin_run(&mut self) {
+        self.0.iter_mut().for_each(|guard| guard.begin_run());
+    }
+}

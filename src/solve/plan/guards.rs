@@ -1,0 +1,45 @@
+//! The guards that a scene needs.
+
+use crate::system::System;
+use model::{AnalysisKind, Link, Model};
+
+/// What refuses steps, or warns of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GuardKind {
+    /// Steps too long for contacts, and contacts that are pressed in too deep.
+    Contacts,
+    /// Directions without mass that nothing holds.
+    Massless,
+    /// Joints that are open at the end of a step.
+    Joints,
+    /// Bushings and supports that have lost count of turns.
+    Links,
+    /// Steps that leave the path of equilibria, or turn nodes too far.
+    Jump,
+    /// Shells that are stretched beyond what their measure of strain is for.
+    Strain,
+    /// Rotations that supports fix alone, whose total drifts.
+    Drift,
+    /// Equilibria that are unstable.
+    Stability,
+}
+
+/// The guards of a scene, in the order in which they are asked. `linear`: the matrix never changes; `explicit`: no step is one of
+/// equilibrium, and steppers check their ends themselves.
+pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> Vec<GuardKind> {
+    let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
+    let has_shells = system.groups.iter().any(|group| group.kind.is_surface());
+    let counts_turns = model.each::<Link>().next().is_some() || system.joints.iter().any(|joint| joint.supports);
+    let holds_rotations = model.constraints.restraints.iter().any(|held| held.dof > 2 && held.motion.is_none());
+    let asked = [
+        (GuardKind::Contacts, system.has_contacts()),
+        (GuardKind::Massless, dynamic && !explicit),
+        (GuardKind::Joints, !explicit && !system.joints.is_empty()),
+        (GuardKind::Links, !explicit && counts_turns),
+        (GuardKind::Jump, !explicit && !linear && (!dynamic || has_shells)),
+        (GuardKind::Strain, has_shells),
+        (GuardKind::Drift, model.analysis.begin == 0.0 && holds_rotations),
+        (GuardKind::Stability, !dynamic && !linear),
+    ];
+    asked.into_iter().filter(|(_, is_needed)| *is_needed).map(|(kind, _)| kind).collect()
+}
