@@ -227,7 +227,7 @@ fn available_threads() -> usize {
 /// The sizes of the scene for the result.
 fn sizes(loaded: &Loaded, unknowns: usize, multipliers: usize) -> Sizes {
     let model = &loaded.model;
-    let elements = model.parts.iter().filter(|part| part.kind().is_deformable()).map(Part::elements).sum();
+    let elements = model.parts.iter().filter(|part| part.kind().is_deformable()).map(|part| part.elements()).sum();
     Sizes { nodes: model.nodes.len(), bodies: model.bodies.len(), elements, unknowns, multipliers }
 }
 

@@ -318,7 +318,7 @@ impl<'d> Expects<'_, 'd> {
             return None;
         }
         let Range { start, end } = self.scene.parts.entry(at)?.range;
-        let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
+        let elements = |parts: &[Part]| parts.iter().map(|part| part.elements()).sum::<usize>();
         let (from, count) = (elements(&self.scene.parts.list[..start]), elements(&self.scene.parts.list[start..end]));
         if count == 0 {
             let message = format!("`{}` is rigid, so it has no axial force and no plastic strain", name.value);

@@ -245,7 +245,7 @@ impl Fields {
             count: offsets.len(),
             before: model.has_surfaces().then(|| {
                 let others = model.parts.iter().take_while(|part| !part.kind().is_surface());
-                others.map(Part::elements).sum()
+                others.map(|part| part.elements()).sum()
             }),
             marked: FieldsMark::default(),
             grid,

@@ -43,7 +43,8 @@ fn bytes(kind: &TableKind, model: &Model, rows: &Rows) -> usize {
 pub fn settle_cadence(model: &mut Model, plan: &Plan) {
     if model.output.cadence_is_open {
         let once: usize = sizes(model, plan).iter().map(|(_, size)| size).sum();
-        let elements: usize = model.parts.iter().filter(|part| part.kind().is_deformable()).map(Part::elements).sum();
+        let elements: usize =
+            model.parts.iter().filter(|part| part.kind().is_deformable()).map(|part| part.elements()).sum();
         let most = if plan.explicit && elements >= LARGE { EXPLICIT } else { f64::INFINITY };
         let times = (MOST / once.max(1) as f64).max(FEWEST).min(most);
         model.output.cadence = Cadence::at_most(times, model.analysis.duration(), &model.analysis.step_length);

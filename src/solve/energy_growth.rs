@@ -51,7 +51,7 @@ impl EnergyGrowth {
             return None;
         }
         let letting_go = || {
-            (checks_energy_growth(model) && model.parts.iter().any(Part::may_release))
+            (checks_energy_growth(model) && model.parts.iter().any(|part| part.may_release()))
                 .then(|| Energy::of(system, state, initial, plan.threads))
         };
         self.balance.update(&energy.or_else(letting_go)?);

@@ -397,7 +397,7 @@ fn assert_same_bits(text: &str) -> (Vec<Step>, State) {
     let (model, problems) = model::read(&source);
     let said = || problems.iter().map(|problem| problem.draw(&source, false)).collect::<Vec<_>>().join("\n");
     let model = model.unwrap_or_else(|| panic!("{}", said()));
-    let elements: usize = model.parts.iter().map(Part::elements).sum();
+    let elements: usize = model.parts.iter().map(|part| part.elements()).sum();
     assert!(elements > 1024, "too small for threads: {elements} elements");
     let one = steps(&model, 1);
     for threads in [2, 5] {

@@ -33,9 +33,12 @@ pub struct Bar {
     pub elements: Vec<[usize; 2]>,
 }
 
-impl PartAnswers for Bar {
-    const QUANTITIES: &'static [&'static [Column]] = &[&[AXIAL_FORCE, PLASTIC_STRAIN]];
+impl Bar {
+    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&[AXIAL_FORCE, PLASTIC_STRAIN]];
+}
 
+impl PartAnswers for Bar {
     fn name(&self) -> &str {
         &self.name
     }
@@ -48,7 +51,7 @@ impl PartAnswers for Bar {
         &self.elements[element]
     }
 
-    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+    fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         self.elements.iter_mut().flatten().for_each(visit);
     }
 

@@ -44,9 +44,12 @@ pub struct BeamElement {
     pub section: usize,
 }
 
-impl PartAnswers for Beam {
-    const QUANTITIES: &'static [&'static [Column]] = &[&SECTION_FORCES, &[PLASTIC_STRAIN]];
+impl Beam {
+    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&SECTION_FORCES, &[PLASTIC_STRAIN]];
+}
 
+impl PartAnswers for Beam {
     fn name(&self) -> &str {
         &self.name
     }
@@ -59,7 +62,7 @@ impl PartAnswers for Beam {
         &self.elements[element].nodes[..=self.order]
     }
 
-    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+    fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         let order = self.order;
         self.elements.iter_mut().flat_map(|e| &mut e.nodes[..=order]).for_each(visit);
     }

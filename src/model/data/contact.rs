@@ -95,9 +95,12 @@ impl Contact {
     }
 }
 
-impl PartAnswers for Contact {
-    const QUANTITIES: &'static [&'static [Column]] = &[&CONTACT, &[CONTACT_FORCE]];
+impl Contact {
+    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&CONTACT, &[CONTACT_FORCE]];
+}
 
+impl PartAnswers for Contact {
     fn has_damped_stiffness(&self) -> bool {
         false
     }
@@ -117,7 +120,7 @@ impl PartAnswers for Contact {
         }
     }
 
-    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+    fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         match &mut self.surface {
             TouchedSurface::Shape(carried) => visit(&mut carried.node),
             TouchedSurface::Facets(faces) => {

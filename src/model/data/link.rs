@@ -67,9 +67,12 @@ impl Link {
     }
 }
 
-impl PartAnswers for Link {
-    const QUANTITIES: &'static [&'static [Column]] = &[&LINK];
+impl Link {
+    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&LINK];
+}
 
+impl PartAnswers for Link {
     fn name(&self) -> &str {
         &self.name
     }
@@ -86,7 +89,7 @@ impl PartAnswers for Link {
         &self.ends
     }
 
-    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+    fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         self.ends.iter_mut().chain(&mut self.take_up).for_each(visit);
     }
 

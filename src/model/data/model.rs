@@ -93,12 +93,12 @@ impl Model {
 
     /// True where the material of any part yields.
     pub fn yields(&self) -> bool {
-        self.parts.iter().any(Part::yields)
+        self.parts.iter().any(|part| part.yields())
     }
 
     /// True where a part may suddenly resist more than at the current configuration.
     pub fn may_stiffen(&self) -> bool {
-        self.parts.iter().any(Part::may_stiffen)
+        self.parts.iter().any(|part| part.may_stiffen())
     }
 
     /// The part of the critical time step that automatic steps of central differences take.

@@ -4,7 +4,6 @@ use super::integrals::MassIntegrals;
 use super::loading::OwnDamping;
 use super::node::Node;
 use base::math::{Mat3, Vec3};
-use base::quantities::Column;
 use deck::part_table::MassKind;
 use mechanics::sections::Stiffness;
 
@@ -45,79 +44,99 @@ pub struct LineElement {
 /// A place on an element: its nodes, each with its weight.
 pub type NodeWeights = Vec<(usize, f64)>;
 
-/// The questions to a part. [`super::Part`] hands each of them to its kind, and says what they mean.
+/// The questions to a part, which [`super::Part`] hands to its kind.
 pub trait PartAnswers {
-    /// What `[[expect]]` may ask of such a part; plastic strain, where its material yields.
-    const QUANTITIES: &'static [&'static [Column]];
-
+    /// The deck's name of the part.
     fn name(&self) -> &str;
 
+    /// True for a part that stands in a table of its own; false for what acts along a joint.
     fn is_listed(&self) -> bool {
         true
     }
 
+    /// Number of elements; a link is one, and so is each point and each box of a contact.
     fn elements(&self) -> usize;
 
+    /// Nodes of an element of a deformable part, ends of a link, points of a contact without the node that carries the surface.
     fn nodes(&self, element: usize) -> &[usize];
 
-    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize));
+    /// Calls `visit` with every node that the part names, so that nodes can be numbered anew.
+    fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize));
 
+    /// True where the material of the part yields.
     fn yields(&self) -> bool {
         false
     }
 
+    /// True where the part may resist more than it does as it lies, all at once.
     fn may_stiffen(&self) -> bool {
         false
     }
 
+    /// True where the part may store less energy than none, because it gives way under a preload or by its table.
     fn may_release(&self) -> bool {
         false
     }
 
+    /// True for a part with an elastic stiffness on which Rayleigh's β acts.
     fn has_damped_stiffness(&self) -> bool {
         true
     }
 
+    /// Rayleigh factors that the deck gives the part by itself.
     fn own_damping(&self) -> OwnDamping {
         OwnDamping::default()
     }
 
+    /// How the mass of the part is spread; `None` for a part without mass of its own.
     fn mass_kind(&self) -> Option<MassKind> {
         None
     }
 
+    /// The mass of an element at t = 0, whether or not the deck asks to keep it.
     fn element_mass(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> f64 {
         0.0
     }
 
+    /// An element of this length as a load along it sees it; `None` for what has no length.
     fn line(&self, _element: usize, _length: f64, _stiffnesses: &[Stiffness]) -> Option<LineElement> {
         None
     }
 
+    /// The part as a linear spring along a line; `None` for all that is not just that.
     fn linear_spring(&self) -> Option<LinearSpring> {
         None
     }
 
+    /// The stiffness of an element against stretching at t = 0: E A over its length, E times the thickness of a shell; `None` for what has
+    /// none.
     fn stretching(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> Option<f64> {
         None
     }
 
+    /// The smaller and the larger depth of a cross-section: of a shell its thickness, of a beam those of the rectangle with the
+    /// axial and bending stiffness of its first element; `None` for what has none.
     fn depths(&self, _stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {
         None
     }
 
+    /// How an element is drawn; `None` for a contact, whose surface and points are drawn with what carries them.
     fn drawing(&self, _element: usize) -> Option<Drawing<'_>> {
         None
     }
 
+    /// Unit normals at the nodes of an element of a surface, at t = 0; none for other parts.
     fn normals(&self, _element: usize) -> &[Vec3] {
         &[]
     }
 
+    /// So many places between each two neighbouring nodes, and within faces, each once: there the part may be touched too.
     fn places_between(&self, _count: usize) -> Vec<NodeWeights> {
         Vec::new()
     }
 
+    /// Moves the elements of the part into integrals over them, positions by `x`, because the part is rigid. Returns the nodes of
+    /// each as it is drawn.
     fn take_out(
         &mut self,
         _stiffnesses: &[Stiffness],

@@ -86,9 +86,12 @@ impl ShellElement {
     }
 }
 
-impl PartAnswers for Shell {
-    const QUANTITIES: &'static [&'static [Column]] = &[&[VON_MISES, PLASTIC_STRAIN], &SHELL_RESULTANTS];
+impl Shell {
+    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&[VON_MISES, PLASTIC_STRAIN], &SHELL_RESULTANTS];
+}
 
+impl PartAnswers for Shell {
     fn name(&self) -> &str {
         &self.name
     }
@@ -101,7 +104,7 @@ impl PartAnswers for Shell {
         &self.elements[element].nodes[..self.size()]
     }
 
-    fn visit_nodes(&mut self, visit: &mut impl FnMut(&mut usize)) {
+    fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         self.elements.iter_mut().flat_map(|e| &mut e.nodes).for_each(visit);
     }
 

@@ -202,7 +202,7 @@ pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, par
     if !analysis.is_dynamic() || !scheme.is_explicit() {
         return;
     }
-    check_yielding(scheme, &at.span, parts.iter().any(Part::yields), report);
+    check_yielding(scheme, &at.span, parts.iter().any(|part| part.yields()), report);
     if parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
         let hint = "mass = \"lumped\" needs no matrix at all";
         report.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);

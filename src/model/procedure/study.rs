@@ -275,7 +275,7 @@ impl<'d> Reader<'_, 'd> {
 
     fn schemes(&mut self, study: &'d Written) -> Vec<Choice> {
         let own = self.scene.deck.integrator.as_ref();
-        let yields = self.scene.parts.list.iter().any(Part::yields);
+        let yields = self.scene.parts.list.iter().any(|part| part.yields());
         let mut choices: Vec<Choice> = Vec::new();
         for at in &study.schemes {
             let owner = Owner::new("a scheme of `schemes`", &at.span);

@@ -45,7 +45,7 @@ fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
 
 /// Elements are counted through all parts with sections, then all bars.
 fn elements_before(model: &Model) -> usize {
-    model.parts.iter().filter(|part| part.kind().has_sections()).map(Part::elements).sum()
+    model.parts.iter().filter(|part| part.kind().has_sections()).map(|part| part.elements()).sum()
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {

@@ -37,7 +37,7 @@ fn quantities(at: ExpectAt) -> Vec<&'static str> {
 }
 
 fn value(at: ExpectAt, _: usize, frame: &Frame) -> Option<f64> {
-    let elements = |parts: &[Part]| parts.iter().map(Part::elements).sum::<usize>();
+    let elements = |parts: &[Part]| parts.iter().map(|part| part.elements()).sum::<usize>();
     let (from, to) = match at {
         ExpectAt::Elements(from, to) => (from, to),
         ExpectAt::Sections(part) => (elements(&frame.model.parts[..part]), elements(&frame.model.parts[..=part])),

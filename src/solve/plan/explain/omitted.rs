@@ -52,7 +52,7 @@ fn degrees_of_freedom(plan: &Plan, system: &System) -> Vec<String> {
 
 /// The terms of the equation of motion that this scene does without.
 fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
-    let kinds = || model.parts.iter().filter_map(Part::mass_kind);
+    let kinds = || model.parts.iter().filter_map(|part| part.mass_kind());
     let deformable = kinds().next().is_some();
     let mut out = Vec::new();
     if model.analysis.has_modes() {
