@@ -21,7 +21,7 @@ use super::verdict::{End, end, error_bars_in_words, line};
 use super::version::{VERSION, instructions};
 use super::watchers::{Watchers, stage_begins};
 use base::diagnostic::{Diagnostic, Source};
-use model::{Model, Part, StepLength};
+use model::{Model, StepLength};
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
 use results::error_bars::ErrorBars;
 use results::log::Log;

@@ -5,7 +5,7 @@ use super::fields;
 use super::table::TableKind;
 use super::tables::TABLES;
 use base::names::amount;
-use model::{Cadence, Model, Part, StepLength};
+use model::{Cadence, Model, StepLength};
 use solve::plan::Plan;
 
 /// The number of bytes of a number with its comma: most have sixteen or seventeen digits.

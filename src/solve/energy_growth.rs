@@ -9,7 +9,7 @@ use crate::tolerances::energy_growth::{FAR, SOUND};
 use base::snapshot::keep;
 use mechanics::integrators::Stepping;
 use mechanics::state::State;
-use model::{AnalysisKind, Model, Part};
+use model::{AnalysisKind, Model};
 
 /// The balance of energy of an analysis. In statics the work of a step is that of its ends, whatever lies between: what the balance
 /// misses is told at the end.

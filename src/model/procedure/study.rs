@@ -2,7 +2,7 @@
 //! [`study`] alone.
 
 pub use crate::data::{Choice, Quantity, Study};
-use crate::data::{Method, Node, Part};
+use crate::data::{Method, Node};
 use crate::places::place::Place;
 pub use crate::procedure::choose_scheme::choose_scheme;
 use crate::procedure::{can_be_kept, check_yielding, scheme as read_scheme};

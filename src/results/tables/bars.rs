@@ -3,7 +3,7 @@
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
 use base::quantities::{AXIAL_FORCE, Column};
-use model::{Bar, ExpectAt, Model, Part, PartKind};
+use model::{Bar, ExpectAt, Model, PartKind};
 use solve::{Frame, Wanted};
 use std::io;
 

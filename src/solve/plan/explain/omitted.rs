@@ -3,7 +3,7 @@
 use crate::plan::Plan;
 use crate::plan::dof_status::DofStatus;
 use crate::system::System;
-use model::{MassKind, Model, Part};
+use model::{MassKind, Model};
 use std::ops::Range;
 
 /// One line for each kind of omission.
