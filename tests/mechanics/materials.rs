@@ -3,8 +3,9 @@
 use rand::{RngExt, SeedableRng, rngs::SmallRng};
 use rdsolve::materials::failure::{FactorTable, FailureCriterion};
 use rdsolve::materials::{
-    Dissipation, FibreStress, Hardening, MaterialLaw, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
+    Ask, Dissipation, FibreStress, Hardening, MaterialLaw, Overstress, PlaneStress, StressState, Uniaxial, Viscosity,
 };
+use rdsolve::math::lanes::{LANES, Lanes};
 
 const E: f64 = 200e3;
 const NU: f64 = 0.3;
@@ -12,6 +13,42 @@ const G: f64 = 0.5 * E / (1.0 + NU);
 const YIELD: f64 = 250.0;
 /// Yield strain.
 const EY: f64 = YIELD / E;
+
+/// The stress at a strain, `dt` after the state in `old`.
+fn stress_at<const N: usize, S: StressState<N>>(
+    law: &MaterialLaw,
+    state: S,
+    strain: &[f64; N],
+    dt: f64,
+    old: &[f64],
+) -> [f64; N] {
+    law.at_point(state, strain, (dt, old), Ask::Stress).stress
+}
+
+/// The stress and its derivative.
+fn linearised<const N: usize, S: StressState<N>>(
+    law: &MaterialLaw,
+    state: S,
+    strain: &[f64; N],
+    dt: f64,
+    old: &[f64],
+) -> ([f64; N], [[f64; N]; N]) {
+    let answer = law.at_point(state, strain, (dt, old), Ask::Tangent);
+    (answer.stress, answer.tangent.unwrap_or_else(|| law.stiffness(state)))
+}
+
+/// The stress and what the step dissipates, with the history variables at its end in `new`.
+fn advanced<const N: usize, S: StressState<N>>(
+    law: &MaterialLaw,
+    state: S,
+    strain: &[f64; N],
+    dt: f64,
+    (old, new): (&[f64], &mut [f64]),
+) -> ([f64; N], Dissipation) {
+    let answer = law.at_point(state, strain, (dt, old), Ask::History(1.0));
+    law.remember(state, &answer.new, (new, |_| Some(0)));
+    (answer.stress, answer.dissipation.map_or_else(Dissipation::default, |spent| spent.lane(0)))
+}
 
 /// A point that is led along a path.
 struct Point<'a, S> {
@@ -34,9 +71,9 @@ impl<'a, S: Copy> Point<'a, S> {
         S: StressState<N>,
     {
         let mut new = vec![f64::NAN; self.history.len()];
-        let (stress, work) = self.law.advance(self.state, &strain, (dt, 1.0), &self.history, &mut new);
-        assert_eq!(stress, self.law.stress(self.state, &strain, dt, &self.history));
-        assert_eq!(stress, self.law.stress_and_tangent(self.state, &strain, dt, &self.history).0);
+        let (stress, work) = advanced(self.law, self.state, &strain, dt, (&self.history, &mut new));
+        assert_eq!(stress, stress_at(self.law, self.state, &strain, dt, &self.history));
+        assert_eq!(stress, linearised(self.law, self.state, &strain, dt, &self.history).0);
         self.history = new;
         self.work.plastic += work.plastic;
         self.work.viscous += work.viscous;
@@ -50,7 +87,7 @@ impl<'a, S: Copy> Point<'a, S> {
         S: StressState<N>,
     {
         for _ in 0..50 {
-            let (sigma, C) = self.law.stress_and_tangent(self.state, &strain, dt, &self.history);
+            let (sigma, C) = linearised(self.law, self.state, &strain, dt, &self.history);
             strain[i] += (stress - sigma[i]) / C[i][i];
         }
         strain
@@ -303,7 +340,7 @@ fn differences<const N: usize, S: StressState<N>>(
     let at = |j: usize, step: f64| {
         let (mut moved, mut new) = (*strain, old.to_vec());
         moved[j] += step;
-        let stress = law.advance(state, &moved, (dt, 1.0), old, &mut new).0;
+        let stress = advanced(law, state, &moved, dt, (old, &mut new)).0;
         (stress, (new[N] > old[N], line(new[N])))
     };
     let mut C = [[0.0; N]; N];
@@ -332,7 +369,7 @@ fn tangent_error<const N: usize, S: StressState<N>>(state: S) -> f64 {
             }
             let size = EY * 10f64.powf(rng.random_range(-0.5..2.0));
             let (strain, dt) = (random(&mut rng, size), 10f64.powf(rng.random_range(-4.0..2.0)));
-            let (_, C) = law.stress_and_tangent(state, &strain, dt, &point.history);
+            let (_, C) = linearised(&law, state, &strain, dt, &point.history);
             match differences(&law, state, &strain, dt, &point.history, 1e-4 * EY) {
                 None => skipped += 1,
                 Some(D) => {
@@ -508,16 +545,16 @@ fn without_and_with_endless_fluidity_viscosity_vanishes() {
             let law = |viscosity| MaterialLaw::new(E, NU, hardening.clone(), 0.4, viscosity);
             let strain: [f64; 3] = random(&mut rng, 20.0 * EY);
             let old = [0.0; 8];
-            let plastic = law(None).stress(PlaneStress, &strain, 1.0, &old);
+            let plastic = stress_at(&law(None), PlaneStress, &strain, 1.0, &old);
             let elastic = MaterialLaw::new(E, NU, linear(f64::INFINITY), 0.0, None);
-            let elastic = elastic.stress_and_tangent(PlaneStress, &strain, 1.0, &[0.0; 4]);
+            let elastic = linearised(&elastic, PlaneStress, &strain, 1.0, &[0.0; 4]);
             for (gamma, dt) in [(1e-300, 1.0), (1.0, 0.0), (0.0, 1.0), (1e-150, 1e-150)] {
-                let got = law(power(gamma, n)).stress_and_tangent(PlaneStress, &strain, dt, &old);
+                let got = linearised(&law(power(gamma, n)), PlaneStress, &strain, dt, &old);
                 (0..3).for_each(|i| close(got.0[i], elastic.0[i], 1e-12 * YIELD, "elastic"));
                 (0..9).for_each(|i| close(got.1[i / 3][i % 3], elastic.1[i / 3][i % 3], 1e-12 * E, "elastic tangent"));
             }
             for (gamma, dt) in [(1e100, 1.0), (1e300, 1.0), (1e300, 1e300)] {
-                let got = law(power(gamma, n)).stress(PlaneStress, &strain, dt, &old);
+                let got = stress_at(&law(power(gamma, n)), PlaneStress, &strain, dt, &old);
                 // Stresses move by no more than twice the radius, which a plastic strain below 1 raises by γΔt^(−1/n).
                 let v = f64::powf(gamma, -1.0 / n);
                 (0..3).for_each(|i| close(got[i], plastic[i], 2.0 * YIELD * (2.0 * v + 1e-13), "plastic"));
@@ -563,8 +600,8 @@ fn any_step<const N: usize, S: Mises<N>>(state: S, rng: &mut SmallRng) {
         let size = EY * 10f64.powf(rng.random_range(-1.0..decades));
         let strain: [f64; N] = random(rng, size);
         let mut new = vec![f64::NAN; old.len()];
-        let (stress, work) = law.advance(state, &strain, (1.0, 1.0), &old, &mut new);
-        let (_, C) = law.stress_and_tangent(state, &strain, 1.0, &old);
+        let (stress, work) = advanced(&law, state, &strain, 1.0, (&old, &mut new));
+        let (_, C) = linearised(&law, state, &strain, 1.0, &old);
         let at = format!("{law:?} at {strain:?} from {old:?}: {stress:?}, {new:?}");
         assert!(C.iter().flatten().chain(&stress).chain(&new).all(|x| x.is_finite()), "{at}");
 
@@ -614,7 +651,7 @@ fn a_layer_fails_by_its_triaxiality() {
             while !law.has_failed(PlaneStress, &old) {
                 steps += 1;
                 let strain = unit.map(|u: f64| u * part * f64::from(steps));
-                law.advance(PlaneStress, &strain, (1.0, 1.0), &old, &mut new);
+                advanced(&law, PlaneStress, &strain, 1.0, (&old, &mut new));
                 old.copy_from_slice(&new);
             }
             // A step adds at most twice its strain.
@@ -641,7 +678,7 @@ fn no_number_is_too_large_and_no_strain_loops() {
         let old = vec![0.0; law.history(PlaneStress)];
         for size in [1e3 * EY, 1e6 * EY, 1e100, 1e200, 1e300] {
             let strain: [f64; 3] = random(&mut rng, size);
-            let (stress, C) = law.stress_and_tangent(PlaneStress, &strain, 0.1, &old);
+            let (stress, C) = linearised(&law, PlaneStress, &strain, 0.1, &old);
             assert!(
                 stress.iter().chain(C.iter().flatten()).all(|x| x.is_finite()),
                 "{law:?} at {strain:?}: {stress:?}, {C:?}"
@@ -649,8 +686,63 @@ fn no_number_is_too_large_and_no_strain_loops() {
         }
         for strain in [[f64::NAN, 0.0, 0.0], [f64::INFINITY, 0.0, 1.0], [1e-3, 0.0, f64::NEG_INFINITY]] {
             let mut new = old.clone();
-            let (stress, _) = law.advance(PlaneStress, &strain, (0.1, 1.0), &old, &mut new);
+            let (stress, _) = advanced(&law, PlaneStress, &strain, 0.1, (&old, &mut new));
             assert!(stress.iter().any(|s| !s.is_finite()), "{law:?} at {strain:?}: {stress:?}");
+        }
+    }
+}
+
+/// Eight points side by side, from histories of earlier steps, below yield and far beyond, with numbers whose squares are out of range:
+/// stress, tangent, history and dissipation have the bits of one point.
+fn eight_are_one_eight_times<const N: usize, S: StressState<N>>(law: &MaterialLaw, state: S, rng: &mut SmallRng) {
+    let size = law.history(state);
+    let mut old = vec![0.0; LANES * size];
+    for step in 0..40 {
+        let scale = EY * [0.01, 1.0, 10.0, 1e3, 1e160][step % if step < 32 { 4 } else { 5 }];
+        let strain: [[f64; LANES]; N] = std::array::from_fn(|_| random(rng, scale));
+        let history = law.recall::<Lanes, N, S>(state, &old, |lane| lane * size);
+        let respond = |ask| law.respond(state, &strain.map(Lanes::new), (0.1, &history), ask);
+        let (tangent, end) = (respond(Ask::Tangent), respond(Ask::History(0.7)));
+        let (mut new, mut alone) = (old.clone(), old.clone());
+        law.remember(state, &end.new, (&mut new, |lane| Some(lane * size)));
+        for lane in 0..LANES {
+            let own = lane * size..(lane + 1) * size;
+            let at = |ask| law.at_point(state, &strain.map(|of| of[lane]), (0.1, &old[own.clone()]), ask);
+            let (one, last) = (at(Ask::Tangent), at(Ask::History(0.7)));
+            law.remember(state, &last.new, (&mut alone[own], |_| Some(0)));
+            assert_eq!(tangent.stress.map(|of| of.to_array()[lane]), one.stress, "{law:?} {scale:e}");
+            assert_eq!(end.stress.map(|of| of.to_array()[lane]), last.stress, "{law:?} {scale:e}");
+            let C = tangent.tangent.map(|C| C.map(|row| row.map(|of| of.to_array()[lane])));
+            let elastic = || law.stiffness(state);
+            assert_eq!(C.unwrap_or_else(elastic), one.tangent.unwrap_or_else(elastic), "{law:?} {scale:e}");
+            let spent = |of: Option<Dissipation>| of.unwrap_or_default();
+            assert_eq!(
+                spent(end.dissipation.map(|of| of.lane(lane))),
+                spent(last.dissipation.map(|of| of.lane(0))),
+                "{law:?} {scale:e}"
+            );
+        }
+        assert_eq!(new, alone, "{law:?} {scale:e}");
+        if scale < 1.0 {
+            old = new;
+        }
+    }
+}
+
+#[test]
+fn points_side_by_side_have_the_bits_of_one() {
+    let mut rng = SmallRng::seed_from_u64(10);
+    let by_stress = FailureCriterion {
+        strain: 0.05,
+        triaxiality: FactorTable::new(vec![[0.0, 2.0], [1.0 / 3.0, 1.0]]).ok(),
+        rate: FactorTable::new(vec![[0.0, 1.0], [10.0, 2.0]]).ok(),
+    };
+    for (law, ..) in laws(0.3) {
+        for failure in [None, Some(FailureCriterion::at(0.05)), Some(by_stress.clone())] {
+            let law = failure.map_or(law.clone(), |failure| law.clone().failing_at(failure));
+            eight_are_one_eight_times(&law, PlaneStress, &mut rng);
+            eight_are_one_eight_times(&law, FibreStress, &mut rng);
+            eight_are_one_eight_times(&law, Uniaxial, &mut rng);
         }
     }
 }

@@ -3,12 +3,46 @@
 
 use super::Vec3;
 use super::lanes::{LANES, Lanes, lanes};
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 use wide::f64x4;
+
+/// A condition of a number, or one for each of eight.
+pub trait Mask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self> {
+    /// True where the condition holds for any.
+    fn any(self) -> bool;
+    /// True where it holds for the one in a lane.
+    fn lane(self, lane: usize) -> bool;
+}
+
+impl Mask for bool {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+
+    #[inline(always)]
+    fn lane(self, _: usize) -> bool {
+        self
+    }
+}
+
+impl Mask for Lanes {
+    #[inline(always)]
+    fn any(self) -> bool {
+        self.to_bitmask() != 0
+    }
+
+    #[inline(always)]
+    fn lane(self, lane: usize) -> bool {
+        self.to_bitmask() >> lane & 1 == 1
+    }
+}
 
 /// A number, or one for each of eight elements.
 pub trait Number:
     Copy
+    + Send
+    + Sync
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
@@ -18,27 +52,65 @@ pub trait Number:
     + AddAssign
     + SubAssign
 {
+    /// What comparisons give.
+    type Mask: Mask;
     /// The number of elements.
     const COUNT: usize;
     /// Zero for all.
     const ZERO: Self;
+    /// One for all.
+    const ONE: Self;
     /// The same number in all lanes.
     fn splat(x: f64) -> Self;
     /// The numbers of the elements.
     fn gather(of: impl FnMut(usize) -> f64) -> Self;
     /// The number of one element.
     fn lane(self, lane: usize) -> f64;
+    /// The numbers of the elements; of one, that number in every place.
+    fn to_lanes(self) -> [f64; LANES];
     /// a b + c, rounded as [`super::fma`] does.
     fn fma(a: Self, b: Self, c: Self) -> Self;
     /// The number, or its negative where `sign` is below zero.
     fn with_sign_of(self, sign: Self) -> Self;
+    /// True where this is less than `other`.
+    fn lt(self, other: Self) -> Self::Mask;
+    /// True where this is `other` or less.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `yes` where the condition holds, `no` elsewhere.
+    fn select(condition: Self::Mask, yes: Self, no: Self) -> Self;
+    /// The square root.
+    fn sqrt(self) -> Self;
+    /// The size.
+    fn abs(self) -> Self;
+    /// The larger number.
+    fn max(self, other: Self) -> Self;
+    /// The smaller number.
+    fn min(self, other: Self) -> Self;
+    /// A function of the number, one element after the other.
+    #[inline(always)]
+    fn map(self, of: impl Fn(f64) -> f64) -> Self {
+        Self::gather(|lane| of(self.lane(lane)))
+    }
+    /// Two functions of the number, one element after the other.
+    #[inline(always)]
+    fn map_two(self, of: impl Fn(f64) -> (f64, f64)) -> (Self, Self) {
+        let mut second = [0.0; LANES];
+        let first = Self::gather(|lane| {
+            let both = of(self.lane(lane));
+            second[lane] = both.1;
+            both.0
+        });
+        (first, Self::gather(|lane| second[lane]))
+    }
     /// Writes numbers of the first `count` elements, all those of one element together.
     fn store(numbers: &[Self], count: usize, out: &mut [f64]);
 }
 
 impl Number for f64 {
+    type Mask = bool;
     const COUNT: usize = 1;
     const ZERO: f64 = 0.0;
+    const ONE: f64 = 1.0;
 
     #[inline(always)]
     fn splat(x: f64) -> f64 {
@@ -56,6 +128,11 @@ impl Number for f64 {
     }
 
     #[inline(always)]
+    fn to_lanes(self) -> [f64; LANES] {
+        [self; LANES]
+    }
+
+    #[inline(always)]
     fn fma(a: f64, b: f64, c: f64) -> f64 {
         super::fma(a, b, c)
     }
@@ -66,14 +143,51 @@ impl Number for f64 {
     }
 
     #[inline(always)]
+    fn lt(self, other: f64) -> bool {
+        self < other
+    }
+
+    #[inline(always)]
+    fn le(self, other: f64) -> bool {
+        self <= other
+    }
+
+    #[inline(always)]
+    fn select(condition: bool, yes: f64, no: f64) -> f64 {
+        if condition { yes } else { no }
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
+    }
+
+    #[inline(always)]
+    fn max(self, other: f64) -> f64 {
+        f64::max(self, other)
+    }
+
+    #[inline(always)]
+    fn min(self, other: f64) -> f64 {
+        f64::min(self, other)
+    }
+
+    #[inline(always)]
     fn store(numbers: &[f64], _: usize, out: &mut [f64]) {
         out.copy_from_slice(numbers);
     }
 }
 
 impl Number for Lanes {
+    type Mask = Lanes;
     const COUNT: usize = LANES;
     const ZERO: Lanes = Lanes::ZERO;
+    const ONE: Lanes = Lanes::ONE;
 
     #[inline(always)]
     fn splat(x: f64) -> Lanes {
@@ -91,6 +205,11 @@ impl Number for Lanes {
     }
 
     #[inline(always)]
+    fn to_lanes(self) -> [f64; LANES] {
+        self.to_array()
+    }
+
+    #[inline(always)]
     fn fma(a: Lanes, b: Lanes, c: Lanes) -> Lanes {
         super::lanes::fma(a, b, c)
     }
@@ -98,6 +217,41 @@ impl Number for Lanes {
     #[inline(always)]
     fn with_sign_of(self, sign: Lanes) -> Lanes {
         sign.simd_lt(Lanes::ZERO).select(-self, self)
+    }
+
+    #[inline(always)]
+    fn lt(self, other: Lanes) -> Lanes {
+        self.simd_lt(other)
+    }
+
+    #[inline(always)]
+    fn le(self, other: Lanes) -> Lanes {
+        self.simd_le(other)
+    }
+
+    #[inline(always)]
+    fn select(condition: Lanes, yes: Lanes, no: Lanes) -> Lanes {
+        condition.select(yes, no)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Lanes {
+        Lanes::sqrt(self)
+    }
+
+    #[inline(always)]
+    fn abs(self) -> Lanes {
+        Lanes::abs(self)
+    }
+
+    #[inline(always)]
+    fn max(self, other: Lanes) -> Lanes {
+        Lanes::fast_max(self, other)
+    }
+
+    #[inline(always)]
+    fn min(self, other: Lanes) -> Lanes {
+        Lanes::min(self, other)
     }
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
 use super::link::{Link, LinkLaw, Links};
-use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, Uniaxial};
+use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, Response, Uniaxial};
 use crate::state::{Configuration, Node, elongation, stretch};
 use base::math::{Mat3, Vec3};
 
@@ -107,7 +107,9 @@ impl YieldingBars {
 
     /// True if a tension-only bar would be in elastic compression, so it has no force.
     fn is_slack(&self, strain: f64, old: &[f64]) -> bool {
-        self.tension_only && self.law.stress(Uniaxial, &[strain], 0.0, old)[0] < 0.0 && strain <= old[0]
+        self.tension_only
+            && self.law.at_point(Uniaxial, &[strain], (0.0, old), Ask::Stress).stress[0] < 0.0
+            && strain <= old[0]
     }
 
     /// The axial force and its derivatives.
@@ -118,14 +120,15 @@ impl YieldingBars {
         if self.law.has_failed(Uniaxial, old) {
             return Tension { modulus: FAILED_STIFFNESS * self.law.elastic().E, ..Tension::default() };
         }
-        let ([stress], [[modulus]]) = self.law.stress_and_tangent(Uniaxial, &[at.strain], dt, old);
+        let Response { stress: [stress], tangent, .. } =
+            self.law.at_point(Uniaxial, &[at.strain], (dt, old), Ask::Tangent);
         let viscosity = self.damping * self.law.elastic().E;
         let damping = viscosity * at.strain_rate;
         if self.tension_only && stress + damping < 0.0 {
             // Damping cancels the force of the material at most: the bar does not push.
             return Tension { material: self.area * stress, damping: -self.area * stress, ..Tension::default() };
         }
-        let modulus = if moduli == Moduli::Elastic { self.law.elastic().E } else { modulus };
+        let modulus = tangent.filter(|_| moduli != Moduli::Elastic).map_or(self.law.elastic().E, |[[modulus]]| modulus);
         Tension { material: self.area * stress, damping: self.area * damping, modulus, viscosity }
     }
 }
@@ -244,8 +247,10 @@ impl ElementBlock for YieldingBars {
             let old = &now.history[self.history_range(e)];
             // The strain of a slack bar is its plastic strain.
             let strain = if self.is_slack(at.strain, old) { old[0] } else { at.strain };
-            let (_, dissipation) = self.law.advance(Uniaxial, &[strain], (now.dt, part), old, new);
-            sum += dissipation * (self.area * self.elements[e].free);
+            let answer = self.law.at_point(Uniaxial, &[strain], (now.dt, old), Ask::History(part));
+            self.law.remember(Uniaxial, &answer.new, (new, |_| Some(0)));
+            sum += answer.dissipation.map_or(Dissipation::default(), |spent| spent.lane(0))
+                * (self.area * self.elements[e].free);
         }
         sum
     }

@@ -44,8 +44,6 @@ pub trait ElementBlock: Send + Sync {
     fn history(&self) -> usize {
         0
     }
-    /// Prepares for schemes that ask for forces alone, over and over, at the expense of memory. Forces stay the same to the last bit.
-    fn pack(&mut self) {}
     /// Subtracts the internal forces of all elements from `F`, which is indexed by node.
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.

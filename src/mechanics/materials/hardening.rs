@@ -1,5 +1,7 @@
 //! How far the yield stress has risen after some plastic strain.
 
+use base::math::number::Number;
+
 /// Yield stress against accumulated plastic strain.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hardening {
@@ -60,11 +62,11 @@ impl Hardening {
     }
 
     /// σ_Y − σ_Y0 at an accumulated plastic strain, and its slope; at a kink the slope to the right.
-    #[inline]
-    pub fn rise(&self, accumulated: f64) -> (f64, f64) {
+    #[inline(always)]
+    pub fn rise<T: Number>(&self, accumulated: T) -> (T, T) {
         match self {
-            Hardening::Linear { modulus, .. } => (modulus * accumulated, *modulus),
-            Hardening::Table { points } => {
+            Hardening::Linear { modulus, .. } => (T::splat(*modulus) * accumulated, T::splat(*modulus)),
+            Hardening::Table { points } => accumulated.map_two(|accumulated| {
                 let after = points.partition_point(|p| p[0] <= accumulated).max(1);
                 let [x, y] = points[after - 1];
                 let rise = y - points[0][1];
@@ -75,7 +77,7 @@ impl Hardening {
                     }
                     None => (rise, 0.0),
                 }
-            }
+            }),
         }
     }
 }

@@ -3,13 +3,15 @@
 //! Backward Euler over the step, with the tangent of exactly that (13)-(18); any increment converges.
 
 use super::constants::ElasticConstants;
-use super::dissipation::Dissipation;
 use super::failure::FailureCriterion;
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
+use super::response::{Ask, PointHistory, Response, Spent};
 use super::return_mapping::{ReturnPoint, Trial, Yielding};
-use super::side_by_side::PlainPlasticity;
 use super::stress_state::StressState;
+use base::math::lanes::LANES;
+use base::math::number::{Mask, Number};
+use std::array::from_fn;
 
 /// An elastic-plastic or elastic-viscoplastic material.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,22 +27,28 @@ pub struct MaterialLaw {
 pub const FAILED_STIFFNESS: f64 = 1e-8;
 
 /// Stress at the end of a step by modes: the trial, and the return if it yields.
-struct Answer<const N: usize> {
+struct Answer<T: Number, const N: usize> {
     /// ξ*.
-    relative: [f64; N],
-    /// X at the beginning of the step.
-    back: [f64; N],
+    relative: [T; N],
+    /// X at the beginning of the step, of a law that has one.
+    back: Option<[T; N]>,
     /// i there.
-    radius: f64,
-    yielding: Option<ReturnPoint>,
+    radius: T,
+    /// The points that yield.
+    yields: T::Mask,
+    /// The return, where one yields.
+    end: Option<ReturnPoint<T>>,
 }
 
-impl<const N: usize> Answer<N> {
+impl<T: Number, const N: usize> Answer<T, N> {
     /// σᵢ = Xᵢ + ξᵢ* (R + k)/Tᵢ.
     #[inline(always)]
-    fn stress(&self) -> [f64; N] {
-        let ratio = |i| self.yielding.as_ref().map_or(1.0, |y| y.S / y.T(i));
-        std::array::from_fn(|i| self.back[i] + self.relative[i] * ratio(i))
+    fn stress(&self) -> [T; N] {
+        let mut stress = self.relative;
+        if let Some(end) = &self.end {
+            stress = from_fn(|i| T::select(self.yields, stress[i] * (end.S / end.T(i)), stress[i]));
+        }
+        self.back.map_or(stress, |back| from_fn(|i| back[i] + stress[i]))
     }
 }
 
@@ -73,12 +81,8 @@ impl MaterialLaw {
 
     /// True where a point has failed by its history: its stress is zero from then on.
     #[inline(always)]
-    pub fn has_failed<const N: usize, S: StressState<N>>(&self, _: S, history: &[f64]) -> bool {
-        match &self.failure {
-            None => false,
-            Some(failure) if failure.sums_damage() => history[self.damage_place::<N>()] >= 1.0,
-            Some(failure) => history[N] >= failure.strain,
-        }
+    pub fn has_failed<const N: usize, S: StressState<N>>(&self, state: S, history: &[f64]) -> bool {
+        self.failure.as_ref().is_some_and(|failure| failed(failure, &self.recall::<f64, N, S>(state, history, |_| 0)))
     }
 
     /// The elastic constants.
@@ -89,8 +93,7 @@ impl MaterialLaw {
     /// Numbers of history per point: plastic strains, accumulated plastic strain, back stresses if there is a kinematic
     /// share, damage if failure depends on stress or rate, overstress of the last state if viscous.
     pub fn history<const N: usize, S: StressState<N>>(&self, _: S) -> usize {
-        let damage = self.failure.as_ref().is_some_and(FailureCriterion::sums_damage);
-        self.damage_place::<N>() + usize::from(damage) + usize::from(self.yielding.viscosity.is_some())
+        self.damage_place::<N>() + usize::from(self.sums_damage()) + usize::from(self.yielding.viscosity.is_some())
     }
 
     /// The place of damage in the history of a point, where there is such a number.
@@ -99,168 +102,214 @@ impl MaterialLaw {
         N + 1 + if self.is_kinematic() { N } else { 0 }
     }
 
-    /// Stress at `strain`, `dt` after the state in `old`. Not finite where the strain or its elastic stress is not.
-    #[inline]
-    pub fn stress<const N: usize, S: StressState<N>>(
+    /// The history variables of one point or of eight, each with the place among `history` where its own start.
+    #[inline(always)]
+    pub fn recall<T: Number, const N: usize, S: StressState<N>>(
         &self,
         state: S,
-        strain: &[f64; N],
-        dt: f64,
-        old: &[f64],
-    ) -> [f64; N] {
-        if self.has_failed(state, old) {
-            return [0.0; N];
+        history: &[f64],
+        at: impl Fn(usize) -> usize,
+    ) -> PointHistory<T, N> {
+        let variables = self.history(state);
+        let own: [&[f64]; LANES] =
+            from_fn(|lane| if lane < T::COUNT { &history[at(lane)..][..variables] } else { &[] });
+        let number = |k: usize| T::gather(|lane| own[lane][k]);
+        PointHistory {
+            plastic: from_fn(number),
+            accumulated: number(N),
+            back: self.is_kinematic().then(|| from_fn(|i| number(N + 1 + i))),
+            damage: self.sums_damage().then(|| number(self.damage_place::<N>())),
+            overstress: self.yielding.viscosity.map(|_| number(variables - 1)),
         }
-        S::modes(self.answer::<N, S>(strain, dt, old).stress())
     }
 
-    /// Stress, and its symmetric derivative with respect to the strain at the end of the step.
-    #[inline]
-    pub fn stress_and_tangent<const N: usize, S: StressState<N>>(
+    /// Writes the history variables of one point, or of those of eight that have a place for them.
+    #[inline(always)]
+    pub fn remember<T: Number, const N: usize, S: StressState<N>>(
         &self,
         state: S,
-        strain: &[f64; N],
-        dt: f64,
-        old: &[f64],
-    ) -> ([f64; N], [[f64; N]; N]) {
-        let (stress, C) = self.linearise(state, strain, dt, old);
-        (stress, C.unwrap_or_else(|| self.stiffness(state)))
-    }
-
-    /// The stress and the tangent of [`MaterialLaw::stress_and_tangent`], with `None` for the elastic stiffness.
-    #[inline]
-    pub fn linearise<const N: usize, S: StressState<N>>(
-        &self,
-        state: S,
-        strain: &[f64; N],
-        dt: f64,
-        old: &[f64],
-    ) -> ([f64; N], Option<[[f64; N]; N]>) {
-        if self.has_failed(state, old) {
-            return ([0.0; N], Some(self.stiffness(state).map(|row| row.map(|c| FAILED_STIFFNESS * c))));
-        }
-        let answer = self.answer::<N, S>(strain, dt, old);
-        let C = answer.yielding.as_ref().map(|y| {
-            // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition keeps Σ bᵢ dεᵢ = slope ∂, and
-            // dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
-            let e = S::moduli(&self.elastic);
-            let ratio: [f64; N] = std::array::from_fn(|i| y.S / y.T(i));
-            let Sb: [f64; N] = std::array::from_fn(|i| S::P[i] * e[i] * (answer.relative[i] / y.T(i)) * ratio[i]);
-            // Nothing changes with the unknown at the very onset.
-            let turn = if y.slope > 0.0 { y.turn / (y.slope * y.S) } else { 0.0 };
-            let mut C = [[0.0; N]; N];
-            for i in 0..N {
-                for j in 0..N {
-                    C[i][j] = -turn * Sb[i] * Sb[j];
-                }
-                C[i][i] += e[i] * ratio[i];
+        of: &PointHistory<T, N>,
+        (history, at): (&mut [f64], impl Fn(usize) -> Option<usize>),
+    ) {
+        let variables = self.history(state);
+        let (plastic, accumulated) = (of.plastic.map(T::to_lanes), of.accumulated.to_lanes());
+        for lane in 0..T::COUNT {
+            let Some(at) = at(lane) else { continue };
+            let own = &mut history[at..][..variables];
+            (0..N).for_each(|i| own[i] = plastic[i][lane]);
+            own[N] = accumulated[lane];
+            if let Some(back) = &of.back {
+                (0..N).for_each(|i| own[N + 1 + i] = back[i].lane(lane));
             }
-            from_modes::<N, S>(C)
-        });
-        (S::modes(answer.stress()), C)
+            if let Some(damage) = of.damage {
+                own[self.damage_place::<N>()] = damage.lane(lane);
+            }
+            if let Some(overstress) = of.overstress {
+                own[variables - 1] = overstress.lane(lane);
+            }
+        }
+    }
+
+    /// What the material answers at `strain`, `dt` after the state in `old`: at one point, or at eight, each with the bits that it has by
+    /// itself. Not finite where the strain or its elastic stress is not.
+    #[inline(always)]
+    pub fn respond<T: Number, const N: usize, S: StressState<N>>(
+        &self,
+        state: S,
+        strain: &[T; N],
+        (dt, old): (f64, &PointHistory<T, N>),
+        ask: Ask,
+    ) -> Response<T, N> {
+        let failed = self.failure.as_ref().map(|failure| failed(failure, old));
+        let answer = self.answer::<T, N, S>(strain, dt, old, failed);
+        let mut out = Response { stress: S::modes(answer.stress()), tangent: None, new: *old, dissipation: None };
+        match ask {
+            Ask::Stress => {}
+            Ask::Tangent => out.tangent = self.tangent(state, &answer),
+            Ask::History(part) => self.advance(state, (strain, old), &answer, (dt, part), &mut out),
+        }
+        if let Some(failed) = failed.filter(|failed| failed.any()) {
+            let elastic = self.stiffness(state);
+            out.stress = out.stress.map(|stress| T::select(failed, T::ZERO, stress));
+            if ask == Ask::Tangent {
+                let C = out.tangent.unwrap_or_else(|| elastic.map(|row| row.map(T::splat)));
+                let left = |i: usize, j: usize| T::splat(FAILED_STIFFNESS * elastic[i][j]);
+                out.tangent = Some(from_fn(|i| from_fn(|j| T::select(failed, left(i, j), C[i][j]))));
+            }
+            out.new = out.new.unless(failed, old);
+        }
+        out
+    }
+
+    /// The answer at one point, whose history variables are `old`.
+    #[inline]
+    pub fn at_point<const N: usize, S: StressState<N>>(
+        &self,
+        state: S,
+        strain: &[f64; N],
+        (dt, old): (f64, &[f64]),
+        ask: Ask,
+    ) -> Response<f64, N> {
+        self.respond(state, strain, (dt, &self.recall(state, old, |_| 0)), ask)
+    }
+
+    /// The derivative of the stress by the strain at the end of the step; `None` where nothing yields.
+    #[inline(always)]
+    fn tangent<T: Number, const N: usize, S: StressState<N>>(
+        &self,
+        state: S,
+        answer: &Answer<T, N>,
+    ) -> Option<[[T; N]; N]> {
+        let end = answer.end.as_ref()?;
+        // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition keeps Σ bᵢ dεᵢ = slope ∂, and
+        // dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
+        let e = S::moduli(&self.elastic).map(T::splat);
+        let ratio: [T; N] = from_fn(|i| end.S / end.T(i));
+        let Sb: [T; N] = from_fn(|i| T::splat(S::P[i]) * e[i] * (answer.relative[i] / end.T(i)) * ratio[i]);
+        // Nothing changes with the unknown at the very onset.
+        let turn = T::select(T::ZERO.lt(end.slope), end.turn() / (end.slope * end.S), T::ZERO);
+        let mut C = [[T::ZERO; N]; N];
+        for i in 0..N {
+            for j in 0..N {
+                C[i][j] = -turn * Sb[i] * Sb[j];
+            }
+            C[i][i] += e[i] * ratio[i];
+        }
+        let (C, elastic) = (from_modes::<T, N, S>(C), self.stiffness(state));
+        Some(from_fn(|i| from_fn(|j| T::select(answer.yields, C[i][j], T::splat(elastic[i][j])))))
+    }
+
+    /// The history variables after `part` of the time `dt` since the old ones, at whose end `strain` is, and what became of the plastic
+    /// work in the part. A scheme that writes equilibrium beyond the end of its step keeps that part of what equilibrium asked for.
+    #[inline(always)]
+    fn advance<T: Number, const N: usize, S: StressState<N>>(
+        &self,
+        _: S,
+        (strain, old): (&[T; N], &PointHistory<T, N>),
+        answer: &Answer<T, N>,
+        (dt, part): (f64, f64),
+        out: &mut Response<T, N>,
+    ) {
+        let (part, half) = (T::splat(part), T::splat(0.5));
+        if let Some(from) = old.overstress {
+            let end = answer.end.map_or(T::ZERO, |end| T::select(answer.yields, end.overstress, T::ZERO));
+            out.new.overstress = Some(from + part * (end - from));
+        }
+        let Some(end) = &answer.end else { return };
+        let only = |change: T| T::select(answer.yields, change, T::ZERO);
+        // That part of the return is taken on a straight line.
+        let multiplier = part * end.multiplier;
+        let start = self.yielding.hardening.rise(old.accumulated).0;
+        let rise = self.yielding.hardening.rise(old.accumulated + multiplier).0;
+        let radius = self.yielding.radius(rise);
+        let mut spent = Spent { plastic: only(half * (answer.radius + radius) * multiplier), ..Spent::ZERO };
+        if let Some((from, to)) = old.overstress.zip(out.new.overstress) {
+            spent.viscous = Some(only(half * (from * answer.radius + to * radius) * multiplier));
+        }
+        // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
+        let direction: [T; N] = from_fn(|i| answer.relative[i] / end.T(i));
+        let plastic: [T; N] = from_fn(|i| T::splat(S::P[i]) * multiplier * direction[i]);
+        let more = S::modes(plastic);
+        let kept = |new: T, old: T| T::select(answer.yields, new, old);
+        out.new.plastic = from_fn(|i| kept(old.plastic[i] + more[i], old.plastic[i]));
+        out.new.accumulated = kept(old.accumulated + multiplier, old.accumulated);
+        if let Some((from, old)) = answer.back.zip(old.back) {
+            let back = T::splat(self.yielding.kinematic_share) * (rise - start);
+            let more = S::modes(direction.map(|n| back * n));
+            out.new.back = Some(from_fn(|i| kept(old[i] + more[i], old[i])));
+            let mut stored = T::ZERO;
+            (0..N).for_each(|i| stored += (from[i] + half * back * direction[i]) * plastic[i]);
+            spent.stored = Some(only(stored));
+        }
+        if let Some(failure) = &self.failure {
+            if let Some(old) = old.damage {
+                // A step of no length has no rate.
+                let rate = if dt > 0.0 { end.multiplier / T::splat(dt) } else { T::ZERO };
+                let triaxiality = triaxiality::<T, N, S>(&out.stress);
+                let damage =
+                    T::gather(|lane| failure.damage(multiplier.lane(lane), triaxiality.lane(lane), rate.lane(lane)));
+                out.new.damage = Some(kept(old + damage, old));
+            }
+            let gone = answer.yields & failed(failure, &out.new);
+            if gone.any() {
+                self.give_up::<T, N, S>(strain, &out.new, gone, &mut spent);
+            }
+        }
+        out.dissipation = Some(spent);
+    }
+
+    /// Books what points that fail have stored: their elastic energy, and what kinematic hardening has kept, ½ X·εᵖ, which is exact where
+    /// that is linear.
+    #[inline(always)]
+    fn give_up<T: Number, const N: usize, S: StressState<N>>(
+        &self,
+        strain: &[T; N],
+        new: &PointHistory<T, N>,
+        gone: T::Mask,
+        spent: &mut Spent<T>,
+    ) {
+        let mut kept = T::ZERO;
+        if let Some(back) = &new.back {
+            (0..N).for_each(|i| kept += back[i] * new.plastic[i]);
+            kept = T::select(gone, T::splat(0.5) * kept, T::ZERO);
+            spent.stored = spent.stored.map(|stored| stored - kept);
+        }
+        spent.eroded = Some(kept + T::select(gone, self.stored::<T, N, S>(strain, new), T::ZERO));
     }
 
     /// Derivative of the stress while nothing yields.
     pub fn stiffness<const N: usize, S: StressState<N>>(&self, _: S) -> [[f64; N]; N] {
         let e = S::moduli(&self.elastic);
-        from_modes::<N, S>(std::array::from_fn(|i| std::array::from_fn(|j| if i == j { e[i] } else { 0.0 })))
+        from_modes::<f64, N, S>(from_fn(|i| from_fn(|j| if i == j { e[i] } else { 0.0 })))
     }
 
-    /// Writes the history after `part` of the time `dt` since the state in `old`, at whose end `strain` is; answers with the
-    /// stress at the end and what became of the plastic work in the part. A scheme that writes equilibrium beyond the end of
-    /// its step keeps that part of what equilibrium asked for.
-    #[inline]
-    pub fn advance<const N: usize, S: StressState<N>>(
-        &self,
-        state: S,
-        strain: &[f64; N],
-        (dt, part): (f64, f64),
-        old: &[f64],
-        new: &mut [f64],
-    ) -> ([f64; N], Dissipation) {
-        if self.has_failed(state, old) {
-            new.copy_from_slice(old);
-            return ([0.0; N], Dissipation::default());
-        }
-        let answer = self.answer::<N, S>(strain, dt, old);
-        let stress = S::modes(answer.stress());
-        new.copy_from_slice(old);
-        let overstress = answer.yielding.as_ref().map_or(0.0, |y| y.overstress);
-        let from = self.yielding.viscosity.and_then(|_| new.last_mut()).map_or(0.0, |v| {
-            let from = *v;
-            *v += part * (overstress - from);
-            from
-        });
-        let Some(y) = answer.yielding else { return (stress, Dissipation::default()) };
-        // That part of the return is taken on a straight line.
-        let (multiplier, to) = (part * y.multiplier, from + part * (overstress - from));
-        let rise = self.yielding.hardening.rise(old[N] + multiplier).0;
-        let back = self.yielding.kinematic_share * (rise - self.yielding.hardening.rise(old[N]).0);
-        let radius = self.yielding.hardening.initial() + (1.0 - self.yielding.kinematic_share) * rise;
-        let mut spent = Dissipation {
-            plastic: 0.5 * (answer.radius + radius) * multiplier,
-            viscous: 0.5 * (from * answer.radius + to * radius) * multiplier,
-            ..Dissipation::default()
-        };
-        // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
-        let direction: [f64; N] = std::array::from_fn(|i| answer.relative[i] / y.T(i));
-        let plastic: [f64; N] = std::array::from_fn(|i| S::P[i] * multiplier * direction[i]);
-        add(&mut new[..N], &S::modes(plastic));
-        new[N] += multiplier;
-        if self.is_kinematic() {
-            add(&mut new[N + 1..], &S::modes(direction.map(|n| back * n)));
-            let mean = |i: usize| answer.back[i] + 0.5 * back * direction[i];
-            spent.stored = (0..N).map(|i| mean(i) * plastic[i]).sum();
-        }
-        if let Some(failure) = self.failure.as_ref().filter(|failure| failure.sums_damage()) {
-            // A step of no length has no rate.
-            let rate = if dt > 0.0 { y.multiplier / dt } else { 0.0 };
-            new[self.damage_place::<N>()] += failure.damage(multiplier, triaxiality::<N, S>(&stress), rate);
-        }
-        if self.has_failed(state, new) {
-            self.give_up(state, strain, new, &mut spent);
-        }
-        (stress, spent)
-    }
-
-    /// Books what a point that fails has stored: its elastic energy, and what kinematic hardening has kept, ½ X·εᵖ, which is exact where
-    /// that is linear.
-    #[cold]
-    fn give_up<const N: usize, S: StressState<N>>(
-        &self,
-        _: S,
-        strain: &[f64; N],
-        new: &[f64],
-        spent: &mut Dissipation,
-    ) {
-        let kept = self.kept::<N>(new);
-        spent.stored -= kept;
-        spent.eroded += kept + self.stored::<N, S>(strain, new);
-    }
-
-    /// What kinematic hardening has kept, per volume.
-    fn kept<const N: usize>(&self, history: &[f64]) -> f64 {
-        if !self.is_kinematic() {
+    /// Energy of kinematic hardening in a point that is lost, per volume; zero for a failed point, whose energy [`MaterialLaw::respond`] has
+    /// booked.
+    pub fn lost<const N: usize, S: StressState<N>>(&self, state: S, history: &[f64]) -> f64 {
+        if !self.is_kinematic() || self.has_failed(state, history) {
             return 0.0;
         }
         0.5 * (0..N).map(|i| history[N + 1 + i] * history[i]).sum::<f64>()
-    }
-
-    /// What kinematic hardening has kept in a point that is lost, per volume: nothing where it has failed, which [`MaterialLaw::advance`]
-    /// has booked.
-    pub fn lost<const N: usize, S: StressState<N>>(&self, state: S, history: &[f64]) -> f64 {
-        if self.has_failed(state, history) { 0.0 } else { self.kept::<N>(history) }
-    }
-
-    /// The law for eight points at once; `None` where it has more than linear isotropic hardening.
-    pub fn plain<const N: usize, S: StressState<N>>(&self, _: S) -> Option<PlainPlasticity<N>> {
-        let Hardening::Linear { yield_stress, modulus } = self.yielding.hardening else { return None };
-        if self.can_fail() || self.is_kinematic() || self.yielding.viscosity.is_some() {
-            return None;
-        }
-        let moduli = S::moduli(&self.elastic);
-        let c = [S::P[0] * moduli[0], 3.0 * self.elastic.G];
-        Some(PlainPlasticity { moduli, c, initial: yield_stress, modulus })
     }
 
     /// Accumulated plastic strain ε̄ᵖ.
@@ -275,84 +324,125 @@ impl MaterialLaw {
         strain: &[f64; N],
         history: &[f64],
     ) -> f64 {
-        if self.has_failed(state, history) { 0.0 } else { self.stored::<N, S>(strain, history) }
+        if self.has_failed(state, history) {
+            return 0.0;
+        }
+        self.stored::<f64, N, S>(strain, &self.recall(state, history, |_| 0))
     }
 
     /// The elastic energy of a point, per volume, whether it has failed or not.
-    fn stored<const N: usize, S: StressState<N>>(&self, strain: &[f64; N], history: &[f64]) -> f64 {
+    #[inline(always)]
+    fn stored<T: Number, const N: usize, S: StressState<N>>(&self, strain: &[T; N], history: &PointHistory<T, N>) -> T {
         let e = S::moduli(&self.elastic);
-        let elastic: [f64; N] = elastic_strain::<N, S>(strain, history);
-        0.5 * (0..N).map(|i| e[i] * elastic[i] * elastic[i]).sum::<f64>()
+        let elastic = S::modes(from_fn(|i| strain[i] - history.plastic[i]));
+        let mut sum = T::ZERO;
+        (0..N).for_each(|i| sum += T::splat(e[i]) * elastic[i] * elastic[i]);
+        T::splat(0.5) * sum
     }
 
+    #[inline(always)]
     fn is_kinematic(&self) -> bool {
         self.yielding.kinematic_share > 0.0
     }
 
+    /// True where failure depends on more than plastic strain.
     #[inline(always)]
-    fn answer<const N: usize, S: StressState<N>>(&self, strain: &[f64; N], dt: f64, old: &[f64]) -> Answer<N> {
+    fn sums_damage(&self) -> bool {
+        self.failure.as_ref().is_some_and(FailureCriterion::sums_damage)
+    }
+
+    /// The return at `strain` of the points that have not `failed`.
+    #[inline(always)]
+    fn answer<T: Number, const N: usize, S: StressState<N>>(
+        &self,
+        strain: &[T; N],
+        dt: f64,
+        old: &PointHistory<T, N>,
+        failed: Option<T::Mask>,
+    ) -> Answer<T, N> {
         let e = S::moduli(&self.elastic);
-        let elastic = elastic_strain::<N, S>(strain, old);
-        let back = if self.is_kinematic() { S::modes(std::array::from_fn(|i| old[N + 1 + i])) } else { [0.0; N] };
-        let relative: [f64; N] = std::array::from_fn(|i| e[i] * elastic[i] - back[i]);
-        let square = squares::<N, S>(&relative).iter().sum::<f64>();
-        let rise = self.yielding.hardening.rise(old[N]).0;
-        let radius = self.yielding.hardening.initial() + (1.0 - self.yielding.kinematic_share) * rise;
-        let yielding = if square > radius * radius {
-            trial_stress::<N, S>(&relative).map(|(rho, share)| {
-                let c = [S::P[0] * e[0], 3.0 * self.elastic.G];
-                let last = if self.yielding.viscosity.is_some() { old[old.len() - 1] } else { 0.0 };
-                self.yielding.solve(&Trial { rho, share, c, accumulated: old[N], rise, radius }, dt, last)
-            })
-        } else {
-            None
+        let elastic = S::modes(from_fn(|i| strain[i] - old.plastic[i]));
+        let mut relative: [T; N] = from_fn(|i| T::splat(e[i]) * elastic[i]);
+        let back = old.back.map(S::modes);
+        if let Some(back) = &back {
+            (0..N).for_each(|i| relative[i] -= back[i]);
+        }
+        let (first, square) = squares::<T, N, S>(&relative);
+        let rise = self.yielding.hardening.rise(old.accumulated).0;
+        let radius = self.yielding.radius(rise);
+        let mut yields = (radius * radius).lt(square);
+        if let Some(failed) = failed {
+            yields = yields & !failed;
+        }
+        let mut out = Answer { relative, back, radius, yields, end: None };
+        if !yields.any() {
+            return out;
+        }
+        let square = T::select(yields, square, T::ONE);
+        let (mut rho, mut first) = (square.sqrt(), first / square);
+        if (!square.lt(T::splat(f64::INFINITY))).any() {
+            (out.yields, rho, first) = far_out::<T, N, S>(&relative, (yields, rho, first));
+            if !out.yields.any() {
+                return out;
+            }
+        }
+        let trial = Trial {
+            yields: out.yields,
+            rho,
+            share: [first, T::ONE - first],
+            c: [S::P[0] * e[0], 3.0 * self.elastic.G],
+            accumulated: old.accumulated,
+            rise,
+            radius,
         };
-        Answer { relative, back, radius, yielding }
+        out.end = Some(self.yielding.solve(&trial, dt, old.overstress.unwrap_or(T::ZERO)));
+        out
+    }
+}
+
+/// True where a point has failed by its history.
+#[inline(always)]
+fn failed<T: Number, const N: usize>(failure: &FailureCriterion, history: &PointHistory<T, N>) -> T::Mask {
+    match history.damage {
+        Some(damage) => T::ONE.le(damage),
+        None => T::splat(failure.strain).le(history.accumulated),
     }
 }
 
 /// σ_m/σ_eq; 0 without stress.
-fn triaxiality<const N: usize, S: StressState<N>>(stress: &[f64; N]) -> f64 {
-    let equivalent = squares::<N, S>(&S::modes(*stress)).iter().sum::<f64>().sqrt();
-    if equivalent > 0.0 { S::mean(stress) / equivalent } else { 0.0 }
+fn triaxiality<T: Number, const N: usize, S: StressState<N>>(stress: &[T; N]) -> T {
+    let equivalent = squares::<T, N, S>(&S::modes(*stress)).1.sqrt();
+    let mean = T::gather(|lane| S::mean(&stress.map(|stress| stress.lane(lane))));
+    T::select(T::ZERO.lt(equivalent), mean / equivalent, T::ZERO)
 }
 
-/// pᵢ ξᵢ².
+/// p₀ ξ₀², and Σ pᵢ ξᵢ².
 #[inline(always)]
-fn squares<const N: usize, S: StressState<N>>(relative: &[f64; N]) -> [f64; N] {
-    std::array::from_fn(|i| S::P[i] * relative[i] * relative[i])
+fn squares<T: Number, const N: usize, S: StressState<N>>(relative: &[T; N]) -> (T, T) {
+    let part = |i: usize| T::splat(S::P[i]) * relative[i] * relative[i];
+    let (first, mut sum) = (part(0), part(0));
+    (1..N).for_each(|i| sum += part(i));
+    (first, sum)
 }
 
-/// ρ, and the shares of ρ² in the first mode and the others. None where ρ is not finite: then the trial is the answer.
-#[inline(always)]
-fn trial_stress<const N: usize, S: StressState<N>>(relative: &[f64; N]) -> Option<(f64, [f64; 2])> {
-    let parts = squares::<N, S>(relative);
-    let sum = parts.iter().sum::<f64>();
-    if sum < f64::INFINITY {
-        return Some((sum.sqrt(), [parts[0] / sum, 1.0 - parts[0] / sum]));
-    }
-    // Only squares are out of range, or the stresses too.
-    let largest = relative.iter().fold(0.0, |m: f64, xi| m.max(xi.abs()));
-    let parts = squares::<N, S>(&relative.map(|xi| xi / largest));
-    let sum = parts.iter().sum::<f64>();
-    let rho = largest * sum.sqrt();
-    rho.is_finite().then(|| (rho, [parts[0] / sum, 1.0 - parts[0] / sum]))
-}
-
-/// ε − εᵖ by modes.
-#[inline(always)]
-fn elastic_strain<const N: usize, S: StressState<N>>(strain: &[f64; N], history: &[f64]) -> [f64; N] {
-    S::modes(std::array::from_fn(|i| strain[i] - history[i]))
+/// ρ and the share of ρ² in the first mode where squares of stresses are out of range; where the stresses are too, the trial is the answer
+/// and the point does not yield.
+#[cold]
+fn far_out<T: Number, const N: usize, S: StressState<N>>(
+    relative: &[T; N],
+    (yields, rho, share): (T::Mask, T, T),
+) -> (T::Mask, T, T) {
+    let (large, mut largest) = (!rho.lt(T::splat(f64::INFINITY)), T::ZERO);
+    relative.iter().for_each(|xi| largest = largest.max(xi.abs()));
+    let (first, sum) = squares::<T, N, S>(&relative.map(|xi| xi / largest));
+    let scaled = largest * sum.sqrt();
+    let yields = yields & (!large | scaled.lt(T::splat(f64::INFINITY)));
+    (yields, T::select(large, scaled, rho), T::select(large, first / sum, share))
 }
 
 /// A stiffness from modes to components: rows, then columns.
 #[inline(always)]
-fn from_modes<const N: usize, S: StressState<N>>(C: [[f64; N]; N]) -> [[f64; N]; N] {
-    let transposed = |C: [[f64; N]; N]| std::array::from_fn(|i| std::array::from_fn(|j| C[j][i]));
+fn from_modes<T: Number, const N: usize, S: StressState<N>>(C: [[T; N]; N]) -> [[T; N]; N] {
+    let transposed = |C: [[T; N]; N]| -> [[T; N]; N] { from_fn(|i| from_fn(|j| C[j][i])) };
     transposed(transposed(C.map(S::modes)).map(S::modes))
-}
-
-#[inline(always)]
-fn add(sum: &mut [f64], v: &[f64]) {
-    sum.iter_mut().zip(v).for_each(|(s, v)| *s += v);
 }

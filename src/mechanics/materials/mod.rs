@@ -6,21 +6,20 @@
 
 mod constants;
 mod dissipation;
-mod eight_points;
 pub mod failure;
 pub mod hardening;
 mod law;
 pub mod models;
 pub mod overstress;
+mod response;
 mod return_mapping;
-mod side_by_side;
 pub mod stress_state;
 
 pub use constants::ElasticConstants;
 pub use dissipation::Dissipation;
-pub use eight_points::{EightPoints, PointsHistory};
 pub use failure::FailureCriterion;
 pub use hardening::Hardening;
 pub use law::{FAILED_STIFFNESS, MaterialLaw};
 pub use overstress::{Overstress, Viscosity};
+pub use response::{Ask, PointHistory, Response, Spent};
 pub use stress_state::{FibreStress, PlaneStress, StressState, Uniaxial};

@@ -1,5 +1,6 @@
 //! Perzyna's viscosity: how fast plastic strain grows when the stress lies above the hardened yield stress.
 
+use base::math::number::Number;
 use base::words::kinds::{Form, Given, Key, Kind};
 
 /// A law of the overstress that the deck can name, and what its keys give; `None` where one is wrong.
@@ -69,8 +70,8 @@ pub enum Overstress {
 impl Overstress {
     /// φ and v φ′, which unlike φ′ stays finite at v = 0 for any exponent.
     #[inline]
-    pub fn phi(&self, v: f64) -> (f64, f64) {
-        match self {
+    pub fn phi<T: Number>(&self, v: T) -> (T, T) {
+        v.map_two(|v| match self {
             Overstress::Power { exponent } => {
                 // Whole exponents are usual, and multiplication takes a sixth of the time.
                 let whole = *exponent as i32;
@@ -82,16 +83,16 @@ impl Overstress {
                 let phi = v.exp_m1();
                 (phi, v * (phi + 1.0))
             }
-        }
+        })
     }
 
     /// The overstress at which φ has a value.
     #[inline]
-    pub fn inverse(&self, phi: f64) -> f64 {
-        match self {
+    pub fn inverse<T: Number>(&self, phi: T) -> T {
+        phi.map(|phi| match self {
             Overstress::Power { exponent } => phi.powf(exponent.recip()),
             Overstress::Linear => phi,
             Overstress::Exponential => phi.ln_1p(),
-        }
+        })
     }
 }

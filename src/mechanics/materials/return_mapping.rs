@@ -8,10 +8,12 @@
 //!
 //! ξ* the trial, R = i (1 + v) the radius to return to, i its part without overstress, k the growth of the back stress
 //! (Xᵢ += k ξᵢ/R). R, k and T follow from the multiplier Δλ, and viscosity ties Δλ to v: Δλ = γΔt φ(v). Without it v = 0.
+//! One equation is solved for one point or for eight side by side, each with the bits that it has by itself.
 //! After Simo & Hughes, Computational Inelasticity (1998), 3.3 and 3.4.
 
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
+use base::math::number::{Mask, Number};
 
 /// The yield condition of a material: hardening and viscosity.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,154 +26,204 @@ pub(super) struct Yielding {
     pub viscosity: Option<Viscosity>,
 }
 
-/// The numbers of a yielding trial stress on which the multiplier depends.
-pub(super) struct Trial {
+/// The numbers of a trial stress on which the multiplier depends.
+pub(super) struct Trial<T: Number> {
+    /// The points that yield; the others have numbers that do no harm.
+    pub yields: T::Mask,
     /// ρ*.
-    pub rho: f64,
+    pub rho: T,
     /// Shares of ρ*² in the first mode and in the others.
-    pub share: [f64; 2],
+    pub share: [T; 2],
     /// c of the first mode and of the others.
     pub c: [f64; 2],
     /// Accumulated plastic strain ε̄ᵖ at the beginning of the step.
-    pub accumulated: f64,
+    pub accumulated: T,
     /// Rise of the yield stress at the beginning of the step.
-    pub rise: f64,
+    pub rise: T,
     /// Radius i of the yield surface at the beginning of the step.
-    pub radius: f64,
+    pub radius: T,
 }
 
 /// A point of the return.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ReturnPoint {
+#[derive(Clone, Copy)]
+pub(super) struct ReturnPoint<T> {
     /// Δλ.
-    pub multiplier: f64,
+    pub multiplier: T,
     /// Overstress v.
-    pub overstress: f64,
+    pub overstress: T,
     /// T of the first mode and of the others.
-    pub T: [f64; 2],
+    pub T: [T; 2],
     /// R + k.
-    pub S: f64,
-    /// ∂Δλ − Δλ ∂S/S, where ∂ is the change per relative change of the unknown, which stays in range where Δλ, v and γ are
-    /// hundreds of decades apart.
-    pub turn: f64,
+    pub S: T,
     /// Σ pᵢ (ξᵢ*/Tᵢ)².
-    pub sum: f64,
-    /// Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ.
-    pub slope: f64,
+    pub sum: T,
+    /// Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ, where ∂ is the change per relative change of the unknown, which stays in range where Δλ, v and γ are
+    /// hundreds of decades apart.
+    pub slope: T,
+    /// ∂Δλ and ∂S.
+    change: [T; 2],
 }
 
 /// A number and its change per relative change of the unknown.
-type Varied = [f64; 2];
+type Varied<T> = [T; 2];
 
-impl ReturnPoint {
+impl<T: Number> ReturnPoint<T> {
     /// T of a mode.
     #[inline(always)]
-    pub fn T(&self, mode: usize) -> f64 {
+    pub fn T(&self, mode: usize) -> T {
         self.T[usize::from(mode > 0)]
+    }
+
+    /// ∂Δλ − Δλ ∂S/S.
+    #[inline(always)]
+    pub fn turn(&self) -> T {
+        self.change[0] - self.multiplier * (self.change[1] / self.S)
     }
 }
 
 impl Yielding {
-    /// Finds the point where the yield condition holds at the end of the step; `last` is the overstress at its
-    /// beginning.
-    pub(super) fn solve(&self, trial: &Trial, dt: f64, last: f64) -> ReturnPoint {
-        // Newton's first step, from Δλ = 0. A single mode with linear hardening has arrived there.
-        let slope = self.hardening.rise(trial.accumulated).1;
-        let first = (trial.rho - trial.radius).max(0.0)
-            / (trial.share[0] * (trial.c[0] + slope) + trial.share[1] * (trial.c[1] + slope));
-        let plastic = || root(first, |dl| self.point(trial, [dl, dl], [0.0; 2]));
-        match self.viscosity {
-            None => plastic(),
-            Some(Viscosity { fluidity, overstress }) => {
-                // Beyond 1e300 nothing but rounding is left of v.
-                let rate = (fluidity * dt).min(1e300);
-                let elastic = (trial.rho / trial.radius - 1.0).max(0.0);
-                // Where it flows on as before, the last overstress is near. Otherwise the search starts from the larger side, where
-                // the equation is steep: φ grows no further than the rate-independent return and v no further than the elastic
-                // stress.
-                let bound = (trial.rho - trial.radius).max(0.0) / trial.c[0].min(trial.c[1]);
-                let flow = rate * overstress.phi(last).0;
-                let (most, start) = if last < elastic && flow > 1e-3 * bound && flow < bound {
-                    (2.0 * bound, last)
-                } else {
-                    let most = plastic().multiplier;
-                    (most, elastic.min(overstress.inverse(most / rate)))
-                };
-                root(start, |v| {
-                    let (phi, change) = overstress.phi(v);
-                    // The bounds cost rounding where φ is in range and answer where it is not.
-                    let multiplier =
-                        if rate > 0.0 { [(rate * phi).min(most), (rate * change).min(f64::MAX)] } else { [0.0; 2] };
-                    self.point(trial, multiplier, [v, v])
-                })
-            }
+    /// Radius i of the yield surface, from the rise of the yield stress.
+    #[inline(always)]
+    pub fn radius<T: Number>(&self, rise: T) -> T {
+        let initial = T::splat(self.hardening.initial());
+        match self.kinematic_share > 0.0 {
+            true => initial + T::splat(1.0 - self.kinematic_share) * rise,
+            false => initial + rise,
         }
     }
 
-    #[inline]
-    fn point(&self, trial: &Trial, [multiplier, dmultiplier]: Varied, [v, dv]: Varied) -> ReturnPoint {
+    /// Finds the point where the yield condition holds at the end of the step; `last` is the overstress at its
+    /// beginning.
+    #[inline(always)]
+    pub fn solve<T: Number>(&self, trial: &Trial<T>, dt: f64, last: T) -> ReturnPoint<T> {
+        match self.viscosity {
+            None => self.plastic(trial, trial.yields),
+            Some(viscosity) => self.viscous(trial, viscosity, dt, last),
+        }
+    }
+
+    /// The return without viscosity of the points `wanted`.
+    #[inline(always)]
+    fn plastic<T: Number>(&self, trial: &Trial<T>, wanted: T::Mask) -> ReturnPoint<T> {
+        // Newton's first step, from Δλ = 0. A single mode with linear hardening has arrived there.
+        let slope = self.hardening.rise(trial.accumulated).1;
+        let c = trial.c.map(|c| T::splat(c) + slope);
+        let first = (trial.rho - trial.radius).max(T::ZERO) / (trial.share[0] * c[0] + trial.share[1] * c[1]);
+        root(first, wanted, |dl| self.point(trial, [dl, dl], None))
+    }
+
+    fn viscous<T: Number>(
+        &self,
+        trial: &Trial<T>,
+        Viscosity { fluidity, overstress }: Viscosity,
+        dt: f64,
+        last: T,
+    ) -> ReturnPoint<T> {
+        // Beyond 1e300 nothing but rounding is left of v.
+        let flows = fluidity * dt > 0.0;
+        let rate = T::splat((fluidity * dt).min(1e300));
+        let elastic = (trial.rho / trial.radius - T::ONE).max(T::ZERO);
+        // Where it flows on as before, the last overstress is near. Otherwise the search starts from the larger side, where
+        // the equation is steep: φ grows no further than the rate-independent return and v no further than the elastic
+        // stress.
+        let bound = (trial.rho - trial.radius).max(T::ZERO) / T::splat(trial.c[0].min(trial.c[1]));
+        let flow = rate * overstress.phi(last).0;
+        let near = last.lt(elastic) & (T::splat(1e-3) * bound).lt(flow) & flow.lt(bound);
+        let (mut most, mut start) = (T::splat(2.0) * bound, last);
+        let far = trial.yields & !near;
+        if far.any() {
+            let plastic = self.plastic(trial, far).multiplier;
+            most = T::select(near, most, plastic);
+            start = T::select(near, start, elastic.min(overstress.inverse(plastic / rate)));
+        }
+        root(start, trial.yields, |v| {
+            let (phi, change) = overstress.phi(v);
+            // The bounds cost rounding where φ is in range and answer where it is not.
+            let bounded = [(rate * phi).min(most), (rate * change).min(T::splat(f64::MAX))];
+            self.point(trial, if flows { bounded } else { [T::ZERO; 2] }, Some([v, v]))
+        })
+    }
+
+    /// The point of the return with a multiplier and an overstress.
+    #[inline(always)]
+    fn point<T: Number>(
+        &self,
+        trial: &Trial<T>,
+        [multiplier, dmultiplier]: Varied<T>,
+        overstress: Option<Varied<T>>,
+    ) -> ReturnPoint<T> {
         let (rise, slope) = self.hardening.rise(trial.accumulated + multiplier);
-        let (back_share, drise) = (self.kinematic_share, slope * dmultiplier);
-        let radius = self.hardening.initial() + (1.0 - back_share) * rise;
-        let back = back_share * (rise - trial.rise);
-        let S = radius * (1.0 + v) + back;
-        let dS = (1.0 - back_share) * drise * (1.0 + v) + radius * dv + back_share * drise;
-        let T = trial.c.map(|c| S + c * multiplier);
+        let (radius, drise) = (self.radius(rise), slope * dmultiplier);
+        let (mut S, mut dS) = (radius, drise);
+        if self.kinematic_share > 0.0 {
+            dS = T::splat(1.0 - self.kinematic_share) * drise;
+        }
+        if let Some([v, dv]) = overstress {
+            (S, dS) = (S * (T::ONE + v), dS * (T::ONE + v) + radius * dv);
+        }
+        if self.kinematic_share > 0.0 {
+            let share = T::splat(self.kinematic_share);
+            (S, dS) = (S + share * (rise - trial.rise), dS + share * drise);
+        }
+        let c = trial.c.map(T::splat);
+        let all = c.map(|c| S + c * multiplier);
         // Ratios to T, never powers of stresses: nothing overflows before the trial stress does.
-        let inverse = T.map(f64::recip);
-        let part = [0, 1].map(|j| trial.share[j] * (trial.rho * inverse[j]).powi(2));
-        let slope = [0, 1].map(|j| part[j] * ((dS + trial.c[j] * dmultiplier) * inverse[j]));
+        let inverse = all.map(|T| T::ONE / T);
+        let part = [0, 1].map(|j| {
+            let ratio = trial.rho * inverse[j];
+            trial.share[j] * (ratio * ratio)
+        });
+        let slope = [0, 1].map(|j| part[j] * ((dS + c[j] * dmultiplier) * inverse[j]));
         ReturnPoint {
             multiplier,
-            overstress: v,
-            T,
+            overstress: overstress.map_or(T::ZERO, |[v, _]| v),
+            T: all,
             S,
-            turn: dmultiplier - multiplier * (dS / S),
             sum: part[0] + part[1],
             slope: slope[0] + slope[1],
+            change: [dmultiplier, dS],
         }
     }
 }
 
 /// Residual of the yield condition that ends the iteration, relative to the stress; rounding leaves some 1e-15.
-pub(super) const TOLERANCE: f64 = 1e-14;
+const TOLERANCE: f64 = 1e-14;
 
 /// Residual that rounding of the unknown may leave instead, where the stress follows it steeply.
-pub(super) const STEEP: f64 = 1e-6;
+const STEEP: f64 = 1e-6;
 
 /// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection takes over
-/// where a step leaves the bracket or has not halved the misfit.
-#[inline]
-fn root(mut x: f64, at: impl Fn(f64) -> ReturnPoint) -> ReturnPoint {
-    let (mut low, mut high, mut last) = (0.0, f64::INFINITY, f64::INFINITY);
+/// where a step leaves the bracket or has not halved the misfit. `active`: the points to be found.
+#[inline(always)]
+fn root<T: Number>(mut x: T, mut active: T::Mask, at: impl Fn(T) -> ReturnPoint<T>) -> ReturnPoint<T> {
+    let (half, infinity) = (T::splat(0.5), T::splat(f64::INFINITY));
+    let (mut low, mut high, mut last) = (T::ZERO, infinity, infinity);
     let mut point = at(x);
     // Bisection from the greatest number to the least takes 2100 steps; Newton takes 3 to 7.
     for _ in 0..2100 {
-        let misfit = 1.0 - point.sum.sqrt();
+        let misfit = T::ONE - point.sum.sqrt();
         let step = point.sum * misfit / point.slope;
         // A step of less than a few units in the last place is none.
-        let moves = step.abs() > 2.0 * f64::EPSILON;
-        if misfit.abs() <= if moves { TOLERANCE } else { STEEP } {
-            return point;
+        let moves = T::splat(2.0 * f64::EPSILON).lt(step.abs());
+        active = active & !misfit.abs().le(T::select(moves, T::splat(TOLERANCE), T::splat(STEEP)));
+        if !active.any() {
+            break;
         }
-        if misfit > 0.0 {
-            high = x
-        } else {
-            low = x
+        let above = T::ZERO.lt(misfit);
+        (high, low) = (T::select(above, x, high), T::select(above, low, x));
+        let newton = x * (T::ONE - step);
+        let close = moves & misfit.abs().le(half * last) & low.lt(newton) & newton.lt(high);
+        let mut next = newton;
+        if (active & !close).any() {
+            let between = T::select(high.lt(infinity), half * (low + high), T::splat(2.0) * x);
+            next = T::select(close, newton, between);
         }
-        let newton = x * (1.0 - step);
-        let next = if moves && misfit.abs() <= 0.5 * last && low < newton && newton < high {
-            newton
-        } else if high < f64::INFINITY {
-            0.5 * (low + high)
-        } else {
-            2.0 * x
-        };
         // Neighbours in a bracket, or no numbers: nothing is left to find.
-        if (next - x).abs() <= f64::EPSILON * x || next.is_nan() {
-            return point;
+        active = active & (T::splat(f64::EPSILON) * x).lt((next - x).abs());
+        if !active.any() {
+            break;
         }
-        (x, last) = (next, misfit.abs());
+        (x, last) = (T::select(active, next, x), misfit.abs());
         point = at(x);
     }
     point

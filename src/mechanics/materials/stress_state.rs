@@ -5,7 +5,7 @@
 //! cᵢ = eᵢ pᵢ off the equivalent stress per multiplier: 3G in every mode but the first.
 
 use super::constants::ElasticConstants;
-use base::math::lanes::Lanes;
+use base::math::number::Number;
 
 /// N components of stress, and strains work-conjugate to them (shear strains are engineering strains).
 pub trait StressState<const N: usize>: Copy + Send + Sync {
@@ -20,13 +20,7 @@ pub trait StressState<const N: usize>: Copy + Send + Sync {
 
     /// Components to modes and modes to components, of stress or strain: orthogonal and its own inverse.
     #[inline(always)]
-    fn modes(v: [f64; N]) -> [f64; N] {
-        v
-    }
-
-    /// The same of eight points.
-    #[inline(always)]
-    fn modes_side_by_side(v: [Lanes; N]) -> [Lanes; N] {
+    fn modes<T: Number>(v: [T; N]) -> [T; N] {
         v
     }
 }
@@ -85,14 +79,8 @@ impl StressState<3> for PlaneStress {
     }
 
     #[inline(always)]
-    fn modes([x, y, xy]: [f64; 3]) -> [f64; 3] {
-        const R: f64 = std::f64::consts::FRAC_1_SQRT_2;
-        [R * (x + y), R * (x - y), xy]
-    }
-
-    #[inline(always)]
-    fn modes_side_by_side([x, y, xy]: [Lanes; 3]) -> [Lanes; 3] {
-        let R = Lanes::splat(std::f64::consts::FRAC_1_SQRT_2);
+    fn modes<T: Number>([x, y, xy]: [T; 3]) -> [T; 3] {
+        let R = T::splat(std::f64::consts::FRAC_1_SQRT_2);
         [R * (x + y), R * (x - y), xy]
     }
 }

@@ -166,11 +166,8 @@ impl System {
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
         let (mut inertias, consistent) = build::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
-        let mut groups = build::groups(model, &x, plane);
+        let groups = build::groups(model, &x, plane);
         let mass_scaling = MassScaling::new(model, &x, &groups, &mut inertias);
-        if model.analysis.kind == model::AnalysisKind::Dynamic && model.solution.scheme.is_explicit() {
-            groups.iter_mut().for_each(|group| group.block.pack());
-        }
         let joints = build::joints(model, &x, plane);
         let turning_bodies = TurningBody::of(model, (&mut inertias, &consistent), &rigid_links, plane);
         let contacts = groups.iter().position(|group| group.kind.is_unilateral());

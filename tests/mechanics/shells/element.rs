@@ -9,7 +9,7 @@ use rdsolve::elements::shell::{
     DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
 use rdsolve::elements::{ElementBlock, Moduli};
-use rdsolve::materials::{Hardening, MaterialLaw};
+use rdsolve::materials::{Dissipation, FailureCriterion, Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::state::{Configuration, Node};
 
@@ -24,12 +24,16 @@ struct Mesh {
 
 impl Mesh {
     fn block(&self, plate: &Plate) -> Box<dyn ElementBlock> {
+        self.damped(plate, 0.0)
+    }
+
+    fn damped(&self, plate: &Plate, damping: f64) -> Box<dyn ElementBlock> {
         let normals: Vec<Vec<Vec3>> =
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
         let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry::new(nodes, normals));
         match self.elements[0].len() {
-            3 => Box::new(Triangles::new(all, &self.x, plate, 0.0)),
-            _ => Box::new(Quadrilaterals::new(all, &self.x, plate, 0.0)),
+            3 => Box::new(Triangles::new(all, &self.x, plate, damping)),
+            _ => Box::new(Quadrilaterals::new(all, &self.x, plate, damping)),
         }
     }
 
@@ -41,6 +45,12 @@ impl Mesh {
             3 => yielding.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, plate, 0.0),
             _ => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, plate, 0.0),
         }
+    }
+
+    /// Meshes of one element each.
+    fn each(&self) -> impl Iterator<Item = Mesh> {
+        let one = |e: &Vec<usize>| Mesh { x: self.x.clone(), elements: vec![e.clone()], normals: self.normals.clone() };
+        self.elements.iter().map(one)
     }
 
     /// The patch of MacNeal & Harder: 0.24 × 0.12, four distorted quadrilaterals round one; or their triangles.
@@ -213,6 +223,73 @@ fn layers_have_the_tangent_of_their_stress() {
     assert!(worst < 1e-7, "{worst:e}");
 }
 
+/// With damping, while nodes move and rotate: the derivatives of the forces by positions and by rates against differences, and the power of
+/// the forces against the rate of energy and what damping dissipates.
+#[test]
+fn damped_elements_have_the_tangent_and_the_power_of_their_forces() {
+    let mut rng = StdRng::seed_from_u64(13);
+    let (mut worst, h) = (0.0f64, 1e-6); // truncation h² and 1e-16/h
+    for triangle in [false, true] {
+        for round in 0..6 {
+            let mut mesh = Mesh::one(&mut rng, triangle);
+            mesh.x.iter_mut().for_each(|x| x.z *= f64::from(round % 2));
+            let block = mesh.damped(&PLATE, 0.3);
+            let q = turn(&mut rng);
+            let R: Mat3 = rotation::matrix(&q);
+            let mut node = |x: &Vec3| Node {
+                rotation: rotation::exp(&vector(&mut rng, 0.1)) * q,
+                v: vector(&mut rng, 1.0),
+                omega: vector(&mut rng, 1.0),
+                ..Node::at_rest(R * (x + vector(&mut rng, 0.05)))
+            };
+            let nodes: Vec<Node> = mesh.x.iter().map(&mut node).collect();
+            let n = 6 * nodes.len();
+            let mut K = [vec![0.0; n * n], vec![0.0; n * n]];
+            let now = Configuration::of(&nodes);
+            [0.0, 1.0].into_iter().zip(&mut K).for_each(|(w, K)| block.tangent(0, &now, w, Moduli::Algorithmic, K));
+            let scale = K.iter().flatten().fold(0.0f64, |m, k| m.max(k.abs()));
+            for column in 0..n {
+                let at = |h: f64, rates: bool| {
+                    let (mut nodes, i) = (nodes.clone(), column % 6);
+                    let node = &mut nodes[column / 6];
+                    match (rates, i) {
+                        (true, 0..3) => node.v[i] += h,
+                        (true, _) => node.omega[i - 3] += h,
+                        _ => nudge(node, i, h),
+                    }
+                    forces(&*block, &Configuration::of(&nodes))
+                };
+                for rates in [false, true] {
+                    let (plus, minus) = (at(h, rates), at(-h, rates));
+                    for row in 0..n {
+                        let k = (plus[row / 6][row % 6] - minus[row / 6][row % 6]) / (2.0 * h);
+                        let place = row * n + column;
+                        let found = if rates { K[1][place] - K[0][place] } else { K[0][place] };
+                        worst = worst.max((found - k).abs() / scale);
+                    }
+                }
+            }
+            let after = |dt: f64| {
+                let go = |node: &Node| Node {
+                    x: node.x + dt * node.v,
+                    rotation: rotation::exp(&(dt * node.omega)) * node.rotation,
+                    ..*node
+                };
+                block.energy(&Configuration::of(&nodes.iter().map(go).collect::<Vec<_>>()))
+            };
+            let rate = (after(1e-5) - after(-1e-5)) / 2e-5;
+            let of = |(f, node): (&[f64; 6], &Node)| {
+                (0..3).map(|i| f[i] * node.v[i] + f[3 + i] * node.omega[i]).sum::<f64>()
+            };
+            let power: f64 = forces(&*block, &now).iter().zip(&nodes).map(of).sum();
+            let spent = block.damping_power(&now);
+            assert!(spent > 0.0 && (power - rate - spent).abs() < 1e-7 * power.abs(), "{power} {rate} {spent}");
+        }
+    }
+    println!("{worst:e}");
+    assert!(worst < 1e-7, "{worst:e}");
+}
+
 /// Tangents of elements side by side are those of one after the other, whole packs and parts of one, from any element on: elastic, with
 /// layers that yield after having yielded, of flat and of curved surfaces. Bound: rounding of the
 /// largest entry, now or before anything yields: yielding leaves little of that.
@@ -263,21 +340,26 @@ fn tangents_side_by_side_are_those_of_one_element() {
     }
 }
 
-/// Eight elements side by side have the bits of one after the other, forces and history, whole packs and parts of one.
+/// Eight elements side by side have the bits that each has by itself, forces, history and dissipation, whole packs and parts of one: elastic,
+/// with layers that yield and with such that fail.
 #[test]
 fn packs_have_the_bits_of_their_elements() {
     let mut rng = StdRng::seed_from_u64(11);
     let plain = MaterialLaw::new(1e3, 0.3, Hardening::Linear { yield_stress: 5.0, modulus: 50.0 }, 0.0, None);
+    let fails = law().failing_at(FailureCriterion::at(0.01));
     for triangle in [false, true] {
         let mesh = Mesh::patch(triangle);
-        for (yields, logarithmic) in [(false, false), (true, false), (true, true)] {
-            let model = LayerModel { law: plain.clone(), layers: 5, logarithmic };
-            let block = || if yields { mesh.layered(&PLATE, &model) } else { mesh.block(&PLATE) };
-            let (single, mut packed) = (block(), block());
-            packed.pack();
-            let mut past = vec![0.0; single.history()];
+        for (law, logarithmic) in
+            [(None, false), (Some(&plain), false), (Some(&plain), true), (Some(&fails), false), (Some(&fails), true)]
+        {
+            let block = |mesh: &Mesh| match law {
+                Some(law) => mesh.layered(&PLATE, &LayerModel { law: law.clone(), layers: 5, logarithmic }),
+                None => mesh.block(&PLATE),
+            };
+            let (all, each) = (block(&mesh), mesh.each().map(|one| block(&one)).collect::<Vec<_>>());
+            let mut past = vec![0.0; all.history()];
             let mut spent = 0.0;
-            for strain in [1e-3, 1e-2, 5e-3, 2e-3, 2e-2] {
+            for strain in [1e-3, 1e-2, 5e-3, 2e-3, 2e-2, 5e-2] {
                 let (q, shift) = (turn(&mut rng), vector(&mut rng, 3.0));
                 let R: Mat3 = rotation::matrix(&q);
                 let mut node = |x: &Vec3| Node {
@@ -287,21 +369,30 @@ fn packs_have_the_bits_of_their_elements() {
                 };
                 let nodes: Vec<Node> = mesh.x.iter().map(&mut node).collect();
                 let now = Configuration { nodes: &nodes, history: &past, dt: 1.0, lead: None };
-                assert_eq!(forces(&*packed, &now), forces(&*single, &now), "at {strain}");
                 let mut sums = [vec![[0.0; 6]; nodes.len()], vec![[0.0; 6]; nodes.len()]];
                 let mut new = [past.clone(), past.clone()];
-                let [a, b] =
-                    [(&packed, 0), (&single, 1)].map(|(block, i)| block.advance(&now, &mut sums[i], &mut new[i]));
-                assert_eq!((&sums[0], &new[0], a), (&sums[1], &new[1], b), "at {strain}");
+                let together = all.advance(&now, &mut sums[0], &mut new[0]);
+                let (mut alone, mut first) = (Dissipation::default(), 0);
+                for one in &each {
+                    let own = first..first + one.history();
+                    let now = Configuration { history: &past[own.clone()], ..now };
+                    alone += one.advance(&now, &mut sums[1], &mut new[1][own.clone()]);
+                    first = own.end;
+                }
+                // Two parts are added for an element that fails, in another order.
+                assert!((together.eroded - alone.eroded).abs() <= 1e-15 * together.eroded);
+                alone.eroded = together.eroded;
+                assert!((&sums[0], &new[0], together) == (&sums[1], &new[1], alone), "{law:?} at {strain}");
                 // Forces and history by themselves are those found together.
                 let (mut alone, mut F) = (past.clone(), vec![[0.0; 6]; nodes.len()]);
-                assert_eq!(single.update_history(&now, 1.0, &mut alone), b);
-                single.subtract_forces(&now, &mut F);
-                assert_eq!((&alone, &F), (&new[1], &sums[1]));
+                assert_eq!(all.update_history(&now, 1.0, &mut alone), together);
+                all.subtract_forces(&now, &mut F);
+                assert_eq!((&alone, &F), (&new[0], &sums[0]));
                 past = alone;
-                spent += b.plastic;
+                spent += together.plastic;
             }
-            assert_eq!(spent > 0.0, yields);
+            assert_eq!(spent > 0.0, law.is_some());
+            assert_eq!((0..all.len()).any(|e| all.has_failed(e, &past)), law.is_some_and(MaterialLaw::can_fail));
         }
     }
 }

@@ -10,7 +10,7 @@ use super::fibre_sum::FibreSum;
 use super::lane_section::{Linearised, SectionStiffness};
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
-use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
+use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
 use crate::sections::{Fibre, Stiffness};
 use crate::state::Configuration;
 use base::math::lanes::LANES;
@@ -32,8 +32,8 @@ pub struct FibreProfile<S, const N: usize> {
     whole: BeamStiffness,
     /// The elastic section less its elastic fibres, in section axes.
     rest: BeamStiffness,
-    /// The fibres side by side; `None` where they must be computed one by one.
-    lanes: Option<FibreLanes<S, N>>,
+    /// The fibres side by side.
+    lanes: FibreLanes,
 }
 
 impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
@@ -53,7 +53,7 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
             stiffness,
             whole,
             rest,
-            lanes: FibreLanes::new(law, state, fibres),
+            lanes: FibreLanes::new(fibres),
         }
     }
 
@@ -102,8 +102,8 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
         }
         for (fibre, old) in self.with_history(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let stress = self.law.stress(self.state, &strain, now.dt, old);
-            Self::add(fibre, &stress, &mut n, &mut m);
+            let answer = self.law.at_point(self.state, &strain, (now.dt, old), Ask::Stress);
+            Self::add(fibre, &answer.stress, &mut n, &mut m);
         }
         (n, m)
     }
@@ -140,9 +140,9 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
         let mut loss = FibreSum::default();
         for (fibre, old) in self.with_history(now.history) {
             let strain = Self::strain(fibre, gamma, kappa);
-            let (stress, C) = self.law.linearise(self.state, &strain, now.dt, old);
-            Self::add(fibre, &stress, &mut n, &mut m);
-            if let Some(C) = C {
+            let answer = self.law.at_point(self.state, &strain, (now.dt, old), Ask::Tangent);
+            Self::add(fibre, &answer.stress, &mut n, &mut m);
+            if let Some(C) = answer.tangent {
                 loss.add::<N>(fibre, &from_fn(|i| from_fn(|j| self.stiffness[i][j] - C[i][j])));
             }
         }
@@ -300,8 +300,11 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         }
         for ((fibre, old), new) in self.profile.with_history(now.history).zip(new.chunks_exact_mut(*variables)) {
             let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
-            let dissipation = law.advance(*state, &strain, (now.dt, part), old, new).1;
-            sum += dissipation * fibre.area;
+            let answer = law.at_point(*state, &strain, (now.dt, old), Ask::History(part));
+            law.remember(*state, &answer.new, (new, |_| Some(0)));
+            if let Some(spent) = answer.dissipation {
+                sum += spent.lane(0) * fibre.area;
+            }
         }
         if self.can_fail() {
             sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
@@ -316,7 +319,7 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         now: &Configuration,
         new: &mut [f64],
     ) -> (Vec3, Vec3, Dissipation) {
-        let FibreProfile { law, state, variables, rest, .. } = &*self.profile;
+        let rest = &self.profile.rest;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let before = self.intact(g, now.history);
         let now = self.at(g, now);
@@ -330,20 +333,12 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         if before < 1.0 {
             (n, m) = (before * n, before * m);
         }
-        if let Some(lanes) = &self.profile.lanes {
-            lanes.advance((&gamma, &kappa), now.dt, (now.history, new), |i, stress, plastic| {
-                let fibre = &self.profile.fibres[i];
-                FibreProfile::<S, N>::add(fibre, stress, &mut n, &mut m);
-                sum.plastic += plastic * fibre.area;
-            });
-            return (self.frame * n, self.frame * m, sum);
-        }
-        for ((fibre, old), new) in self.profile.with_history(now.history).zip(new.chunks_exact_mut(*variables)) {
-            let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
-            let (stress, spent) = law.advance(*state, &strain, (now.dt, 1.0), old, new);
-            FibreProfile::<S, N>::add(fibre, &stress, &mut n, &mut m);
+        let (law, history) = ((&self.profile.law, self.profile.state), (now.history, &mut *new));
+        self.profile.lanes.advance(law, [&gamma, &kappa], now.dt, history, |i, stress, spent| {
+            let fibre = &self.profile.fibres[i];
+            FibreProfile::<S, N>::add(fibre, stress, &mut n, &mut m);
             sum += spent * fibre.area;
-        }
+        });
         if self.can_fail() {
             sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
         }

@@ -1,82 +1,130 @@
 //! Forces, energies and results of shells.
 
 use super::interpolation::Interpolation;
-use super::kinematics::{NodalVectors, Shell, Shells, Strains};
-use super::packed::PackedSections;
-use super::packing::{pack, shell_pack};
+use super::pack::{ShellPack, Shells, Strains};
 use super::results;
-use super::section::{InPlane, ShellSection};
-use super::tangent::tangent;
-use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use super::section::{NewHistory, ShellSections};
+use super::tangent::Damping;
+use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::results::ShellResultants;
-use crate::materials::{Dissipation, FAILED_STIFFNESS};
+use crate::materials::{Dissipation, FAILED_STIFFNESS, Spent};
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
-use base::math::lanes::LANES;
-use std::array::from_fn;
+use base::math::lanes::{LANES, Lanes};
+use base::math::number::Number;
 
 impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Shells<K, N, V, P, E, S>
 where
     K: Interpolation<N, V, P>,
-    S: ShellSection<P, E>,
+    S: ShellSections<P, E, Lanes>,
 {
-    /// Subtracts from `F` the forces and moments on the nodes of an element with this stress in its plane and these shear strains.
-    #[inline(always)]
-    fn subtract_from_nodes(
+    /// The pack of element `e`, and its place there.
+    pub(super) fn place(&self, e: usize) -> (&ShellPack<N, V, P, E, S>, usize) {
+        (&self.packs[e / LANES], e % LANES)
+    }
+
+    /// The elements of each pack that have not failed.
+    fn intact<'a>(
+        &'a self,
+        history: &'a [f64],
+    ) -> impl Iterator<Item = (&'a ShellPack<N, V, P, E, S>, impl Iterator<Item = usize> + 'a)> {
+        self.packs.iter().map(|pack| (pack, (0..pack.count).filter(|e| !pack.sections.has_failed(*e, history))))
+    }
+
+    /// Tangents of the elements of `pack` from its place `first` on, as many as `out` holds.
+    fn tangents_of(
         &self,
-        element: &Shell<N, V, P, E, S>,
-        motion: &NodalVectors<N>,
-        (plane, shear): (InPlane<P, E>, &[f64; N]),
-        nodes: &[Node],
-        F: &mut [Force],
+        (pack, first): (&ShellPack<N, V, P, E, S>, usize),
+        (now, stressed): (&Configuration, Option<&[Node]>),
+        moduli: Moduli,
+        rate_weight: Option<f64>,
+        out: &mut [f64],
     ) {
-        let stress = Strains { plane, shear: element.edge_stress::<K>(shear, &plane) };
-        let mut gradient = element.gradient::<K, true>(&stress, motion);
-        if self.damping > 0.0 {
-            let viscous = self.viscous_stress(element, motion, nodes);
-            gradient = gradient.plus(1.0, &element.gradient::<K, false>(&viscous, motion));
-        }
-        for a in 0..N {
-            let f = &mut F[element.nodes[a]];
-            subtract(f, 0, &gradient.x[a]);
-            let mut moment = Vec3::zeros();
-            for k in 0..3 {
-                moment += motion.turning[k][a].cross(&gradient.turning[k][a]);
+        let mut H = [[[[Lanes::ZERO; 6]; N]; 6]; N];
+        let damping = rate_weight.filter(|_| self.damping > 0.0);
+        let damping = damping.map(|rate_weight| Damping { factor: self.damping, rate_weight });
+        pack.tangents::<K>((now, stressed), moduli, damping, &mut H);
+        let (H, length) = (H.as_flattened().as_flattened().as_flattened(), 36 * N * N);
+        if first == 0 {
+            Number::store(H, out.len() / length, out);
+        } else {
+            for (lane, out) in (first..).zip(out.chunks_mut(length)) {
+                out.iter_mut().zip(H).for_each(|(k, of)| *k = of.as_array()[lane]);
             }
-            subtract(f, 3, &moment);
+        }
+    }
+
+    /// As [`Shells::tangents_of`], with no more than a trace of what has failed.
+    fn own_tangents(
+        &self,
+        of: (&ShellPack<N, V, P, E, S>, usize),
+        now: &Configuration,
+        moduli: Moduli,
+        rate_weight: f64,
+        out: &mut [f64],
+    ) {
+        self.tangents_of(of, (now, None), moduli, Some(rate_weight), out);
+        let (pack, first) = of;
+        for (lane, out) in (first..).zip(out.chunks_mut(36 * N * N)) {
+            if pack.sections.has_failed(lane, now.history) {
+                out.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+            }
+        }
+    }
+
+    /// What the elements of a pack dissipate: in their layers, and what is left in an element that fails as a whole; what its layers had
+    /// stored is booked by then.
+    fn dissipated(
+        &self,
+        pack: &ShellPack<N, V, P, E, S>,
+        spent: &Spent<Lanes>,
+        now: &Configuration,
+        new: &[f64],
+        sum: &mut Dissipation,
+    ) {
+        let fails = pack.sections.can_fail();
+        for lane in 0..pack.count {
+            *sum += spent.lane(lane);
+            let failed = |history: &[f64]| pack.sections.has_failed(lane, history);
+            if fails && failed(new) && !failed(now.history) {
+                let strains = pack.strains_at::<K>(now.nodes);
+                let energy = pack.energy(lane, &strains, &Configuration { history: new, ..*now });
+                sum.eroded += energy.into_iter().sum::<f64>();
+            }
         }
     }
 }
 
-/// The sections of eight elements; lanes beyond the last repeat it.
+/// Subtracts the forces on the nodes of the elements of a pack that have not failed from `F`: a node gets those of its elements in their
+/// order.
 #[inline(always)]
-fn eight<const N: usize, const V: usize, const P: usize, const E: usize, S>(
-    elements: &[Shell<N, V, P, E, S>],
-) -> [&S; LANES] {
-    from_fn(|lane| &elements[lane.min(elements.len() - 1)].section)
-}
-
-/// The elastic energy that is left in an element that fails; what its layers had stored is booked by then.
-fn left_in<const N: usize, const V: usize, const P: usize, const E: usize, S: ShellSection<P, E>>(
-    element: &Shell<N, V, P, E, S>,
-    strains: &Strains<N, P, E>,
-    now: &Configuration,
-    new: &[f64],
-) -> f64 {
-    element.elastic_energy(strains, &Configuration { history: new, ..*now }).into_iter().sum()
+fn subtract<const N: usize, const V: usize, const P: usize, const E: usize, S: ShellSections<P, E, Lanes>>(
+    pack: &ShellPack<N, V, P, E, S>,
+    f: [[Lanes; 6]; N],
+    history: &[f64],
+    F: &mut [Force],
+) {
+    let f = f.map(|f| f.map(Lanes::to_array));
+    for lane in (0..pack.count).filter(|lane| !pack.sections.has_failed(*lane, history)) {
+        for a in 0..N {
+            let F = &mut F[pack.nodes[lane][a]];
+            (0..6).for_each(|i| F[i] -= f[a][i][lane]);
+        }
+    }
 }
 
 impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> ElementBlock for Shells<K, N, V, P, E, S>
 where
     K: Interpolation<N, V, P>,
-    S: ShellSection<P, E>,
+    S: ShellSections<P, E, Lanes>,
 {
     fn len(&self) -> usize {
-        self.elements.len()
+        self.packs.iter().map(|pack| pack.count).sum()
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.elements[e].nodes
+        let (pack, lane) = self.place(e);
+        &pack.nodes[lane]
     }
 
     fn dofs(&self) -> usize {
@@ -88,130 +136,77 @@ where
     }
 
     fn history(&self) -> usize {
-        self.elements.iter().map(|e| e.section.history()).sum()
-    }
-
-    fn pack(&mut self) {
-        // Damping needs the rates of the strains too.
-        if self.damping == 0.0 {
-            self.packs = pack::<K, N, V, P, E, S>(&self.elements);
-        }
+        self.history
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for pack in &self.packs {
-            pack.subtract_forces::<K>(now.nodes, F, |sections, strain, count| {
-                sections.advance(strain, now, None, count)
-            });
-        }
-        if !self.packs.is_empty() {
-            return;
-        }
-        if S::FORCES_SIDE_BY_SIDE && self.damping == 0.0 && !self.can_fail() {
-            for elements in self.elements.chunks(LANES) {
-                let sections = eight(elements);
-                let stress = |(): &(), strain: &_, _| S::stress_eight(sections, strain, now);
-                shell_pack::<K, N, V, P, E, S, ()>(elements, ()).subtract_forces::<K>(now.nodes, F, stress);
-            }
-            return;
-        }
-        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
-            let motion = element.gather(now.nodes);
-            let strains = element.strains::<K>(&motion);
-            let plane = element.section.stress(&strains.plane, now);
-            self.subtract_from_nodes(element, &motion, (plane, &strains.shear), now.nodes, F);
+            let stress = |sections: &S, strain: &_| sections.stress(strain, now);
+            subtract(pack, pack.forces::<K>(now.nodes, self.damping, stress), now.history, F);
         }
     }
 
     fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
-        let mut dissipation = Dissipation::default();
+        let mut sum = Dissipation::default();
         for pack in &self.packs {
-            let advance = |sections: &S::Packed, strain: &_, count| {
-                sections.advance(strain, now, Some((&mut *new, &mut dissipation)), count)
-            };
-            pack.subtract_forces::<K>(now.nodes, F, advance);
+            let mut spent = Spent::ZERO;
+            let to = NewHistory { part: 1.0, count: pack.count, new: &mut *new, spent: &mut spent };
+            let f = pack.forces::<K>(now.nodes, self.damping, |sections, strain| sections.advance(strain, now, to));
+            subtract(pack, f, now.history, F);
+            self.dissipated(pack, &spent, now, new, &mut sum);
         }
-        if !self.packs.is_empty() {
-            return dissipation;
-        }
-        for element in &self.elements {
-            let motion = element.gather(now.nodes);
-            let strains = element.strains::<K>(&motion);
-            let (plane, spent) = element.section.advance(&strains.plane, now, new);
-            dissipation += spent;
-            if element.section.has_failed(now.history) {
-                continue;
-            }
-            if element.section.has_failed(new) {
-                dissipation.eroded += left_in(element, &strains, now, new);
-            }
-            self.subtract_from_nodes(element, &motion, (plane, &strains.shear), now.nodes, F);
-        }
-        dissipation
+        sum
     }
 
     fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
-        let motion = self.elements[e].gather(now);
+        let (pack, lane) = self.place(e);
+        let motion = pack.gather(now);
         // The normal at a corner opposes the director there.
         (0..N).any(|a| {
             let side = |b: usize| motion.x[b % N] - motion.x[a];
-            side(a + 1).cross(&side(a + N - 1)).dot(&motion.turning[0][a]) <= 0.0
+            side(a + 1).cross(&side(a + N - 1)).dot(&motion.turning[0][a]).as_array()[lane] <= 0.0
         })
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
-        if self.damping > 0.0 {
-            tangent::<_, N, V, P, E, _, true>(self, e, (now, None), rate_weight, moduli, K);
-        } else {
-            tangent::<_, N, V, P, E, _, false>(self, e, (now, None), rate_weight, moduli, K);
-        }
-        if self.elements[e].section.has_failed(now.history) {
-            K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
-        }
+        self.own_tangents(self.place(e), now, moduli, rate_weight, K);
     }
 
     fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, out: &mut [f64]) {
-        let length = 36 * N * N;
-        if self.damping > 0.0 {
-            let each = out.chunks_mut(length).enumerate();
-            each.for_each(|(k, out)| self.tangent(first + k, now, rate_weight, moduli, out));
-            return;
-        }
-        for (elements, out) in self.elements[first..].chunks(LANES).zip(out.chunks_mut(LANES * length)) {
-            let elements = &elements[..out.len() / length];
-            let pack = shell_pack::<K, N, V, P, E, S, ()>(elements, ());
-            let sections = eight(elements);
-            let linearise = |strain: &_| S::linearise_eight(sections, strain, now, moduli);
-            pack.tangents::<K>(&pack.gather(now.nodes), linearise, out);
-            for (element, out) in elements.iter().zip(out.chunks_mut(length)) {
-                if element.section.has_failed(now.history) {
-                    out.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
-                }
-            }
+        let (length, mut e, mut rest) = (36 * N * N, first, out);
+        while !rest.is_empty() {
+            let (pack, lane) = self.place(e);
+            let count = (pack.count - lane).min(rest.len() / length);
+            let (own, further) = rest.split_at_mut(count * length);
+            self.own_tangents((pack, lane), now, moduli, rate_weight, own);
+            (e, rest) = (e + count, further);
         }
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        tangent::<_, N, V, P, E, _, false>(self, e, (now, Some(stressed)), 0.0, Moduli::Elastic, K);
+        self.tangents_of(self.place(e), (now, Some(stressed)), Moduli::Elastic, None, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
-        let mut dissipation = Dissipation::default();
-        for element in &self.elements {
-            let strains = element.strains::<K>(&element.gather(now.nodes));
-            dissipation += element.section.update_history(&strains.plane, now, part, new);
-            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
-                dissipation.eroded += left_in(element, &strains, now, new);
-            }
+        let mut sum = Dissipation::default();
+        if self.history == 0 {
+            return sum;
         }
-        dissipation
+        for pack in &self.packs {
+            let Strains { plane, .. } = pack.strains_at::<K>(now.nodes);
+            let mut spent = Spent::ZERO;
+            let to = NewHistory { part, count: pack.count, new: &mut *new, spent: &mut spent };
+            pack.sections.advance(&plane, now, to);
+            self.dissipated(pack, &spent, now, new, &mut sum);
+        }
+        sum
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
         let mut sum = 0.0;
-        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
-            let strains = element.strains::<K>(&element.gather(now.nodes));
-            element.elastic_energy(&strains, now).into_iter().for_each(|energy| sum += energy);
+        for (pack, intact) in self.intact(now.history) {
+            let strains = pack.strains_at::<K>(now.nodes);
+            intact.for_each(|lane| pack.energy(lane, &strains, now).into_iter().for_each(|energy| sum += energy));
         }
         sum
     }
@@ -221,12 +216,12 @@ where
             return 0.0;
         }
         let mut sum = 0.0;
-        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
-            let motion = element.gather(now.nodes);
-            let rates = element.strain_rates::<K>(&motion, &element.rates(&motion, now.nodes));
-            let stress = element.elastic_stress(&rates);
-            sum += stress.plane.dot(&rates.plane);
-            sum += stress.shear.iter().zip(&rates.shear).map(|(a, b)| a * b).sum::<f64>();
+        for (pack, intact) in self.intact(now.history) {
+            let motion = pack.gather(now.nodes);
+            let rates = pack.strain_rates::<K>(&motion, &pack.rates(&motion, now.nodes));
+            let stress = pack.sections.elastic().stress(&rates.plane);
+            let stress = Strains { plane: stress, shear: pack.shear_stress(&rates.shear) };
+            intact.for_each(|lane| sum += stress.dot(&rates, lane));
         }
         self.damping * sum
     }
@@ -236,23 +231,25 @@ where
     }
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
-        self.elements[e].section.plastic_strain(history)
+        let (pack, lane) = self.place(e);
+        pack.sections.plastic_strain(lane, history)
     }
 
     fn can_fail(&self) -> bool {
-        self.elements.first().is_some_and(|element| element.section.can_fail())
+        self.packs.first().is_some_and(|pack| pack.sections.can_fail())
     }
 
     fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
-        let element = &self.elements[e];
+        let (pack, lane) = self.place(e);
         // What has failed carries nothing, however far it is stretched.
-        if element.section.has_failed(now.history) {
+        if self.history == 0 || pack.sections.has_failed(lane, now.history) {
             return (0.0, false);
         }
-        element.section.surface_strain(&element.strains::<K>(&element.gather(now.nodes)).plane)
+        pack.sections.surface_strain(lane, &pack.strains_at::<K>(now.nodes).plane.lane(lane))
     }
 
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
-        self.elements[e].section.has_failed(history)
+        let (pack, lane) = self.place(e);
+        pack.sections.has_failed(lane, history)
     }
 }

@@ -45,11 +45,6 @@ impl Camber<f64> {
             from_fn(|n| from_fn(|k| both(n.min(k), n.max(k))[m] - alone[n.min(k)][m] - alone[n.max(k)][m]))
         }))
     }
-
-    /// Σ N_m Q_m.
-    pub fn stiffness(&self, N: &[f64]) -> [[f64; 3]; 3] {
-        from_fn(|n| from_fn(|k| (0..3).map(|m| N[m] * self.0[m][n][k]).sum()))
-    }
 }
 
 impl<T: Copy + Add<Output = T> + Mul<Output = T>> Camber<T> {

@@ -31,10 +31,4 @@ impl EdgeTangents {
             [-s * scale, c * scale]
         }))
     }
-
-    /// The vector of an end by its tangents t₁ and t₂ now.
-    #[inline(always)]
-    pub fn vector(&self, end: usize, t1: &Vec3, t2: &Vec3) -> Vec3 {
-        self.0[end][0] * t1 + self.0[end][1] * t2
-    }
 }

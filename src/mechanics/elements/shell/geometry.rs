@@ -1,16 +1,18 @@
 //! Shells as the model describes them, and what is computed once from the undeformed geometry.
 
+use super::camber::Camber;
 use super::edge::EdgeTangents;
 use super::edge_bending::EdgeBending;
 use super::edge_bubbles::edge_bubbles;
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
-use super::kinematics::{NodalVectors, Shell, Shells, Strains};
-use super::layers::{InPlaneStiffness, LayerModel, LayeredSection};
+use super::layers::{LayerModel, LayerPack};
+use super::pack::{Shell, ShellPack, Shells};
 use super::plane_strains::PlaneStrains;
-use super::section::{Drilling, InPlane, ShellSection, ShellStiffness};
+use super::section::{Drilling, InPlaneSection, ShellStiffness, StiffnessPack};
 use super::surface::ElementSurface;
 use crate::elements::block::ElementBlock;
 use base::math::Vec3;
+use base::math::lanes::{LANES, Lanes};
 use nalgebra::{Matrix3, SMatrix};
 use std::array::from_fn;
 use std::marker::PhantomData;
@@ -89,7 +91,9 @@ where
         plate: &Plate,
         damping: f64,
     ) -> Shells<K, N, V, P, E> {
-        build(elements, x, plate, damping, |stiffness| stiffness.elastic)
+        let section =
+            |of: &[Shell<N, V, P, E>]| StiffnessPack::gather(|lane| &of[lane.min(of.len() - 1)].section.elastic);
+        build(elements, x, plate, damping, section)
     }
 }
 
@@ -106,39 +110,51 @@ impl LayerModel {
         K: PlaneStrains<N, V, P, E> + 'static,
     {
         let layers = self.layers(plate.thickness);
-        let mut first = 0;
-        let section = |stiffness: InPlaneStiffness<P, E>| {
-            let section = LayeredSection::new(&layers, stiffness, first);
-            first += ShellSection::<P, E>::history(&section);
-            section
+        let mut history = 0;
+        let section = |of: &[Shell<N, V, P, E>]| {
+            let mut all = Vec::with_capacity(LANES);
+            for element in of {
+                all.push((&element.section, history));
+                history += layers.history(element.section.points.len());
+            }
+            LayerPack::new(&layers, &all)
         };
-        Box::new(build::<K, N, V, P, E, _>(elements, x, plate, damping, section))
+        let mut shells: Shells<K, N, V, P, E, LayerPack<P, E, Lanes>> = build(elements, x, plate, damping, section);
+        shells.history = history;
+        Box::new(shells)
     }
 }
 
-/// Shells whose sections `section` makes from the stiffness of an element in its plane.
+/// Shells, where `sections` packs the sections of up to eight elements.
 fn build<'a, K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
     elements: impl Iterator<Item = ShellGeometry<'a>>,
     x: &[Vec3],
     plate: &Plate,
     damping: f64,
-    mut section: impl FnMut(InPlaneStiffness<P, E>) -> S,
+    mut sections: impl FnMut(&[Shell<N, V, P, E>]) -> S,
 ) -> Shells<K, N, V, P, E, S>
 where
     K: PlaneStrains<N, V, P, E>,
-    S: ShellSection<P, E>,
 {
-    let elements = elements.map(|e| shell::<K, N, V, P, E, S>(&e, x, plate, &mut section)).collect();
-    Shells { elements, packs: Vec::new(), damping, interpolation: PhantomData }
+    let mut packs = Vec::new();
+    let mut eight = Vec::with_capacity(LANES);
+    let mut elements = elements.peekable();
+    while let Some(e) = elements.next() {
+        eight.push(shell::<K, N, V, P, E>(&e, x, plate));
+        if eight.len() == LANES || elements.peek().is_none() {
+            packs.push(ShellPack::new::<K>(&eight, sections(&eight)));
+            eight.clear();
+        }
+    }
+    Shells { packs, history: 0, damping, interpolation: PhantomData }
 }
 
 /// An undeformed element with its directors and tangents.
-fn shell<K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
+fn shell<K, const N: usize, const V: usize, const P: usize, const E: usize>(
     e: &ShellGeometry,
     x: &[Vec3],
     plate: &Plate,
-    section: &mut impl FnMut(InPlaneStiffness<P, E>) -> S,
-) -> Shell<N, V, P, E, S>
+) -> Shell<N, V, P, E>
 where
     K: PlaneStrains<N, V, P, E>,
 {
@@ -149,23 +165,21 @@ where
     let T = D.map(|d| surface.tangents(&d));
     let cambered = K::CAMBERED && is_curved(&X, &D, K::EDGES, plate.thickness);
     // Positions and directors both fall short of an arc.
-    let (camber, arcs) = if cambered { (Some(Box::new(surface.camber)), 2.0) } else { (None, 1.0) };
+    let (camber, arcs) = if cambered { (surface.camber, 2.0) } else { (Camber::NONE, 1.0) };
     let (shear, bent) = shear_stiffness::<K, N, V, P>(&surface, &D, plate);
-    let mut shell = Shell {
+    Shell {
         nodes,
+        X,
         D,
         T,
         slopes: surface.slopes,
         arc: surface.arc.map(|row| row.map(|s| arcs * s)),
         camber,
         edges: K::EDGES.map(|[a, b]| EdgeTangents::new(&(X[b] - X[a]), [&T[a], &T[b]])),
-        start: Strains { plane: InPlane::ZERO, shear: [0.0; N] },
         shear,
         bent,
-        section: section(in_plane::<K, N, V, P, E>(&surface, plate, &from_fn(|a| e.bulge[a]))),
-    };
-    shell.start = shell.measure::<K, true>(&NodalVectors { x: X, turning: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
-    shell
+        section: in_plane::<K, N, V, P, E>(&surface, plate, &from_fn(|a| e.bulge[a])),
+    }
 }
 
 /// True for an element along an edge of which the surface turns, over the length of it, by more than half the thickness, and that is
@@ -195,7 +209,7 @@ fn in_plane<K, const N: usize, const V: usize, const P: usize, const E: usize>(
     surface: &ElementSurface<N, V>,
     plate: &Plate,
     bulge: &[f64; N],
-) -> InPlaneStiffness<P, E>
+) -> InPlaneSection<P, E>
 where
     K: PlaneStrains<N, V, P, E>,
 {
@@ -209,10 +223,10 @@ where
     }
     let stiff = plate.drilling * plate.shear_modulus() * h * surface.area;
     // What constant stress does not feel in straight edges is felt here, so that their nodes do not drill freely.
-    let edges = from_fn(|i| if (P..P + N).contains(&i) && bulge[i - P] == 0.0 { UNEVEN } else { 0.0 });
+    let edges = from_fn(|i| if (P..P + N).contains(&i) && bulge[i - P] == 0.0 { stiff * UNEVEN } else { 0.0 });
     let drilling = Drilling { stiffness: stiff, rows: K::drilling(surface, bulge), edges };
     drilling.add_to(&mut elastic.N);
-    InPlaneStiffness { elastic, drilling, points }
+    InPlaneSection { elastic, drilling, points }
 }
 
 /// Stiffness of the shear strains at the edges, and the bending of the edges.

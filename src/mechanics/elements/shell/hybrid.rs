@@ -7,7 +7,7 @@
 //! the quartic x⁴ − y⁴ that would resist the latter resists tapering elements in bending too.
 
 use super::interpolation::{Interpolation, Quadrilateral};
-use super::kinematics::NodalVectors;
+use super::nodal_vectors::NodalVectors;
 use super::plane_strains::{PlaneStrains, PointStrains};
 use super::surface::{ElementSurface, SurfacePoint};
 use base::math::quadrature;

@@ -1,7 +1,7 @@
 //! Integrals of the shape functions over undeformed elements: shares of loads and masses.
 
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
-use super::kinematics::{NodalVectors, sum};
+use super::nodal_vectors::{NodalVectors, sum};
 use crate::elements::pressure::{Face, MOST_NODES};
 use base::math::Vec3;
 use base::math::curved_faces::{self, CurvedFace, NineNodes, SixNodes};

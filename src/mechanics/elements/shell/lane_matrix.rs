@@ -62,3 +62,17 @@ pub(super) fn complete<const N: usize>(H: &mut LaneMatrix<N>) {
         }
     }
 }
+
+/// The rows and columns of the position of the first node, whatever they hold, from the others.
+pub(super) fn hold_translations<const N: usize>(H: &mut LaneMatrix<N>) {
+    for a in 0..N {
+        for i in 0..6 {
+            (0..3).for_each(|j| H[a][i][0][j] = Lanes::ZERO - product(|b| H[a][i][b + 1][j], N - 1));
+        }
+    }
+    for b in 0..N {
+        for j in 0..6 {
+            (0..3).for_each(|i| H[0][i][b][j] = Lanes::ZERO - product(|a| H[a + 1][i][b][j], N - 1));
+        }
+    }
+}

@@ -1,22 +1,17 @@
-//! A shell of layers in plane stress, each with history variables of its own, that yields. Strain of the reference surface is Green's, or
+//! Shells of layers in plane stress, each with history variables of its own, that yield. Strain of the reference surface is Green's, or
 //! logarithmic, see [`super::stretch`], and curvature adds to it. Transverse shear stays elastic until all layers have failed.
 
-use super::layer_lanes::{LayerLanes, PointLanes};
-use super::layer_tangent::EightSections;
-use super::packed::{InPlaneLanes, LinearisedLanes, PackedSections};
+use super::in_plane::{InPlane, Linearised, product, subtract};
 use super::plane_strains::PointStrains;
-use super::section::{
-    CoupledStiffness, Drilling, InPlane, SectionTangent, ShellSection, ShellStiffness, linearise_one_by_one,
-    stiffness_side_by_side, stress_one_by_one,
-};
+use super::section::{Drilling, InPlaneSection, NewHistory, ShellSections, StiffnessPack};
 use super::stretch::Stretch;
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
-use crate::materials::{Dissipation, EightPoints, MaterialLaw, PlaneStress};
+use crate::materials::{Ask, MaterialLaw, PlaneStress};
 use crate::state::Configuration;
-use base::math::lanes::{LANES, lanes};
+use base::math::lanes::LANES;
+use base::math::number::Number;
 use base::math::quadrature;
-use nalgebra::SMatrix;
 use std::array::from_fn;
 use std::ops::Range;
 use std::sync::Arc;
@@ -46,7 +41,6 @@ impl LayerModel {
         let half = 0.5 * thickness;
         Arc::new(Layers {
             law: self.law.clone(),
-            eight: EightPoints::new(&self.law, PlaneStress),
             at: points.iter().map(|(z, w)| [half * z, half * w]).collect(),
             variables: self.law.history(PlaneStress),
             stiffness: self.law.stiffness(PlaneStress),
@@ -59,8 +53,6 @@ impl LayerModel {
 /// The layers and their law, shared by all elements of a part.
 pub struct Layers {
     law: MaterialLaw,
-    /// The law for eight points at once, where there is one.
-    eight: Option<EightPoints<PlaneStress, 3>>,
     /// Height above the reference surface, and thickness, of each layer.
     at: Vec<[f64; 2]>,
     /// The number of history variables of a layer.
@@ -73,298 +65,326 @@ pub struct Layers {
     logarithmic: bool,
 }
 
-/// The stiffness of an element in its plane, and what it is made of.
-pub(super) struct InPlaneStiffness<const P: usize, const E: usize> {
-    /// The stiffness before the material yields.
-    pub elastic: ShellStiffness<P, E>,
-    /// The stiffness of drilling, a part of it.
-    pub drilling: Drilling<E>,
-    /// The strains at its integration points.
-    pub points: Vec<PointStrains<P, E>>,
-}
-
-/// The sections of one element.
-pub struct LayeredSection<const P: usize, const E: usize> {
+/// The layered sections of one element, or of eight side by side.
+pub struct LayerPack<const P: usize, const E: usize, T> {
     layers: Arc<Layers>,
-    elastic: ShellStiffness<P, E>,
-    drilling: Drilling<E>,
-    points: Vec<PointStrains<P, E>>,
-    /// Start of its range in the history of the group.
-    first: usize,
+    elastic: StiffnessPack<P, E, T>,
+    drilling: Drilling<E, T>,
+    /// Integration points. An element that has fewer than others of its pack repeats the last with no area.
+    points: Vec<PointPack<P, E, T>>,
+    /// The number of points of each element.
+    counts: [usize; LANES],
+    /// Starts of their ranges in the history of the group.
+    first: [usize; LANES],
 }
 
-impl<const P: usize, const E: usize> LayeredSection<P, E> {
-    /// `first`: the start of its range in the history of the group.
-    pub(super) fn new(
-        layers: &Arc<Layers>,
-        InPlaneStiffness { elastic, drilling, points }: InPlaneStiffness<P, E>,
-        first: usize,
-    ) -> Self {
-        LayeredSection { layers: Arc::clone(layers), elastic, drilling, points, first }
-    }
+/// An integration point of one element, or of eight.
+struct PointPack<const P: usize, const E: usize, T> {
+    /// Rows of the strain of the reference surface by the numbers of the membrane.
+    membrane: [[T; E]; 3],
+    /// Rows of curvature by the numbers of bending.
+    bending: [[T; P]; 3],
+    /// Area.
+    weight: T,
+}
 
-    /// Eight of them side by side; `None` where they must be computed one by one.
+/// The strain at a point of the reference surface.
+struct PointState<T> {
+    /// Of Green, or logarithmic.
+    strain: [T; 3],
+    curvature: [T; 3],
+    /// `None` where strain is Green's.
+    stretch: Option<Stretch<T>>,
+}
+
+/// The resultants of a section, and what their derivatives lose by yielding: moments over the layers.
+struct Resultants<T> {
+    N: [T; 3],
+    M: [T; 3],
+    /// The losses of N, NM and M are the moments of the loss with z⁰, z¹ and z².
+    loss: [[[T; 3]; 3]; 3],
+    yields: bool,
+}
+
+/// What the layers are asked besides the stress.
+enum LayersAsk<'a, const P: usize, const E: usize, T> {
+    Stress,
+    Tangent(&'a mut Linearised<P, E, T>),
+    History(NewHistory<'a, T>),
+}
+
+impl<T: Number> PointState<T> {
+    /// The strain of a layer.
     #[inline(always)]
-    fn side_by_side<'a>(sections: &[&'a Self; LANES]) -> Option<EightSections<'a, P, E>> {
-        let Layers { eight, at, logarithmic, .. } = &*sections[0].layers;
-        let points = sections.map(|section| &section.points[..]);
-        // The flat elements of a part have more points than the others.
-        let alike = points.iter().all(|own| own.len() == points[0].len());
-        Some(EightSections {
-            law: eight.as_ref().filter(|_| alike)?,
-            at,
-            logarithmic: *logarithmic,
-            points,
-            drilling: sections.map(|section| &section.drilling),
-            first: sections.map(|section| section.first),
-        })
+    fn at(&self, z: f64) -> [T; 3] {
+        from_fn(|i| self.strain[i] + T::splat(z) * self.curvature[i])
     }
+}
 
-    /// The range of the history of the group that the element has.
-    fn history_range(&self) -> Range<usize> {
-        self.first..self.first + ShellSection::<P, E>::history(self)
-    }
-
-    /// The stress of drilling, which stays elastic.
-    #[inline(always)]
-    fn drilling(&self, strain: &InPlane<P, E>) -> InPlane<P, E> {
-        InPlane { membrane: self.drilling.stress(&strain.membrane), ..InPlane::ZERO }
-    }
-
-    /// Membrane strain and curvature at an integration point.
-    #[inline(always)]
-    fn strain(point: &PointStrains<P, E>, strain: &InPlane<P, E>) -> [[f64; 3]; 2] {
-        let membrane = from_fn(|i| (0..E).map(|m| point.membrane[(i, m)] * strain.membrane[m]).sum());
-        [membrane, from_fn(|i| (0..P).map(|m| point.bending[(i, m)] * strain.bending[m]).sum())]
-    }
-
-    /// Calls `of` for each layer of each integration point with the point, [z, volume], strain and history variables.
-    #[inline(always)]
-    fn each(
-        &self,
-        strain: &InPlane<P, E>,
-        old: &[f64],
-        mut of: impl FnMut(&PointStrains<P, E>, [f64; 2], &[f64; 3], &[f64]),
-    ) {
-        let all = self.layers.at.len() * self.layers.variables;
-        for (point, old) in self.points.iter().zip(old[self.history_range()].chunks_exact(all)) {
-            self.through(point, strain, old, |[z, w], strain, old| of(point, [z, w * point.weight], strain, old));
+impl<const P: usize, const E: usize, T: Number> PointPack<P, E, T> {
+    fn new<'a>(point: impl Fn(usize) -> (&'a PointStrains<P, E>, bool)) -> Self {
+        PointPack {
+            membrane: from_fn(|i| from_fn(|m| T::gather(|lane| point(lane).0.membrane[(i, m)]))),
+            bending: from_fn(|i| from_fn(|m| T::gather(|lane| point(lane).0.bending[(i, m)]))),
+            weight: T::gather(|lane| if point(lane).1 { point(lane).0.weight } else { 0.0 }),
         }
     }
 
-    /// Calls `of` for each layer of an integration point with [z, thickness], strain and history variables; answers with the strain of the
-    /// reference surface if that is logarithmic.
+    /// Strain of Green and curvature.
     #[inline(always)]
-    fn through(
-        &self,
-        point: &PointStrains<P, E>,
-        strain: &InPlane<P, E>,
-        old: &[f64],
-        mut of: impl FnMut([f64; 2], &[f64; 3], &[f64]),
-    ) -> Option<Stretch<f64>> {
-        let [e, k] = Self::strain(point, strain);
-        let stretch = self.layers.logarithmic.then(|| Stretch::new(&e));
-        let e = stretch.as_ref().map_or(e, |stretch| stretch.strain);
-        for (&[z, w], old) in self.layers.at.iter().zip(old.chunks_exact(self.layers.variables)) {
-            of([z, w], &from_fn(|i| e[i] + z * k[i]), old);
-        }
-        stretch
+    fn strain(&self, strain: &InPlane<P, E, T>) -> [[T; 3]; 2] {
+        [
+            from_fn(|i| product(&self.membrane[i], &strain.membrane)),
+            from_fn(|i| product(&self.bending[i], &strain.bending)),
+        ]
     }
 
-    /// The losses of N and NM by logarithmic strain as those by Green's: C − (∂H/∂E)ᵀ (C − loss) ∂H/∂E − N:∂²H/∂E², (∂H/∂E)ᵀ loss.
-    fn stretched(&self, stretch: &Stretch<f64>, N: &[f64; 3], loss: &mut [[[f64; 3]; 3]; 3]) {
-        let Layers { stiffness, thickness, .. } = &*self.layers;
-        let (slopes, curvature) = (stretch.slopes(), stretch.curvature(N));
-        let whole = |i: usize, j: usize| thickness * stiffness[i][j];
-        let right: [[f64; 3]; 3] =
-            from_fn(|j| from_fn(|i| (0..3).map(|k| (whole(i, k) - loss[0][i][k]) * slopes[j][k]).sum()));
-        let kept = |i: usize, j: usize| (0..3).map(|k| slopes[i][k] * right[j][k]).sum::<f64>() + curvature[j][i];
-        loss[0] = from_fn(|i| from_fn(|j| whole(i, j) - 0.5 * (kept(i, j) + kept(j, i))));
-        loss[1] = from_fn(|i| from_fn(|j| (0..3).map(|k| slopes[i][k] * loss[1][k][j]).sum()));
+    /// The strain that layers have.
+    #[inline(always)]
+    fn state(&self, strain: &InPlane<P, E, T>, logarithmic: bool) -> PointState<T> {
+        let [e, curvature] = self.strain(strain);
+        let stretch = logarithmic.then(|| Stretch::new(&e));
+        PointState { strain: stretch.as_ref().map_or(e, |stretch| stretch.strain), curvature, stretch }
     }
 
-    /// Adds to the stress of the element that of a point, where the section has the resultants N and M.
+    /// Adds to the stress of the element that of the point.
     #[inline(always)]
-    fn add(
-        point: &PointStrains<P, E>,
-        stretch: &Option<Stretch<f64>>,
-        [N, M]: &[[f64; 3]; 2],
-        stress: &mut InPlane<P, E>,
-    ) {
-        let N = stretch.as_ref().map_or(*N, |stretch| stretch.conjugate(N));
-        let [N, M] = [N, *M].map(|part| part.map(|s| point.weight * s));
-        for m in 0..E {
-            stress.membrane[m] += (0..3).map(|i| point.membrane[(i, m)] * N[i]).sum::<f64>();
-        }
-        for m in 0..P {
-            stress.bending[m] += (0..3).map(|i| point.bending[(i, m)] * M[i]).sum::<f64>();
+    fn add(&self, Resultants { N, M, .. }: &Resultants<T>, state: &PointState<T>, stress: &mut InPlane<P, E, T>) {
+        let N = state.stretch.as_ref().map_or(*N, |stretch| stretch.conjugate(N));
+        let [N, M] = [N, *M].map(|part| part.map(|s| self.weight * s));
+        (0..E).for_each(|m| stress.membrane[m] += product(&from_fn(|i| self.membrane[i][m]), &N));
+        (0..P).for_each(|m| stress.bending[m] += product(&from_fn(|i| self.bending[i][m]), &M));
+    }
+
+    /// Takes off the stiffness what the point has lost.
+    #[inline(always)]
+    fn subtract(&self, Resultants { loss, yields, .. }: &Resultants<T>, out: &mut Linearised<P, E, T>) {
+        let loss = loss.map(|loss| loss.map(|row| row.map(|lost| self.weight * lost)));
+        subtract(&self.membrane, &loss[0], &self.membrane, &mut out.N);
+        if *yields {
+            out.coupled = true;
+            subtract(&self.membrane, &loss[1], &self.bending, &mut out.NM);
+            subtract(&self.bending, &loss[2], &self.bending, &mut out.M);
         }
     }
 }
 
-/// Adds the stress of a layer to N and M.
-#[inline(always)]
-fn accumulate(section: &mut [[f64; 3]; 2], [z, w]: [f64; 2], sigma: &[f64; 3]) {
-    for i in 0..3 {
-        section[0][i] += w * sigma[i];
-        section[1][i] += w * z * sigma[i];
-    }
-}
+impl<T: Number> Resultants<T> {
+    const ZERO: Self = Resultants { N: [T::ZERO; 3], M: [T::ZERO; 3], loss: [[[T::ZERO; 3]; 3]; 3], yields: false };
 
-/// K ← K − w Aᵀ C B.
-#[inline(always)]
-fn subtract<const R: usize, const Q: usize>(
-    w: f64,
-    (A, C, B): (&SMatrix<f64, 3, R>, &[[f64; 3]; 3], &SMatrix<f64, 3, Q>),
-    K: &mut [[f64; Q]; R],
-) {
-    for n in 0..Q {
-        let column: [f64; 3] = from_fn(|i| w * (0..3).map(|j| C[i][j] * B[(j, n)]).sum::<f64>());
-        for m in 0..R {
-            K[m][n] -= (0..3).map(|i| A[(i, m)] * column[i]).sum::<f64>();
-        }
-    }
-}
-
-impl<const P: usize, const E: usize> PackedSections<LayeredSection<P, E>, P, E> for LayerLanes<P, E> {
-    fn pack(sections: &[&LayeredSection<P, E>]) -> Option<Self> {
-        let first = sections.first()?;
-        let law = first.layers.eight.clone()?;
-        let at = |lane: usize| sections[lane.min(sections.len() - 1)];
-        // The flat elements of a part have more points than the others.
-        if sections.iter().any(|section| section.points.len() != first.points.len()) {
-            return None;
-        }
-        let point = |g: usize| PointLanes::new(|lane| &at(lane).points[g]);
-        Some(LayerLanes {
-            law,
-            logarithmic: first.layers.logarithmic,
-            at: first.layers.at.clone(),
-            edges: from_fn(|i| lanes(|lane| at(lane).drilling.stiffness * at(lane).drilling.edges[i])),
-            stiffness: lanes(|lane| at(lane).drilling.stiffness),
-            rows: from_fn(|k| from_fn(|i| lanes(|lane| at(lane).drilling.rows[k][i]))),
-            points: (0..first.points.len()).map(point).collect(),
-            first: from_fn(|lane| at(lane).first),
-        })
-    }
-
+    /// Adds the stress of a layer.
     #[inline(always)]
-    fn advance(
-        &self,
-        strain: &InPlaneLanes<P, E>,
-        now: &Configuration,
-        new: Option<(&mut [f64], &mut Dissipation)>,
-        count: usize,
-    ) -> InPlaneLanes<P, E> {
-        LayerLanes::advance(self, strain, now, new, count)
+    fn add(&mut self, [z, w]: [f64; 2], sigma: &[T; 3]) {
+        for i in 0..3 {
+            self.N[i] += T::splat(w) * sigma[i];
+            self.M[i] += T::splat(w * z) * sigma[i];
+        }
+    }
+
+    /// Adds what a layer with the stiffness C loses against the `elastic` one.
+    #[inline(always)]
+    fn lose(&mut self, [z, w]: [f64; 2], C: &[[T; 3]; 3], elastic: &[[f64; 3]; 3]) {
+        self.yields = true;
+        let lost: [[T; 3]; 3] = from_fn(|i| from_fn(|j| T::splat(elastic[i][j]) - C[i][j]));
+        for (loss, w) in self.loss.iter_mut().zip([w, w * z, w * z * z]) {
+            for i in 0..3 {
+                (0..3).for_each(|j| loss[i][j] = T::fma(T::splat(w), lost[i][j], loss[i][j]));
+            }
+        }
+    }
+
+    /// The losses of N and NM by logarithmic strain as those by Green's: C − (∂H/∂E)ᵀ (C − loss) ∂H/∂E − N:∂²H/∂E², (∂H/∂E)ᵀ loss. `whole`:
+    /// C, the stiffness of all layers before they yield.
+    #[inline(always)]
+    fn stretched(&mut self, stretch: &Stretch<T>, whole: impl Fn(usize, usize) -> T) {
+        let (slopes, curvature) = (stretch.slopes(), stretch.curvature(&self.N));
+        let loss = &mut self.loss;
+        let half = T::splat(0.5);
+        let right: [[T; 3]; 3] =
+            from_fn(|j| from_fn(|i| product(&from_fn(|k| whole(i, k) - loss[0][i][k]), &slopes[j])));
+        let kept = |i: usize, j: usize| product(&slopes[i], &right[j]) + curvature[j][i];
+        loss[0] = from_fn(|i| from_fn(|j| whole(i, j) - half * (kept(i, j) + kept(j, i))));
+        loss[1] = from_fn(|i| from_fn(|j| product(&slopes[i], &from_fn(|k| loss[1][k][j]))));
     }
 }
 
-impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E> {
-    type Packed = LayerLanes<P, E>;
-
-    fn elastic(&self) -> &ShellStiffness<P, E> {
-        &self.elastic
+impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
+    /// Those of one element or of up to eight, each with the start of its range in the history of the group; lanes beyond the last repeat
+    /// it.
+    pub(super) fn new(layers: &Arc<Layers>, of: &[(&InPlaneSection<P, E>, usize)]) -> Self {
+        let at = |lane: usize| of[lane.min(of.len() - 1)];
+        let counts: [usize; LANES] = from_fn(|lane| at(lane).0.points.len());
+        let point = |g: usize| PointPack::new(|lane| (&at(lane).0.points[g.min(counts[lane] - 1)], g < counts[lane]));
+        LayerPack {
+            layers: Arc::clone(layers),
+            elastic: StiffnessPack::gather(|lane| &at(lane).0.elastic),
+            drilling: Drilling::gather(|lane| &at(lane).0.drilling),
+            points: (0..counts.into_iter().max().unwrap_or(0)).map(point).collect(),
+            counts,
+            first: from_fn(|lane| at(lane).1),
+        }
     }
 
-    fn stress(&self, strain: &InPlane<P, E>, now: &Configuration) -> InPlane<P, E> {
-        let mut stress = self.drilling(strain);
-        let all = self.layers.at.len() * self.layers.variables;
-        for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
-            let mut section = [[0.0; 3]; 2];
-            let stretch = self.through(point, strain, old, |at, strain, old| {
-                accumulate(&mut section, at, &self.layers.law.stress(PlaneStress, strain, now.dt, old));
-            });
-            Self::add(point, &stretch, &section, &mut stress);
+    /// The start of the history variables of a layer.
+    #[inline(always)]
+    fn place(&self, lane: usize, point: usize, layer: usize) -> usize {
+        let point = point.min(self.counts[lane] - 1);
+        self.first[lane] + (point * self.layers.at.len() + layer) * self.layers.variables
+    }
+
+    /// The range of the history of the group that an element has.
+    fn history_range(&self, lane: usize) -> Range<usize> {
+        self.first[lane]..self.first[lane] + self.layers.history(self.counts[lane])
+    }
+
+    /// The stress at a strain, and what is asked besides. The derivative is the elastic one less what yielding layers lose, and what
+    /// stretching takes or gives.
+    #[inline(always)]
+    fn respond(&self, strain: &InPlane<P, E, T>, now: &Configuration, mut ask: LayersAsk<P, E, T>) -> InPlane<P, E, T> {
+        let Layers { stiffness, thickness, logarithmic, .. } = &*self.layers;
+        let mut stress = InPlane::ZERO;
+        stress.membrane = self.drilling.stress(&strain.membrane);
+        for (g, point) in self.points.iter().enumerate() {
+            let state = point.state(strain, *logarithmic);
+            let mut sum = self.through(g, &state, now, &mut ask);
+            point.add(&sum, &state, &mut stress);
+            let LayersAsk::Tangent(out) = &mut ask else { continue };
+            if let Some(stretch) = &state.stretch {
+                sum.stretched(stretch, |i, j| T::splat(thickness * stiffness[i][j]));
+            }
+            if sum.yields || state.stretch.is_some() {
+                point.subtract(&sum, out);
+            }
         }
         stress
     }
 
-    /// The derivative is the elastic one less what yielding layers lose, and what stretching takes or gives.
-    fn linearise<'a>(
-        &'a self,
+    /// The resultants of the layers at an integration point.
+    #[inline(always)]
+    fn through(
+        &self,
+        g: usize,
+        state: &PointState<T>,
+        now: &Configuration,
+        ask: &mut LayersAsk<P, E, T>,
+    ) -> Resultants<T> {
+        let Layers { law, at, stiffness, .. } = &*self.layers;
+        let mut sum = Resultants::ZERO;
+        for (layer, &[z, w]) in at.iter().enumerate() {
+            let place = |lane: usize| self.place(lane, g, layer);
+            let old = law.recall(PlaneStress, now.history, place);
+            let respond = |ask: Ask| law.respond(PlaneStress, &state.at(z), (now.dt, &old), ask);
+            let answer = match ask {
+                LayersAsk::Stress => respond(Ask::Stress),
+                LayersAsk::Tangent(_) => respond(Ask::Tangent),
+                LayersAsk::History(to) => respond(Ask::History(to.part)),
+            };
+            sum.add([z, w], &answer.stress);
+            if let Some(C) = &answer.tangent {
+                sum.lose([z, w], C, stiffness);
+            }
+            if let LayersAsk::History(to) = ask {
+                let count = to.count;
+                let own = |lane: usize| (lane < count && g < self.counts[lane]).then(|| place(lane));
+                law.remember(PlaneStress, &answer.new, (&mut *to.new, own));
+                if let Some(spent) = &answer.dissipation {
+                    to.spent.add(spent, T::splat(w) * self.points[g].weight);
+                }
+            }
+        }
+        sum
+    }
+
+    /// Calls `of` for each layer of an element with its number, [height, thickness, area], its strain and its history variables.
+    fn each(
+        &self,
+        lane: usize,
         strain: &InPlane<P, E>,
-        now: &Configuration,
-        moduli: Moduli,
-        tangent: &'a mut CoupledStiffness<P, E>,
-    ) -> (InPlane<P, E>, SectionTangent<'a, P, E>) {
-        if moduli == Moduli::Elastic {
-            return (self.stress(strain, now), self.elastic.tangent());
-        }
-        let mut stress = self.drilling(strain);
-        let mut changed = false;
-        let all = self.layers.at.len() * self.layers.variables;
-        for (point, old) in self.points.iter().zip(now.history[self.history_range()].chunks_exact(all)) {
-            let mut section = [[0.0; 3]; 2];
-            // The losses of N, NM and M are its moments with z⁰, z¹ and z².
-            let mut loss = [[[0.0; 3]; 3]; 3];
-            let mut yields = false;
-            let stretch = self.through(point, strain, old, |[z, w], strain, old| {
-                let (sigma, C) = self.layers.law.linearise(PlaneStress, strain, now.dt, old);
-                accumulate(&mut section, [z, w], &sigma);
-                let Some(C) = C else { return };
-                yields = true;
-                for i in 0..3 {
-                    for j in 0..3 {
-                        let lost = w * (self.layers.stiffness[i][j] - C[i][j]);
-                        loss[0][i][j] += lost;
-                        loss[1][i][j] += z * lost;
-                        loss[2][i][j] += z * z * lost;
-                    }
-                }
-            });
-            Self::add(point, &stretch, &section, &mut stress);
-            if let Some(stretch) = &stretch {
-                self.stretched(stretch, &section[0], &mut loss);
-            }
-            if yields || stretch.is_some() {
-                if !changed {
-                    tangent.plane.clone_from(&self.elastic);
-                    changed = true;
-                }
-                tangent.coupled |= yields;
-                let PointStrains { membrane, bending, weight } = point;
-                subtract(*weight, (membrane, &loss[0], membrane), &mut tangent.plane.N);
-                subtract(*weight, (membrane, &loss[1], bending), &mut tangent.NM);
-                subtract(*weight, (bending, &loss[2], bending), &mut tangent.plane.M);
+        history: &[f64],
+        mut of: impl FnMut(usize, [f64; 3], &[f64; 3], &[f64]),
+    ) {
+        let Layers { at, variables, logarithmic, .. } = &*self.layers;
+        let splat = |x: f64| T::splat(x);
+        let strain = InPlane { membrane: strain.membrane.map(splat), bending: strain.bending.map(splat) };
+        for (g, point) in self.points[..self.counts[lane]].iter().enumerate() {
+            let state = point.state(&strain, *logarithmic);
+            for (layer, &[z, w]) in at.iter().enumerate() {
+                let own = &history[self.place(lane, g, layer)..][..*variables];
+                of(layer, [z, w, point.weight.lane(lane)], &state.at(z).map(|e| e.lane(lane)), own);
             }
         }
-        (stress, if changed { tangent.tangent() } else { self.elastic.tangent() })
     }
+}
 
-    const FORCES_SIDE_BY_SIDE: bool = true;
+impl Layers {
+    /// The number of history variables of an element with so many integration points.
+    pub(super) fn history(&self, points: usize) -> usize {
+        points * self.at.len() * self.variables
+    }
+}
 
+impl<const P: usize, const E: usize, T: Number> ShellSections<P, E, T> for LayerPack<P, E, T> {
     #[inline(always)]
-    fn stress_eight(sections: [&Self; LANES], strain: &InPlaneLanes<P, E>, now: &Configuration) -> InPlaneLanes<P, E> {
-        match Self::side_by_side(&sections) {
-            Some(eight) => eight.stress(strain, now, None),
-            None => stress_one_by_one(sections, strain, now),
-        }
+    fn elastic(&self) -> &StiffnessPack<P, E, T> {
+        &self.elastic
     }
 
-    #[inline(always)]
-    fn linearise_eight(
-        sections: [&Self; LANES],
-        strain: &InPlaneLanes<P, E>,
-        now: &Configuration,
-        moduli: Moduli,
-    ) -> LinearisedLanes<P, E> {
-        let logarithmic = sections[0].layers.logarithmic;
-        match Self::side_by_side(&sections) {
-            Some(eight) if !logarithmic || moduli == Moduli::Elastic => {
-                let mut out =
-                    stiffness_side_by_side(InPlaneLanes::ZERO, sections.map(|section| section.elastic.tangent()));
-                let tangent = (moduli == Moduli::Algorithmic).then_some(&mut out);
-                out.stress = eight.stress(strain, now, tangent);
-                out
-            }
-            _ => linearise_one_by_one(sections, strain, now, moduli),
-        }
+    fn stress(&self, strain: &InPlane<P, E, T>, now: &Configuration) -> InPlane<P, E, T> {
+        self.respond(strain, now, LayersAsk::Stress)
     }
 
-    fn surface_strain(&self, strain: &InPlane<P, E>) -> (f64, bool) {
-        let largest = |point: &PointStrains<P, E>| {
-            let [[a, b, shear], _] = Self::strain(point, strain);
+    fn linearise(&self, strain: &InPlane<P, E, T>, now: &Configuration, moduli: Moduli) -> Linearised<P, E, T> {
+        let mut out = self.elastic.linearised();
+        out.stress = match moduli {
+            Moduli::Algorithmic => self.respond(strain, now, LayersAsk::Tangent(&mut out)),
+            Moduli::Elastic => ShellSections::stress(self, strain, now),
+        };
+        out
+    }
+
+    fn advance(&self, strain: &InPlane<P, E, T>, now: &Configuration, to: NewHistory<T>) -> InPlane<P, E, T> {
+        self.respond(strain, now, LayersAsk::History(to))
+    }
+
+    fn energy(&self, lane: usize, strain: &InPlane<P, E>, now: &Configuration) -> f64 {
+        let drilling = self.drilling.stress(&strain.membrane.map(T::splat));
+        let mut sum = 0.5 * (0..E).map(|i| drilling[i].lane(lane) * strain.membrane[i]).sum::<f64>();
+        self.each(lane, strain, now.history, |_, [_, w, area], strain, own| {
+            sum += w * area * self.layers.law.elastic_energy(PlaneStress, strain, own);
+        });
+        sum
+    }
+
+    fn layers(&self, lane: usize, strain: &InPlane<P, E>, now: &Configuration, out: &mut [LayerStress]) -> usize {
+        let Layers { law, at, .. } = &*self.layers;
+        let out = &mut out[..at.len()];
+        out.fill(LayerStress::default());
+        let whole: f64 = self.points.iter().map(|point| point.weight.lane(lane)).sum();
+        self.each(lane, strain, now.history, |layer, [z, _, area], strain, own| {
+            let sigma = law.at_point(PlaneStress, strain, (now.dt, own), Ask::Stress).stress;
+            let layer = &mut out[layer];
+            layer.z = z;
+            (0..3).for_each(|i| layer.stress[i] += area / whole * sigma[i]);
+            layer.plastic_strain = layer.plastic_strain.max(law.accumulated(PlaneStress, own));
+        });
+        at.len()
+    }
+
+    fn plastic_strain(&self, lane: usize, history: &[f64]) -> f64 {
+        let Layers { law, variables, .. } = &*self.layers;
+        let own = history[self.history_range(lane)].chunks_exact(*variables);
+        own.map(|own| law.accumulated(PlaneStress, own)).fold(0.0, f64::max)
+    }
+
+    fn can_fail(&self) -> bool {
+        self.layers.law.can_fail()
+    }
+
+    fn surface_strain(&self, lane: usize, strain: &InPlane<P, E>) -> (f64, bool) {
+        let splat = |x: f64| T::splat(x);
+        let strain = InPlane { membrane: strain.membrane.map(splat), bending: strain.bending.map(splat) };
+        let largest = |point: &PointPack<P, E, T>| {
+            let [a, b, shear] = point.strain(&strain)[0].map(|e| e.lane(lane));
             let (mean, radius) = (0.5 * (a + b), (0.5 * (a - b)).hypot(0.5 * shear));
             if mean < 0.0 { mean - radius } else { mean + radius }
         };
@@ -372,77 +392,9 @@ impl<const P: usize, const E: usize> ShellSection<P, E> for LayeredSection<P, E>
         (self.points.iter().map(largest).fold(0.0, larger), self.layers.logarithmic)
     }
 
-    fn can_fail(&self) -> bool {
-        self.layers.law.can_fail()
-    }
-
-    fn has_failed(&self, history: &[f64]) -> bool {
+    fn has_failed(&self, lane: usize, history: &[f64]) -> bool {
         let Layers { law, variables, .. } = &*self.layers;
-        law.can_fail()
-            && history[self.history_range()].chunks_exact(*variables).all(|old| law.has_failed(PlaneStress, old))
-    }
-
-    fn energy(&self, strain: &InPlane<P, E>, now: &Configuration) -> f64 {
-        let mut sum = 0.5 * self.drilling(strain).dot(strain);
-        self.each(strain, now.history, |_, [_, w], strain, old| {
-            sum += w * self.layers.law.elastic_energy(PlaneStress, strain, old);
-        });
-        sum
-    }
-
-    fn update_history(&self, strain: &InPlane<P, E>, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
-        let mut dissipation = Dissipation::default();
-        let mut new = new[self.history_range()].chunks_exact_mut(self.layers.variables);
-        self.each(strain, now.history, |_, [_, w], strain, old| {
-            if let Some(new) = new.next() {
-                dissipation += self.layers.law.advance(PlaneStress, strain, (now.dt, part), old, new).1 * w;
-            }
-        });
-        dissipation
-    }
-
-    fn advance(&self, strain: &InPlane<P, E>, now: &Configuration, new: &mut [f64]) -> (InPlane<P, E>, Dissipation) {
-        let (mut stress, mut dissipation) = (self.drilling(strain), Dissipation::default());
-        let all = self.layers.at.len() * self.layers.variables;
-        let old = now.history[self.history_range()].chunks_exact(all);
-        let new = new[self.history_range()].chunks_exact_mut(all);
-        for ((point, old), new) in self.points.iter().zip(old).zip(new) {
-            let mut section = [[0.0; 3]; 2];
-            let mut new = new.chunks_exact_mut(self.layers.variables);
-            let stretch = self.through(point, strain, old, |[z, w], strain, old| {
-                let Some(new) = new.next() else { return };
-                let (sigma, spent) = self.layers.law.advance(PlaneStress, strain, (now.dt, 1.0), old, new);
-                accumulate(&mut section, [z, w], &sigma);
-                dissipation += spent * (w * point.weight);
-            });
-            Self::add(point, &stretch, &section, &mut stress);
-        }
-        (stress, dissipation)
-    }
-
-    fn layers(&self, strain: &InPlane<P, E>, now: &Configuration, layers: &mut [LayerStress]) -> usize {
-        let count = self.layers.at.len();
-        let layers = &mut layers[..count];
-        layers.fill(LayerStress::default());
-        let whole: f64 = self.points.iter().map(|point| point.weight).sum();
-        let mut next = 0;
-        self.each(strain, now.history, |point, [z, _], strain, old| {
-            let layer = &mut layers[next % count];
-            next += 1;
-            let sigma = self.layers.law.stress(PlaneStress, strain, now.dt, old);
-            layer.z = z;
-            (0..3).for_each(|i| layer.stress[i] += point.weight / whole * sigma[i]);
-            layer.plastic_strain = layer.plastic_strain.max(self.layers.law.accumulated(PlaneStress, old));
-        });
-        count
-    }
-
-    fn plastic_strain(&self, history: &[f64]) -> f64 {
-        let variables = history[self.history_range()].chunks_exact(self.layers.variables);
-        variables.map(|old| self.layers.law.accumulated(PlaneStress, old)).fold(0.0, f64::max)
-    }
-
-    fn history(&self) -> usize {
-        self.points.len() * self.layers.at.len() * self.layers.variables
+        let all = |own: &[f64]| own.chunks_exact(*variables).all(|own| law.has_failed(PlaneStress, own));
+        law.can_fail() && all(&history[self.history_range(lane)])
     }
 }

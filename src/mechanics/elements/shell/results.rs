@@ -6,11 +6,14 @@
 //! whatever strains describe the element.
 
 use super::interpolation::Interpolation;
-use super::kinematics::{NodalVectors, Shell, Shells, Strains, sum};
-use super::section::{InPlane, ShellSection};
+use super::nodal_vectors::{NodalVectors, sum};
+use super::pack::{Motion, Shells, Strains};
+use super::section::ShellSections;
 use crate::elements::pressure::Face;
 use crate::elements::results::{LayerStress, MOST_LAYERS, ShellResultants};
 use crate::state::Configuration;
+use base::math::lanes::Lanes;
+use base::math::number::LaneVec3;
 use base::math::{Mat3, Vec3};
 use std::array::from_fn;
 
@@ -31,11 +34,6 @@ pub fn result_axes(axis: &Vec3, normal: &Vec3) -> [Vec3; 2] {
     [first, normal.cross(&first)]
 }
 
-/// Σ stress · strain.
-fn work<const N: usize, const P: usize, const E: usize>(stress: &Strains<N, P, E>, strain: &Strains<N, P, E>) -> f64 {
-    stress.plane.dot(&strain.plane) + stress.shear.iter().zip(&strain.shear).map(|(a, b)| a * b).sum::<f64>()
-}
-
 /// The resultants of element `e`, whose nodes lay at `X`; axis 1 is `axis` projected on the surface at t = 0.
 pub(super) fn resultants<K, const N: usize, const V: usize, const P: usize, const E: usize, S>(
     shells: &Shells<K, N, V, P, E, S>,
@@ -46,27 +44,33 @@ pub(super) fn resultants<K, const N: usize, const V: usize, const P: usize, cons
 ) -> Option<ShellResultants>
 where
     K: Interpolation<N, V, P>,
-    S: ShellSection<P, E>,
+    S: ShellSections<P, E, Lanes>,
 {
-    let element: &Shell<N, V, P, E, S> = &shells.elements[e];
+    let (pack, lane) = shells.place(e);
     let X: [Vec3; N] = from_fn(|a| X[a] - X[0]);
-    let motion = element.gather(now.nodes);
-    let strains = element.strains::<K>(&motion);
-    let shear = element.shear_stress(&strains.shear);
-    let stress = match element.section.has_failed(now.history) {
-        true => Strains { plane: InPlane::ZERO, shear: [0.0; N] },
-        false => Strains { plane: element.section.stress(&strains.plane, now), shear },
+    let strains = pack.strains_at::<K>(now.nodes);
+    let stress = match pack.sections.has_failed(lane, now.history) {
+        true => Strains::ZERO,
+        false => Strains { plane: pack.sections.stress(&strains.plane, now), shear: pack.shear_stress(&strains.shear) },
     };
-    let start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
+    let axes = |k: usize| from_fn(|a| pack.axes[a][k].lane(lane));
+    let start = NodalVectors { x: X, turning: from_fn(axes) };
     let at = |way: &NodalVectors<N>, s: f64| {
-        let mut strains = element.measure::<K, false>(&start.plus(s, way));
+        let NodalVectors { x, turning } = start.plus(s, way);
+        let all = |v: [Vec3; N]| v.map(|v| LaneVec3::gather(|_| v));
+        let motion = Motion { x: all(x), turning: turning.map(all) };
+        let mut strains = pack.measure::<K>(&motion, &pack.chords(&motion));
         // Twisting moments on edges that bend cancel between elements, and are no shear forces; Q is told by all elements at a node.
-        let bent = element.bent.curvature(&strains.shear);
+        let bent = pack.bent.curvature(&strains.shear);
         (0..3).for_each(|n| strains.plane.bending[n] -= bent[n]);
-        work(&stress, &strains)
+        stress.dot(&strains, lane)
     };
-    let mean = MeanStress { X: &X, axis, motion: &motion, first: sum(&element.slopes[0], &X) };
-    mean.resultants(&at, |layers| element.section.layers(&strains.plane, now, layers))
+    let Motion { x, turning } = pack.gather(now.nodes);
+    let one = |v: [LaneVec3; N]| v.map(|v| v.lane(lane));
+    let motion = NodalVectors { x: one(x), turning: turning.map(one) };
+    let first = sum(&pack.slopes[0].map(|s| s.as_array()[lane]), &X);
+    let mean = MeanStress { X: &X, axis, motion: &motion, first };
+    mean.resultants(&at, |layers| pack.sections.layers(lane, &strains.plane.lane(lane), now, layers))
 }
 
 /// What the mean stress of an element is told in.
@@ -83,7 +87,7 @@ pub(super) struct MeanStress<'a, const N: usize> {
 
 impl<const N: usize> MeanStress<'_, N> {
     /// The resultants, by the work of the stress at strains from zero with the nodes so far on a way from t = 0, and by what writes
-    /// the layers, see [`ShellSection::layers`].
+    /// the layers, see [`ShellSections::layers`].
     pub fn resultants(
         &self,
         work: &dyn Fn(&NodalVectors<N>, f64) -> f64,

@@ -12,7 +12,7 @@
 //! Left out: the heights of layers stay as they are, so that a stretched sheet bends with the thickness that it had.
 
 use base::math::number::Number;
-use nalgebra::Matrix2;
+use std::array::from_fn;
 
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -74,31 +74,47 @@ impl<T: Number> Stretch<T> {
 /// Changes of E by ε₁, ε₂, γ₁₂.
 const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 0.5]];
 
-fn matrix([a, b, c]: [f64; 3]) -> Matrix2<f64> {
-    Matrix2::new(a, c, c, b)
+/// A matrix of two rows.
+type Matrix<T> = [[T; 2]; 2];
+
+fn matrix<T: Copy>([a, b, c]: [T; 3]) -> Matrix<T> {
+    [[a, c], [c, b]]
 }
 
-impl Stretch<f64> {
+/// A B.
+#[inline(always)]
+fn times<T: Number>(A: &Matrix<T>, B: &Matrix<T>) -> Matrix<T> {
+    A.map(|row| [0, 1].map(|j| row[0] * B[0][j] + row[1] * B[1][j]))
+}
+
+/// A + Aᵀ as [11, 22, 12].
+#[inline(always)]
+fn with_transpose<T: Number>(A: &Matrix<T>) -> [T; 3] {
+    [A[0][0] + A[0][0], A[1][1] + A[1][1], A[0][1] + A[1][0]]
+}
+
+impl<T: Number> Stretch<T> {
     /// ∂H/∂E by columns: the change of H with each component of E.
-    pub fn slopes(&self) -> [[f64; 3]; 3] {
+    #[inline(always)]
+    pub fn slopes(&self) -> [[T; 3]; 3] {
         UNITS.map(|unit| {
-            let [a, b, c] = self.along(&sandwich(&self.G, &unit));
-            [a, b, 2.0 * c]
+            let [a, b, c] = self.along(&sandwich(&self.G, &unit.map(T::splat)));
+            [a, b, T::splat(2.0) * c]
         })
     }
 
     /// N : ∂²H/∂E∂E.
-    pub fn curvature(&self, N: &[f64; 3]) -> [[f64; 3]; 3] {
-        let (G, Y, M) = (matrix(self.G), matrix(self.Y), matrix(self.along(N)));
-        let N = matrix(*N);
+    #[inline(always)]
+    pub fn curvature(&self, N: &[T; 3]) -> [[T; 3]; 3] {
+        let (Y, N, third) = (matrix(self.Y), matrix(*N), T::splat(THIRD));
+        let (NY, MG) = (times(&N, &Y), times(&matrix(self.along(&[N[0][0], N[1][1], N[0][1]])), &matrix(self.G)));
         UNITS.map(|unit| {
-            let dY = matrix(sandwich(&self.G, &unit));
-            let dZ = dY * Y + Y * dY;
-            let half = dZ * N + dY * N * Y;
-            let dM = THIRD * (half + half.transpose());
-            let turned = dY * M * G;
-            let dS = G * dM * G - (turned + turned.transpose());
-            [dS[(0, 0)], dS[(1, 1)], 0.5 * (dS[(0, 1)] + dS[(1, 0)])]
+            let dY = matrix(sandwich(&self.G, &unit.map(T::splat)));
+            let dZ = matrix(with_transpose(&times(&dY, &Y)));
+            let (first, second) = (times(&dZ, &N), times(&dY, &NY));
+            let dM = with_transpose(&[0, 1].map(|i| [0, 1].map(|j| first[i][j] + second[i][j])));
+            let (along, turned) = (sandwich(&self.G, &dM.map(|m| third * m)), with_transpose(&times(&dY, &MG)));
+            from_fn(|i| along[i] - turned[i])
         })
     }
 }
@@ -109,7 +125,6 @@ mod tests {
     use base::math::lanes::Lanes;
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
-    use std::array::from_fn;
 
     #[test]
     fn strain_is_logarithmic() {

@@ -2,7 +2,7 @@
 
 use super::camber::Camber;
 use super::interpolation::Interpolation;
-use super::kinematics::{NodalVectors, sum};
+use super::nodal_vectors::{NodalVectors, sum};
 use base::math::Vec3;
 use nalgebra::Vector2;
 use std::array::from_fn;

@@ -1,16 +1,26 @@
-//! The tangent of a shell element: BᵀCB of its strains and σ·∂²ε.
+//! Tangents of eight shell elements side by side: BᵀCB of their strains and σ·∂²ε.
+//!
+//! The half of the matrix that belongs to the motion against the first node is computed: the rest follows by symmetry, and because a
+//! translation of all nodes does nothing. Only a node's own rotations have a part that is not symmetric, and damping.
 
-use super::arc::Arc;
+use super::arc::Slopes;
+use super::in_plane::{InPlane, Linearised};
 use super::interpolation::Interpolation;
-use super::kinematics::{Bending, NodalVectors, Shell, Shells, StrainHessian, Strains, first_bending};
-use super::section::{CoupledStiffness, SectionTangent, ShellSection};
+use super::lane_matrix::{LaneMatrix, complete, hold_translations, product, subtract_skew};
+use super::pack::{Motion, ShellPack, Strains, by_pairs, sum, total};
+use super::section::ShellSections;
 use crate::elements::block::Moduli;
 use crate::state::{Configuration, Node};
-use base::math::{Mat3, Vec3, fma, skew};
+use base::math::lanes::{Lanes, fma};
+use base::math::number::LaneVec3;
 use std::array::from_fn;
 
-/// A row of B by positions and rotations of the nodes.
-pub(super) type Row<const N: usize> = [[f64; 6]; N];
+/// A row of B by the positions and the rotations of the nodes. Nothing is kept for the position of the first node.
+#[derive(Clone, Copy)]
+struct Row<const N: usize> {
+    x: [LaneVec3; N],
+    theta: [LaneVec3; N],
+}
 
 /// The rows of B: one for each strain.
 struct Rows<const N: usize, const P: usize, const E: usize> {
@@ -21,341 +31,446 @@ struct Rows<const N: usize, const P: usize, const E: usize> {
 
 /// y ← y + s x.
 #[inline(always)]
-pub(super) fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
-    for a in 0..N {
-        for k in 0..6 {
-            y[a][k] = fma(s, x[a][k], y[a][k]);
-        }
-    }
+fn add_vector(y: &mut LaneVec3, s: Lanes, x: &LaneVec3) {
+    (0..3).for_each(|i| y.0[i] = fma(s, x.0[i], y.0[i]));
 }
 
-/// Sets the entries of node `a` in a row.
-#[inline(always)]
-pub(super) fn set_entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
-    row[a] = [x.x, x.y, x.z, theta.x, theta.y, theta.z];
-}
+impl<const N: usize> Row<N> {
+    const ZERO: Self = Row { x: [LaneVec3::ZERO; N], theta: [LaneVec3::ZERO; N] };
 
-impl<const N: usize, const V: usize, const P: usize, const E: usize, S> Shell<N, V, P, E, S> {
-    /// ∂ε/∂(x, θ), where `moment(k, a, g)` turns the derivative g by d (k = 0), t₁ or t₂ of node a into that by its rotation.
+    /// Adds s times a row.
     #[inline(always)]
-    fn rows<K: Interpolation<N, V, P>, const ARC: bool>(
-        &self,
-        motion: &NodalVectors<N>,
-        moment: impl Fn(usize, usize, &Vec3) -> Vec3,
-        rows: &mut Rows<N, P, E>,
-    ) {
-        let NodalVectors { x, turning: [d, t1, t2] } = motion;
-        let (v, w) = (NodalVectors::slopes(&self.slopes, x), NodalVectors::slopes(&self.slopes, d));
-        let arc = Arc::new(&self.arc, w);
-        let bent = if ARC { &arc.long } else { &w };
-        for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
-            let mut y = [Vec3::zeros(); V];
-            y[i] = v[j];
-            y[j] = v[i];
-            let g = if ARC { arc.gradient(&y) } else { y };
-            for a in 0..N {
-                let [s, t] = [self.slopes[i][a], self.slopes[j][a]];
-                let along = if i == j { s * v[i] } else { s * v[j] + t * v[i] };
-                set_entry(&mut rows.membrane[n], a, &along, &Vec3::zeros());
-                let along = if i == j { s * bent[i] } else { s * bent[j] + t * bent[i] };
-                let across: Vec3 = (0..V).map(|i| self.slopes[i][a] * g[i]).sum();
-                set_entry(&mut rows.bending[n], a, &along, &moment(0, a, &across));
-            }
-        }
-        if ARC && K::CAMBERED {
-            for (m, slopes) in self.camber().slopes(&first_bending(&v, bent)).into_iter().enumerate() {
-                (0..3).for_each(|n| add(&mut rows.membrane[m], slopes[n], &rows.bending[n]));
-            }
-        }
-        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
-            rows.shear[e] = [[0.0; 6]; N];
-            rows.membrane[P + e] = [[0.0; 6]; N];
-            let along = x[b] - x[a];
-            let (mean, half) = (0.5 * (d[a] + d[b]), 0.5 * along);
-            let edge = &self.edges[e];
-            let bulge = edge.vector(0, &t1[a], &t2[a]) + edge.vector(1, &t1[b], &t2[b]);
-            for (end, node, sign) in [(0, a, -1.0), (1, b, 1.0)] {
-                set_entry(&mut rows.shear[e], node, &(sign * mean), &moment(0, node, &half));
-                let [c1, c2] = edge.0[end];
-                let turn = moment(1, node, &(c1 * along)) + moment(2, node, &(c2 * along));
-                set_entry(&mut rows.membrane[P + e], node, &(sign * bulge), &turn);
-            }
-        }
-        let mean = 0.5 / N as f64;
-        let (t1, t2): (Vec3, Vec3) = (t1.iter().sum(), t2.iter().sum());
-        for a in 0..N {
-            let along = mean * (self.slopes[1][a] * t1 - self.slopes[0][a] * t2);
-            let turn = mean * (moment(1, a, &v[1]) - moment(2, a, &v[0]));
-            set_entry(&mut rows.membrane[E - 1], a, &along, &turn);
-        }
+    fn add(&mut self, s: Lanes, row: &Self) {
+        self.add_positions(s, row);
+        (0..N).for_each(|a| add_vector(&mut self.theta[a], s, &row.theta[a]));
     }
 
-    /// C B, with the in-plane stiffness `plane`.
+    /// Adds s times a row that has nothing by rotations.
     #[inline(always)]
-    fn times<K: Interpolation<N, V, P>>(
-        &self,
-        SectionTangent { plane, NM }: SectionTangent<P, E>,
-        B: &Rows<N, P, E>,
-    ) -> Rows<N, P, E> {
-        let mut CB = Rows::ZERO;
-        let mut bending = B.bending;
-        if K::EDGES_BEND {
-            for (row, by) in bending.iter_mut().zip(&self.bent.0) {
-                (0..N).for_each(|e| add(row, by[e], &B.shear[e]));
-            }
-        }
-        for i in 0..E {
-            for j in 0..E {
-                add(&mut CB.membrane[i], plane.N[i][j], &B.membrane[j]);
-            }
-        }
-        for i in 0..P {
-            for j in 0..P {
-                add(&mut CB.bending[i], plane.M[i][j], &bending[j]);
-            }
-        }
-        if let Some(NM) = NM {
-            for i in 0..E {
-                for j in 0..P {
-                    add(&mut CB.membrane[i], NM[i][j], &bending[j]);
-                    add(&mut CB.bending[j], NM[i][j], &B.membrane[i]);
+    fn add_positions(&mut self, s: Lanes, row: &Self) {
+        (1..N).for_each(|a| add_vector(&mut self.x[a], s, &row.x[a]));
+    }
+
+    /// Adds this transposed times a row, without the position of the first node.
+    fn add_product(&self, X: &Self, H: &mut LaneMatrix<N>) {
+        let entry = |row: &Self, b: usize, j: usize| if j < 3 { row.x[b].0[j] } else { row.theta[b].0[j - 3] };
+        for (a, H) in H.iter_mut().enumerate() {
+            for (i, H) in H.iter_mut().enumerate() {
+                let s = entry(self, a, i);
+                for (b, H) in H.iter_mut().enumerate() {
+                    (0..6).for_each(|j| H[j] = fma(s, entry(X, b, j), H[j]));
                 }
             }
         }
-        for i in 0..N {
-            for j in 0..N {
-                add(&mut CB.shear[i], self.shear[i][j], &B.shear[j]);
+    }
+
+    /// Adds s times the row of an edge.
+    #[inline(always)]
+    fn add_edge(&mut self, ends: [usize; 2], s: Lanes, row: &Self) {
+        for a in ends {
+            if a > 0 {
+                add_vector(&mut self.x[a], s, &row.x[a]);
             }
+            add_vector(&mut self.theta[a], s, &row.theta[a]);
         }
-        if K::EDGES_BEND {
-            for (row, by) in CB.bending.iter().zip(&self.bent.0) {
-                (0..N).for_each(|e| add(&mut CB.shear[e], by[e], row));
-            }
-        }
-        CB
     }
 }
 
 impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
-    const ZERO: Self = {
-        let zero = [[0.0; 6]; N];
-        Rows { membrane: [zero; E], bending: [zero; P], shear: [zero; N] }
-    };
+    const ZERO: Self = Rows { membrane: [Row::ZERO; E], bending: [Row::ZERO; P], shear: [Row::ZERO; N] };
 
     /// Each row.
-    #[inline(always)]
     fn all(&self) -> impl Iterator<Item = &Row<N>> {
         self.membrane.iter().chain(&self.bending).chain(&self.shear)
     }
 
     /// Each row, to be changed.
-    #[inline(always)]
     fn all_mut(&mut self) -> impl Iterator<Item = &mut Row<N>> {
         self.membrane.iter_mut().chain(&mut self.bending).chain(&mut self.shear)
     }
 
-    /// Row i of BᵀX, i = component k of node a.
+    /// Adds to a row of C B what the membrane does by the stiffnesses `C`.
     #[inline(always)]
-    fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(
-        &self,
-        a: usize,
-        k: usize,
-        X: &Self,
-        row: &mut Row<N>,
-    ) {
+    fn add_membrane<K: Interpolation<N, V, P>, const V: usize>(&self, C: impl Fn(usize) -> Lanes, row: &mut Row<N>) {
         for m in 0..P {
             // Of products of slopes only the first depend on rotations, by the curvature.
-            if k < 3 || (K::CAMBERED && m < 3) {
-                add(row, self.membrane[m][a][k], &X.membrane[m]);
+            if K::CAMBERED && m < 3 {
+                row.add(C(m), &self.membrane[m]);
+            } else {
+                row.add_positions(C(m), &self.membrane[m]);
             }
-            add(row, self.bending[m][a][k], &X.bending[m]);
+        }
+        for (e, ends) in K::EDGES.into_iter().enumerate() {
+            row.add_edge(ends, C(P + e), &self.membrane[P + e]);
+        }
+        row.add(C(E - 1), &self.membrane[E - 1]);
+    }
+
+    /// Calls `of` with the entries of B in a column and with the rows of `X`, where those entries are not zero for all motions of node `a`.
+    #[inline(always)]
+    fn column<'a, K: Interpolation<N, V, P>, const V: usize>(
+        &'a self,
+        (a, turns): (usize, bool),
+        entry: impl Fn(&Row<N>) -> Lanes,
+        X: &'a Self,
+        mut of: impl FnMut(Lanes, &'a Row<N>),
+    ) {
+        for m in 0..P {
+            if !turns || (K::CAMBERED && m < 3) {
+                of(entry(&self.membrane[m]), &X.membrane[m]);
+            }
+            of(entry(&self.bending[m]), &X.bending[m]);
         }
         for (e, ends) in K::EDGES.into_iter().enumerate() {
             if ends.contains(&a) {
-                add(row, self.membrane[P + e][a][k], &X.membrane[P + e]);
-                add(row, self.shear[e][a][k], &X.shear[e]);
+                of(entry(&self.membrane[P + e]), &X.membrane[P + e]);
+                of(entry(&self.shear[e]), &X.shear[e]);
             }
         }
-        add(row, self.membrane[E - 1][a][k], &X.membrane[E - 1]);
+        of(entry(&self.membrane[E - 1]), &X.membrane[E - 1]);
     }
-}
 
-/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses at the nodes `stressed` in place of its own;
-/// symmetric unless `DAMPED`.
-pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const E: usize, S, const DAMPED: bool>(
-    shells: &Shells<T, N, V, P, E, S>,
-    e: usize,
-    (now, stressed): (&Configuration, Option<&[Node]>),
-    rate_weight: f64,
-    moduli: Moduli,
-    K: &mut [f64],
-) where
-    T: Interpolation<N, V, P>,
-    S: ShellSection<P, E>,
-{
-    let element = &shells.elements[e];
-    let motion = element.gather(now.nodes);
-    let strains = match stressed {
-        Some(nodes) => element.strains::<T>(&element.gather(nodes)),
-        None => element.strains::<T>(&motion),
-    };
-    let mut place = CoupledStiffness::ZERO;
-    let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
-    let stress = Strains { plane, shear: element.edge_stress::<T>(&strains.shear, &plane) };
-    let turning = &motion.turning;
-    let mut B = Rows::<N, P, E>::ZERO;
-    element.rows::<T, true>(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
-    let mut CB = element.times::<T>(C, &B);
-    if T::CAMBERED {
-        for (n, row) in element.camber().stiffness(&stress.plane.membrane).iter().enumerate() {
-            (0..3).for_each(|k| add(&mut CB.bending[n], row[k], &B.bending[k]));
-        }
-    }
-    set_product::<T, N, V, P, E>(&B, &CB, K);
-    let bending = Bending::new::<T, N, P, E, S>(element, &stress.plane, &motion);
-    add_bending(&bending, &element.slopes, &turning[0], K);
-    let hessian = element.strain_hessian::<T, true>(&stress);
-    let gradient = element.gradient::<T, true>(&stress, &motion);
-    add_strain_hessian(&hessian, &gradient, &motion, K);
-    if DAMPED {
-        add_damping(shells, element, &motion, now, rate_weight, &mut B, K);
-    }
-}
-
-/// K += the derivatives of the forces of damping by positions and rotations, and `rate_weight` times those by their rates. `B` is
-/// scratch.
-#[inline(always)]
-fn add_damping<T, const N: usize, const V: usize, const P: usize, const E: usize, S>(
-    shells: &Shells<T, N, V, P, E, S>,
-    element: &Shell<N, V, P, E, S>,
-    motion: &NodalVectors<N>,
-    now: &Configuration,
-    rate_weight: f64,
-    B: &mut Rows<N, P, E>,
-    K: &mut [f64],
-) where
-    T: Interpolation<N, V, P>,
-    S: ShellSection<P, E>,
-{
-    let turning = &motion.turning;
-    let rates = element.rates(motion, now.nodes);
-    let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
-    // ∂ε̇/∂(x, θ): ε̇ is linear in positions and in their rates; ḋ = ω × d rotates with d.
-    let (mut D, mut turned) = (Rows::<N, P, E>::ZERO, Rows::<N, P, E>::ZERO);
-    element.rows::<T, false>(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
-    element.rows::<T, false>(motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
-    element.rows::<T, false>(motion, |k, a, g| turning[k][a].cross(g), B);
-    for ((D, turned), B) in D.all_mut().zip(turned.all()).zip(B.all()) {
+    /// The upper half of BᵀX, without the position of the first node: rows of positions by positions, rows of rotations by positions,
+    /// which stand in the upper half too, and by rotations.
+    #[inline(always)]
+    fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(&self, X: &Self, H: &mut LaneMatrix<N>) {
         for a in 0..N {
-            for k in 3..6 {
-                D[a][k] += turned[a][k];
+            for k in 0..3 {
+                if a > 0 {
+                    let mut row = [LaneVec3::ZERO; N];
+                    self.column::<K, V>(
+                        (a, false),
+                        |B| B.x[a].0[k],
+                        X,
+                        |s, X| {
+                            (a..N).for_each(|b| add_vector(&mut row[b], s, &X.x[b]));
+                        },
+                    );
+                    (a..N).for_each(|b| H[a][k][b][..3].copy_from_slice(&row[b].0));
+                }
+                let mut row = Row::<N>::ZERO;
+                self.column::<K, V>(
+                    (a, true),
+                    |B| B.theta[a].0[k],
+                    X,
+                    |s, X| {
+                        (1..N).for_each(|b| add_vector(&mut row.x[b], s, &X.x[b]));
+                        (a..N).for_each(|b| add_vector(&mut row.theta[b], s, &X.theta[b]));
+                    },
+                );
+                (a..N).for_each(|b| H[a][3 + k][b][3..].copy_from_slice(&row.theta[b].0));
+                for b in 1..N {
+                    (0..3).for_each(|i| H[b][i][a][3 + k] = row.x[b].0[i]);
+                }
             }
         }
-        add(D, rate_weight, B);
-        D.as_flattened_mut().iter_mut().for_each(|d| *d *= shells.damping);
-    }
-    let mut viscous = [[[[0.0; 6]; N]; 6]; N];
-    set_product::<T, N, V, P, E>(
-        B,
-        &element.times::<T>(element.section.elastic().tangent(), &D),
-        viscous.as_flattened_mut().as_flattened_mut().as_flattened_mut(),
-    );
-    K.iter_mut().zip(viscous.as_flattened().as_flattened().as_flattened()).for_each(|(k, more)| *k += more);
-    let stress = shells.viscous_stress(element, motion, now.nodes);
-    let hessian = element.strain_hessian::<T, false>(&stress);
-    add_strain_hessian(&hessian, &element.gradient::<T, false>(&stress, motion), motion, K);
-}
-
-/// K ← BᵀX.
-#[inline(always)]
-fn set_product<T: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize, const E: usize>(
-    B: &Rows<N, P, E>,
-    X: &Rows<N, P, E>,
-    K: &mut [f64],
-) {
-    for a in 0..N {
-        for k in 0..6 {
-            let mut row = [[0.0; 6]; N];
-            B.transpose_times::<T, V>(a, k, X, &mut row);
-            let at = (6 * a + k) * 6 * N;
-            K[at..at + 6 * N].copy_from_slice(row.as_flattened());
-        }
     }
 }
 
-/// K += σ·∂²ε of the strains that are bilinear in positions and directors, and δ(d × g) at fixed g.
-#[inline(always)]
-pub(super) fn add_strain_hessian<const N: usize>(
-    hessian: &StrainHessian<N>,
-    gradient: &NodalVectors<N>,
-    motion: &NodalVectors<N>,
-    K: &mut [f64],
-) {
-    let (turning, width) = (&motion.turning, 6 * N);
-    for a in 0..N {
-        for b in 0..N {
-            for i in 0..3 {
-                K[(6 * a + i) * width + 6 * b + i] += hessian.xx[a][b];
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPack<N, V, P, E, S> {
+    /// ∂ε/∂(x, θ).
+    #[inline(always)]
+    fn rows<K: Interpolation<N, V, P>>(&self, motion: &Motion<N>, slopes: &Slopes<V>, rows: &mut Rows<N, P, E>) {
+        let Motion { x, turning } = motion;
+        let ([d, t1, t2], Slopes { v, long, .. }) = (turning, slopes);
+        for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
+            let mut y = [LaneVec3::ZERO; V];
+            y[i] = v[j];
+            y[j] = v[i];
+            let g = slopes.gradient(&y);
+            for a in 0..N {
+                let [s, t] = [self.slopes[i][a], self.slopes[j][a]];
+                let by = |v: &[LaneVec3; V]| if i == j { s * v[i] } else { s * v[j] + t * v[i] };
+                let across = sum(&from_fn(|i| self.slopes[i][a]), &g);
+                rows.membrane[n].x[a] = by(v);
+                rows.bending[n].x[a] = by(long);
+                rows.bending[n].theta[a] = d[a].cross(&across);
             }
-            // δd = δθ × d: the mixed part is −[Σ c d]~ and its transpose.
-            let c: Vec3 = (0..3).map(|k| hessian.xd[k][a][b] * turning[k][b]).sum();
-            add_mixed(a, b, &-skew(&c), K, width);
         }
-        // (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
-        let mut turn = Mat3::zeros();
-        for k in 0..3 {
-            let (d, g) = (&turning[k][a], &gradient.turning[k][a]);
-            turn += d * g.transpose() - d.dot(g) * Mat3::identity();
+        if K::CAMBERED && slopes.by_arcs {
+            for (m, slopes) in self.camber.slopes(&slopes.first_bending()).into_iter().enumerate() {
+                (0..3).for_each(|n| rows.membrane[m].add(slopes[n], &rows.bending[n]));
+            }
         }
-        add_block(6 * a + 3, 6 * a + 3, &turn, K, width);
-    }
-}
-
-/// Adds a 3×3 block at a row and a column of K, whose rows have the length `width`.
-#[inline(always)]
-fn add_block(row: usize, column: usize, block: &Mat3, K: &mut [f64], width: usize) {
-    for i in 0..3 {
-        for j in 0..3 {
-            K[(row + i) * width + column + j] += block[(i, j)];
+        let half = Lanes::splat(0.5);
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let (length, mean) = (x[b] - x[a], half * (d[a] + d[b]));
+            let bulge = self.bulging(e, [a, b], turning);
+            for ((node, sign), [c1, c2]) in [(a, -1.0), (b, 1.0)].into_iter().zip(self.edges[e]) {
+                rows.shear[e].x[node] = Lanes::splat(sign) * mean;
+                rows.shear[e].theta[node] = d[node].cross(&(half * length));
+                rows.membrane[P + e].x[node] = Lanes::splat(sign) * bulge;
+                rows.membrane[P + e].theta[node] = (c1 * t1[node] + c2 * t2[node]).cross(&length);
+            }
         }
-    }
-}
-
-/// Adds the block of the position of `a` and the rotation of `b`, and its transpose.
-#[inline(always)]
-fn add_mixed(a: usize, b: usize, block: &Mat3, K: &mut [f64], width: usize) {
-    for i in 0..3 {
-        for j in 0..3 {
-            K[(6 * a + i) * width + 6 * b + 3 + j] += block[(i, j)];
-            K[(6 * b + 3 + j) * width + 6 * a + i] += block[(i, j)];
-        }
-    }
-}
-
-/// K += σ·∂²ε of bending measured by angles.
-#[inline(always)]
-fn add_bending<const N: usize, const V: usize>(
-    bending: &Bending<V>,
-    slopes: &[[f64; N]; V],
-    d: &[Vec3; N],
-    K: &mut [f64],
-) {
-    let Bending { arc, Q, p } = bending;
-    let width = 6 * N;
-    let J: [[Mat3; V]; V] = from_fn(|b| from_fn(|k| arc.slope(b, k)));
-    let mixed: [[Mat3; V]; V] = from_fn(|i| from_fn(|k| (0..V).map(|b| Q[i][b] * J[b][k]).sum()));
-    let H = arc.hessian(p);
-    for b in 0..N {
-        let turn = -skew(&d[b]);
-        let along =
-            |row: &[Mat3]| -> Mat3 { row.iter().enumerate().map(|(k, m)| slopes[k][b] * m).sum::<Mat3>() * turn };
-        let mixed: [Mat3; V] = from_fn(|i| along(&mixed[i]));
-        let H = [along(&H[0]), along(&H[1])];
+        let mean = Lanes::splat(0.5 / N as f64);
+        let (all1, all2) = (mean * total(t1), mean * total(t2));
         for a in 0..N {
-            let block = (0..V).map(|i| slopes[i][a] * mixed[i]).sum();
-            add_mixed(a, b, &block, K, width);
-            let block = skew(&d[a]) * (slopes[0][a] * H[0] + slopes[1][a] * H[1]);
-            add_block(6 * a + 3, 6 * b + 3, &block, K, width);
+            rows.membrane[E - 1].x[a] = self.slopes[1][a] * all1 - self.slopes[0][a] * all2;
+            rows.membrane[E - 1].theta[a] = mean * (t1[a].cross(&v[1]) - t2[a].cross(&v[0]));
+        }
+    }
+
+    /// C B, with what the stress of the membrane does to the camber.
+    #[inline(always)]
+    fn times<K: Interpolation<N, V, P>>(&self, C: &Linearised<P, E, Lanes>, B: &Rows<N, P, E>, CB: &mut Rows<N, P, E>) {
+        let mut bending = B.bending;
+        if K::EDGES_BEND {
+            for (row, by) in bending.iter_mut().zip(&self.bent.0) {
+                (0..N).for_each(|e| row.add_edge(K::EDGES[e], by[e], &B.shear[e]));
+            }
+        }
+        for i in 0..E {
+            let mut row = Row::ZERO;
+            B.add_membrane::<K, V>(|j| C.N[i][j], &mut row);
+            if C.coupled {
+                (0..P).for_each(|j| row.add(C.NM[i][j], &bending[j]));
+            }
+            CB.membrane[i] = row;
+        }
+        for i in 0..P {
+            let mut row = Row::ZERO;
+            (0..P).for_each(|j| row.add(C.M[i][j], &bending[j]));
+            if C.coupled {
+                B.add_membrane::<K, V>(|j| C.NM[j][i], &mut row);
+            }
+            CB.bending[i] = row;
+        }
+        for i in 0..N {
+            let mut row = Row::ZERO;
+            (0..N).for_each(|e| row.add_edge(K::EDGES[e], self.shear[i][e], &B.shear[e]));
+            if K::EDGES_BEND {
+                (0..3).for_each(|n| row.add(self.bent.0[n][i], &CB.bending[n]));
+            }
+            CB.shear[i] = row;
+        }
+        if K::CAMBERED {
+            for n in 0..3 {
+                for k in 0..3 {
+                    let Q = |m: usize| C.stress.membrane[m] * self.camber.0[m][n][k];
+                    CB.bending[n].add(Q(0) + Q(1) + Q(2), &B.bending[k]);
+                }
+            }
+        }
+    }
+
+    /// σ·∂²ε at the slopes, in the half of a matrix that stands.
+    #[inline(always)]
+    fn add_strain_hessian<K: Interpolation<N, V, P>>(
+        &self,
+        stress: &Strains<N, P, E>,
+        motion: &Motion<N>,
+        slopes: &Slopes<V>,
+        H: &mut LaneMatrix<N>,
+    ) {
+        self.add_bending::<K>(&stress.plane, motion, slopes, H);
+        self.add_bilinear::<K>(stress, motion, H);
+    }
+
+    /// σ·∂²ε of what is bilinear: of products of slopes, bulges, drilling and shear.
+    #[inline(always)]
+    fn add_bilinear<K: Interpolation<N, V, P>>(
+        &self,
+        Strains { plane, shear }: &Strains<N, P, E>,
+        motion: &Motion<N>,
+        H: &mut LaneMatrix<N>,
+    ) {
+        let membrane = &plane.membrane;
+        let [d, t1, t2] = &motion.turning;
+        let Q = by_pairs::<V, P>(&K::PAIRS, membrane);
+        for a in 1..N {
+            let half: [Lanes; V] = from_fn(|j| product(|i| self.slopes[i][a] * Q[i][j], V));
+            for b in a..N {
+                let xx = product(|j| half[j] * self.slopes[j][b], V);
+                (0..3).for_each(|i| H[a][i][b][i] += xx);
+            }
+        }
+        let drill = membrane[E - 1] * Lanes::splat(0.5 / N as f64);
+        let mut c: [[LaneVec3; N]; N] = from_fn(|a| {
+            let (first, second) = (drill * self.slopes[1][a], drill * self.slopes[0][a]);
+            from_fn(|b| first * t1[b] - second * t2[b])
+        });
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let (half, bulge) = (Lanes::splat(0.5) * shear[e], membrane[P + e]);
+            for (to, [c1, c2]) in [a, b].into_iter().zip(self.edges[e]) {
+                let u = half * d[to] + bulge * (c1 * t1[to] + c2 * t2[to]);
+                c[b][to] += u;
+                c[a][to] -= u;
+            }
+        }
+        // δd = δθ × d: −[c]~ by position and rotation.
+        for a in 1..N {
+            (0..N).for_each(|b| subtract_skew(&c[a][b], a, b, H));
+        }
+    }
+
+    /// σ·∂²ε of bending measured by angles. All of it is made of products of vectors: with s the slopes by a node,
+    /// (skew d) u vᵀ (−skew d) = (d × u) (d × v)ᵀ.
+    #[inline(always)]
+    fn add_bending<K: Interpolation<N, V, P>>(
+        &self,
+        plane: &InPlane<P, E, Lanes>,
+        motion: &Motion<N>,
+        slopes: &Slopes<V>,
+        H: &mut LaneMatrix<N>,
+    ) {
+        let (d, Slopes { v, w, y, .. }) = (&motion.turning[0], slopes);
+        let Q = by_pairs::<V, P>(&K::PAIRS, &self.bending_stress::<K>(plane, slopes));
+        let p: [LaneVec3; V] = from_fn(|k| sum(&Q[k], v));
+        let pair = |s: &[Lanes; 2], of: &[LaneVec3; 2]| s[0] * of[0] + s[1] * of[1];
+        let s: [[Lanes; 2]; N] = from_fn(|a| [self.slopes[0][a], self.slopes[1][a]]);
+        let (w, two) = ([w[0], w[1]], [p[0], p[1]]);
+        let (Y, P_): ([_; N], [_; N]) = (from_fn(|a| pair(&s[a], y)), from_fn(|a| pair(&s[a], &two)));
+        // Mixed: Σ_i s_ia ∂²/∂v_i∂w_k.
+        let u: [LaneVec3; V] = from_fn(|i| pair(&[Q[i][0], Q[i][1]], &w));
+        let k: [[Lanes; 2]; V] =
+            from_fn(|i| from_fn(|k| slopes.H[k][0] * Q[i][0] + slopes.H[k][1] * Q[i][1] + Q[i][k]));
+        let turned = |of: &[LaneVec3; 2]| -> [[LaneVec3; 2]; N] { from_fn(|a| of.map(|of| d[a].cross(&of))) };
+        let (dw, dp, dy) = (turned(&w), turned(&two), turned(y));
+        for a in 1..N {
+            let along: [Lanes; V] = from_fn(|i| self.slopes[i][a]);
+            let U = sum(&along, &u);
+            for b in 0..N {
+                let q = |k: usize| product(|i| along[i] * Q[i][k], V);
+                let even = s[b][0] * product(|i| along[i] * k[i][0], V) + s[b][1] * product(|i| along[i] * k[i][1], V);
+                let even = if V > 2 { even + self.slopes[V - 1][b] * q(V - 1) } else { even };
+                let of_A = s[b][0] * q(0) + s[b][1] * q(1);
+                let dU = d[b].cross(&U);
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let A = w[0].0[i] * dy[b][0].0[j] + w[1].0[i] * dy[b][1].0[j];
+                        H[a][i][b][3 + j] += Y[b].0[i] * dU.0[j] + of_A * A;
+                    }
+                }
+                subtract_skew(&(even * d[b]), a, b, H);
+            }
+        }
+        let P2: [[Lanes; 2]; 2] = from_fn(|k| from_fn(|l| two[l].dot(&y[k]) + two[k].dot(&y[l])));
+        let form = |M: &[[Lanes; 2]; 2], a: usize, b: usize| {
+            let row = |k: usize| M[k][0] * s[b][0] + M[k][1] * s[b][1];
+            s[a][0] * row(0) + s[a][1] * row(1)
+        };
+        for a in 0..N {
+            for b in a..N {
+                let (S, even) = (form(&slopes.S, a, b), form(&P2, a, b));
+                let (first, second) = (d[a].cross(&P_[b]), d[a].cross(&Y[b]));
+                let (other, another) = (d[b].cross(&Y[a]), d[b].cross(&P_[a]));
+                for i in 0..3 {
+                    for j in 0..3 {
+                        let of = |c: usize| dp[a][c].0[i] * dw[b][c].0[j] + dw[a][c].0[i] * dp[b][c].0[j];
+                        let outer = first.0[i] * other.0[j] + second.0[i] * another.0[j];
+                        H[a][3 + i][b][3 + j] += S * (of(0) + of(1)) + outer - even * d[b].0[i] * d[a].0[j];
+                    }
+                    H[a][3 + i][b][3 + i] += even * d[a].dot(&d[b]);
+                }
+            }
+        }
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPack<N, V, P, E, S>
+where
+    S: ShellSections<P, E, Lanes>,
+{
+    /// Tangents of the elements, see [`crate::elements::ElementBlock::tangent`], with the stresses at the nodes `stressed` where there are
+    /// such.
+    pub fn tangents<K: Interpolation<N, V, P>>(
+        &self,
+        (now, stressed): (&Configuration, Option<&[Node]>),
+        moduli: Moduli,
+        damping: Option<Damping>,
+        H: &mut LaneMatrix<N>,
+    ) {
+        let motion = self.gather(now.nodes);
+        let slopes = self.slopes(&motion);
+        let strains = match stressed {
+            Some(nodes) => self.strains_at::<K>(nodes),
+            None => self.strains::<K>(&motion, &slopes),
+        };
+        let C = self.sections.linearise(&strains.plane, now, moduli);
+        let stress = Strains { shear: self.edge_stress::<K>(&strains.shear, &C.stress), plane: C.stress };
+        let (mut B, mut CB) = (Rows::ZERO, Rows::ZERO);
+        self.rows::<K>(&motion, &slopes, &mut B);
+        self.times::<K>(&C, &B, &mut CB);
+        B.transpose_times::<K, V>(&CB, H);
+        self.add_strain_hessian::<K>(&stress, &motion, &slopes, H);
+        complete(H);
+        self.gradient::<K>(&stress, &motion, &slopes).add_turning(&motion, H);
+        if let Some(damping) = damping {
+            self.add_damping::<K>(damping, &motion, now.nodes, [&mut B, &mut CB], H);
+        }
+    }
+
+    /// Adds the derivatives of the forces of damping by positions and rotations, and `rate_weight` times those by their rates.
+    fn add_damping<K: Interpolation<N, V, P>>(
+        &self,
+        Damping { factor, rate_weight }: Damping,
+        motion: &Motion<N>,
+        nodes: &[Node],
+        [B, CB]: [&mut Rows<N, P, E>; 2],
+        H: &mut LaneMatrix<N>,
+    ) {
+        let rates = self.rates(motion, nodes);
+        let rows = |motion: &Motion<N>| {
+            let mut rows = Rows::ZERO;
+            self.rows::<K>(motion, &self.chords(motion), &mut rows);
+            rows
+        };
+        *B = rows(motion);
+        // ∂ε̇/∂(x, θ): ε̇ = B (v, ω), where θ adds a rotation to those that ω makes.
+        let (mut D, behind) = (rows(&motion.plus(1.0, &rates)), rows(&motion.plus(-1.0, &rates)));
+        let (half, weight, factor_) = (Lanes::splat(0.5), Lanes::splat(rate_weight), Lanes::splat(factor));
+        let omega = self.omega(nodes);
+        for ((D, behind), B) in D.all_mut().zip(behind.all()).zip(B.all()) {
+            for a in 0..N {
+                let turned = B.theta[a].cross(&omega[a]);
+                D.x[a] = factor_ * (half * (D.x[a] - behind.x[a]) + weight * B.x[a]);
+                D.theta[a] = factor_ * (half * (D.theta[a] - behind.theta[a]) + turned + weight * B.theta[a]);
+            }
+        }
+        *CB = Rows::ZERO;
+        self.times::<K>(&self.sections.elastic().linearised(), &D, CB);
+        let stress = self.viscous_stress::<K>(factor, motion, &rates);
+        let (chords, mut viscous) = (self.chords(motion), [[[[Lanes::ZERO; 6]; N]; 6]; N]);
+        self.add_strain_hessian::<K>(&stress, motion, &chords, &mut viscous);
+        complete(&mut viscous);
+        self.gradient::<K>(&stress, motion, &chords).add_turning(motion, &mut viscous);
+        add(&viscous, H);
+        let mut viscous = [[[[Lanes::ZERO; 6]; N]; 6]; N];
+        B.all().zip(CB.all()).for_each(|(B, CB)| B.add_product(CB, &mut viscous));
+        hold_translations(&mut viscous);
+        add(&viscous, H);
+    }
+}
+
+/// Damping of a tangent.
+#[derive(Clone, Copy)]
+pub(super) struct Damping {
+    /// The factor of the stress by strain rates.
+    pub factor: f64,
+    /// What derivatives by rates are multiplied by.
+    pub rate_weight: f64,
+}
+
+/// H += M.
+fn add<const N: usize>(M: &LaneMatrix<N>, H: &mut LaneMatrix<N>) {
+    let M = M.as_flattened().as_flattened().as_flattened();
+    H.as_flattened_mut().as_flattened_mut().as_flattened_mut().iter_mut().zip(M).for_each(|(h, m)| *h += *m);
+}
+
+impl<const N: usize> Motion<N> {
+    /// Adds to `H` the change of the moments of this gradient that rotations make: (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
+    #[inline(always)]
+    fn add_turning(&self, motion: &Motion<N>, H: &mut LaneMatrix<N>) {
+        for a in 0..N {
+            for k in 0..3 {
+                let (d, g) = (&motion.turning[k][a], &self.turning[k][a]);
+                let along = d.dot(g);
+                for i in 0..3 {
+                    (0..3).for_each(|j| H[a][3 + i][a][3 + j] += d.0[i] * g.0[j]);
+                    H[a][3 + i][a][3 + i] -= along;
+                }
+            }
         }
     }
 }

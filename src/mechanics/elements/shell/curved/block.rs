@@ -6,16 +6,16 @@ use super::surface::{CurvedSurface, tangents};
 use super::tangent::tangent;
 use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
 use crate::elements::results::ShellResultants;
-use crate::elements::shell::kinematics::NodalVectors;
+use crate::elements::shell::nodal_vectors::NodalVectors;
 use crate::elements::shell::results::MeanStress;
-use crate::elements::shell::section::ShellSection;
-use crate::materials::{Dissipation, FAILED_STIFFNESS};
+use crate::elements::shell::section::{NewHistory, ShellSections};
+use crate::materials::{Dissipation, FAILED_STIFFNESS, Spent};
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 use std::array::from_fn;
 
 /// The stress of an element in a configuration.
-fn stress<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>>(
+fn stress<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSections<P, P, f64>>(
     element: &CurvedShell<N, V, P, Q, S>,
     strains: &CurvedStrain<N, P, Q>,
     now: &Configuration,
@@ -28,13 +28,13 @@ fn stress<const N: usize, const V: usize, const P: usize, const Q: usize, S: She
 }
 
 /// The elastic energy of an element: in its plane, of shear and of drilling.
-fn stored<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>>(
+fn stored<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSections<P, P, f64>>(
     element: &CurvedShell<N, V, P, Q, S>,
     strains: &CurvedStrain<N, P, Q>,
     now: &Configuration,
 ) -> f64 {
     let sum = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    element.section.energy(&strains.plane, now)
+    element.section.energy(0, &strains.plane, now)
         + 0.5 * sum(&element.shear_stress(&strains.shear), &strains.shear)
         + 0.5 * sum(&element.drilling_stress(&strains.drilling), &strains.drilling)
 }
@@ -43,7 +43,7 @@ impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> Eleme
     for CurvedShells<K, N, V, P, Q, S>
 where
     K: CurvedStrains<N, V, P, Q>,
-    S: ShellSection<P, P>,
+    S: ShellSections<P, P, f64>,
 {
     fn len(&self) -> usize {
         self.elements.len()
@@ -62,11 +62,11 @@ where
     }
 
     fn history(&self) -> usize {
-        self.elements.iter().map(|e| e.section.history()).sum()
+        self.history
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for element in self.elements.iter().filter(|element| !element.section.has_failed(now.history)) {
+        for element in self.elements.iter().filter(|element| !element.section.has_failed(0, now.history)) {
             let motion = element.gather(now.nodes);
             let mut stress = stress(element, &element.strains(&motion), now);
             if self.damping > 0.0 {
@@ -98,7 +98,7 @@ where
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         tangent(self, e, (now, None), (self.damping > 0.0).then_some(rate_weight), moduli, K);
-        if self.elements[e].section.has_failed(now.history) {
+        if self.elements[e].section.has_failed(0, now.history) {
             K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
         }
     }
@@ -111,8 +111,11 @@ where
         let mut dissipation = Dissipation::default();
         for element in &self.elements {
             let strains = element.strains(&element.gather(now.nodes));
-            dissipation += element.section.update_history(&strains.plane, now, part, new);
-            if element.section.has_failed(new) && !element.section.has_failed(now.history) {
+            let mut spent = Spent::ZERO;
+            let to = NewHistory { part, count: 1, new: &mut *new, spent: &mut spent };
+            element.section.advance(&strains.plane, now, to);
+            dissipation += spent.lane(0);
+            if element.section.has_failed(0, new) && !element.section.has_failed(0, now.history) {
                 // What the layers had stored is booked by then.
                 dissipation.eroded += stored(element, &strains, &Configuration { history: new, ..*now });
             }
@@ -121,7 +124,7 @@ where
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
-        let whole = self.elements.iter().filter(|element| !element.section.has_failed(now.history));
+        let whole = self.elements.iter().filter(|element| !element.section.has_failed(0, now.history));
         whole.map(|element| stored(element, &element.strains(&element.gather(now.nodes)), now)).sum()
     }
 
@@ -134,7 +137,7 @@ where
             let rates = element.strain_rates(&motion, &element.rates(&motion, now.nodes));
             element.elastic_stress(&rates).dot(&rates)
         };
-        let whole = self.elements.iter().filter(|element| !element.section.has_failed(now.history));
+        let whole = self.elements.iter().filter(|element| !element.section.has_failed(0, now.history));
         self.damping * whole.map(of).sum::<f64>()
     }
 
@@ -144,16 +147,16 @@ where
         let motion = element.gather(now.nodes);
         let strains = element.strains(&motion);
         // What has failed has no stress.
-        let part = if element.section.has_failed(now.history) { 0.0 } else { 1.0 };
+        let part = if element.section.has_failed(0, now.history) { 0.0 } else { 1.0 };
         let stress = stress(element, &strains, now);
         let at_start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
         let work = |way: &NodalVectors<N>, s: f64| part * stress.dot(&element.measure(&at_start.plus(s, way)));
         let mean = MeanStress { X: &X, axis, motion: &motion, first: CurvedSurface::new::<K>(X).axes[0] };
-        mean.resultants(&work, |layers| element.section.layers(&strains.plane, now, layers))
+        mean.resultants(&work, |layers| element.section.layers(0, &strains.plane, now, layers))
     }
 
     fn plastic_strain(&self, e: usize, history: &[f64]) -> f64 {
-        self.elements[e].section.plastic_strain(history)
+        self.elements[e].section.plastic_strain(0, history)
     }
 
     fn can_fail(&self) -> bool {
@@ -163,13 +166,13 @@ where
     fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
         let element = &self.elements[e];
         // What has failed carries nothing, however far it is stretched.
-        if element.section.has_failed(now.history) {
+        if element.section.has_failed(0, now.history) {
             return (0.0, false);
         }
-        element.section.surface_strain(&element.strains(&element.gather(now.nodes)).plane)
+        element.section.surface_strain(0, &element.strains(&element.gather(now.nodes)).plane)
     }
 
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
-        self.elements[e].section.has_failed(history)
+        self.elements[e].section.has_failed(0, history)
     }
 }

@@ -5,9 +5,9 @@ use super::sampling::CurvedStrains;
 use super::surface::{CurvedSurface, tangents};
 use crate::elements::block::ElementBlock;
 use crate::elements::shell::geometry::{Plate, SHEAR_FACTOR, ShellGeometry, squared};
-use crate::elements::shell::kinematics::NodalVectors;
-use crate::elements::shell::layers::{InPlaneStiffness, LayerModel, LayeredSection};
-use crate::elements::shell::section::{Drilling, ShellSection, ShellStiffness};
+use crate::elements::shell::layers::{LayerModel, LayerPack};
+use crate::elements::shell::nodal_vectors::NodalVectors;
+use crate::elements::shell::section::{Drilling, InPlaneSection, ShellStiffness, StiffnessPack};
 use base::math::Vec3;
 use base::math::curved_faces::{CurvedFace, NineNodes, SixNodes};
 use std::array::from_fn;
@@ -50,8 +50,9 @@ where
         plate: &Plate,
         damping: f64,
     ) -> CurvedShells<K, N, V, P, Q> {
-        let elements = elements.map(|e| shell::<K, N, V, P, Q, _>(&e, x, plate, &mut |stiffness| stiffness.elastic));
-        CurvedShells { elements: elements.collect(), damping, shape: PhantomData }
+        let mut section = |of: InPlaneSection<P, P>| StiffnessPack::gather(|_| &of.elastic);
+        let elements = elements.map(|e| shell::<K, N, V, P, Q, _>(&e, x, plate, &mut section)).collect();
+        CurvedShells { elements, history: 0, damping, shape: PhantomData }
     }
 }
 
@@ -69,14 +70,14 @@ impl LayerModel {
         K: CurvedStrains<N, V, P, Q> + SlopesAtNodes<N>,
     {
         let layers = self.layers(plate.thickness);
-        let mut first = 0;
-        let mut section = |stiffness: InPlaneStiffness<P, P>| {
-            let section = LayeredSection::new(&layers, stiffness, first);
-            first += ShellSection::<P, P>::history(&section);
-            section
+        let mut history = 0;
+        let mut section = |of: InPlaneSection<P, P>| {
+            let first = history;
+            history += layers.history(of.points.len());
+            LayerPack::<P, P, f64>::new(&layers, &[(&of, first)])
         };
         let elements = elements.map(|e| shell::<K, N, V, P, Q, _>(&e, x, plate, &mut section)).collect();
-        Box::new(CurvedShells::<K, N, V, P, Q, _> { elements, damping, shape: PhantomData })
+        Box::new(CurvedShells::<K, N, V, P, Q, _> { elements, history, damping, shape: PhantomData })
     }
 }
 
@@ -85,7 +86,7 @@ fn shell<K, const N: usize, const V: usize, const P: usize, const Q: usize, S>(
     e: &ShellGeometry,
     x: &[Vec3],
     plate: &Plate,
-    section: &mut impl FnMut(InPlaneStiffness<P, P>) -> S,
+    section: &mut impl FnMut(InPlaneSection<P, P>) -> S,
 ) -> CurvedShell<N, V, P, Q, S>
 where
     K: CurvedStrains<N, V, P, Q> + SlopesAtNodes<N>,
@@ -132,7 +133,7 @@ fn measures<K: CurvedFace<N>, const N: usize>(surface: &CurvedSurface<N>) -> [[V
 fn in_plane<K, const N: usize, const V: usize, const P: usize, const Q: usize>(
     surface: &CurvedSurface<N>,
     plate: &Plate,
-) -> InPlaneStiffness<P, P>
+) -> InPlaneSection<P, P>
 where
     K: CurvedStrains<N, V, P, Q>,
 {
@@ -145,7 +146,7 @@ where
         squared(&point.bending, &C, h.powi(3) / 12.0 * point.weight, &mut elastic.M);
     }
     let drilling = Drilling { stiffness: 0.0, rows: [[0.0; P]; 2], edges: [0.0; P] };
-    InPlaneStiffness { elastic, drilling, points }
+    InPlaneSection { elastic, drilling, points }
 }
 
 /// Stiffness of the transverse shears.

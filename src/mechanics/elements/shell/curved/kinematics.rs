@@ -1,8 +1,9 @@
 //! Kinematics of a curved element: from the motion of its nodes to its strains, their rates and their derivatives.
 
 use super::sampling::Sampling;
-use crate::elements::shell::kinematics::{NodalVectors, StrainHessian, sum};
-use crate::elements::shell::section::{InPlane, ShellSection, ShellStiffness};
+use crate::elements::shell::in_plane::InPlane;
+use crate::elements::shell::nodal_vectors::{NodalVectors, sum};
+use crate::elements::shell::section::{ShellSections, StiffnessPack};
 use crate::state::Node;
 use base::math::Vec3;
 use base::math::curved_faces::{NineNodes, SixNodes};
@@ -29,6 +30,14 @@ pub(super) struct CurvedShell<const N: usize, const V: usize, const P: usize, co
     pub drilling: [f64; 2],
     /// The sections at its integration points.
     pub section: S,
+}
+
+/// σ·∂²ε, which is bilinear in positions and directors.
+pub(super) struct StrainHessian<const N: usize> {
+    /// Coefficients of x_a·x_b.
+    pub xx: [[f64; N]; N],
+    /// Coefficients of x_a·d_b, x_a·p_b and x_a·q_b.
+    pub xd: [[[f64; N]; N]; 3],
 }
 
 /// The strains of an element, or the stresses conjugate to them.
@@ -66,9 +75,12 @@ impl<const N: usize, const P: usize, const Q: usize> CurvedStrain<N, P, Q> {
 }
 
 /// A group of curved shells of one shape `K`, whose sections are of type `S`.
-pub struct CurvedShells<K, const N: usize, const V: usize, const P: usize, const Q: usize, S = ShellStiffness<P, P>> {
+pub struct CurvedShells<K, const N: usize, const V: usize, const P: usize, const Q: usize, S = StiffnessPack<P, P, f64>>
+{
     /// The elements.
     pub(super) elements: Vec<CurvedShell<N, V, P, Q, S>>,
+    /// The number of history variables of all.
+    pub(super) history: usize,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
     /// The shape, which holds no data.
@@ -76,9 +88,9 @@ pub struct CurvedShells<K, const N: usize, const V: usize, const P: usize, const
 }
 
 /// Quadrilaterals of nine nodes.
-pub type CurvedQuadrilaterals<S = ShellStiffness<24, 24>> = CurvedShells<NineNodes, 9, 20, 24, 12, S>;
+pub type CurvedQuadrilaterals<S = StiffnessPack<24, 24, f64>> = CurvedShells<NineNodes, 9, 20, 24, 12, S>;
 /// Triangles of six nodes.
-pub type CurvedTriangles<S = ShellStiffness<9, 9>> = CurvedShells<SixNodes, 6, 9, 9, 9, S>;
+pub type CurvedTriangles<S = StiffnessPack<9, 9, f64>> = CurvedShells<SixNodes, 6, 9, 9, 9, S>;
 
 impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedShell<N, V, P, Q, S> {
     /// Positions and directors of the nodes.
@@ -234,7 +246,9 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
     }
 }
 
-impl<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>> CurvedShell<N, V, P, Q, S> {
+impl<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSections<P, P, f64>>
+    CurvedShell<N, V, P, Q, S>
+{
     /// The elastic stress at the given strains.
     #[inline(always)]
     pub fn elastic_stress(&self, strains: &CurvedStrain<N, P, Q>) -> CurvedStrain<N, P, Q> {

@@ -1,13 +1,16 @@
 //! The tangent of a curved element: BᵀCB of its strains and σ·∂²ε.
 
-use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
+use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain, StrainHessian};
 use crate::elements::block::Moduli;
-use crate::elements::shell::kinematics::{NodalVectors, sum};
-use crate::elements::shell::section::{CoupledStiffness, SectionTangent, ShellSection};
-use crate::elements::shell::tangent::{Row, add, add_strain_hessian, set_entry};
+use crate::elements::shell::in_plane::Linearised;
+use crate::elements::shell::nodal_vectors::{NodalVectors, sum};
+use crate::elements::shell::section::ShellSections;
 use crate::state::{Configuration, Node};
-use base::math::Vec3;
+use base::math::{Mat3, Vec3, fma, skew};
 use std::array::from_fn;
+
+/// A row of B by positions and rotations of the nodes.
+type Row<const N: usize> = [[f64; 6]; N];
 
 /// The rows of B: one for each strain.
 struct CurvedRows<const N: usize, const P: usize, const Q: usize> {
@@ -15,6 +18,22 @@ struct CurvedRows<const N: usize, const P: usize, const Q: usize> {
     bending: [Row<N>; P],
     shear: [Row<N>; Q],
     drilling: [Row<N>; N],
+}
+
+/// y ← y + s x.
+#[inline(always)]
+fn add<const N: usize>(y: &mut Row<N>, s: f64, x: &Row<N>) {
+    for a in 0..N {
+        for k in 0..6 {
+            y[a][k] = fma(s, x[a][k], y[a][k]);
+        }
+    }
+}
+
+/// Sets the entries of node `a` in a row.
+#[inline(always)]
+fn set_entry<const N: usize>(row: &mut Row<N>, a: usize, x: &Vec3, theta: &Vec3) {
+    row[a] = [x.x, x.y, x.z, theta.x, theta.y, theta.z];
 }
 
 impl<const N: usize, const P: usize, const Q: usize> CurvedRows<N, P, Q> {
@@ -96,21 +115,21 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
         }
     }
 
-    /// C B, with the in-plane stiffness `plane`.
+    /// C B.
     #[inline(always)]
     fn times(
         &self,
-        SectionTangent { plane, NM }: SectionTangent<P, P>,
+        Linearised { N: membrane, M: bending, NM, coupled, .. }: &Linearised<P, P, f64>,
         B: &CurvedRows<N, P, Q>,
     ) -> CurvedRows<N, P, Q> {
         let mut CB = CurvedRows::ZERO;
         for i in 0..P {
             for j in 0..P {
-                add(&mut CB.membrane[i], plane.N[i][j], &B.membrane[j]);
-                add(&mut CB.bending[i], plane.M[i][j], &B.bending[j]);
+                add(&mut CB.membrane[i], membrane[i][j], &B.membrane[j]);
+                add(&mut CB.bending[i], bending[i][j], &B.bending[j]);
             }
         }
-        if let Some(NM) = NM {
+        if *coupled {
             for i in 0..P {
                 for j in 0..P {
                     add(&mut CB.membrane[i], NM[i][j], &B.bending[j]);
@@ -134,7 +153,14 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
 }
 
 /// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses at the nodes `stressed` in place of its own.
-pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>>(
+pub(super) fn tangent<
+    T,
+    const N: usize,
+    const V: usize,
+    const P: usize,
+    const Q: usize,
+    S: ShellSections<P, P, f64>,
+>(
     shells: &CurvedShells<T, N, V, P, Q, S>,
     e: usize,
     (now, stressed): (&Configuration, Option<&[Node]>),
@@ -148,10 +174,9 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const Q
         Some(nodes) => element.strains(&element.gather(nodes)),
         None => element.strains(&motion),
     };
-    let mut place = CoupledStiffness::ZERO;
-    let (plane, C) = element.section.linearise(&strains.plane, now, moduli, &mut place);
+    let C = element.section.linearise(&strains.plane, now, moduli);
     let stress = CurvedStrain {
-        plane,
+        plane: C.stress,
         shear: element.shear_stress(&strains.shear),
         drilling: element.drilling_stress(&strains.drilling),
     };
@@ -159,7 +184,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const Q
     let mut B = CurvedRows::<N, P, Q>::ZERO;
     element.rows(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
     K.fill(0.0);
-    add_product(&B, &element.times(C, &B), K);
+    add_product(&B, &element.times(&C, &B), K);
     add_strain_hessian(&element.strain_hessian(&stress), &element.gradient(&stress, &motion), &motion, K);
     if let Some(rate_weight) = rate_weight {
         add_damping(shells.damping, element, &motion, now, rate_weight, &mut B, K);
@@ -169,7 +194,7 @@ pub(super) fn tangent<T, const N: usize, const V: usize, const P: usize, const Q
 /// K += the derivatives of the forces of damping by positions and rotations, and `rate_weight` times those by their rates. `B` is
 /// scratch.
 #[inline(always)]
-fn add_damping<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSection<P, P>>(
+fn add_damping<const N: usize, const V: usize, const P: usize, const Q: usize, S: ShellSections<P, P, f64>>(
     damping: f64,
     element: &CurvedShell<N, V, P, Q, S>,
     motion: &NodalVectors<N>,
@@ -194,7 +219,7 @@ fn add_damping<const N: usize, const V: usize, const P: usize, const Q: usize, S
         add(D, rate_weight, B);
         D.as_flattened_mut().iter_mut().for_each(|d| *d *= damping);
     }
-    add_product(B, &element.times(element.section.elastic().tangent(), &D), K);
+    add_product(B, &element.times(&element.section.elastic().linearised(), &D), K);
     let stress = element.viscous_stress(damping, motion, now.nodes);
     add_strain_hessian(&element.strain_hessian(&stress), &element.gradient(&stress, motion), motion, K);
 }
@@ -212,6 +237,55 @@ fn add_product<const N: usize, const P: usize, const Q: usize>(
             B.transpose_times(a, k, X, &mut row);
             let at = (6 * a + k) * 6 * N;
             K[at..at + 6 * N].iter_mut().zip(row.as_flattened()).for_each(|(k, more)| *k += more);
+        }
+    }
+}
+
+/// K += σ·∂²ε of the strains that are bilinear in positions and directors, and δ(d × g) at fixed g.
+#[inline(always)]
+fn add_strain_hessian<const N: usize>(
+    hessian: &StrainHessian<N>,
+    gradient: &NodalVectors<N>,
+    motion: &NodalVectors<N>,
+    K: &mut [f64],
+) {
+    let (turning, width) = (&motion.turning, 6 * N);
+    for a in 0..N {
+        for b in 0..N {
+            for i in 0..3 {
+                K[(6 * a + i) * width + 6 * b + i] += hessian.xx[a][b];
+            }
+            // δd = δθ × d: the mixed part is −[Σ c d]~ and its transpose.
+            let c: Vec3 = (0..3).map(|k| hessian.xd[k][a][b] * turning[k][b]).sum();
+            add_mixed(a, b, &-skew(&c), K, width);
+        }
+        // (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
+        let mut turn = Mat3::zeros();
+        for k in 0..3 {
+            let (d, g) = (&turning[k][a], &gradient.turning[k][a]);
+            turn += d * g.transpose() - d.dot(g) * Mat3::identity();
+        }
+        add_block(6 * a + 3, 6 * a + 3, &turn, K, width);
+    }
+}
+
+/// Adds a 3×3 block at a row and a column of K, whose rows have the length `width`.
+#[inline(always)]
+fn add_block(row: usize, column: usize, block: &Mat3, K: &mut [f64], width: usize) {
+    for i in 0..3 {
+        for j in 0..3 {
+            K[(row + i) * width + column + j] += block[(i, j)];
+        }
+    }
+}
+
+/// Adds the block of the position of `a` and the rotation of `b`, and its transpose.
+#[inline(always)]
+fn add_mixed(a: usize, b: usize, block: &Mat3, K: &mut [f64], width: usize) {
+    for i in 0..3 {
+        for j in 0..3 {
+            K[(6 * a + i) * width + 6 * b + 3 + j] += block[(i, j)];
+            K[(6 * b + 3 + j) * width + 6 * a + i] += block[(i, j)];
         }
     }
 }

@@ -1,0 +1,458 @@
+//! Kinematics and forces of eight shell elements side by side: from the motion of their nodes to strains, their rates and the gradient of
+//! energy. A single element is one of eight: each has the bits that it has by itself.
+
+use super::arc::Slopes;
+use super::camber::Camber;
+use super::edge::EdgeTangents;
+use super::edge_bending::EdgeBending;
+use super::in_plane::{InPlane, product};
+use super::interpolation::{Interpolation, Quadrilateral, Triangle};
+use super::section::{InPlaneSection, ShellSections, StiffnessPack};
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+use base::math::lanes::{LANES, Lanes, lanes};
+use base::math::number::LaneVec3;
+use std::array::from_fn;
+use std::marker::PhantomData;
+
+/// A group of shells of one interpolation `K`, whose sections are of type `S`.
+pub struct Shells<K, const N: usize, const V: usize, const P: usize, const E: usize, S = StiffnessPack<P, E, Lanes>> {
+    /// The elements, eight by eight.
+    pub(super) packs: Vec<ShellPack<N, V, P, E, S>>,
+    /// The number of history variables of all.
+    pub(super) history: usize,
+    /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
+    pub(super) damping: f64,
+    /// The interpolation, which holds no data.
+    pub(super) interpolation: PhantomData<K>,
+}
+
+/// Quadrilaterals of four nodes.
+pub type Quadrilaterals<S = StiffnessPack<6, 11, Lanes>> = Shells<Quadrilateral, 4, 3, 6, 11, S>;
+/// Triangles of three nodes.
+pub type Triangles<S = StiffnessPack<3, 7, Lanes>> = Shells<Triangle, 3, 2, 3, 7, S>;
+
+/// One undeformed element: N nodes, V slopes of the surface, P products of them, E numbers of the membrane.
+pub(super) struct Shell<const N: usize, const V: usize, const P: usize, const E: usize> {
+    /// Nodes, counter-clockwise about the normal.
+    pub nodes: [usize; N],
+    /// Their positions from that of the first.
+    pub X: [Vec3; N],
+    /// Directors at t = 0.
+    pub D: [Vec3; N],
+    /// Tangents of the nodes at t = 0: the axes of the element, turned until they are normal to the directors.
+    pub T: [[Vec3; 2]; N],
+    /// The slopes v_i = Σ slopes[i][a] x_a.
+    pub slopes: [[f64; N]; V],
+    /// S of [`super::arc`].
+    pub arc: [[f64; 2]; 2],
+    /// Stretch by curvature.
+    pub camber: Camber<f64>,
+    /// The edges.
+    pub edges: [EdgeTangents; N],
+    /// Stiffness of the shear strains at the edges.
+    pub shear: [[f64; N]; N],
+    /// Curvature by those strains.
+    pub bent: EdgeBending<f64, N>,
+    /// The section in its plane.
+    pub section: InPlaneSection<P, E>,
+}
+
+/// Eight elements. Lanes beyond the last element repeat it.
+pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, const E: usize, S> {
+    /// The number of elements.
+    pub count: usize,
+    /// Nodes by lane.
+    pub nodes: [[usize; N]; LANES],
+    /// Director and tangents of each node at t = 0.
+    pub axes: [[LaneVec3; 3]; N],
+    /// Of [`Shell`], like those that follow.
+    pub slopes: [[Lanes; N]; V],
+    pub arc: [[Lanes; 2]; 2],
+    pub camber: Camber<Lanes>,
+    pub edges: [[[Lanes; 2]; 2]; N],
+    pub shear: [[Lanes; N]; N],
+    pub bent: EdgeBending<Lanes, N>,
+    /// Strains at t = 0.
+    pub start: Strains<N, P, E>,
+    /// The sections side by side.
+    pub sections: S,
+}
+
+/// The strains of elements, or the stresses conjugate to them.
+#[derive(Clone, Copy)]
+pub(super) struct Strains<const N: usize, const P: usize, const E: usize> {
+    /// Membrane and bending.
+    pub plane: InPlane<P, E, Lanes>,
+    /// Transverse shear by edge.
+    pub shear: [Lanes; N],
+}
+
+/// Positions of the nodes from the first, and their directors and tangents; or their rates, or a gradient by them.
+#[derive(Clone, Copy)]
+pub(super) struct Motion<const N: usize> {
+    pub x: [LaneVec3; N],
+    pub turning: [[LaneVec3; N]; 3],
+}
+
+#[inline(always)]
+pub(super) fn sum<const V: usize>(factors: &[Lanes; V], v: &[LaneVec3; V]) -> LaneVec3 {
+    let mut sum = LaneVec3::ZERO;
+    for i in 0..V {
+        sum += factors[i] * v[i];
+    }
+    sum
+}
+
+#[inline(always)]
+pub(super) fn total<const N: usize>(v: &[LaneVec3; N]) -> LaneVec3 {
+    let mut sum = v[0];
+    for v in &v[1..] {
+        sum += *v;
+    }
+    sum
+}
+
+/// The rotation matrix times three vectors of a node.
+#[inline(always)]
+fn turned([w, x, y, z]: [Lanes; 4], axes: &[LaneVec3; 3]) -> [LaneVec3; 3] {
+    let (one, two) = (Lanes::ONE, Lanes::splat(2.0));
+    let (xx, yy, zz) = (x * x, y * y, z * z);
+    let columns = [
+        LaneVec3([one - two * (yy + zz), two * (x * y + w * z), two * (x * z - w * y)]),
+        LaneVec3([two * (x * y - w * z), one - two * (xx + zz), two * (y * z + w * x)]),
+        LaneVec3([two * (x * z + w * y), two * (y * z - w * x), one - two * (xx + yy)]),
+    ];
+    axes.map(|LaneVec3([a, b, c])| a * columns[0] + b * columns[1] + c * columns[2])
+}
+
+impl<const N: usize, const P: usize, const E: usize> Strains<N, P, E> {
+    /// All zero.
+    pub const ZERO: Self = Strains { plane: InPlane::ZERO, shear: [Lanes::ZERO; N] };
+
+    /// `factor` (this − other).
+    #[inline(always)]
+    pub fn less(mut self, other: &Self, factor: f64) -> Self {
+        let factor = Lanes::splat(factor);
+        (0..E).for_each(|i| self.plane.membrane[i] = factor * (self.plane.membrane[i] - other.plane.membrane[i]));
+        (0..P).for_each(|i| self.plane.bending[i] = factor * (self.plane.bending[i] - other.plane.bending[i]));
+        (0..N).for_each(|i| self.shear[i] = factor * (self.shear[i] - other.shear[i]));
+        self
+    }
+
+    /// σ·ε of an element.
+    pub fn dot(&self, other: &Self, lane: usize) -> f64 {
+        let shear = |i: usize| self.shear[i].as_array()[lane] * other.shear[i].as_array()[lane];
+        self.plane.lane(lane).dot(&other.plane.lane(lane)) + (0..N).map(shear).sum::<f64>()
+    }
+}
+
+impl<const N: usize> Motion<N> {
+    /// This + s · other.
+    #[inline(always)]
+    pub fn plus(&self, s: f64, other: &Motion<N>) -> Motion<N> {
+        let s = Lanes::splat(s);
+        Motion {
+            x: from_fn(|a| self.x[a] + s * other.x[a]),
+            turning: from_fn(|k| from_fn(|a| self.turning[k][a] + s * other.turning[k][a])),
+        }
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPack<N, V, P, E, S> {
+    /// Up to eight elements with their sections.
+    pub fn new<K: Interpolation<N, V, P>>(elements: &[Shell<N, V, P, E>], sections: S) -> Self {
+        let at = |lane: usize| &elements[lane.min(elements.len() - 1)];
+        let of = |value: &dyn Fn(&Shell<N, V, P, E>) -> f64| lanes(|lane| value(at(lane)));
+        let vector = |value: &dyn Fn(&Shell<N, V, P, E>) -> Vec3| LaneVec3::gather(|lane| value(at(lane)));
+        let axes: [[LaneVec3; 3]; N] =
+            from_fn(|a| [vector(&|e| e.D[a]), vector(&|e| e.T[a][0]), vector(&|e| e.T[a][1])]);
+        let mut pack = ShellPack {
+            count: elements.len(),
+            nodes: from_fn(|lane| at(lane).nodes),
+            axes,
+            slopes: from_fn(|i| from_fn(|a| of(&|e| e.slopes[i][a]))),
+            arc: from_fn(|i| from_fn(|j| of(&|e| e.arc[i][j]))),
+            camber: Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber.0[m][n][k]))))),
+            edges: from_fn(|i| from_fn(|j| from_fn(|k| of(&|e| e.edges[i].0[j][k])))),
+            shear: from_fn(|i| from_fn(|j| of(&|e| e.shear[i][j]))),
+            bent: EdgeBending(from_fn(|i| from_fn(|j| of(&|e| e.bent.0[i][j])))),
+            start: Strains::ZERO,
+            sections,
+        };
+        let turning = from_fn(|k| from_fn(|a| axes[a][k]));
+        let motion = Motion { x: from_fn(|a| vector(&|e| e.X[a])), turning };
+        pack.start = pack.measure::<K>(&motion, &pack.slopes(&motion));
+        pack
+    }
+
+    /// A vector of each node of the elements.
+    #[inline(always)]
+    fn of_node(&self, a: usize, nodes: &[Node], of: impl Fn(&Node) -> Vec3) -> LaneVec3 {
+        LaneVec3::gather(|lane| of(&nodes[self.nodes[lane][a]]))
+    }
+
+    /// Angular velocities of the nodes.
+    #[inline(always)]
+    pub fn omega(&self, nodes: &[Node]) -> [LaneVec3; N] {
+        from_fn(|a| self.of_node(a, nodes, |node| node.omega))
+    }
+
+    /// Rates of positions and directors.
+    #[inline(always)]
+    pub fn rates(&self, motion: &Motion<N>, nodes: &[Node]) -> Motion<N> {
+        let v: [LaneVec3; N] = from_fn(|a| self.of_node(a, nodes, |node| node.v));
+        let omega = self.omega(nodes);
+        Motion { x: v.map(|of| of - v[0]), turning: motion.turning.map(|d| from_fn(|a| omega[a].cross(&d[a]))) }
+    }
+
+    /// Positions and directors of the nodes.
+    #[inline(always)]
+    pub fn gather(&self, nodes: &[Node]) -> Motion<N> {
+        let mut motion = Motion { x: [LaneVec3::ZERO; N], turning: [[LaneVec3::ZERO; N]; 3] };
+        let mut first = [LaneVec3::ZERO; 2];
+        for a in 0..N {
+            let at: [&Node; LANES] = from_fn(|lane| &nodes[self.nodes[lane][a]]);
+            let place = [LaneVec3::gather(|lane| at[lane].x), LaneVec3::gather(|lane| at[lane].low)];
+            if a == 0 {
+                first = place;
+            }
+            motion.x[a] = (place[0] - first[0]) + (place[1] - first[1]);
+            let q = [
+                lanes(|lane| at[lane].rotation.w),
+                lanes(|lane| at[lane].rotation.i),
+                lanes(|lane| at[lane].rotation.j),
+                lanes(|lane| at[lane].rotation.k),
+            ];
+            let turned = turned(q, &self.axes[a]);
+            (0..3).for_each(|k| motion.turning[k][a] = turned[k]);
+        }
+        motion
+    }
+
+    /// The slopes, with bending by angles and stretch along arcs.
+    #[inline(always)]
+    pub fn slopes(&self, motion: &Motion<N>) -> Slopes<V> {
+        self.chords(motion).lengthened(&self.arc)
+    }
+
+    /// The slopes, with bending and stretch by chords: strains are of second degree in positions and directors then.
+    #[inline(always)]
+    pub fn chords(&self, motion: &Motion<N>) -> Slopes<V> {
+        let slopes = |of: &[LaneVec3; N]| from_fn(|i| sum(&self.slopes[i], of));
+        Slopes::chords(slopes(&motion.x), slopes(&motion.turning[0]))
+    }
+
+    /// The vector of edge `e` by the tangents of its ends, see [`super::edge`].
+    #[inline(always)]
+    pub fn bulging(&self, e: usize, [a, b]: [usize; 2], [_, t1, t2]: &[[LaneVec3; N]; 3]) -> LaneVec3 {
+        let [at_a, at_b] = self.edges[e];
+        (at_a[0] * t1[a] + at_a[1] * t2[a]) + (at_b[0] * t1[b] + at_b[1] * t2[b])
+    }
+
+    /// Strains from zero, those at t = 0 included.
+    #[inline(always)]
+    pub fn measure<K: Interpolation<N, V, P>>(
+        &self,
+        motion: &Motion<N>,
+        Slopes { v, long: w, by_arcs, .. }: &Slopes<V>,
+    ) -> Strains<N, P, E> {
+        let half = Lanes::splat(0.5);
+        let Motion { x, turning } = motion;
+        let Strains { mut plane, mut shear } = Strains::ZERO;
+        for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
+            plane.membrane[n] = if i == j { half * v[i].dot(&v[i]) } else { v[i].dot(&v[j]) };
+            plane.bending[n] = if i == j { v[i].dot(&w[i]) } else { v[i].dot(&w[j]) + v[j].dot(&w[i]) };
+        }
+        if K::CAMBERED && *by_arcs {
+            let stretch = self.camber.stretch(half, &[plane.bending[0], plane.bending[1], plane.bending[2]]);
+            (0..3).for_each(|m| plane.membrane[m] += stretch[m]);
+        }
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let along = x[b] - x[a];
+            plane.membrane[P + e] = along.dot(&self.bulging(e, [a, b], turning));
+            shear[e] = half * along.dot(&(turning[0][a] + turning[0][b]));
+        }
+        if K::EDGES_BEND {
+            let more = self.bent.curvature(&shear);
+            (0..3).for_each(|n| plane.bending[n] += more[n]);
+        }
+        let mean = Lanes::splat(0.5 / N as f64);
+        plane.membrane[E - 1] = mean * (total(&turning[1]).dot(&v[1]) - total(&turning[2]).dot(&v[0]));
+        Strains { plane, shear }
+    }
+
+    /// Strains from t = 0.
+    #[inline(always)]
+    pub fn strains<K: Interpolation<N, V, P>>(&self, motion: &Motion<N>, slopes: &Slopes<V>) -> Strains<N, P, E> {
+        self.measure::<K>(motion, slopes).less(&self.start, 1.0)
+    }
+
+    /// Strain rates, bending by chords: half the difference of the strains ahead and behind by a unit of time, which is exact for
+    /// polynomials of second degree.
+    #[inline(always)]
+    pub fn strain_rates<K: Interpolation<N, V, P>>(&self, motion: &Motion<N>, rates: &Motion<N>) -> Strains<N, P, E> {
+        let at = |s: f64| {
+            let motion = motion.plus(s, rates);
+            self.measure::<K>(&motion, &self.chords(&motion))
+        };
+        at(1.0).less(&at(-1.0), 0.5)
+    }
+
+    /// The stresses of transverse shear.
+    #[inline(always)]
+    pub fn shear_stress(&self, shear: &[Lanes; N]) -> [Lanes; N] {
+        from_fn(|i| product(&self.shear[i], shear))
+    }
+
+    /// The derivative of energy by the numbers of bending: the stress of bending and, by [`super::camber`], of the membrane.
+    #[inline(always)]
+    pub fn bending_stress<K: Interpolation<N, V, P>>(
+        &self,
+        plane: &InPlane<P, E, Lanes>,
+        slopes: &Slopes<V>,
+    ) -> [Lanes; P] {
+        let mut bending = plane.bending;
+        if K::CAMBERED && slopes.by_arcs {
+            let more = self.camber.moments(&plane.membrane, &slopes.first_bending());
+            (0..3).for_each(|n| bending[n] += more[n]);
+        }
+        bending
+    }
+
+    /// The derivative of energy by the numbers of shear: the stress of shear and, by [`super::edge_bubbles`], of bending.
+    #[inline(always)]
+    pub fn edge_stress<K: Interpolation<N, V, P>>(
+        &self,
+        shear: &[Lanes; N],
+        plane: &InPlane<P, E, Lanes>,
+    ) -> [Lanes; N] {
+        let mut stress = self.shear_stress(shear);
+        if K::EDGES_BEND {
+            let more = self.bent.stress(&plane.bending);
+            (0..N).for_each(|e| stress[e] += more[e]);
+        }
+        stress
+    }
+
+    /// The gradient Bᵀσ by positions, directors and tangents.
+    #[inline(always)]
+    pub fn gradient<K: Interpolation<N, V, P>>(
+        &self,
+        Strains { plane, shear }: &Strains<N, P, E>,
+        Motion { x, turning }: &Motion<N>,
+        slopes: &Slopes<V>,
+    ) -> Motion<N> {
+        let [d, t1, t2] = turning;
+        let Slopes { v, long, .. } = slopes;
+        let bending = self.bending_stress::<K>(plane, slopes);
+        let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &bending));
+        let mut along: [LaneVec3; V] = from_fn(|i| sum(&Q[i], v));
+        let bent: [LaneVec3; V] = from_fn(|i| sum(&M[i], v));
+        (0..V).for_each(|i| along[i] += sum(&M[i], long));
+        let across = slopes.gradient(&bent);
+        let drill = plane.membrane[E - 1] * Lanes::splat(0.5) / Lanes::splat(N as f64);
+        along[0] -= drill * total(t2);
+        along[1] += drill * total(t1);
+        let mut g =
+            Motion { x: [LaneVec3::ZERO; N], turning: [[LaneVec3::ZERO; N], [drill * v[1]; N], [-drill * v[0]; N]] };
+        for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
+            let (half, bulge) = (Lanes::splat(0.5) * shear[e], plane.membrane[P + e]);
+            let force = half * (d[a] + d[b]) + bulge * self.bulging(e, [a, b], turning);
+            g.x[a] -= force;
+            g.x[b] += force;
+            let length = x[b] - x[a];
+            for (node, [c1, c2]) in [a, b].into_iter().zip(self.edges[e]) {
+                g.turning[0][node] += half * length;
+                g.turning[1][node] += bulge * c1 * length;
+                g.turning[2][node] += bulge * c2 * length;
+            }
+        }
+        for i in 0..V {
+            for a in 0..N {
+                g.x[a] += self.slopes[i][a] * along[i];
+                g.turning[0][a] += self.slopes[i][a] * across[i];
+            }
+        }
+        g
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPack<N, V, P, E, S>
+where
+    S: ShellSections<P, E, Lanes>,
+{
+    /// Internal forces and moments on the nodes of the elements with the stress that `stress` finds in the plane. `damping`: factor of the
+    /// stress by strain rates.
+    #[inline(always)]
+    pub fn forces<K: Interpolation<N, V, P>>(
+        &self,
+        nodes: &[Node],
+        damping: f64,
+        stress: impl FnOnce(&S, &InPlane<P, E, Lanes>) -> InPlane<P, E, Lanes>,
+    ) -> [[Lanes; 6]; N] {
+        let motion = self.gather(nodes);
+        let slopes = self.slopes(&motion);
+        let Strains { plane, shear } = self.strains::<K>(&motion, &slopes);
+        let plane = stress(&self.sections, &plane);
+        let stress = Strains { shear: self.edge_stress::<K>(&shear, &plane), plane };
+        let mut g = self.gradient::<K>(&stress, &motion, &slopes);
+        if damping > 0.0 {
+            g = g.plus(1.0, &self.viscous_gradient::<K>(damping, &motion, nodes));
+        }
+        from_fn(|a| {
+            let mut moment = LaneVec3::ZERO;
+            for k in 0..3 {
+                moment += motion.turning[k][a].cross(&g.turning[k][a]);
+            }
+            from_fn(|i| if i < 3 { g.x[a].0[i] } else { moment.0[i - 3] })
+        })
+    }
+
+    /// The gradient of the stress of damping.
+    fn viscous_gradient<K: Interpolation<N, V, P>>(
+        &self,
+        damping: f64,
+        motion: &Motion<N>,
+        nodes: &[Node],
+    ) -> Motion<N> {
+        let stress = self.viscous_stress::<K>(damping, motion, &self.rates(motion, nodes));
+        self.gradient::<K>(&stress, motion, &self.chords(motion))
+    }
+
+    /// The stress of damping.
+    #[inline(always)]
+    pub fn viscous_stress<K: Interpolation<N, V, P>>(
+        &self,
+        damping: f64,
+        motion: &Motion<N>,
+        rates: &Motion<N>,
+    ) -> Strains<N, P, E> {
+        let rates = self.strain_rates::<K>(motion, rates);
+        let plane = self.sections.elastic().stress(&rates.plane);
+        Strains { shear: self.edge_stress::<K>(&rates.shear, &plane), plane }.less(&Strains::ZERO, damping)
+    }
+
+    /// Strains of the elements where their nodes are.
+    pub fn strains_at<K: Interpolation<N, V, P>>(&self, nodes: &[Node]) -> Strains<N, P, E> {
+        let motion = self.gather(nodes);
+        self.strains::<K>(&motion, &self.slopes(&motion))
+    }
+
+    /// Elastic energy of an element at a strain: in the plane, and of transverse shear.
+    pub fn energy(&self, lane: usize, strains: &Strains<N, P, E>, now: &Configuration) -> [f64; 2] {
+        let shear = Strains { plane: InPlane::ZERO, shear: self.shear_stress(&strains.shear) };
+        [self.sections.energy(lane, &strains.plane.lane(lane), now), 0.5 * shear.dot(strains, lane)]
+    }
+}
+
+/// A stress as symmetric coefficients of pairs of slopes.
+#[inline(always)]
+pub(super) fn by_pairs<const V: usize, const P: usize>(pairs: &[[usize; 2]; P], stress: &[Lanes]) -> [[Lanes; V]; V] {
+    let mut Q = [[Lanes::ZERO; V]; V];
+    for (&[i, j], s) in pairs.iter().zip(stress) {
+        Q[i][j] = *s;
+        Q[j][i] = *s;
+    }
+    Q
+}

@@ -1,0 +1,105 @@
+//! What a material is asked at a point and what it answers: for one point, or for eight side by side.
+
+use super::dissipation::Dissipation;
+use base::math::number::Number;
+use std::array::from_fn;
+
+/// What a material is asked besides the stress.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ask {
+    /// Nothing more.
+    Stress,
+    /// The derivative of the stress.
+    Tangent,
+    /// The history variables after this part of the step, and what is dissipated until then.
+    History(f64),
+}
+
+/// The history variables of a point.
+#[derive(Debug, Clone, Copy)]
+pub struct PointHistory<T, const N: usize> {
+    /// Plastic strain.
+    pub plastic: [T; N],
+    /// Accumulated plastic strain.
+    pub accumulated: T,
+    /// Back stress; `None` without kinematic hardening.
+    pub back: Option<[T; N]>,
+    /// Damage; `None` where failure depends on neither stress nor rate.
+    pub damage: Option<T>,
+    /// Overstress of the last state; `None` without viscosity.
+    pub overstress: Option<T>,
+}
+
+/// What a material answers.
+#[derive(Debug, Clone, Copy)]
+pub struct Response<T, const N: usize> {
+    /// Stress.
+    pub stress: [T; N],
+    /// Derivative of the stress by the strain, if asked for; `None` where it is the elastic stiffness.
+    pub tangent: Option<[[T; N]; N]>,
+    /// History variables, the old ones unless asked for.
+    pub new: PointHistory<T, N>,
+    /// What the step dissipates, per volume, if the history is asked for; `None` where nothing yields.
+    pub dissipation: Option<Spent<T>>,
+}
+
+/// Energy dissipated and stored by plastic flow, as [`Dissipation`] has it, of one point or of eight; `None` for what the law does not do.
+#[derive(Debug, Clone, Copy)]
+pub struct Spent<T> {
+    /// Dissipated by yielding.
+    pub plastic: T,
+    /// Dissipated by viscosity.
+    pub viscous: Option<T>,
+    /// Kept by kinematic hardening.
+    pub stored: Option<T>,
+    /// Stored by what has failed, and lost with it.
+    pub eroded: Option<T>,
+}
+
+impl<T: Number> Spent<T> {
+    /// Nothing.
+    pub const ZERO: Self = Spent { plastic: T::ZERO, viscous: None, stored: None, eroded: None };
+
+    /// Adds `part` of more.
+    #[inline(always)]
+    pub fn add(&mut self, more: &Spent<T>, part: T) {
+        let add = |sum: &mut Option<T>, more: Option<T>| {
+            if let Some(more) = more {
+                *sum = Some(sum.unwrap_or(T::ZERO) + more * part);
+            }
+        };
+        self.plastic += more.plastic * part;
+        add(&mut self.viscous, more.viscous);
+        add(&mut self.stored, more.stored);
+        add(&mut self.eroded, more.eroded);
+    }
+
+    /// That of one point.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Dissipation {
+        let of = |part: Option<T>| part.map_or(0.0, |part| part.lane(lane));
+        Dissipation {
+            plastic: self.plastic.lane(lane),
+            viscous: of(self.viscous),
+            stored: of(self.stored),
+            eroded: of(self.eroded),
+            ..Dissipation::default()
+        }
+    }
+}
+
+impl<T: Number, const N: usize> PointHistory<T, N> {
+    /// `old` where the condition holds, this elsewhere.
+    #[inline(always)]
+    pub(super) fn unless(self, condition: T::Mask, old: &Self) -> Self {
+        let of = |new, old| T::select(condition, old, new);
+        let both = |new: Option<T>, old: Option<T>| new.zip(old).map(|(new, old)| of(new, old));
+        PointHistory {
+            plastic: from_fn(|i| of(self.plastic[i], old.plastic[i])),
+            accumulated: of(self.accumulated, old.accumulated),
+            back: self.back.zip(old.back).map(|(new, old)| from_fn(|i| of(new[i], old[i]))),
+            damage: both(self.damage, old.damage),
+            overstress: both(self.overstress, old.overstress),
+        }
+    }
+}
