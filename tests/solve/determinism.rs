@@ -2,7 +2,7 @@
 
 use rdsolve::diagnostic::Source;
 use rdsolve::materials::Dissipation;
-use rdsolve::model::{self, Model, Part};
+use rdsolve::model::{self, Model};
 use rdsolve::plan::Plan;
 use rdsolve::solve::{ContactState, Frame, JointState, Observer, Outcome, Run, Wanted};
 use rdsolve::state::{Node, State, Work};
