@@ -8,7 +8,7 @@ use crate::modes::ResponseSoFar;
 use crate::step::correct::Correction;
 use crate::step::load_steps::LoadSteps;
 use crate::step::residual::Residual;
-use crate::step::trial::Trial;
+use crate::step::trial::TrialMotion;
 use crate::system::{Forces, Loading, Prescribed};
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};
@@ -17,9 +17,9 @@ use mechanics::state::Node;
 /// The numbers of the step at hand.
 pub struct Workspace {
     /// The motion to the instant of equilibrium; of explicit steps, to their end.
-    pub trial: Trial,
+    pub trial: TrialMotion,
     /// The motion to the end of an implicit step; after the step its nodes are those at the start.
-    pub end: Trial,
+    pub end: TrialMotion,
     /// History variables at the end of the step.
     pub history: Vec<f64>,
     /// Residual forces of the trial motion, and the multipliers of joints.
@@ -117,8 +117,8 @@ impl Workspace {
         let (solver, assembly) = cx.plan.build(cx.system)?;
         let warnings = warnings_of(&solver);
         Ok(Workspace {
-            trial: Trial::new(cx),
-            end: Trial::new(cx),
+            trial: TrialMotion::new(cx),
+            end: TrialMotion::new(cx),
             history: vec![0.0; cx.system.history],
             forces: Forces::new(cx.system, cx.model.nodes.len()).on_threads(cx.plan.threads),
             residual: Residual::new(cx),

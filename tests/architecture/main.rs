@@ -10,3 +10,4 @@ mod ratchet;
 mod rows;
 mod sizes;
 mod source;
+mod step;

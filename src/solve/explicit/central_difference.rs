@@ -9,7 +9,7 @@ use super::node_sums::StepSums;
 use super::stiffening::{change, is_growing, is_growing_by, resistance, resistance_of_nodes};
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::guard::{Guard, Taken};
+use crate::guards::guard::Taken;
 use crate::guards::list::Guards;
 use crate::guards::{contacts, joints, links};
 use crate::report::StepReport;
@@ -131,7 +131,8 @@ impl CentralDifferenceStepper {
         joints::note(cx, ws)?;
         links::check(cx, &ws.trial.nodes, state, dt)?;
         commit_trial(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
-        self.guards.after_step(cx, ws, &Taken { state, from: to - dt, grows: true });
+        let taken = Taken { state, from: to - dt, grows: true };
+        self.guards.tell(|guard| guard.after_step(cx, ws, &taken));
         self.critical.count(aMa);
         offset_energy(&mut state.work, aMa, dt);
         Ok(StepReport { iterations: evaluations, ..StepReport::begin(to) })

@@ -4,7 +4,7 @@ use super::accelerations::{Accelerations, set_rates};
 use super::dense_projection::project_onto_constraints;
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::guard::{Guard, Taken};
+use crate::guards::guard::Taken;
 use crate::guards::list::Guards;
 use crate::guards::{contacts, joints, links};
 use crate::report::StepReport;
@@ -168,7 +168,8 @@ impl RungeKuttaStepper {
         joints::note(cx, ws)?;
         links::check(cx, &ws.trial.nodes, state, dt)?;
         commit_trial(cx, ws, self.accelerations.projection(), state, (&scheme, to), account);
-        self.guards.after_step(cx, ws, &Taken { state, from: to - dt, grows: true });
+        let taken = Taken { state, from: to - dt, grows: true };
+        self.guards.tell(|guard| guard.after_step(cx, ws, &taken));
         if cx.wants_forces {
             for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
                 *reaction = -ws.forces.on_nodes[restraint.node][restraint.dof];

@@ -5,7 +5,7 @@ use crate::failure::Failure;
 use crate::guards::guard::{Guard, Taken};
 use crate::step::trial::Step;
 use crate::tolerances::contacts::{BEGINS_CLOSED, MEANT, SEEN, SUNK, TO_THE_MIDDLE};
-use crate::warning::Warning;
+use crate::warning::{Warning, Warnings};
 use crate::workspace::Workspace;
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node, State};
@@ -39,7 +39,7 @@ impl Guard for ContactGuard {
     }
 
     fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
-        note_depth(cx, ws, taken.state);
+        note_depth(cx, &mut ws.warnings, taken.state);
     }
 }
 
@@ -67,17 +67,17 @@ pub fn check_passage(cx: &Context, nodes: &[Node], state: &State, ahead: f64) ->
 }
 
 /// Notes how deep contacts are pressed in at the end of a step, and warns where that is seen.
-fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
+fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
     let name = |part: usize| cx.model.parts[part].name().to_owned();
-    if !ws.warnings.knows(|known| matches!(known, Warning::SideBySide { .. }))
+    if !warnings.knows(|known| matches!(known, Warning::SideBySide { .. }))
         && let Some(part) = cx.system.side_by_side(state)
     {
-        ws.warnings.add(Warning::SideBySide { name: name(part) });
+        warnings.add(Warning::SideBySide { name: name(part) });
     }
-    if !ws.warnings.knows(|known| matches!(known, Warning::Crowded { .. }))
+    if !warnings.knows(|known| matches!(known, Warning::Crowded { .. }))
         && let Some(part) = cx.system.crowded(state)
     {
-        ws.warnings.add(Warning::Crowded { name: name(part) });
+        warnings.add(Warning::Crowded { name: name(part) });
     }
     for (group, gap) in cx.system.last_gaps(state) {
         let Some(contact) = Contact::of(&cx.model.parts[group.part]).filter(|contact| gap < -SEEN * contact.size)
@@ -90,7 +90,7 @@ fn note_depth(cx: &Context, ws: &mut Workspace, state: &State) {
             None => MEANT,
         };
         if -gap > limit * contact.size {
-            ws.warnings.deepen(&contact.name, -gap, contact.size);
+            warnings.deepen(&contact.name, -gap, contact.size);
         }
     }
 }

@@ -4,6 +4,7 @@
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
 use crate::tolerances::drift::{LOOKS, NOTICED};
+use crate::warning::Warnings;
 use crate::workspace::Workspace;
 use base::math::rotation;
 use mechanics::state::State;
@@ -17,18 +18,18 @@ impl Guard for DriftGuard {
     fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
         let part = |time: f64| (LOOKS * time / cx.model.analysis.end_time).floor();
         if part(taken.from) != part(taken.state.time) {
-            look(cx, ws, taken.state);
+            look(cx, &mut ws.warnings, taken.state);
         }
     }
 }
 
-fn look(cx: &Context, ws: &mut Workspace, state: &State) {
+fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     let fixed = cx.model.constraints.restraints.iter().filter(|held| held.dof > 2 && held.motion.is_none());
     for held in fixed {
         let others = (3..6).filter(|&dof| dof != held.dof && cx.plan.is_unknown(held.node, dof)).count();
         let drift = rotation::log(&state.nodes[held.node].rotation)[held.dof - 3].abs();
         if others == 2 && drift > NOTICED {
-            ws.warnings.drift(&cx.model.nodes[held.node].label, DIRECTIONS[held.dof], drift);
+            warnings.drift(&cx.model.nodes[held.node].label, DIRECTIONS[held.dof], drift);
         }
     }
 }

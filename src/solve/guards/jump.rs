@@ -5,7 +5,7 @@
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::guards::guard::{Guard, Iterate};
-use crate::step::trial::{Step, Trial};
+use crate::step::trial::{Step, TrialMotion};
 use crate::system::Scale;
 use crate::tolerances::jump::{ACCURACY, CURVED, DOUBTFUL, LARGEST_TURN, LARGEST_TWIST, LEVER, NOTHING, STILL};
 use crate::workspace::Workspace;
@@ -43,7 +43,7 @@ impl Guard for JumpGuard {
 }
 
 /// Refuses a load step that turns a node too far or an element over.
-fn check_turns(cx: &Context, trial: &Trial, step: &Step) -> Result<(), Failure> {
+fn check_turns(cx: &Context, trial: &TrialMotion, step: &Step) -> Result<(), Failure> {
     for &node in &cx.independent_nodes {
         let turn = angular(&cx.plan.dofs.of(node).mask(&trial.increments[node].q)).norm();
         if turn > LARGEST_TURN && step.to > step.state.time {
@@ -61,7 +61,7 @@ fn check_turns(cx: &Context, trial: &Trial, step: &Step) -> Result<(), Failure> 
 
 /// Refuses a step in which a node of a shell turns too far against the others of its element. Drilling has next to no inertia and is resisted
 /// little, the less the farther it has gone: an iteration may end where a node has turned about the normal by a right angle.
-fn check_shells(cx: &Context, trial: &Trial) -> Result<(), Failure> {
+fn check_shells(cx: &Context, trial: &TrialMotion) -> Result<(), Failure> {
     let shells = || cx.system.groups.iter().filter(|group| group.kind.is_surface());
     let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&trial.increments[node].q));
     if !cx.independent_nodes.iter().any(|&node| turn(node).norm() > LARGEST_TWIST) {

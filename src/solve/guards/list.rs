@@ -4,7 +4,7 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::guards::contacts::ContactGuard;
 use crate::guards::drift::DriftGuard;
-use crate::guards::guard::{Guard, Iterate, Taken};
+use crate::guards::guard::Guard;
 use crate::guards::joints::JointGuard;
 use crate::guards::jump::JumpGuard;
 use crate::guards::links::LinkGuard;
@@ -12,11 +12,8 @@ use crate::guards::massless::MasslessNodes;
 use crate::guards::stability::Stability;
 use crate::guards::strain::StrainGuard;
 use crate::plan::GuardKind;
-use crate::step::trial::Step;
-use crate::workspace::Workspace;
 use base::snapshot::{Keep, Snapshot};
 use linear::TooLarge;
-use mechanics::materials::Dissipation;
 
 /// The guards of a scene, in the order in which they are asked.
 pub struct Guards(Vec<Box<dyn Guard>>);
@@ -42,49 +39,22 @@ impl Guards {
         cx.plan.guards.iter().map(make).collect::<Result<_, _>>().map(Guards)
     }
 
-    fn ask(&mut self, mut of: impl FnMut(&mut dyn Guard) -> Result<(), Failure>) -> Result<(), Failure> {
-        self.0.iter_mut().try_for_each(|guard| of(guard.as_mut()))
+    /// Asks one after the other, up to the first that refuses the step.
+    ///
+    /// # Errors
+    /// Why the step is refused.
+    pub fn ask(&mut self, mut at: impl FnMut(&mut dyn Guard) -> Result<(), Failure>) -> Result<(), Failure> {
+        self.0.iter_mut().try_for_each(|guard| at(guard.as_mut()))
+    }
+
+    /// Tells all of them.
+    pub fn tell(&mut self, mut of: impl FnMut(&mut dyn Guard)) {
+        self.0.iter_mut().for_each(|guard| of(guard.as_mut()));
     }
 }
 
 impl Keep for Guards {
     fn keep(&mut self, snapshot: &mut Snapshot) {
         self.0.iter_mut().for_each(|guard| guard.keep(snapshot));
-    }
-}
-
-impl Guard for Guards {
-    fn before_step(&mut self, cx: &Context, step: &Step) -> Result<(), Failure> {
-        self.ask(|guard| guard.before_step(cx, step))
-    }
-
-    fn at_iterate(&mut self, cx: &Context, ws: &Workspace, step: &Step, iterate: &Iterate) -> Result<(), Failure> {
-        self.ask(|guard| guard.at_iterate(cx, ws, step, iterate))
-    }
-
-    fn at_equilibrium(&mut self, cx: &Context, ws: &Workspace, step: &Step) -> Result<(), Failure> {
-        self.ask(|guard| guard.at_equilibrium(cx, ws, step))
-    }
-
-    fn before_end(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) -> Result<(), Failure> {
-        self.ask(|guard| guard.before_end(cx, ws, step))
-    }
-
-    fn at_end(
-        &mut self,
-        cx: &Context,
-        ws: &mut Workspace,
-        step: &Step,
-        dissipated: &Dissipation,
-    ) -> Result<(), Failure> {
-        self.ask(|guard| guard.at_end(cx, ws, step, dissipated))
-    }
-
-    fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
-        self.0.iter_mut().for_each(|guard| guard.after_step(cx, ws, taken));
-    }
-
-    fn begin_run(&mut self) {
-        self.0.iter_mut().for_each(|guard| guard.begin_run());
     }
 }

@@ -5,7 +5,7 @@ use crate::guards::mechanism;
 use crate::guards::stability_tangent::{Criterion, Ends, Tangent, WEIGHTS};
 use crate::linear_system::LinearSystem;
 use crate::plan::Sideways;
-use crate::step::trial::Trial;
+use crate::step::trial::TrialMotion;
 use crate::system::{DofMap, Forces, Loading, System};
 use crate::tolerances::out_of_plane::MOST_HELD;
 use crate::warning::{Remark, Warning};
@@ -59,7 +59,7 @@ impl OutOfPlane {
     /// Judges an equilibrium that an accepted step from the time `from` has reached; returns false where there is nothing to be watched any
     /// more.
     pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64) -> bool {
-        let Workspace { loads, end: Trial { nodes: start, .. }, warnings, .. } = ws;
+        let Workspace { loads, end: TrialMotion { nodes: start, .. }, warnings, .. } = ws;
         if !std::mem::replace(&mut self.searched, true) {
             let held = self.hold(cx, start, &loads.start);
             match held {

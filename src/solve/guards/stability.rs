@@ -16,7 +16,7 @@ use crate::guards::guard::{Guard, Iterate, Taken};
 use crate::guards::out_of_plane::OutOfPlane;
 use crate::guards::stability_tangent::{Criterion, Ends, Tangent};
 use crate::linear_system::LinearSystem;
-use crate::step::trial::{Step, Trial};
+use crate::step::trial::{Step, TrialMotion};
 use crate::strategy::refresh::Refresh;
 use crate::system::Forces;
 use crate::tolerances::stability::SHORTEST;
@@ -60,7 +60,7 @@ struct Way {
 impl Way {
     /// True where the equilibrium lies beyond an unstable branch, on the other side of the state than the loads push it: it may be the mirror
     /// image of the one that they lead to.
-    fn has_turned_back(&self, cx: &Context, trial: &Trial) -> bool {
+    fn has_turned_back(&self, cx: &Context, trial: &TrialMotion) -> bool {
         let way = self.first.iter().zip(&trial.increments).map(|(first, increment)| {
             let turns = angular(first).dot(&angular(&increment.q));
             linear(first).dot(&linear(&increment.q)) + cx.length * cx.length * turns

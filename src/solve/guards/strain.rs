@@ -3,6 +3,7 @@
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
 use crate::tolerances::strain::{LARGE, LARGE_LOGARITHMIC, LOOKS};
+use crate::warning::Warnings;
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
@@ -14,12 +15,12 @@ impl Guard for StrainGuard {
         let (begin, end) = (cx.model.analysis.begin, cx.model.analysis.end_time);
         let part = |time: f64| (LOOKS * (time - begin) / (end - begin)).floor();
         if part(taken.from) != part(taken.state.time) {
-            look(cx, ws, taken.state);
+            look(cx, &mut ws.warnings, taken.state);
         }
     }
 }
 
-fn look(cx: &Context, ws: &mut Workspace, state: &State) {
+fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     let now = state.configuration();
     for group in &cx.system.groups {
         let own = group.configuration(&now);
@@ -27,7 +28,7 @@ fn look(cx: &Context, ws: &mut Workspace, state: &State) {
             let (strain, is_logarithmic) = group.block.surface_strain(e, &own);
             let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
             if !(least..=most).contains(&strain) {
-                ws.warnings.stretch(group.part_of(e, cx.model).name(), (strain, is_logarithmic));
+                warnings.stretch(group.part_of(e, cx.model).name(), (strain, is_logarithmic));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The guards that a scene needs.
 
 use crate::system::System;
-use model::{AnalysisKind, Link, Model};
+use model::{AnalysisKind, Model};
 
 /// What refuses steps, or warns of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,7 +29,7 @@ pub enum GuardKind {
 pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> Vec<GuardKind> {
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let has_shells = system.groups.iter().any(|group| group.kind.is_surface());
-    let counts_turns = model.each::<Link>().next().is_some() || system.joints.iter().any(|joint| joint.supports);
+    let counts_turns = system.has_links() || system.joints.iter().any(|joint| joint.supports);
     let holds_rotations = model.constraints.restraints.iter().any(|held| held.dof > 2 && held.motion.is_none());
     let asked = [
         (GuardKind::Contacts, system.has_contacts()),

@@ -3,7 +3,6 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::guard::Guard;
 use crate::guards::list::Guards;
 use crate::step::commit::{Account, commit};
 use crate::step::predict::move_trial;
@@ -34,7 +33,7 @@ pub fn accept(
     if let Some(projection) = projection.as_deref_mut().filter(|_| cx.is_dynamic()) {
         projection.project(cx, (&mut ws.end, ws.reach), step.state, (stage.scheme, step.dt()))?;
     }
-    guards.at_end(cx, ws, &step, &account.dissipated)?;
+    guards.ask(|guard| guard.at_end(cx, ws, &step, &account.dissipated))?;
     if !cx.is_dynamic() && cx.system.has_contacts() && cx.wants_forces {
         let end = (&ws.end.nodes[..], step.dt());
         account.contact_excess = contact_work::excess_of_mean(cx.system, step.state, end, &mut ws.history);

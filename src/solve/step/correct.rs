@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::step::size::Size;
-use crate::step::trial::Trial;
+use crate::step::trial::TrialMotion;
 use crate::system::{Multipliers, NodeRows};
 use crate::tolerances::correction::{LARGEST, ROUNDING, SLENDER, STILL};
 use base::math::rotation::inverse_tangent;
@@ -61,7 +61,7 @@ impl Correction {
     }
 
     /// Adds the correction to the increments and the multipliers. Returns its size and that of the increments.
-    pub fn add_to(&self, cx: &Context, trial: &mut Trial, multipliers: &mut Multipliers) -> (Size, Size) {
+    pub fn add_to(&self, cx: &Context, trial: &mut TrialMotion, multipliers: &mut Multipliers) -> (Size, Size) {
         let (mut correction, mut motion) = (Size::default(), Size::default());
         for &node in &cx.independent_nodes {
             let rows = cx.plan.dofs.of(node);

@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::guard::{Guard, Taken};
+use crate::guards::guard::Taken;
 use crate::guards::list::Guards;
 use crate::report::StepReport;
 use crate::step::accept::accept;
@@ -49,7 +49,7 @@ impl EquilibriumSolver {
     /// Forgets what earlier runs of the same scene have taught the iteration.
     pub fn begin_run(&mut self, cx: &Context) {
         (self.newton, self.grows) = (Newton::new(cx), true);
-        self.guards.begin_run();
+        self.guards.tell(|guard| guard.begin_run());
     }
 
     /// Takes `state` from its time to the time `to` in one stage. On failure `state` is untouched.
@@ -99,7 +99,8 @@ impl EquilibriumSolver {
             count += 1;
         }
         if count > 1 {
-            self.guards.at_equilibrium(cx, ws, &Step { state, stage: *stage, to })?;
+            let step = Step { state, stage: *stage, to };
+            self.guards.ask(|guard| guard.at_equilibrium(cx, ws, &step))?;
         }
         Ok(report)
     }
@@ -109,10 +110,10 @@ impl EquilibriumSolver {
     /// # Errors
     /// See [`Failure`].
     pub fn find(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) -> Result<StepReport, Failure> {
-        self.guards.before_step(cx, step)?;
+        self.guards.ask(|guard| guard.before_step(cx, step))?;
         self.newton.predict(cx, ws, step);
         let report = self.equilibrate(cx, ws, *step, None)?;
-        self.guards.at_equilibrium(cx, ws, step)?;
+        self.guards.ask(|guard| guard.at_equilibrium(cx, ws, step))?;
         Ok(report)
     }
 
@@ -176,11 +177,13 @@ impl EquilibriumSolver {
     ) -> Result<(), Failure> {
         let from = state.time;
         let EquilibriumSolver { guards, projection, grows, .. } = self;
-        let judged = guards.before_end(cx, ws, &Step { state, stage: *stage, to });
+        let step = Step { state, stage: *stage, to };
+        let judged = guards.ask(|guard| guard.before_end(cx, ws, &step));
         let accepted =
             judged.and_then(|()| accept(cx, ws, (&mut *guards, projection.as_mut()), state, (stage, to), work));
         if accepted.is_ok() {
-            guards.after_step(cx, ws, &Taken { state, from, grows: *grows });
+            let taken = Taken { state, from, grows: *grows };
+            guards.tell(|guard| guard.after_step(cx, ws, &taken));
         }
         let overwritten = std::mem::take(&mut ws.matrix.overwritten);
         match &accepted {

@@ -3,7 +3,6 @@
 
 use crate::context::Context;
 use crate::failure::Failure;
-use crate::guards::guard::Guard;
 use crate::guards::joints;
 use crate::guards::list::Guards;
 use crate::no_convergence::NoConvergence;
@@ -162,7 +161,8 @@ impl Newton {
             }
             let sizes = self.correct(cx, ws, &mut progress);
             let verdict = self.judge(cx, ws, sizes, &mut progress)?;
-            guards.at_iterate(cx, ws, &step, &progress.iterate(verdict == Verdict::Converged))?;
+            let iterate = progress.iterate(verdict == Verdict::Converged);
+            guards.ask(|guard| guard.at_iterate(cx, ws, &step, &iterate))?;
             match verdict {
                 Verdict::Converged => return Ok(progress.report),
                 Verdict::GoOn => {}

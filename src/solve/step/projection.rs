@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::guards::joints;
 use crate::linear_system::LinearSystem;
 use crate::plan::Plan;
-use crate::step::trial::Trial;
+use crate::step::trial::TrialMotion;
 use crate::system::TangentWeights;
 use crate::system::{Forces, Loading, System};
 use crate::tolerances::joints::{MOST_CORRECTIONS, ROUNDING};
@@ -65,7 +65,7 @@ impl ForceChange {
 
 /// A motion at the end of a step that is being projected.
 struct End<'e> {
-    motion: &'e mut Trial,
+    motion: &'e mut TrialMotion,
     /// The largest coordinate of a node.
     reach: f64,
     state: &'e State,
@@ -125,7 +125,7 @@ impl ConstraintProjection {
     pub fn project(
         &mut self,
         cx: &Context,
-        (motion, reach): (&mut Trial, f64),
+        (motion, reach): (&mut TrialMotion, f64),
         state: &State,
         (scheme, dt): (&Coefficients, f64),
     ) -> Result<(), Failure> {

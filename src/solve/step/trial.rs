@@ -81,7 +81,7 @@ pub fn rates_of(node: &Node) -> [Vec6; 2] {
 }
 
 /// A motion from the state at the start of a step: at the instant of equilibrium, or at the end of the step.
-pub struct Trial {
+pub struct TrialMotion {
     /// The nodes where the motion leads.
     pub nodes: Vec<Node>,
     /// Increments of the nodes from the start of the step, with their rates.
@@ -90,12 +90,12 @@ pub struct Trial {
     turning: Vec<TurningStart>,
 }
 
-keep!(Trial { nodes, increments, turning });
+keep!(TrialMotion { nodes, increments, turning });
 
-impl Trial {
+impl TrialMotion {
     /// The nodes of the model at rest.
-    pub fn new(cx: &Context) -> Trial {
-        Trial {
+    pub fn new(cx: &Context) -> TrialMotion {
+        TrialMotion {
             nodes: context::at_rest(cx.model),
             increments: vec![Increment::ZERO; cx.model.nodes.len()],
             turning: Vec::with_capacity(cx.system.turning_bodies().len()),
@@ -153,7 +153,7 @@ impl Trial {
     }
 
     /// Writes the increments at the end of a step from those of `at_instant`, the instant of equilibrium.
-    pub fn finish(&mut self, cx: &Context, at_instant: &Trial, state: &State, stage: &Stage) {
+    pub fn finish(&mut self, cx: &Context, at_instant: &TrialMotion, state: &State, stage: &Stage) {
         let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { cx.system.turning_bodies() } else { &[] };
         let mut bodies = bodies.iter().peekable();
         for &node in &cx.independent_nodes {

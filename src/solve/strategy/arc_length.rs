@@ -11,7 +11,7 @@ use crate::step::correct::Correction;
 use crate::step::predict::{excite, move_trial};
 use crate::step::progress::StepProgress;
 use crate::step::residual::no_equilibrium;
-use crate::step::trial::{Step, Trial};
+use crate::step::trial::{Step, TrialMotion};
 use crate::system::{Forces, Loading};
 use crate::tolerances::arc_length_constraint::{DIFFERENCE, SHORT};
 use crate::workspace::Workspace;
@@ -178,7 +178,7 @@ impl ArcLengthConstraint {
     }
 
     /// Solves |D + a + δt b|² = ℓ² for δt; `None` where no point of the line lies on the arc.
-    fn on_arc(&self, cx: &Context, trial: &Trial, correction: &Correction, length: f64) -> Option<f64> {
+    fn on_arc(&self, cx: &Context, trial: &TrialMotion, correction: &Correction, length: f64) -> Option<f64> {
         let Products { DD, Da, Db, aa, ab, bb, ahead_b } = self.products(cx, trial, correction);
         let (half, rest) = (Db + ab, DD + 2.0 * Da + aa - length * length);
         let discriminant = half * half - bb * rest;
@@ -193,7 +193,7 @@ impl ArcLengthConstraint {
         Some(if ahead_b >= 0.0 { high } else { low })
     }
 
-    fn products(&self, cx: &Context, trial: &Trial, correction: &Correction) -> Products {
+    fn products(&self, cx: &Context, trial: &TrialMotion, correction: &Correction) -> Products {
         let mut sum = Products::default();
         let mut last_b = 0.0;
         for &node in &cx.independent_nodes {
@@ -223,7 +223,7 @@ impl ArcLengthConstraint {
     }
 
     /// True where loads grow along the path at the end of the step that was found.
-    pub fn loads_grow(&self, cx: &Context, trial: &Trial) -> bool {
+    pub fn loads_grow(&self, cx: &Context, trial: &TrialMotion) -> bool {
         let mut along = 0.0;
         for &node in &cx.independent_nodes {
             let rate = cx.plan.dofs.of(node).gather(&self.rate);
@@ -233,7 +233,7 @@ impl ArcLengthConstraint {
     }
 
     /// The extent of the step that was found.
-    pub fn motion(&self, cx: &Context, trial: &Trial) -> StepMotion {
+    pub fn motion(&self, cx: &Context, trial: &TrialMotion) -> StepMotion {
         let (mut along, mut last, mut now) = (0.0, 0.0, 0.0);
         for &node in &cx.independent_nodes {
             let (D, L) = (unknown_part(cx, node, &trial.increments[node].q), &self.last[node]);
@@ -247,7 +247,7 @@ impl ArcLengthConstraint {
     }
 
     /// Keeps the motion that was found as the direction of the next step, unless it is too short to show one.
-    pub fn keep_motion(&mut self, cx: &Context, trial: &Trial, motion: &StepMotion) {
+    pub fn keep_motion(&mut self, cx: &Context, trial: &TrialMotion, motion: &StepMotion) {
         if motion.short {
             return;
         }

@@ -2,7 +2,7 @@
 
 use crate::context::Context;
 use crate::step::correct::Correction;
-use crate::step::trial::Trial;
+use crate::step::trial::TrialMotion;
 use base::math::{Vec6, angular, linear};
 use base::snapshot::keep;
 use mechanics::state::Node;
@@ -79,7 +79,7 @@ impl StressExtrapolation {
     }
 
     /// Keeps the trial motion and the correction at hand, before it is added.
-    pub fn keep(&mut self, cx: &Context, trial: &Trial, correction: &Correction) {
+    pub fn keep(&mut self, cx: &Context, trial: &TrialMotion, correction: &Correction) {
         if self.corrections.is_empty() {
             return;
         }

@@ -5,7 +5,7 @@ use crate::context::Context;
 use crate::step::correct::Correction;
 use crate::step::residual::Residual;
 use crate::step::size::Size;
-use crate::step::trial::Trial;
+use crate::step::trial::TrialMotion;
 use crate::strategy::anderson::Anderson;
 use crate::strategy::line_search::LineSearch;
 use crate::system::Multipliers;
@@ -60,7 +60,7 @@ impl Relaxation {
         cx: &Context,
         residual: &Residual,
         size: f64,
-        trial: &mut Trial,
+        trial: &mut TrialMotion,
         multipliers: &mut Multipliers,
     ) -> bool {
         let values = &mut multipliers.values;
@@ -84,7 +84,7 @@ impl Relaxation {
         &mut self,
         cx: &Context,
         correction: &mut Correction,
-        trial: &Trial,
+        trial: &TrialMotion,
         multipliers: &Multipliers,
     ) -> Size {
         let plain = correction.size(cx);

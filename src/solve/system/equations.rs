@@ -512,6 +512,11 @@ impl System {
         self.mass_damping.acts() || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
     }
 
+    /// True where the scene has links.
+    pub fn has_links(&self) -> bool {
+        !self.links.is_empty()
+    }
+
     /// True where the equation of motion is linear in the motion, with constant matrices.
     pub fn is_linear(&self) -> bool {
         self.groups.iter().all(|g| g.block.is_linear())
