@@ -223,11 +223,11 @@ fn model<'d>(
     let amplitudes = amplitudes(deck, stage, records, report);
     let Ground { mut scene, nodes, amplitudes, groups, rigid } =
         ground(deck, (stage, procedure.analysis), (input, amplitudes), report);
-    let (mut frame, efforts) = connect(&scene, nodes, amplitudes, report);
-    let acting = act(&mut scene, &mut frame, efforts, report);
-    let asked = ask(&scene, &procedure.scheme, acting.actors, &frame, report);
-    let mesh = check(&scene, &procedure.scheme, groups, &frame, report);
-    let Frame { masses, links, joints, amplitudes, mut topology } = frame;
+    let (mut joined, efforts) = connect(&scene, nodes, amplitudes, report);
+    let acting = act(&mut scene, &mut joined, efforts, report);
+    let asked = ask(&scene, &procedure.scheme, acting.actors, &joined, report);
+    let mesh = check(&scene, &procedure.scheme, groups, &joined, report);
+    let JoinedNodes { masses, links, joints, amplitudes, mut topology } = joined;
     let contacts = acting.contacts;
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
@@ -258,7 +258,7 @@ fn model<'d>(
 }
 
 /// The nodes with all that connects them.
-struct Frame {
+struct JoinedNodes {
     masses: Vec<Mass>,
     links: ModelLinks,
     joints: Vec<Joint>,
@@ -272,13 +272,13 @@ fn connect<'d>(
     mut nodes: Nodes,
     mut amplitudes: Vec<Amplitude>,
     report: &mut Report<'d>,
-) -> (Frame, Vec<Load>) {
+) -> (JoinedNodes, Vec<Load>) {
     let masses = masses(scene, &mut nodes, report);
     let mut links = links(scene, &mut nodes, report);
     let Joints { list: mut joints, efforts } = joints(scene, &mut links, &mut amplitudes, &mut nodes, report);
     joints.extend(attachments(scene, &mut nodes, report));
     connect_touching_points(scene, &mut nodes);
-    (Frame { masses, links, joints, amplitudes, topology: Topology::new(nodes, report) }, efforts)
+    (JoinedNodes { masses, links, joints, amplitudes, topology: Topology::new(nodes, report) }, efforts)
 }
 
 /// What acts on a scene.
@@ -292,8 +292,8 @@ struct Acting<'d> {
 }
 
 /// Reads the tables that act on nodes. Contacts connect points on which loads may act.
-fn act<'d>(scene: &mut Scene<'d>, frame: &mut Frame, efforts: Vec<Load>, report: &mut Report<'d>) -> Acting<'d> {
-    let Frame { masses, links, joints, amplitudes, topology } = frame;
+fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, report: &mut Report<'d>) -> Acting<'d> {
+    let JoinedNodes { masses, links, joints, amplitudes, topology } = joined;
     let fields = environment(scene.deck, scene.stage, report);
     let (mut actors, turned) = supports(scene, amplitudes, (topology, joints), report);
     set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
@@ -305,7 +305,7 @@ fn act<'d>(scene: &mut Scene<'d>, frame: &mut Frame, efforts: Vec<Load>, report:
 }
 
 /// What is computed and written.
-struct Asked {
+struct Questions {
     stage: Option<RunStage>,
     arc_length: Option<ArcLength>,
     expects: Vec<Expect>,
@@ -318,16 +318,16 @@ fn ask<'d>(
     scene: &Scene<'d>,
     scheme: &Arc<dyn Scheme>,
     actors: NamedActors<'d>,
-    frame: &Frame,
+    joined: &JoinedNodes,
     report: &mut Report<'d>,
-) -> Asked {
-    let topology = &frame.topology;
+) -> Questions {
+    let topology = &joined.topology;
     let stage = stops::stage(scene, actors, report);
-    let arc_length = control(scene, &frame.amplitudes, topology, report);
+    let arc_length = control(scene, &joined.amplitudes, topology, report);
     let expects = expects(scene, topology, arc_length.is_some(), report);
     let selection = output(scene, &topology.list, arc_length.is_some(), report);
     let study = study(scene, scheme, &topology.list, report);
-    Asked { stage, arc_length, expects, selection, study }
+    Questions { stage, arc_length, expects, selection, study }
 }
 
 /// Looks for what is odd about a scene without errors.
@@ -401,7 +401,7 @@ fn check(
     scene: &Scene,
     scheme: &Arc<dyn Scheme>,
     groups: Groups,
-    Frame { joints, amplitudes, topology, .. }: &Frame,
+    JoinedNodes { joints, amplitudes, topology, .. }: &JoinedNodes,
     report: &mut Report,
 ) -> Option<MeshFile> {
     let (deck, analysis, parts) = (scene.deck, &scene.analysis, &scene.parts);
