@@ -79,6 +79,13 @@ pub struct Motions {
     pub rz: Maybe<Table<Motion>>,
 }
 
+impl Motions {
+    /// The motions in the six directions, displacements first.
+    pub fn each(&self) -> [&Maybe<Table<Motion>>; 6] {
+        [&self.ux, &self.uy, &self.uz, &self.rx, &self.ry, &self.rz]
+    }
+}
+
 /// A motion: scale times amplitude.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

@@ -54,10 +54,8 @@ pub(super) fn position_curves(
 
 /// Indices of the amplitudes that supports and joints take for positions.
 fn of_positions(deck: &Deck) -> BTreeSet<usize> {
-    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
-        let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
-        all.into_iter().flatten()
-    });
+    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref());
+    let motions = motions.flat_map(|motions| motions.each()).flatten();
     let is_position =
         |history: &Maybe<History>| history.as_ref().is_none_or(|history| history.value == History::Displacement);
     let of_supports = motions.filter(|motion| is_position(&motion.history)).map(|motion| &motion.amplitude);

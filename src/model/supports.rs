@@ -118,7 +118,7 @@ impl<'d> Supports<'_, 'd> {
     fn motions(&mut self, support: &'d words::Support, motions: &'d At<Table<words::Motions>>) -> Vec<Given<'d>> {
         let own = self.scene.stage.filter(|stage| stage.begins_static(&support.stages));
         let own = own.map(|stage| stage.own_amplitude(&support.stages));
-        let given = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
+        let given = motions.each();
         if given.iter().all(|motion| motion.is_none()) && !self.report.is_any_spoiled(&motions.span) {
             let hint = "such as { ux = { amplitude = \"quake\" } }";
             self.report.error_with::<()>(&motions.span, "`motion` is empty", hint);

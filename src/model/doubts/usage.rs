@@ -23,10 +23,8 @@ pub fn named_amplitudes(deck: &Deck) -> HashSet<&str> {
 /// Amplitudes that are functions of time: those of loads, motions, gravity and the ground.
 pub fn amplitudes_over_time(deck: &Deck) -> HashSet<&str> {
     let loads = deck.loads.iter().map(|load| &load.amplitude);
-    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref()).flat_map(|motions| {
-        let all = [&motions.ux, &motions.uy, &motions.uz, &motions.rx, &motions.ry, &motions.rz];
-        all.into_iter().flatten().map(|motion| &motion.amplitude)
-    });
+    let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref());
+    let motions = motions.flat_map(|motions| motions.each()).flatten().map(|motion| &motion.amplitude);
     let drives = deck.joints.iter().filter_map(|joint| joint.motion.as_ref()).map(|motion| &motion.amplitude);
     let motors = deck.joints.iter().filter_map(|joint| joint.effort.as_ref()).map(|effort| &effort.amplitude);
     let ground = deck.environment.iter().flat_map(|environment| &environment.base_acceleration);

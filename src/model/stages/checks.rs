@@ -138,12 +138,8 @@ fn check_initial<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 /// Reports tables of one name in stages apart: what a stage finds of the one before is known by its name. Two in one stage are
 /// reported with the names of that stage.
 fn check_tables<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
-    let deck = sequence.whole;
-    let joints = deck.joints.iter().map(|table| (&table.name, &table.stages));
-    let links = deck.links.iter().map(|table| (&table.name, &table.stages));
-    let contacts = deck.contacts.iter().map(|table| (&table.name, &table.stages));
     let mut known: HashMap<&str, Vec<&Maybe<Names>>> = HashMap::new();
-    for (name, stages) in joints.chain(links).chain(contacts) {
+    for (name, stages) in sequence.whole.staged() {
         let Some(name) = name else { continue };
         let others = known.entry(name.as_str()).or_default();
         let meets = |other: &&Maybe<Names>| {
@@ -180,11 +176,7 @@ fn check_expected<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 
 /// Reports names of stages that there are not, in any table.
 pub fn check_names<'d>(deck: &'d Deck, report: &mut Report<'d>) {
-    let lists = deck.supports.iter().map(|table| &table.stages);
-    let lists = lists.chain(deck.joints.iter().map(|table| &table.stages));
-    let lists = lists.chain(deck.links.iter().map(|table| &table.stages));
-    let lists = lists.chain(deck.contacts.iter().map(|table| &table.stages));
-    let lists = lists.chain(deck.loads.iter().map(|table| &table.stages));
+    let lists = deck.staged().into_iter().map(|(_, stages)| stages);
     let lists = lists.chain(deck.initial.iter().map(|table| &table.stages)).flatten();
     let lists: Vec<&At<Names>> = lists.collect();
     for list in lists.iter().filter(|list| list.values.is_empty()) {

@@ -207,11 +207,8 @@ impl<'d> CurrentStage<'d> {
     /// The expected values that can be read in this stage.
     pub fn expected(&self) -> Vec<usize> {
         let deck = self.sequence.whole;
-        let name = |name: &'d Maybe<String>| name.as_ref().map(|name| name.as_str());
-        let joints = deck.joints.iter().filter(|table| !self.holds(&table.stages)).map(|table| &table.name);
-        let links = deck.links.iter().filter(|table| !self.holds(&table.stages)).map(|table| &table.name);
-        let contacts = deck.contacts.iter().filter(|table| !self.holds(&table.stages)).map(|table| &table.name);
-        let absent: HashSet<&str> = joints.chain(links).chain(contacts).filter_map(name).collect();
+        let absent = deck.staged().into_iter().filter(|(_, stages)| !self.holds(stages));
+        let absent: HashSet<&str> = absent.filter_map(|(name, _)| Some(name?.as_str())).collect();
         let here = |expect: &Expect| {
             name_of(&expect.at).is_none_or(|at| !absent.contains(at))
                 && self.sequence.stages[self.index].reads(expect)

@@ -176,14 +176,7 @@ impl<'d> StageSequence<'d> {
 
     /// Which tables that may be limited to stages are there in one, in the order of the deck.
     pub fn held(&self, index: usize) -> Vec<bool> {
-        let deck = self.whole;
-        let supports = deck.supports.iter().map(|table| &table.stages);
-        let joints = deck.joints.iter().map(|table| &table.stages);
-        let links = deck.links.iter().map(|table| &table.stages);
-        let contacts = deck.contacts.iter().map(|table| &table.stages);
-        let loads = deck.loads.iter().map(|table| &table.stages);
-        let all = supports.chain(joints).chain(links).chain(contacts).chain(loads);
-        all.map(|stages| self.holds(index, stages)).collect()
+        self.whole.staged().iter().map(|(_, stages)| self.holds(index, stages)).collect()
     }
 
     /// The functions of time of loads without an amplitude, one for each stage in which they may first act: over a static stage they grow,
