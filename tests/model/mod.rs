@@ -1,9 +1,15 @@
 //! What decks mean, and what is said of them.
 
 mod build;
+mod cells;
 mod damping;
+mod grading;
 mod line_loads;
+mod mesh_edges;
+mod normals;
+mod output;
 mod plausibility;
+mod record;
 mod records;
 mod rotations;
 mod tables_of_positions;

@@ -65,7 +65,7 @@ impl Cadence {
 }
 
 /// The next of 1, 2, 5, 10, 20, … that is not below a number.
-fn round_up(number: f64) -> usize {
+pub fn round_up(number: f64) -> usize {
     // A rounding error beyond a whole number is none.
     let reaches = |round: f64| round >= number * (1.0 - 1e-9);
     let mut power = 1.0;
@@ -76,21 +76,4 @@ fn round_up(number: f64) -> usize {
         power *= 10.0;
     }
     power as usize
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_between_rows_are_round_numbers() {
-        for (number, round) in [(0.01, 1), (1.0, 1), (1.0 + 1e-12, 1), (1.1, 2), (2.1, 5), (5.1, 10), (1999.0, 2000)] {
-            assert_eq!(round_up(number), round, "{number}");
-        }
-        let fixed = StepLength::Fixed { step: 1e-4 };
-        assert_eq!(Cadence::at_most(1000.0, 0.1, &fixed), Cadence::Steps(1));
-        assert_eq!(Cadence::at_most(1000.0, 0.3, &fixed), Cadence::Steps(5));
-        let automatic = StepLength::StabilityLimited { fraction: 0.8 };
-        assert_eq!(Cadence::at_most(1000.0, 0.5, &automatic), Cadence::Apart(5e-4));
-    }
 }

@@ -1,0 +1,244 @@
+//! Files of records.
+
+use rdsolve::record::{MOST_FAULTS, MotionQuantity, RecordColumn, RecordSelection, RecordUnit, read};
+
+fn select(columns: &[RecordColumn], time_step: Option<f64>) -> RecordSelection {
+    RecordSelection { columns: columns.to_vec(), time_step, rows: None }
+}
+
+fn points(text: &str, selection: &RecordSelection) -> Vec<[f64; 2]> {
+    read("r", text.as_bytes(), selection).unwrap().points
+}
+
+fn name(name: &str) -> RecordColumn {
+    RecordColumn::Name(name.into())
+}
+
+fn faults(text: &str, selection: &RecordSelection) -> Vec<String> {
+    read("r.csv", text.as_bytes(), selection).unwrap_err().into_iter().map(|problem| problem.message).collect()
+}
+
+#[test]
+fn columns_stand_as_they_do() {
+    let wanted = vec![[0.0, 1.0], [0.5, -2.0], [0.5, 3.0]];
+    for text in [
+        "0,1\n0.5,-2\n0.5,3\n",
+        "# a comment\r\n0 1\r\n\r\n5e-1\t-2.0\r\n 0.5  3\r\n",
+        "\u{feff}time; acceleration\n0;1\n0.5;-2\n0.5;3",
+        "t,a\n0.0,1,\n0.5,-2d0,\n0.5,3,",
+    ] {
+        assert_eq!(points(text, &select(&[], None)), wanted, "{text:?}");
+    }
+    let text = "time,\"x\",y\n0,7,1\n1,8,2\n";
+    for columns in [[name("time"), name("y")], [RecordColumn::Number(1), RecordColumn::Number(3)]] {
+        assert_eq!(points(text, &select(&columns, None)), [[0.0, 1.0], [1.0, 2.0]]);
+    }
+    let every = select(&[name("x")], Some(0.25));
+    assert_eq!(points(text, &every), [[0.0, 7.0], [0.25, 8.0]]);
+    assert_eq!(points("3\n4\n5\n", &select(&[], Some(2.0))), [[0.0, 3.0], [2.0, 4.0], [4.0, 5.0]]);
+}
+
+#[test]
+fn what_is_wrong_is_said() {
+    let plain = select(&[], None);
+    for (text, selection, said) in [
+        ("", &plain, "no lines of numbers"),
+        ("t,a\n", &plain, "no numbers"),
+        ("0,1\n", &plain, "two values or more"),
+        ("0,1\n1,x\n2,y\n", &plain, "`x` is not a finite number"),
+        ("0,1\n1,inf\n", &plain, "`inf` is not a finite number"),
+        ("0,1\n1,,\n", &plain, "there is a gap: column 2 is empty"),
+        ("0 1\n1\n", &plain, "there is a gap: the line has 1 column"),
+        ("0,1\n2,1\n1,1\n", &plain, "the time falls: 1 comes after 2"),
+        ("0,1\n0,2\n0,3\n", &plain, "more than twice"),
+        ("0,1\n1,2,3\n", &plain, "the line has 3 columns, those before it 2"),
+        ("\"t, s\",x\n0,1\n", &plain, "the line of names has 3 columns, that of numbers 2"),
+        (
+            "0\t1\t2\n1\t\t2\n",
+            &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], None),
+            "there is a gap: column 2 is empty",
+        ),
+        ("nan\n1\n2\n", &select(&[], Some(1.0)), "`nan` is not a finite number"),
+        ("--\n1\n2\n", &select(&[], Some(1.0)), "`--` is not a finite number"),
+        ("1\n\n2\n", &select(&[], Some(1.0)), "there is a gap: the line is empty"),
+        ("t,x,x\n0,1,2\n1,2,3\n", &select(&[name("t"), name("x")], None), "more than one column is named `x`"),
+        ("0\n1\n", &plain, "`time_step` says"),
+        (
+            "0,1,2\n1,2,3\n",
+            &plain,
+            "`columns` says which are the time and the value, or `rows = true` with `time_step`",
+        ),
+        ("t,a,b\n1,2,3\n1,2,3\n", &plain, "`columns` must say which are the time and the value: the file has `t`"),
+        ("t,acc\n0,1\n1,2\n", &select(&[name("t"), name("ac")], None), "did you mean `acc`?"),
+        ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(3)], None), "there is no column 3"),
+        (
+            "0,1\n1,2\n",
+            &select(&[], Some(0.1)),
+            "a line has 2 values: `columns` says which of them is the value, or `rows = true`",
+        ),
+        ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], Some(0.1)), "names one column"),
+        ("0,1\n1,2\n", &select(&[RecordColumn::Number(1)], None), "names two columns"),
+    ] {
+        let found = faults(text, selection);
+        assert!(found[0].contains(said), "{text:?}: {found:?}");
+    }
+    // All that is wrong is said at once, up to a limit.
+    assert_eq!(faults("0,1\n1,x\n2,y\n3,4\n", &plain).len(), 2);
+    let many: String = (0..100).map(|k| format!("{k},x\n")).collect();
+    assert_eq!(faults(&many, &plain).len(), MOST_FAULTS);
+}
+
+/// Every dress of the header in which files of the data bases are found, with the same values behind it.
+#[test]
+fn headers_are_recognized_by_what_they_say() {
+    let values = "  .1E-01 -.2000000E-01\r\n 3.0D-2\n\n 0.04 0\n";
+    let wanted = vec![[0.0, 0.01], [0.02, -0.02], [0.04, 0.03], [0.06, 0.04], [0.08, 0.0]];
+    let peer = |unit: &str, sizes: &str| {
+        format!("DATA BASE\nSomewhere, 1/1/1940, 180\nACCELERATION {unit}\n{sizes}\n{values}")
+    };
+    let unit = "TIME SERIES IN UNITS OF G";
+    for sizes in [
+        "NPTS=   5, DT=   .0200 SEC,",
+        "5    0.0200    NPTS, DT",
+        "0.0200  5   DT, NPTS",
+        "npts = 5  dt= 2e-2 sec",
+        "NPTS=5,DT=0.02SEC",
+        "DT= .02 SEC, NPTS= 5",
+        "NPTS= 5.0, DT= 2.0D-2 SECONDS",
+        "NPTS: 5 DT: .02 SEC, SCALED DATA, SCALE FACTOR= 2.0",
+    ] {
+        let text = peer(unit, sizes);
+        for path in ["r.AT2", "r.txt"] {
+            let read = read(path, text.as_bytes(), &select(&[], None)).unwrap();
+            assert_eq!(read.points, wanted, "{sizes}");
+            assert_eq!(read.unit, Some(RecordUnit::new("G")), "{sizes}");
+        }
+    }
+    let sizes = "NPTS= 5, DT= .02 SEC";
+    for (unit, name, known) in [
+        ("TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=40.0 Hz", "G", Some(9.80665)),
+        ("TIME HISTORY IN UNITS OF G.", "G", Some(9.80665)),
+        ("TIME SERIES IN UNITS OF G (FILTERED)", "G", Some(9.80665)),
+        ("IN UNITS OF CM/SEC**2", "CM/SEC**2", Some(0.01)),
+        ("IN UNITS OF cm/s/s", "cm/s/s", Some(0.01)),
+        ("IN UNITS OF FURLONGS", "FURLONGS", None),
+    ] {
+        let read = read("r.AT2", peer(unit, sizes).as_bytes(), &select(&[], None)).unwrap();
+        assert_eq!(read.points, wanted, "{unit}");
+        let found = read.unit.unwrap();
+        assert_eq!((found.name.as_str(), found.known.map(|(_, si)| si)), (name, known), "{unit}");
+    }
+    // Headers whose lines are empty, fewer or more.
+    for text in [
+        format!("\n\n\nNPTS= 5, DT= .02\n{values}"),
+        format!("NPTS= 5, DT= .02\n{values}"),
+        format!("a\nb\nc\nd\ne NPTS\nNPTS= 5, DT= .02\nUNITS: m/s^2\nmore of it\n{values}"),
+        format!(
+            "Orig = a.acc, Scale factor = 2.4 \n  H1: IMPERIAL VALLEY 10/15/79\n azimuth =   233.0\n  Acceleration in g\n5 0.02 NPTS, DT \n{values}"
+        ),
+        format!("EVENT_NAME: none\nSAMPLING_INTERVAL_S: 0.020000\nNDATA: 5\nUNITS: cm/s^2\nUSER1: \n{values}"),
+    ] {
+        assert_eq!(points(&text, &select(&[], None)), wanted, "{text}");
+    }
+}
+
+/// K-NET counts become gal without their offset; CSMIP blocks end at their number of values.
+#[test]
+fn instruments_write_counts_and_blocks() {
+    let knet = "Origin Time       2011/03/11 14:46:00\nMag.              9.0\nSampling Freq(Hz) 100Hz\nDir.              N-S\n\
+                Scale Factor      3920(gal)/6182761\nMax. Acc. (gal)   1.0\nMemo.\n 100 200 300\n 400\n";
+    let read = rdsolve::record::read("r.NS", knet.as_bytes(), &select(&[], None)).unwrap();
+    let gal = 3920.0 / 6182761.0;
+    for (point, (time, count)) in read.points.iter().zip([(0.0, -150.0), (0.01, -50.0), (0.02, 50.0), (0.03, 150.0)]) {
+        assert!((point[0] - time).abs() < 1e-15 && (point[1] - count * gal).abs() < 1e-12, "{:?}", read.points);
+    }
+    assert!((read.offset.unwrap() - 250.0 * gal).abs() < 1e-12);
+    let csmip = "CORRECTED ACCELEROGRAM\n 1 2 3\n   5 points of accel data equally spaced at  .005 sec, in cm/sec2. (8f10.6)\n\
+                 -1.000000 -2.000000-13.000000\n  4.0 5.0\n   5 points of veloc data equally spaced at .005 sec\n 9 9 9 9 9\n";
+    let read = rdsolve::record::read("r.V2", csmip.as_bytes(), &select(&[], None)).unwrap();
+    assert_eq!(read.points.iter().map(|point| point[1]).collect::<Vec<_>>(), [-1.0, -2.0, -13.0, 4.0, 5.0]);
+    assert_eq!(read.unit.unwrap().known, Some((MotionQuantity::Acceleration, 0.01)));
+    let twice = format!("{csmip}{csmip}");
+    assert!(faults(&twice, &select(&[], None))[0].contains("a second channel"));
+}
+
+/// Row by row without a header, whatever separates the values.
+#[test]
+fn rows_without_a_header() {
+    let rows = RecordSelection { rows: Some(true), ..select(&[], Some(0.5)) };
+    let wanted = [[0.0, 1.0], [0.5, -2.5], [1.0, 3e-5], [1.5, 4.0]];
+    for text in [
+        "1 -2.5 3e-5\n4\n",
+        "some text\nand more, 5 a line\n1.0,-2.5\n3.0D-5, 4\n",
+        "# 1 2 3\n1;-2.5;3e-5;4;",
+        "1.0-2.5 3.0-05\n\n4.0",
+        "1\n-2.5\n3e-5\n4\n",
+    ] {
+        assert_eq!(points(text, &rows), wanted, "{text:?}");
+    }
+    for (text, said) in [
+        ("1 2 x\n", "`x` is not a finite number"),
+        ("0,1 0,2\n", "`0,1` is not a finite number"),
+        ("text alone\n", "two values or more"),
+        ("1 ****** 2\n", "`******` is not"),
+    ] {
+        assert!(faults(text, &rows)[0].contains(said), "{text:?}");
+    }
+    let no_step = RecordSelection { rows: Some(true), ..select(&[], None) };
+    assert!(faults("1 2 3\n4 5\n", &no_step)[0].contains("needs `time_step`"));
+}
+
+/// A column out of a sequence jumps by five steps where the lines go by one; channels beside each other do not look like that.
+#[test]
+fn a_column_out_of_a_sequence_is_noticed() {
+    let lines = |value: &dyn Fn(usize, usize) -> f64| -> String {
+        (0..100).map(|line| (0..5).map(|k| format!("{} ", value(line, k))).collect::<String>() + "\n").collect()
+    };
+    let first = select(&[RecordColumn::Number(1)], Some(0.01));
+    let sequence = |text: &str| read("r", text.as_bytes(), &first).unwrap().sequence;
+    assert_eq!(sequence(&lines(&|line, k| (0.05 * (5 * line + k) as f64).sin())), Some(5));
+    assert_eq!(sequence(&lines(&|line, k| (0.05 * line as f64 + k as f64).sin())), None);
+}
+
+#[test]
+fn what_is_wrong_with_a_header_is_said() {
+    let file =
+        |sizes: &str, values: &str| format!("DATA BASE\nSomewhere\nACCELERATION IN UNITS OF G\n{sizes}\n{values}\n");
+    let sizes = "NPTS= 3, DT= .01 SEC";
+    for (text, said, line) in [
+        (String::new(), "no line says `NPTS", 1),
+        ("a\nb\nc\n".into(), "no line says `NPTS", 1),
+        (file("3 values", "1 2 3"), "no line says `NPTS", 1),
+        (file("NPTS= 3.5, DT= .01", "1 2 3"), "not `3.5`", 4),
+        (file("NPTS= none, DT= .01", "1 2 3"), "not `NONE`", 4),
+        (file("NPTS= 1, DT= .01", "1"), "2 or more", 4),
+        (file("NPTS= 3, DT= 0", "1 2 3"), "above 0, not `0`", 4),
+        (file("NPTS= 3, DT=", "1 2 3"), "no line says `NPTS", 1),
+        (file(sizes, "1 2"), "there are 2 values, and NPTS = 3 says more", 5),
+        (file(sizes, "1 2\n3 4"), "more values than NPTS = 3", 6),
+        (file(sizes, "1 2\nx"), "`x` is not a finite number", 6),
+        (file(sizes, "1 nan 3"), "`nan` is not a finite number", 5),
+    ] {
+        let found = read("r.AT2", text.as_bytes(), &select(&[], None)).unwrap_err();
+        assert!(found[0].message.contains(said), "{text:?}: {:?}", found[0].message);
+        let place = found[0].excerpt.as_ref().map(|excerpt| excerpt.line);
+        assert_eq!(place, Some(line), "{text:?}");
+    }
+    let other = select(&[], Some(0.02));
+    assert!(faults(&file(sizes, "1 2 3"), &other)[0].contains("`time_step` is 0.02, and the header says 0.01"));
+    // A last row that is filled with zeros.
+    assert_eq!(points(&file(sizes, "1 2\n3 0"), &select(&[], None)).len(), 3);
+    // All that is wrong is said at once, up to a limit.
+    let many = file("NPTS= 100, DT= 1", &"x\n".repeat(100));
+    assert_eq!(read("r.AT2", many.as_bytes(), &select(&[], None)).unwrap_err().len(), MOST_FAULTS);
+}
+
+#[test]
+fn a_million_points_take_less_than_a_second() {
+    let text: String = (0..1_000_000).map(|k| format!("{:.4},{:.6}\n", k as f64 * 0.005, (k as f64).sin())).collect();
+    let began = std::time::Instant::now();
+    let points = points(&text, &select(&[], None));
+    assert_eq!((points.len(), points[999_999][0]), (1_000_000, 4999.995));
+    // Half a second would be 0.5 µs a point, three times what it takes; the machine may be busy.
+    assert!(began.elapsed().as_secs_f64() < 3.0);
+}
