@@ -63,7 +63,8 @@ pub use table::text;
 use deck::Deck;
 use manifest::Manifest;
 use model::Model;
-use std::path::PathBuf;
+use run_all::Trial;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// The table of runs that a study writes.
@@ -95,7 +96,10 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
         }
     };
     let mut manifest = Manifest::begin(&options.folder, &[TABLE, PICTURE, ASKED, PAGE], &run_all::folders(&grid))?;
-    let (mut runs, stopped) = run_all::run_all(&grid, &quantities, options, &mut manifest, stop)?;
+    let once_run = &mut |_, _: &StudyRun, _: &Path| Ok(());
+    let trial = Trial { options, quantities: &quantities, samples: grid.samples, end: grid.end_time, once_run };
+    let (runs, stopped) = trial.run_all(&run_all::jobs(&grid, options), &mut manifest, stop)?;
+    let mut runs: Vec<StudyRun> = runs.into_iter().flatten().collect();
     let reference = match given {
         Some(given) => Ok(given.into()),
         None => reference::extrapolate(&grid, &runs, &quantities),

@@ -6,16 +6,13 @@ use super::grid::{SAMPLES, output};
 use super::history;
 use super::manifest::Manifest;
 use super::options::{AS_IT_IS, Options, RIGID, RUNS, StudyFault};
-use super::process::Program;
-use super::progress::StudyProgress;
 use super::run::{RunStatus, StudyRun};
-use super::run_all::program;
+use super::run_all::{Job, Trial};
 use base::diagnostic::Diagnostic;
 use deck::Deck;
 use deck::parts::DeckPart;
 use model::Model;
 use model::study::{Quantity, obstacle};
-use results::at;
 use results::table_reader::{TableReader, fields, number, text};
 use std::collections::HashMap;
 use std::io;
@@ -31,25 +28,6 @@ struct Candidate {
     name: String,
     /// The override that makes it rigid.
     set: Option<String>,
-}
-
-/// A deck to run: as it is, or with a part rigid.
-struct Job {
-    label: String,
-    /// The folder, below that of the study.
-    folder: String,
-    /// The overrides; `None` where the part cannot be rigid.
-    sets: Option<Vec<String>>,
-}
-
-/// How each job is run and what is kept of it.
-struct Trial<'a> {
-    program: Program,
-    options: &'a Options,
-    quantities: &'a [Quantity],
-    samples: usize,
-    end: f64,
-    time_step: f64,
 }
 
 /// For each part, by kind and name, the largest share in the elastic energy and that over all times.
@@ -70,11 +48,18 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
     let steps = (end / time_step + 1e-9).floor().max(1.0);
     let samples = asked.samples.unwrap_or(SAMPLES.min(steps as usize));
     let common = [output(&quantities, end / samples as f64, true), "expect=[]".to_owned()];
-    let jobs = jobs(&candidates, options, &common);
+    let jobs = jobs(&candidates, options, &common, time_step);
     let folders: Vec<String> = jobs.iter().map(|job| job.folder.clone()).collect();
     let mut manifest = Manifest::begin(&options.folder, &[TABLE], &folders)?;
-    let trial = Trial { program: program(options)?, options, quantities: &quantities, samples, end, time_step };
-    let (runs, shares, stopped) = trial.run_all(&jobs, &mut manifest, stop)?;
+    let mut shares = Shares::new();
+    let once_run = &mut |index, run: &StudyRun, place: &Path| {
+        if index == 0 {
+            shares = shares_of(run, place)?;
+        }
+        Ok(())
+    };
+    let trial = Trial { options, quantities: &quantities, samples, end, once_run };
+    let (runs, stopped) = trial.run_all(&jobs, &mut manifest, stop)?;
     let mut runs = runs.into_iter();
     let Some(base) = runs.next().flatten() else {
         let message = "stopped before the first run came to its end";
@@ -102,70 +87,15 @@ fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Re
 }
 
 /// The decks to run, first the deck as it is; `common` are the overrides of all of them.
-fn jobs(candidates: &[Candidate], options: &Options, common: &[String]) -> Vec<Job> {
+fn jobs(candidates: &[Candidate], options: &Options, common: &[String], time_step: f64) -> Vec<Job> {
     let sets = |own: &[String]| options.sets.iter().chain(own).chain(common).cloned().collect();
-    let base = Job { label: "as it is".to_owned(), folder: format!("{RUNS}/{AS_IT_IS}"), sets: Some(sets(&[])) };
-    let rigid = candidates.iter().enumerate().map(|(i, candidate)| Job {
-        label: format!("{} rigid", candidate.name),
-        folder: format!("{RUNS}/{RIGID}{}", i + 1),
-        sets: candidate.set.as_ref().map(|set| sets(std::slice::from_ref(set))),
+    let job = |label: String, folder: String, sets| Job { label, folder, setting: (0, time_step), work: 1.0, sets };
+    let base = job("as it is".to_owned(), format!("{RUNS}/{AS_IT_IS}"), Some(sets(&[])));
+    let rigid = candidates.iter().enumerate().map(|(i, candidate)| {
+        let own = candidate.set.as_ref().map(|set| sets(std::slice::from_ref(set)));
+        job(format!("{} rigid", candidate.name), format!("{RUNS}/{RIGID}{}", i + 1), own)
     });
     std::iter::once(base).chain(rigid).collect()
-}
-
-impl Trial<'_> {
-    /// Runs all jobs, each again and again in turn. Returns the runs, the shares in the energy of the first, and whether a signal
-    /// has ended it.
-    fn run_all(
-        &self,
-        jobs: &[Job],
-        manifest: &mut Manifest,
-        stop: &AtomicBool,
-    ) -> Result<(Vec<Option<StudyRun>>, Shares, bool), StudyFault> {
-        let repeats = self.options.repeats;
-        let mut runs: Vec<Option<StudyRun>> = vec![None; jobs.len()];
-        let mut shares = Shares::new();
-        let mut progress = StudyProgress::new(self.options.quiet, (repeats * jobs.len()) as f64);
-        let mut stopped = false;
-        'all: for repeat in 0..repeats {
-            for (index, job) in jobs.iter().enumerate() {
-                progress.show(&job.label, repeat + 1, repeats);
-                progress.did(1.0);
-                let Some(sets) = &job.sets else { continue };
-                if repeat > 0 && runs[index].as_ref().is_none_or(|run| self.is_enough(run, repeat)) {
-                    continue;
-                }
-                if repeat == 0 {
-                    manifest.note(&job.folder)?;
-                }
-                let place = self.options.folder.join(&job.folder);
-                std::fs::create_dir_all(&place).map_err(|error| at(&place, error))?;
-                let Some(ended) = self.program.run(sets, &place, stop)? else {
-                    stopped = true;
-                    break 'all;
-                };
-                let run = StudyRun::new(0, self.time_step, job.folder.clone(), &ended, &place)?;
-                match &mut runs[index] {
-                    Some(before) if run.status == RunStatus::Done => before.again(run.loop_s, ended.process_s),
-                    Some(_) => {}
-                    none => {
-                        let run = run.with_history(self.quantities, self.samples, self.end, &place);
-                        if index == 0 {
-                            shares = shares_of(&run, &place)?;
-                        }
-                        *none = Some(run);
-                    }
-                }
-            }
-        }
-        progress.finish();
-        Ok((runs, shares, stopped))
-    }
-
-    /// Whether a job needs no further repeat: it failed, or has taken the time that it may take.
-    fn is_enough(&self, run: &StudyRun, repeat: usize) -> bool {
-        run.status != RunStatus::Done || run.process_s * repeat as f64 > self.options.budget
-    }
 }
 
 /// The shares in the energy of the deck as it is, which must not be refused.
