@@ -3,6 +3,7 @@
 //!
 //! Lists of exceptions stand at the top of each file; they may only become shorter, and a test says when one has.
 
+mod budget;
 mod circles;
 mod kinds;
 mod names;

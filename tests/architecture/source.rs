@@ -46,6 +46,13 @@ pub fn room_of<'a>(crate_name: &'a str, next: Option<&'a str>) -> &'a str {
     next.filter(|name| holds(name)).unwrap_or(crate_name)
 }
 
+/// Lines of all sources below a folder of src.
+pub fn lines_below(folder: &str) -> usize {
+    let sources =
+        files(&root().join("src").join(folder)).into_iter().filter(|path| path.extension().is_some_and(|e| e == "rs"));
+    sources.map(|path| std::fs::read_to_string(path).expect("a file of text").lines().count()).sum()
+}
+
 /// A path of names from the root of all crates.
 pub type Names = Vec<String>;
 

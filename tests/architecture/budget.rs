@@ -1,0 +1,34 @@
+//! A budget of lines: what src may hold, crate by crate. Whoever raises a number says why in the commit; whoever deletes lowers it.
+
+use super::source::{CRATES, lines_below};
+
+/// Lines of the sources below src by crate, `program` for what lies beside them.
+const BUDGET: [(&str, usize); 10] = [
+    ("base", 6000),
+    ("linear", 4200),
+    ("mechanics", 27_900),
+    ("deck", 4200),
+    ("model", 20_700),
+    ("solve", 28_600),
+    ("results", 8000),
+    ("study", 4000),
+    ("sweep", 1500),
+    ("program", 4200),
+];
+
+#[test]
+fn crates_keep_to_their_budgets() {
+    let all = lines_below("");
+    let below: Vec<(&str, usize)> = CRATES.iter().map(|name| (*name, lines_below(name))).collect();
+    let program = all - below.iter().map(|(_, lines)| lines).sum::<usize>();
+    let mut beyond = Vec::new();
+    for ((name, lines), (listed, most)) in below.into_iter().chain([("program", program)]).zip(BUDGET) {
+        assert_eq!(name, listed, "the budget lists the crates in their order");
+        println!("{name:10} {lines:6} of {most:6} lines");
+        if lines > most {
+            beyond.push(format!("{name}: {lines} lines, {} more than its budget of {most}", lines - most));
+        }
+    }
+    println!("src        {all:6} of {:6} lines", BUDGET.iter().map(|(_, most)| most).sum::<usize>());
+    assert!(beyond.is_empty(), "src is larger than its budget in tests/architecture/budget.rs:\n{}", beyond.join("\n"));
+}
