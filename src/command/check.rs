@@ -4,15 +4,19 @@ use super::arguments::CheckArgs;
 use super::console::{complain, print, show};
 use super::exit::Exit;
 use super::load::{load, plan, too_large};
+use super::memory::Forecast;
 use super::signals::EndAtOnce;
 use super::watchers::stage_begins;
+use base::diagnostic::{Diagnostic, Source};
 use model::Model;
-use results::{listed, matrix_market, settle_cadence};
+use results::{listed, matrix_market, settle_cadence, wanted};
+use solve::Run;
 use solve::modes::SceneMatrices;
 use solve::plan::Plan;
-use solve::plan::explain::explain_costs;
+use solve::plan::explain::{Explanation, explain_costs};
 use solve::system::System;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 /// Prints the plan of a deck, with what it costs, on standard output; diagnostics go to standard error.
 ///
@@ -24,25 +28,48 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
     show(&loaded.warnings, &loaded.source);
     let (system, plan, warnings) = plan(&mut loaded, 1)?;
     show(&warnings, &loaded.source);
-    let (solver, _) = plan.build(&system).map_err(too_large)?;
-    let mut text = explain_costs(&plan, &loaded.model, &system, &solver);
+    let mut forecast = Forecast::begin();
+    let never = AtomicBool::new(false);
+    let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &never).map_err(too_large)?;
+    take(&mut forecast, &run, &loaded.model)?;
+    let mut text = explain_costs(&plan, &loaded.model, &system, run.solver());
     text.computed.push(("output", listed(&loaded.model, &plan)));
     if let Some(folder) = &args.export_matrices {
         text.computed.push(("matrices", export(folder, (&loaded.model, &system, &plan), &checking)?));
     }
     let path = &loaded.source.path;
     if loaded.model.analysis.stage.is_none() {
+        add_memory(&mut text, forecast.as_ref(), &loaded.source)?;
         return print(&format!("{path}: no errors\n{text}"));
     }
     let mut all = format!("{path}: no errors\n{}\n{text}", stage_begins(&loaded.model));
-    for model in &mut loaded.later {
+    // As in a run, the first stage keeps all but its matrix.
+    run.forget_matrix();
+    let last = loaded.later.len();
+    for (number, model) in (1..).zip(&mut loaded.later) {
         let (system, plan) = planned(model)?;
-        let (solver, _) = plan.build(&system).map_err(too_large)?;
-        let mut text = explain_costs(&plan, model, &system, &solver);
+        let stage = Run::new(model, &system, &plan, wanted(model), &never).map_err(too_large)?;
+        take(&mut forecast, &stage, model)?;
+        let mut text = explain_costs(&plan, model, &system, stage.solver());
         text.computed.push(("output", listed(model, &plan)));
+        if number == last {
+            add_memory(&mut text, forecast.as_ref(), &loaded.source)?;
+        }
         all += &format!("{}\n{text}", stage_begins(model));
     }
     print(&all)
+}
+
+/// Takes account of the memory of a run.
+fn take(forecast: &mut Option<Forecast>, run: &Run, model: &Model) -> Result<(), Exit> {
+    forecast.iter_mut().try_for_each(|forecast| forecast.take(run, model.nodes.len())).map_err(too_large)
+}
+
+/// Adds a line about the memory of the whole run, and warns where that may be too little.
+fn add_memory(text: &mut Explanation, forecast: Option<&Forecast>, source: &Source) -> Result<(), Exit> {
+    let Some(forecast) = forecast else { return Ok(()) };
+    text.computed.push(("memory", forecast.in_words()));
+    forecast.judge().map(|doubt| doubt.into_iter().for_each(|doubt| show(&[Diagnostic::warning(doubt)], source)))
 }
 
 /// Writes the matrices of the scene; says what was written.

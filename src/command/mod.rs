@@ -11,6 +11,7 @@ mod hint;
 mod init;
 mod instructions;
 mod load;
+mod memory;
 mod mesh_error;
 mod processor;
 mod recommend;

@@ -13,6 +13,7 @@ use super::console::{complain, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
 use super::load::{Loaded, Unfit, build, load, plan, prepare, too_large};
+use super::memory::{Forecast, require_memory};
 use super::mesh_error::{Judged, of_file, tell_mesh_error};
 use super::resume::{Begins, checkpoint_origin, deck_digest, resume};
 use super::signals::{EndAtOnce, end_with_input, stop_on_signals};
@@ -69,7 +70,9 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
     }
     loaded.warnings.extend(warnings);
     let stop = Arc::new(AtomicBool::new(false));
+    let forecast = Forecast::begin();
     let mut run = Run::new(&loaded.model, &system, &plan, wanted(&loaded.model), &stop).map_err(too_large)?;
+    loaded.warnings.extend(require_memory(forecast, &run, (&loaded, args.quiet))?);
     let apart = loaded.model.output.checkpoint;
     let checkpoints = CheckpointsWanted { origin, apart, keeps_last: apart.is_some() };
     let job = Job {

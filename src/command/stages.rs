@@ -256,7 +256,9 @@ impl StageRunner<'_> {
         // The stages to come have matrices of their own.
         run.forget_matrix();
         told.take(run, model, state.as_ref().map(|state| state.time));
-        if let (Outcome::Done, Some(state)) = (&outcome, &state) {
+        // A checkpoint in a later stage needs what this one leaves; after the last there is none.
+        let has_later = course.past.len() < self.loaded.later.len();
+        if let (Outcome::Done, Some(state), true) = (&outcome, &state, has_later) {
             let mut left = Snapshot::taken();
             run.keep_end(&mut left);
             course.past.push(PastStage { state: state.clone(), counts: told.counts, left: left.into_bytes() });

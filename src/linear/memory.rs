@@ -3,6 +3,7 @@
 use base::names::amount;
 use base::snapshot::{keep, keep_either};
 use std::fmt;
+use std::path::Path;
 
 /// Bytes for each unknown beside the numbers of a factorisation, at least: vectors of the solution, and lists of the structure. Whole runs of
 /// shells take about 1000 beside them, elements and what there is before the plan included.
@@ -70,8 +71,42 @@ pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
 }
 
-/// Bytes that programs may still take, as Linux says; none on other systems.
+/// Bytes that this program may still take, as Linux and its control group say; none on other systems.
 pub fn available() -> Option<f64> {
+    let free = free_of_machine()?;
+    Some(free_of_control_group().map_or(free, |left| left.min(free)))
+}
+
+/// Bytes that the limits of the control group of this process, and of those above it, still leave; none without a limit.
+fn free_of_control_group() -> Option<f64> {
+    let lines = std::fs::read_to_string("/proc/self/cgroup").ok()?;
+    let left = lines.lines().flat_map(|line| {
+        let mut fields = line.splitn(3, ':').skip(1);
+        let (controllers, path) = (fields.next().unwrap_or_default(), fields.next().unwrap_or_default());
+        // Version 2 has one hierarchy without a name, version 1 one for memory.
+        let (root, names) = match controllers {
+            "" => ("/sys/fs/cgroup", ["memory.max", "memory.current", "inactive_file"]),
+            "memory" => {
+                ("/sys/fs/cgroup/memory", ["memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file"])
+            }
+            _ => return Vec::new(),
+        };
+        let folders = Path::new(path.trim_start_matches('/')).ancestors();
+        folders.filter_map(|folder| left_by_group(&Path::new(root).join(folder), names)).collect()
+    });
+    left.reduce(f64::min)
+}
+
+/// Bytes that the limit in the folder of one control group leaves; what its files hold in memory and nobody uses is given back on demand.
+fn left_by_group(folder: &Path, [limit, used, spare]: [&str; 3]) -> Option<f64> {
+    let number = |name: &str| -> Option<f64> { std::fs::read_to_string(folder.join(name)).ok()?.trim().parse().ok() };
+    let stat = std::fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();
+    let spare = stat.lines().find_map(|line| line.strip_prefix(spare)?.trim().parse().ok()).unwrap_or(0.0);
+    Some((number(limit)? - number(used)? + spare).max(0.0))
+}
+
+/// Bytes that the machine may still give to programs.
+fn free_of_machine() -> Option<f64> {
     let text = std::fs::read_to_string("/proc/meminfo").ok()?;
     let kilobytes = |key: &str| -> Option<f64> {
         let line = text.lines().find_map(|line| line.strip_prefix(key))?;
@@ -83,6 +118,21 @@ pub fn available() -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Numbers of a folder with the files of version 2: a limit of 500, 300 in use, 120 of them files that nobody uses.
+    #[test]
+    fn a_control_group_leaves_its_limit_less_what_is_in_use() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = ["memory.max", "memory.current", "inactive_file"];
+        let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        assert_eq!(left_by_group(folder.path(), names), None);
+        write("memory.current", "300\n");
+        write("memory.stat", "anon 180\ninactive_file 120\n");
+        write("memory.max", "max\n");
+        assert_eq!(left_by_group(folder.path(), names), None);
+        write("memory.max", "500\n");
+        assert_eq!(left_by_group(folder.path(), names), Some(320.0));
+    }
 
     #[test]
     fn a_factor_beyond_all_memory_is_refused_in_words() {

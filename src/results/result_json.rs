@@ -307,10 +307,15 @@ pub fn mark(dir: &Path) -> io::Result<()> {
 
 /// The largest resident memory of this process so far, which Linux tells; `None` elsewhere.
 pub fn peak_memory_bytes() -> Option<u64> {
+    process_bytes("VmHWM:").map(|bytes| bytes as u64)
+}
+
+/// A size of this process by its name in `/proc/self/status`, in bytes; `None` where the system does not tell.
+pub fn process_bytes(name: &str) -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    let kilobytes: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
-    Some(1024 * kilobytes)
+    let line = status.lines().find_map(|line| line.strip_prefix(name))?;
+    let kilobytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024.0 * kilobytes)
 }
 
 #[cfg(test)]

@@ -21,6 +21,7 @@ mod initial_transient;
 mod jumps;
 mod linear_system;
 mod march;
+mod memory_ahead;
 pub mod modes;
 mod modes_at_end;
 mod no_convergence;

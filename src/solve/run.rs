@@ -173,6 +173,11 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// The solver of the matrix of a step.
+    pub fn solver(&self) -> &Solver {
+        &self.workspace.matrix.solver
+    }
+
     /// The effort of the run, once it has ended.
     pub fn counts(&self) -> Counts {
         self.recorder.counts

@@ -6,7 +6,7 @@ use crate::system::assembly::Assembly;
 use crate::system::{Loading, System};
 use crate::tolerances::linearized::ROUNDING;
 use base::math::{Vec3, Vec6};
-use linear::{Factorization, Solver, TooLarge};
+use linear::{Solver, TooLarge};
 use mechanics::state::{Node, State};
 use model::{DIRECTIONS, Model};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -36,10 +36,7 @@ impl Linearized<'_> {
     /// # Errors
     /// There is no memory for it.
     pub fn symmetric_solver(&self) -> Result<(Solver, Assembly), TooLarge> {
-        let Linearized { system, plan, .. } = self;
-        let solver = Solver::new(&plan.structure, Factorization::Cholesky, plan.threads)?;
-        let assembly = Assembly::new(system, &plan.dofs, &solver, plan.threads);
-        Ok((solver, assembly))
+        self.plan.build_symmetric(self.system)
     }
 
     /// Ends a search where the stop flag is raised.

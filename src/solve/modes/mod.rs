@@ -24,6 +24,7 @@ pub use fault::ModesFault;
 pub use linearized::Linearized;
 pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, ModeKind, Modes, Share};
+pub use response::complex_solver;
 pub use rest::{multipliers_at_rest, own_stiffnesses};
 pub use steady::{Response, ResponseRow, ResponseSoFar, Search};
 

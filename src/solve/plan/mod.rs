@@ -127,6 +127,16 @@ impl Plan {
         Ok((solver, assembly))
     }
 
+    /// The same with the symmetric part of the matrix, by a Cholesky factorisation.
+    ///
+    /// # Errors
+    /// As for [`Plan::build`].
+    pub fn build_symmetric(&self, system: &System) -> Result<(Solver, Assembly), TooLarge> {
+        let solver = Solver::new(&self.structure, linear::Factorization::Cholesky, self.threads)?;
+        let assembly = Assembly::new(system, &self.dofs, &solver, self.threads);
+        Ok((solver, assembly))
+    }
+
     /// The same with room for pairs of elements that wander.
     ///
     /// # Errors

@@ -17,6 +17,14 @@ struct Entry {
     values: [f64; 3],
 }
 
+/// A solver for complex matrices of this structure, as real ones of twice the size.
+///
+/// # Errors
+/// There is no memory.
+pub fn complex_solver(structure: &Structure) -> Result<Solver, TooLarge> {
+    Solver::new(&doubled(structure).0, Factorization::BlockLu, 1)
+}
+
 /// K + iωC − ω²M.
 pub struct DynamicStiffness {
     solver: Solver,
@@ -34,8 +42,8 @@ impl DynamicStiffness {
     /// # Errors
     /// There is no memory.
     pub fn new(structure: &Structure, matrices: &Matrices, joints: &Sparse) -> Result<DynamicStiffness, TooLarge> {
-        let (doubled, places) = doubled(structure);
-        let solver = Solver::new(&doubled, Factorization::BlockLu, 1)?;
+        let places = doubled(structure).1;
+        let solver = complex_solver(structure)?;
         let of = [&matrices.K, &matrices.C, &matrices.M, joints];
         let mut entries = Vec::new();
         let mut row_of = std::collections::BTreeMap::new();

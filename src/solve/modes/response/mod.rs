@@ -13,6 +13,8 @@ mod matrices;
 mod modal;
 mod resonance;
 
+pub use dynamic_stiffness::complex_solver;
+
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::mode::Modes;

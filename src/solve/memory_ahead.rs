@@ -1,0 +1,60 @@
+//! The memory that a run takes after it has been made: its state, and matrices that only some analyses need.
+
+use super::run::Run;
+use crate::modes::complex_solver;
+use crate::system::assembly::Assembly;
+use base::math::Vec6;
+use linear::{Solver, TooLarge};
+use mechanics::state::Node;
+use model::{ModeExtent, ResponseMethod};
+
+/// Modes that are kept at once where all below a frequency are asked for.
+const MODES_UP_TO: usize = 50;
+
+/// Matrices that a run will need, without numbers. Their memory is taken, but not touched.
+pub type MatricesAhead = Vec<(Solver, Option<Assembly>)>;
+
+impl Run<'_> {
+    /// The bytes of the state that steps move on, and of the vectors of modes.
+    pub fn state_bytes(&self) -> f64 {
+        let cx = &self.context;
+        let nodes = cx.model.nodes.len();
+        let numbers = cx.system.history + cx.system.multipliers() + cx.model.constraints.restraints.len();
+        let state = (size_of::<Node>() + 2 * size_of::<Vec6>()) * nodes + size_of::<f64>() * numbers;
+        let modes = cx.model.analysis.modes.as_ref().map_or(0, |asked| match asked.extent {
+            ModeExtent::Count(count) => count,
+            ModeExtent::UpTo(_) => MODES_UP_TO,
+        });
+        // A search keeps each vector and the product of the mass with it.
+        (state + 2 * size_of::<f64>() * modes * cx.plan.dofs.unknowns()) as f64
+    }
+
+    /// How many of the matrices that come later are there at once: a new one with room for other pairs in contact is made beside the old one.
+    pub fn copies_ahead(&self) -> f64 {
+        if self.context.system.wandering_groups().next().is_some() { 2.0 } else { 1.0 }
+    }
+
+    /// The matrices that the run makes later, as large as they are where all is at rest: with room for pairs in contact, and those of modes
+    /// and responses.
+    ///
+    /// # Errors
+    /// The memory does not hold them.
+    pub fn matrices_ahead(&self) -> Result<MatricesAhead, TooLarge> {
+        let cx = &self.context;
+        let mut all = MatricesAhead::new();
+        if !cx.plan.explicit && cx.system.wandering_groups().next().is_some() {
+            let partners = cx.system.partners(&self.workspace.trial);
+            let (solver, assembly) = cx.plan.build_with(cx.system, &partners)?;
+            all.push((solver, Some(assembly)));
+        }
+        let Some(asked) = &cx.model.analysis.modes else { return Ok(all) };
+        if !self.solver().is_symmetric() {
+            let (solver, assembly) = cx.plan.build_symmetric(cx.system)?;
+            all.push((solver, Some(assembly)));
+        }
+        if asked.response.as_ref().is_some_and(|asked| asked.method == ResponseMethod::Direct) {
+            all.push((complex_solver(&cx.plan.structure)?, None));
+        }
+        Ok(all)
+    }
+}
