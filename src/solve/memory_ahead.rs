@@ -1,4 +1,4 @@
-//! The memory that a run takes after it has been made: its state, and matrices that only some analyses need.
+//! Memory of a run after its construction: its state, and matrices of some analyses.
 
 use super::run::Run;
 use crate::modes::complex_solver;
@@ -6,7 +6,7 @@ use crate::system::assembly::Assembly;
 use base::math::Vec6;
 use linear::{Solver, TooLarge};
 use mechanics::state::Node;
-use model::{ModeExtent, ResponseMethod};
+use model::{AnalysisKind, ModeExtent, ResponseMethod};
 
 /// Modes that are kept at once where all below a frequency are asked for.
 const MODES_UP_TO: usize = 50;
@@ -21,10 +21,16 @@ impl Run<'_> {
         let nodes = cx.model.nodes.len();
         let numbers = cx.system.history + cx.system.multipliers() + cx.model.constraints.restraints.len();
         let state = (size_of::<Node>() + 2 * size_of::<Vec6>()) * nodes + size_of::<f64>() * numbers;
-        let modes = cx.model.analysis.modes.as_ref().map_or(0, |asked| match asked.extent {
-            ModeExtent::Count(count) => count,
+        let of_extent = |extent: &ModeExtent| match extent {
+            ModeExtent::Count(count) => *count,
             ModeExtent::UpTo(_) => MODES_UP_TO,
-        });
+        };
+        let modes = match &cx.model.analysis.kind {
+            AnalysisKind::Dynamic | AnalysisKind::Static => 0,
+            AnalysisKind::Modal(asked) => of_extent(&asked.extent),
+            AnalysisKind::Buckling(count) => *count,
+            AnalysisKind::Response(asked) => of_extent(&asked.extent),
+        };
         // A search keeps each vector and the product of the mass with it.
         (state + 2 * size_of::<f64>() * modes * cx.plan.dofs.unknowns()) as f64
     }
@@ -43,16 +49,20 @@ impl Run<'_> {
         let cx = &self.context;
         let mut all = MatricesAhead::new();
         if !cx.plan.explicit && cx.system.wandering_groups().next().is_some() {
-            let partners = cx.system.partners(&self.workspace.trial);
+            let partners = cx.system.partners(&self.workspace.trial.nodes);
             let (solver, assembly) = cx.plan.build_with(cx.system, &partners)?;
             all.push((solver, Some(assembly)));
         }
-        let Some(asked) = &cx.model.analysis.modes else { return Ok(all) };
+        if matches!(cx.model.analysis.kind, AnalysisKind::Dynamic | AnalysisKind::Static) {
+            return Ok(all);
+        }
         if !self.solver().is_symmetric() {
             let (solver, assembly) = cx.plan.build_symmetric(cx.system)?;
             all.push((solver, Some(assembly)));
         }
-        if asked.response.as_ref().is_some_and(|asked| asked.method == ResponseMethod::Direct) {
+        if let AnalysisKind::Response(asked) = &cx.model.analysis.kind
+            && asked.method == ResponseMethod::Direct
+        {
             all.push((complex_solver(&cx.plan.structure)?, None));
         }
         Ok(all)

@@ -4,6 +4,7 @@ mod around_a_run;
 mod cli;
 mod foreign_input;
 mod instructions;
+mod memory_forecast;
 mod resume;
 mod signals;
 mod strange_input;
