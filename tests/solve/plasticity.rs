@@ -54,6 +54,7 @@ kinematic_share = 0.5
 shape = "rectangle"
 width = 0.05
 height = 0.04
+shear_factor = 0.8333333333333334
 fibres = [4, 4]
 
 [points]
