@@ -146,7 +146,7 @@ impl<'a> Run<'a> {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }
         recorder.count_work(ws);
-        ws.warnings.extend(ws.slips.warning(cx));
+        ws.warn_of_friction(cx);
         (outcome.err().unwrap_or(Outcome::Done), Some(state))
     }
 

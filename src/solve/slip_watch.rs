@@ -2,27 +2,39 @@
 //! h F/m: each time the slip that follows is too long by that speed times its duration. Nothing is looked at without friction.
 
 use super::context::Context;
+use super::friction_warnings::SlipBegins;
+use super::throws::Throw;
 use super::warning::Warning;
-use crate::system::Rubbing;
+use crate::system::{FrictionPlace, friction_places, law_of, slip};
 use base::math::Vec3;
 use base::snapshot::keep;
 use mechanics::elements::slip::Slip;
 use mechanics::state::State;
-use model::{Contact, PartType, StepLength};
+use model::StepLength;
 
 /// The springs of friction of a scene.
 #[derive(Default)]
 pub struct SlipWatch {
     springs: Vec<Spring>,
+    throws: Vec<Throw>,
 }
 
-keep!(SlipWatch { springs });
+keep!(SlipWatch { springs, throws });
+
+/// The way from which a motion is one of the scene, where springs of friction give by `stick`.
+fn visible(cx: &Context, stick: f64) -> f64 {
+    const OF_LENGTH: f64 = 1e-3;
+    const OF_STRETCH: f64 = 10.0;
+    (OF_LENGTH * cx.length).max(OF_STRETCH * stick)
+}
 
 /// A spring of friction, with what it has slipped.
 #[derive(Default)]
 struct Spring {
     group: usize,
     element: usize,
+    /// True where what rubs touched at the end of the last step.
+    touched: bool,
     /// True once it has come to rest since it slipped last: slip that follows begins with speed zero.
     rests: bool,
     /// Its force at the end of the last step, the largest so far, and the force per stretch.
@@ -38,7 +50,7 @@ struct Spring {
     largest: f64,
 }
 
-keep!(Spring: Default { group, element, rests, pull, limit, stiffness, phase, way, farthest, error, largest });
+keep!(Spring: Default { group, element, touched, rests, pull, limit, stiffness, phase, way, farthest, error, largest });
 
 /// Slip in one direction.
 #[derive(Default, Clone)]
@@ -65,18 +77,33 @@ keep!(Phase: Default { along, counts, steps, last, first, duration, length, spee
 impl SlipWatch {
     /// Watches the springs of friction of a scene that moves.
     pub fn new(cx: &Context) -> SlipWatch {
-        let rubbing = if cx.is_dynamic() { cx.system.rubbing() } else { Vec::new() };
-        let spring = |Rubbing { group, element }| Spring { group, element, ..Spring::default() };
-        SlipWatch { springs: rubbing.into_iter().map(spring).collect() }
+        let rubbing = if cx.is_dynamic() { friction_places(cx.system) } else { Vec::new() };
+        let throws = Throw::of_contacts(cx, &rubbing);
+        let spring = |FrictionPlace { group, element }| Spring { group, element, ..Spring::default() };
+        SlipWatch { springs: rubbing.into_iter().map(spring).collect(), throws }
     }
 
     /// Takes account of a step of length `dt` to this state, from the history `before`.
     #[inline]
     pub fn note(&mut self, cx: &Context, before: &[f64], state: &State, dt: f64) {
         for spring in &mut self.springs {
-            let at = Rubbing { group: spring.group, element: spring.element };
-            spring.follow(&cx.system.slip(at, [before, &state.history], dt), dt);
+            let at = FrictionPlace { group: spring.group, element: spring.element };
+            let slip = slip(cx.system, at, [before, &state.history], dt);
+            spring.follow(&slip, dt);
+            if let Some(throw) = self.throws.iter_mut().find(|throw| throw.group == spring.group) {
+                throw.meet(&slip, spring.touched);
+            }
+            spring.touched = slip.touches;
         }
+        self.throws.iter_mut().for_each(|throw| throw.end_step(dt));
+    }
+
+    /// The warning of the contact that throws off what rests on it, where that slides so far meanwhile that it is seen.
+    pub fn throws(&self, cx: &Context) -> Option<Warning> {
+        let stick =
+            |group: usize| self.springs.iter().filter(|of| of.group == group).map(Spring::stick).fold(0.0, f64::max);
+        let seen = self.throws.iter().filter(|throw| throw.slid > visible(cx, stick(throw.group)));
+        seen.max_by(|a, b| a.slid.total_cmp(&b.slid))?.warning(cx)
     }
 
     /// The warning of the contact or joint whose slip has the largest error, in parts of the largest slip.
@@ -90,26 +117,24 @@ impl SlipWatch {
         let group = &cx.system.groups[worst.group];
         let of = group.part_of(worst.element, cx.model);
         let factor = part(worst) / LEFT;
-        let contact = Contact::of(of).and_then(|contact| contact.law);
+        let contact = law_of(cx.model, group).map(|(_, law)| law);
         let step = Some(cx.model.analysis.nominal_step())
             .filter(|_| matches!(cx.model.analysis.step_length, StepLength::Fixed { .. }));
-        Some(Warning::SlipBegins {
+        Some(Warning::SlipBegins(SlipBegins {
             name: of.name().to_owned(),
             error: worst.largest,
             farthest: worst.farthest,
             stiffness: contact.map(|law| [law.stiffness, law.stiffness * factor * factor]),
             stick: contact.is_none().then(|| worst.stick() / (factor * factor)),
             step: step.map(|step| step / factor),
-        })
+        }))
     }
 }
 
 impl Spring {
     /// True where it has slipped so far that its slip is a motion of the scene: not of what settles or hardly gives.
     fn is_seen(&self, cx: &Context) -> bool {
-        const OF_LENGTH: f64 = 1e-3;
-        const OF_STRETCH: f64 = 10.0;
-        self.farthest > (OF_LENGTH * cx.length).max(OF_STRETCH * self.stick())
+        self.farthest > visible(cx, self.stick())
     }
 
     /// What it gives before it slips.

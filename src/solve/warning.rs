@@ -1,5 +1,6 @@
 //! What a run has to say about its own results: they may not be the answer to the deck, or not to all of it.
 
+use super::friction_warnings::{ContactThrows, SlipBegins};
 use base::names::{short, to_digits};
 use base::snapshot::{keep, keep_either};
 use std::fmt;
@@ -91,21 +92,10 @@ pub enum Warning {
         /// The largest drift in radians.
         drift: f64,
     },
+    /// Steps that do not resolve a contact throw off what rests on it.
+    ContactThrows(ContactThrows),
     /// Slip begins anew with a speed that it should not have.
-    SlipBegins {
-        /// The name of the contact or joint.
-        name: String,
-        /// The error of what has slipped.
-        error: f64,
-        /// The largest slip.
-        farthest: f64,
-        /// The stiffness of a contact, and one that does.
-        stiffness: Option<[f64; 2]>,
-        /// A `stick` of a joint that does.
-        stick: Option<f64>,
-        /// A step that does, where the deck gives the step.
-        step: Option<f64>,
-    },
+    SlipBegins(SlipBegins),
     /// The critical time step is below that for which mass scaling has raised the masses of elements.
     ScaledStep {
         /// The critical time step that elements were given.
@@ -135,7 +125,8 @@ keep_either!(Warning {
     12 => ScaledStep { wanted, longest, label, cause },
     13 => RotationDrifts { label, direction, drift },
     14 => RunsPart { asked, difference },
-    15 => SlipBegins { name, error, farthest, stiffness, stick, step },
+    16 => ContactThrows(what),
+    15 => SlipBegins(what),
 });
 
 /// Where and how an equilibrium becomes unstable.
@@ -240,32 +231,6 @@ fn begins_closed(contact: &str, depth: f64) -> String {
     )
 }
 
-/// What is wrong where slip begins with a speed, by the error and the largest slip.
-fn slip_begins(
-    name: &str,
-    [error, farthest]: [f64; 2],
-    stiffness: Option<[f64; 2]>,
-    (stick, step): (Option<f64>, Option<f64>),
-) -> String {
-    let (what, remedy) = match (stiffness, stick) {
-        (Some([now, enough]), _) => {
-            ("contact", format!("`stiffness` = {} (now {})", to_digits(enough, 2), to_digits(now, 3)))
-        }
-        (None, stick) => ("joint", format!("`stick` = {}", to_digits(stick.unwrap_or_default(), 2))),
-    };
-    let step = step.map_or_else(
-        || ", and a smaller `error_tolerance`".to_owned(),
-        |step| format!(", and `time_step` = {}", to_digits(step, 2)),
-    );
-    format!(
-        "{what} `{name}`: after reversals slip begins with a speed that friction should not let it have, since its spring and the steps are too \
-         soft and too long. What has slipped has an error of about {}, {} % of the largest slip of {}. Give it {remedy}{step}",
-        to_digits(error, 2),
-        to_digits(100.0 * error / farthest, 2),
-        to_digits(farthest, 3)
-    )
-}
-
 /// What is wrong where a body touches more others than it remembers.
 fn crowded(contact: &str) -> String {
     format!(
@@ -345,9 +310,8 @@ impl fmt::Display for Warning {
                 f.write_str(&large_strain(name, *strain, *logarithmic))
             }
             Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
-            Warning::SlipBegins { name, error, farthest, stiffness, stick, step } => {
-                f.write_str(&slip_begins(name, [*error, *farthest], *stiffness, (*stick, *step)))
-            }
+            Warning::ContactThrows(what) => write!(f, "{what}"),
+            Warning::SlipBegins(what) => write!(f, "{what}"),
             Warning::Crowded { name } => f.write_str(&crowded(name)),
             Warning::ScaledStep { wanted, longest, label, cause } => {
                 f.write_str(&scaled_step([*wanted, *longest], label, cause))

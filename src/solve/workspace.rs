@@ -12,7 +12,7 @@ use crate::step::trial::TrialMotion;
 use crate::system::{Forces, Loading, Prescribed};
 use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};
-use mechanics::state::Node;
+use mechanics::state::{Node, State};
 
 /// The numbers of the step at hand.
 pub struct Workspace {
@@ -51,7 +51,7 @@ pub struct Workspace {
     /// What the run is warned of so far.
     pub warnings: Warnings,
     /// Slip that begins anew.
-    pub slips: SlipWatch,
+    slips: SlipWatch,
     /// What has been found of a frequency response.
     pub response: ResponseSoFar,
 }
@@ -160,6 +160,19 @@ impl Workspace {
     /// Places all nodes, those too that no step moves.
     pub fn place(&mut self, nodes: &[Node]) {
         [&mut self.trial, &mut self.end].into_iter().for_each(|motion| motion.nodes.copy_from_slice(nodes));
+    }
+}
+
+impl Workspace {
+    /// Takes account of slip in a step of length `dt` to this state, of which the history at its beginning is still at hand.
+    pub fn note_slip(&mut self, cx: &Context, state: &State, dt: f64) {
+        self.slips.note(cx, &self.history, state, dt);
+    }
+
+    /// Warns of friction that the run has not resolved.
+    pub fn warn_of_friction(&mut self, cx: &Context) {
+        self.warnings.extend(self.slips.throws(cx));
+        self.warnings.extend(self.slips.warning(cx));
     }
 }
 

@@ -14,6 +14,7 @@ mod faces;
 mod faces_alone;
 mod flat_on_mesh;
 mod folds;
+mod friction_reversals;
 mod impact;
 mod lines;
 mod lines_alone;
@@ -29,6 +30,7 @@ mod stages;
 mod stiffness;
 mod touch;
 mod two_coefficients;
+mod unresolved_contacts;
 
 use crate::support::{Done, read_deck, run_to_the_end};
 use rdsolve::solve::Frame;

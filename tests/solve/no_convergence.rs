@@ -91,29 +91,16 @@ amplitude = "ramp"
     assert!(text.contains("a limit load?"), "{text}");
 }
 
-/// A beam that one step bends by 5 m, or onto a stiff floor: iterates are lost far from every path, and their tangents prove nothing. The
+/// A beam that one step bends far, or onto a stiff floor: iterates are lost far from every path, and their tangents prove nothing. The
 /// message names the place and the bound on the steps, and the steps that it gives lead to the end.
 #[test]
 fn a_step_that_is_too_long_is_no_limit_load() {
-    for (force, more) in [(3000.0, ""), (3000.0, FLOOR), (300.0, FLOOR)] {
-        let deck = cantilever(force, "limit = 6", more);
+    for (force, limit, more) in [(3000.0, 20, ""), (300.0, 6, FLOOR)] {
+        let deck = cantilever(force, &format!("limit = {limit}"), more);
         let text = failure(&deck);
-        assert!(!text.contains("limit load"), "{text}");
-        assert!(text.contains("is out of balance in direction") || text.contains("corrections still shrink"), "{text}");
-        if text.contains("least_step") {
-            assert!(text.contains("`least_step` = 1 forbids shorter steps: give a hundredth of it, 0.01"), "{text}");
-            let (_, state, rest) = said(&deck.replace("least_step = 1.0", "least_step = 0.01"));
-            assert!(state.time > 0.0, "{:?}", rest.outcome);
-        }
+        assert!(!text.contains("limit load") && text.contains("is out of balance in direction"), "{text}");
+        assert!(text.contains("`least_step` = 1 forbids shorter steps: give a hundredth of it, 0.01"), "{text}");
+        let outcome = said(&deck.replace("least_step = 1.0", "least_step = 0.01")).2.outcome;
+        assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
     }
-}
-
-/// Corrections that still shrink when the iterations are used up: the number of iterations that the message gives does.
-#[test]
-fn iterations_that_are_too_few_are_counted() {
-    let deck = |limit: usize| cantilever(10.0, &format!("limit = {limit}"), "");
-    let text = failure(&deck(3));
-    let enough = text.split("`limit` = ").nth(1).and_then(|rest| rest.split(' ').next()).expect(&text).parse().unwrap();
-    let outcome = said(&deck(enough)).2.outcome;
-    assert!(matches!(outcome, Outcome::Done), "{enough}: {outcome:?}");
 }

@@ -13,6 +13,10 @@ pub struct Slip {
     pub stiffness: f64,
     /// False where what rubs is apart at the end of the step.
     pub touches: bool,
+    /// The way along each other in a step that ends apart.
+    pub apart: f64,
+    /// The speed of approach at the two ends of the step, negative where the two part; infinite at the start where it is not known.
+    pub approach: [f64; 2],
 }
 
 /// A group of elements with springs of friction whose slip is known.

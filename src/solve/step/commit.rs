@@ -76,7 +76,7 @@ pub fn commit(
     std::mem::swap(&mut state.nodes, &mut ws.end.nodes);
     state.time = to;
     cx.system.remember_joint_loads(state, dt);
-    ws.slips.note(cx, &ws.history, state, dt);
+    ws.note_slip(cx, state, dt);
 }
 
 /// As [`commit`] for explicit steps, whose trial motion is that at the end.

@@ -79,10 +79,10 @@ impl StepProgress {
         self.report.iterations >= self.limit
     }
 
-    /// The number of iterations that would do, with half as many to spare, where corrections still shrink and ten times the limit is enough.
+    /// The number of iterations that would do, with half as many to spare, where corrections still shrink and twice the limit is enough.
     pub fn enough(&self) -> Option<usize> {
         let needed = 1.5 * (self.report.iterations as f64 + self.remaining);
-        (needed <= 10.0 * self.limit as f64).then(|| needed.ceil() as usize)
+        (needed <= 2.0 * self.limit as f64).then(|| needed.ceil() as usize)
     }
 
     /// Judges convergence to this relative `tolerance`. Where material yields, one contraction says little of the next, and what is small

@@ -3,7 +3,7 @@
 use super::equations::System;
 use super::group::Group;
 use base::math::Vec3;
-use mechanics::elements::contact::{self, PairBlock};
+use mechanics::elements::contact::{self, ContactLaw, PairBlock};
 use mechanics::elements::{Partners, Wandering};
 use mechanics::state::{Configuration, Node, State};
 use model::{CarriedSurface, Contact, Model, PartType, TouchedSurface};
@@ -55,6 +55,12 @@ fn resultant(block: &dyn PairBlock, contact: &Contact, now: &Configuration) -> (
         (f, m) = (-f, -(m + now.nodes[node].x.cross(&f)));
     }
     (count, [f, m])
+}
+
+/// The name and the law of the contact that a group is of; `None` for other groups, and for monitors.
+pub fn law_of<'m>(model: &'m Model, group: &Group) -> Option<(&'m str, ContactLaw)> {
+    let contact = Contact::of(&model.parts[group.part])?;
+    Some((&contact.name, contact.law?))
 }
 
 /// The least gap of a contact at the start of a step, by its history, where all of it is open; `None` for other groups.

@@ -51,7 +51,7 @@ pub mod inner {
 }
 
 pub use carry::carry_history;
-pub use contacts::{ContactState, ContactTouch, open_gap};
+pub use contacts::{ContactState, ContactTouch, law_of, open_gap};
 pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};
 pub use excitation::{Excitation, Prescribed, between};
@@ -67,6 +67,6 @@ pub use parts::links::LinkState;
 pub use parts::shell_shear::ShearBalance;
 pub use parts::shells::ShellState;
 pub use scale::Scale;
-pub use sliding::Rubbing;
+pub use sliding::{FrictionPlace, friction_places, slip};
 pub use tangent_weights::TangentWeights;
 pub use turning_body::{TurningBody, TurningStart};

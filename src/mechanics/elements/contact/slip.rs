@@ -1,7 +1,7 @@
 //! Slip of points and of pairs of solids in a step, from their histories at its two ends.
 
 use super::convex::ConvexPairs;
-use super::history;
+use super::history::{self, PointHistory};
 use super::kinematics::Contacts;
 use crate::elements::slip::{Sliding, Slip};
 use base::math::Vec3;
@@ -13,11 +13,10 @@ impl Sliding for Contacts {
     }
 
     fn slip(&self, e: usize, histories: [&[f64]; 2], _dt: f64) -> Slip {
-        let [old, new] = histories.map(|of| history::of(self, e, of));
-        let slips = new.is_known() && new.slip_speed() > 0.0;
-        let way = if slips && old.is_known() { new.anchor() - old.anchor() } else { Vec3::zeros() };
-        let touches = new.is_known() && new.gap() <= 0.0;
-        Slip { way, pull: if touches { new.friction_force() } else { 0.0 }, stiffness: self.law.stiffness, touches }
+        let [old, new] = histories.map(|history| history::of(self, e, history));
+        let moved = if new.is_known() && old.is_known() { new.anchor() - old.anchor() } else { Vec3::zeros() };
+        let way = if new.slip_speed() > 0.0 { moved } else { Vec3::zeros() };
+        slip([old, new], self.law.stiffness, [way, moved])
     }
 }
 
@@ -26,12 +25,23 @@ impl Sliding for ConvexPairs {
         self.law.friction > 0.0
     }
 
-    fn slip(&self, e: usize, [_, new]: [&[f64]; 2], dt: f64) -> Slip {
-        let (new, memory) = self.friction_of(e, new);
-        let touches = new.is_known() && new.gap() <= 0.0;
+    fn slip(&self, e: usize, histories: [&[f64]; 2], dt: f64) -> Slip {
+        let [(old, before), (new, memory)] = histories.map(|history| self.friction_of(e, history));
         // Friction acts along the slip.
         let along = memory.stretch.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
-        let pull = if touches { new.friction_force() } else { 0.0 };
-        Slip { way: memory.slip_speed * dt * along, pull, stiffness: self.law.stiffness, touches }
+        let moved = if new.is_known() && old.is_known() { memory.y - before.y } else { Vec3::zeros() };
+        slip([old, new], self.law.stiffness, [memory.slip_speed * dt * along, moved])
     }
+}
+
+/// The slip in a step between two histories, by its way where the two touch and by their motion `moved` where they are apart.
+fn slip([old, new]: [PointHistory; 2], stiffness: f64, [way, moved]: [Vec3; 2]) -> Slip {
+    let rate = |at: PointHistory| if at.is_known() { at.rate() } else { f64::INFINITY };
+    let approach = [rate(old), rate(new)];
+    if new.is_known() && new.gap() <= 0.0 {
+        return Slip { way, pull: new.friction_force(), stiffness, touches: true, apart: 0.0, approach };
+    }
+    let rise = new.gap() - old.gap();
+    let apart = (moved.norm_squared() - rise * rise).max(0.0).sqrt();
+    Slip { way: Vec3::zeros(), pull: 0.0, stiffness, touches: false, apart, approach }
 }

@@ -84,7 +84,13 @@ impl Sliding for CoordinateSprings {
         let friction = self.springs[e].law.friction_after(0.0, new);
         let pull = friction.map_or(0.0, |friction| friction.stiffness * friction.stretch(new[0], new[ANCHOR]).0.abs());
         let way = Vec3::new(new[ANCHOR] - old[ANCHOR], 0.0, 0.0);
-        Slip { way, pull, stiffness: friction.map_or(0.0, |friction| friction.stiffness), touches: true }
+        Slip {
+            way,
+            pull,
+            stiffness: friction.map_or(0.0, |friction| friction.stiffness),
+            touches: true,
+            ..Slip::default()
+        }
     }
 }
 

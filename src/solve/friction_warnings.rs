@@ -1,0 +1,78 @@
+//! What a run says of friction that steps or stiffnesses do not resolve.
+
+use base::names::to_digits;
+use base::snapshot::keep;
+use std::fmt;
+
+/// Steps that do not resolve a contact throw off what rests on it.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ContactThrows {
+    /// The name of the contact.
+    pub name: String,
+    /// The largest speed with which it parts.
+    pub speed: f64,
+    /// The way that it slides while it is apart.
+    pub slid: f64,
+    /// The stiffness, and one that steps resolve.
+    pub stiffness: [f64; 2],
+    /// The step, and one that resolves the contact.
+    pub step: [f64; 2],
+}
+
+keep!(ContactThrows: Default { name, speed, slid, stiffness, step });
+
+/// Slip begins anew with a speed that it should not have.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SlipBegins {
+    /// The name of the contact or joint.
+    pub name: String,
+    /// The error of what has slipped.
+    pub error: f64,
+    /// The largest slip.
+    pub farthest: f64,
+    /// The stiffness of a contact, and one that does.
+    pub stiffness: Option<[f64; 2]>,
+    /// A `stick` of a joint that does.
+    pub stick: Option<f64>,
+    /// A step that does, where the deck gives the step.
+    pub step: Option<f64>,
+}
+
+keep!(SlipBegins: Default { name, error, farthest, stiffness, stick, step });
+
+impl fmt::Display for ContactThrows {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let [now, enough] = self.stiffness.map(|k| to_digits(k, 2));
+        let [long, short] = self.step.map(|dt| to_digits(dt, 2));
+        write!(
+            f,
+            "contact `{}`: steps of {long} do not resolve its stiffness of {now}. They throw off what rests on it at a speed of up to {}, and it \
+             slides by {} while it is apart, where friction would hold it. Give a `stiffness` of {enough}, a `time_step` of {short}, or \
+             `restitution` = 0",
+            self.name,
+            to_digits(self.speed, 2),
+            to_digits(self.slid, 2)
+        )
+    }
+}
+
+impl fmt::Display for SlipBegins {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let (what, remedy) = match (self.stiffness, self.stick) {
+            (Some([now, enough]), _) => {
+                ("contact", format!("`stiffness` = {} (now {})", to_digits(enough, 2), to_digits(now, 3)))
+            }
+            (None, stick) => ("joint", format!("`stick` = {}", to_digits(stick.unwrap_or_default(), 2))),
+        };
+        let step = self.step.map_or_else(String::new, |step| format!(", and `time_step` = {}", to_digits(step, 2)));
+        write!(
+            f,
+            "{what} `{}`: after reversals slip begins with a speed that friction should not let it have, since its spring and the steps are too \
+             soft and too long. What has slipped has an error of up to about {}, {} % of the largest slip of {}. Give it {remedy}{step}",
+            self.name,
+            to_digits(self.error, 2),
+            to_digits(100.0 * self.error / self.farthest, 2),
+            to_digits(self.farthest, 3)
+        )
+    }
+}
