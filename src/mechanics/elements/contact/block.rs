@@ -1,7 +1,7 @@
 //! Points against a surface as a block of elements.
 
 use super::force::touch;
-use super::history::{self, PointHistory, PointHistoryMut};
+use super::history::{PairMemory, PairMemoryMut};
 use super::kinematics::Contacts;
 use super::law::ContactLaw;
 use super::multipliers::augment;
@@ -13,6 +13,7 @@ use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
+use base::math::Vec3;
 
 impl ElementBlock for Contacts {
     fn len(&self) -> usize {
@@ -32,7 +33,7 @@ impl ElementBlock for Contacts {
     }
 
     fn history(&self) -> usize {
-        history::width(self) * self.points.len()
+        self.width() * self.points.len()
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
@@ -48,8 +49,8 @@ impl ElementBlock for Contacts {
 
     fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
         let mut spent = Dissipation::default();
-        for (e, new) in history.chunks_exact_mut(history::width(self)).enumerate() {
-            spent += update_point(self, e, now, part, &mut PointHistoryMut::new(new));
+        for (e, new) in history.chunks_exact_mut(self.width()).enumerate() {
+            spent += update_point(self, e, now, part, &mut PairMemoryMut(new));
         }
         spent
     }
@@ -62,7 +63,7 @@ impl ElementBlock for Contacts {
         if now.history.is_empty() {
             return true;
         }
-        let old = history::of(self, e, now.history);
+        let old = self.memory(e, now.history);
         let gap = || self.kinematics(&self.points[e], now.nodes).gap + self.inset(old);
         now.dt < old.safe_time() || self.is_idle(old) || gap() - old.lift(&self.law) > self.law.touching
     }
@@ -93,22 +94,21 @@ impl PairBlock for Contacts {
         for (e, point) in self.points.iter().enumerate() {
             let Some((at, acting)) = touch(self, e, now) else { continue };
             let (f, m) = (at.R * acting.F, at.R * acting.M);
-            let moment = -(at.d.cross(&f) + m);
             let T = acting.friction.map_or(0.0, |friction| friction.T.norm_squared());
             act(&PairAction {
                 sides: [point.side(), PairSide::of_node(&self.carrier)],
                 F: f,
-                M: [m, moment],
+                M: [m, -(at.d.cross(&f) + m)],
+                arm: Vec3::zeros(),
                 less: None,
                 // Multipliers do no work.
                 stored: if self.has_multipliers() { 0.0 } else { 0.5 * k * at.gap * at.gap + 0.5 * T / k },
-                moment,
             });
         }
     }
 
-    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
-        history::each(self, history).any(|old| old.is_known() && is(old))
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool {
+        history.chunks_exact(self.width()).map(PairMemory).any(|old| old.is_known() && is(old))
     }
 
     fn misses(&self, start: &[Node], now: &Configuration) -> bool {

@@ -4,7 +4,7 @@
 //! flat all are equally deep, and nodes lie under it as the mesh happens to be: if they pressed too, they would turn it. A node therefore
 //! presses once it is deeper than any corner that is pushed back in its own direction, and then by what it is deeper from there on.
 
-use super::history::{PointHistory, PointHistoryMut};
+use super::history::{PairMemory, PairMemoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
 use super::nearest_corner::NearestCorner;
 use super::normal_motion::safe_time;
@@ -18,14 +18,14 @@ const ROUNDING: f64 = 1e-9;
 impl Contacts {
     /// The depth at which the spring of a point begins.
     #[inline]
-    pub(super) fn inset(&self, old: PointHistory) -> f64 {
-        old.inset(self.keeps_inset()).max(0.0)
+    pub(super) fn inset(&self, old: PairMemory) -> f64 {
+        old.inset(&self.law).max(0.0)
     }
 
     /// True for a node that does not press, because a corner is deeper.
     #[inline]
-    pub(super) fn is_idle(&self, old: PointHistory) -> bool {
-        self.corners.is_some() && (!old.is_known() || old.inset(true) < 0.0)
+    pub(super) fn is_idle(&self, old: PairMemory) -> bool {
+        self.corners.is_some() && (!old.is_known() || old.inset(&self.law) < 0.0)
     }
 
     /// Writes the depth at which the spring of a point begins, `inset` by its own motion; the gap of one that is idle is that to the surface.
@@ -34,30 +34,30 @@ impl Contacts {
         at: &ContactKinematics,
         inset: f64,
         now: &Configuration,
-        old: PointHistory,
-        new: &mut PointHistoryMut,
+        old: PairMemory,
+        new: &mut PairMemoryMut,
     ) {
-        let Some(corners) = &self.corners else { return new.set_inset(self.keeps_inset(), inset) };
+        let Some(corners) = &self.corners else { return new.set_inset(&self.law, inset) };
         let was_idle = self.is_idle(old);
         if !was_idle && at.gap < 0.0 {
-            return new.set_inset(true, inset);
+            return new.set_inset(&self.law, inset);
         }
         let gap = at.gap - self.inset(old);
         // What cannot come to touch in the next steps is not asked for.
         let is_far = self.law.dynamic && gap > 4.0 * now.dt * at.w.norm() && gap > 0.0;
         if is_far || !self.leads(&**corners, at, gap, now.nodes) {
-            new.set_inset(true, -1.0);
+            new.set_inset(&self.law, -1.0);
             self.set_gap(gap, at, new);
             return;
         }
         // What is inside as the motion begins is pushed out; later nothing jumps.
         let inset = if !was_idle || now.dt <= 0.0 { inset.min(-gap).max(0.0) } else { (-gap).max(0.0) };
-        new.set_inset(true, inset);
+        new.set_inset(&self.law, inset);
         self.set_gap(gap + inset, at, new);
     }
 
     /// Writes the gap to where the spring begins from now on, and the time in which that cannot close.
-    fn set_gap(&self, gap: f64, at: &ContactKinematics, new: &mut PointHistoryMut) {
+    fn set_gap(&self, gap: f64, at: &ContactKinematics, new: &mut PairMemoryMut) {
         new.set_gap(gap);
         new.set_safe_time(safe_time(&self.law, gap, at.w.norm()));
     }

@@ -1,10 +1,10 @@
 //! The forces on a point in contact: normal and friction force.
 
 use super::friction::{FrictionForce, friction_force};
-use super::history::{self, PointHistory};
+use super::history::PairMemory;
 use super::kinematics::{ContactKinematics, Contacts};
 use super::point::ContactPoint;
-use super::restitution::{NormalForce, normal_force};
+use super::restitution::NormalForce;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
@@ -25,27 +25,18 @@ pub(super) fn contact_force(
     contacts: &Contacts,
     point: &ContactPoint,
     at: &ContactKinematics,
-    old: PointHistory,
+    old: PairMemory,
     nodes: &[Node],
 ) -> ContactForce {
-    let (known, law) = (old.is_known(), &contacts.law);
-    let rate = at.rate();
-    let speed = match known {
-        true if old.gap() <= 0.0 => old.impact_speed().max(rate),
-        // The point is faster now than in the last state where something presses from rest.
-        true => old.rate().max(rate),
-        false => rate,
-    };
-    let (depth, inset) = ((old.lift(law) - at.gap).max(0.0), contacts.inset(old));
-    let normal = normal_force(law.stiffness, &law.loss, depth, inset, rate, speed);
-    let n = &at.closest.n;
-    if law.friction == 0.0 || !known {
+    let (law, n) = (&contacts.law, &at.closest.n);
+    let normal = law.press((old.lift(law) - at.gap).max(0.0), contacts.inset(old), at.rate(), old);
+    if law.friction == 0.0 || !old.is_known() {
         return ContactForce { normal, friction: None, F: normal.force * n, M: Vec3::zeros() };
     }
     let mut phi = Vec3::zeros();
     if point.rolling_radius > 0.0 {
         for k in 0..contacts.count {
-            phi += point.weights[k] * history::rotation_since(contacts, point, k, old, nodes);
+            phi += point.weights[k] * contacts.rotation_since(point, k, old, nodes);
         }
     }
     let from_anchor = at.p - old.anchor();
@@ -69,7 +60,7 @@ pub(super) fn contact_force(
 /// The kinematics of point `e` and the forces on it; `None` where it is not in contact or known to be far.
 #[inline]
 pub(super) fn touch(contacts: &Contacts, e: usize, now: &Configuration) -> Option<(ContactKinematics, ContactForce)> {
-    let old = history::of(contacts, e, now.history);
+    let old = contacts.memory(e, now.history);
     if now.dt < old.safe_time() {
         return None;
     }

@@ -1,11 +1,13 @@
 //! The position and motion of points relative to a surface.
 
+use super::history::{PairMemory, of_points, width};
 use super::law::ContactLaw;
 use super::nearest_corner::NearestCorner;
 use super::point::{ContactPoint, MOST_NODES};
 use super::surface::Surface;
 use super::surfaces::kind::ClosestPoint;
 use crate::state::Node;
+use base::math::rotation::{log, renormalise};
 use base::math::{Mat3, Vec3};
 use nalgebra::Quaternion;
 use std::sync::Arc;
@@ -74,9 +76,16 @@ impl Contacts {
         Contacts { corners: Some(corners), ..self }
     }
 
-    /// True where the depth at which a spring begins is remembered.
-    pub(super) fn keeps_inset(&self) -> bool {
-        self.law.keeps_inset() || self.corners.is_some()
+    /// Number of history variables of a point.
+    pub(super) fn width(&self) -> usize {
+        width(&self.law, of_points(if self.rolls { self.count } else { 0 }))
+    }
+
+    /// The memory of point `e` in the history of the block, which must not be empty.
+    #[inline]
+    pub(super) fn memory<'a>(&self, e: usize, history: &'a [f64]) -> PairMemory<'a> {
+        let width = self.width();
+        PairMemory(&history[e * width..(e + 1) * width])
     }
 
     /// Position and velocity relative to the carrier, global components.
@@ -104,6 +113,11 @@ impl Contacts {
     /// Rotation of a node relative to the surface.
     pub(super) fn relative_rotation(&self, node: usize, nodes: &[Node]) -> Quaternion<f64> {
         nodes[self.carrier].rotation.conjugate() * nodes[node].rotation
+    }
+
+    /// Rotation vector of the k-th node of a point relative to the surface, from the remembered rotation to the present one.
+    pub(super) fn rotation_since(&self, point: &ContactPoint, k: usize, old: PairMemory, nodes: &[Node]) -> Vec3 {
+        log(&renormalise(&(self.relative_rotation(point.nodes[k], nodes) * old.rotation(k).conjugate())))
     }
 
     /// A distance from the carrier beyond which nothing touches.

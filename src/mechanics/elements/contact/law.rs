@@ -1,6 +1,8 @@
 //! The numbers of a contact law.
 
-use super::restitution::Loss;
+use super::history::PairMemory;
+use super::restitution::{Loss, NormalForce, normal_force};
+use base::math::Vec3;
 
 /// The parameters of a contact law.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,6 +42,34 @@ impl ContactLaw {
             return self.friction;
         }
         self.kinetic + (self.friction - self.kinetic) * (-self.decay * slip_speed).exp()
+    }
+
+    /// The normal force of a spring that begins at a depth `inset` and is pressed in by a `depth`, of a pair with this memory.
+    #[inline]
+    pub(super) fn press(&self, depth: f64, inset: f64, rate: f64, old: PairMemory) -> NormalForce {
+        let speed = match old.is_known() {
+            true if old.gap() <= 0.0 => old.impact_speed().max(rate),
+            // It is faster now than in the last state where something presses from rest.
+            true => old.rate().max(rate),
+            false => rate,
+        };
+        normal_force(self.stiffness, &self.loss, depth, inset, rate, speed)
+    }
+
+    /// True where a pair that was apart lands in a step of length `dt`, which does not resolve the impact: see [`ContactLaw::resolution`].
+    pub(super) fn lands_unresolved(&self, old: PairMemory, depth: f64, dt: f64) -> bool {
+        let fast = 3.0 * self.floor;
+        dt > self.resolution && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * self.resolution)
+    }
+
+    /// The friction with which a pair begins of which nothing is known, under a normal force, and its slip speed: what slides at t = 0 has been
+    /// sliding, and its spring is stretched. Not what slides no faster than its weight makes it.
+    pub(super) fn begun(&self, force: f64, slip: &Vec3) -> (Vec3, f64) {
+        let speed = slip.norm();
+        match speed > self.floor {
+            true => (self.friction_at(speed) * force * (slip / speed), speed),
+            false => (Vec3::zeros(), 0.0),
+        }
     }
 
     /// True where the spring of the normal force may begin at a depth of its own, which is remembered.

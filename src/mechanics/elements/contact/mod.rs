@@ -13,11 +13,14 @@
 //! its force and moment go to them by the same weights. Closed forms do for these surfaces: normals and curvature are
 //! exact, nothing is iterated, and a general collision library would bring neither.
 //!
-//! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force` what acts
-//! on it (`restitution` normal to the surface, `friction` along it), `tangent` the derivatives of that; `history` and `update`
-//! keep what a point remembers of the way it came; `corners` says which nodes of a mesh press a solid that lies on it; `multipliers` put
-//! numbers of their own in the place of springs where a load step asks for no depth; `steps` bounds the steps; `pair_block` is what the equations see of
-//! this and of all other blocks of pairs, `block` how points answer to it, `gap` what is shown of those that do not touch. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
+//! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force`
+//! what acts on it, `tangent` the derivatives of that; `block` shows it to the equations, and `steps` bounds the steps. `corners` says
+//! which nodes of a mesh press a solid that lies on it; `multipliers` put numbers of their own in the place of springs where a load step
+//! asks for no depth. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
+//!
+//! These files serve all three: `pair_block` is what the equations see of any block of pairs; `law` and `restitution` are the normal force,
+//! `friction` the force along the surface; `history` is the memory of a pair, and `normal_motion` writes it; `near_lists` and `grid` find
+//! what is near, `segments` the nearest points of two lines; `gap` is the distance of what does not touch.
 
 mod block;
 pub mod convex;
@@ -31,11 +34,13 @@ mod history;
 mod kinematics;
 mod law;
 mod multipliers;
+mod near_lists;
 mod nearest_corner;
 mod normal_motion;
 mod pair_block;
 mod point;
 pub mod restitution;
+mod segments;
 mod slip;
 mod steps;
 pub mod surface;

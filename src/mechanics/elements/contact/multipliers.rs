@@ -7,7 +7,7 @@
 //! p₀ − T/k, and the next equilibrium slips as far as μN demands, or not at all.
 
 use super::force::touch;
-use super::history::{self, PointHistoryMut};
+use super::history::PairMemoryMut;
 use super::kinematics::Contacts;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
@@ -18,9 +18,9 @@ pub(super) fn augment(contacts: &Contacts, start: &[Node], now: &Configuration, 
     let law = &contacts.law;
     let Some(tolerance) = law.tolerance else { return 0.0 };
     let mut most = 0.0f64;
-    for (e, numbers) in new.chunks_exact_mut(history::width(contacts)).enumerate() {
-        let old = history::of(contacts, e, now.history);
-        let mut new = PointHistoryMut::new(numbers);
+    for (e, numbers) in new.chunks_exact_mut(contacts.width()).enumerate() {
+        let old = contacts.memory(e, now.history);
+        let mut new = PairMemoryMut(numbers);
         let touching = touch(contacts, e, now);
         let lift = touching.as_ref().map_or(0.0, |(_, acting)| acting.normal.force / law.stiffness);
         most = most.max((lift - old.lift(law)).abs());

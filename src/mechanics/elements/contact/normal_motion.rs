@@ -1,6 +1,6 @@
 //! The motion of a point, or of a pair of convex solids, along the normal: how its history goes on from the last state.
 
-use super::history::{PointHistory, PointHistoryMut};
+use super::history::{PairMemory, PairMemoryMut};
 use super::law::ContactLaw;
 use super::restitution::{normal_force, taken_over};
 use crate::materials::Dissipation;
@@ -36,33 +36,63 @@ pub(super) fn pass_over(
     law: &ContactLaw,
     (distance, speed): (f64, f64),
     now: &Configuration,
-    old: PointHistory,
-    new: &mut PointHistoryMut,
+    old: PairMemory,
+    new: &mut PairMemoryMut,
 ) -> Option<Dissipation> {
     let far = safe_time(law, distance, speed);
     if !(far > 4.0 * now.dt && now.dt > 0.0 && old.impact_speed() == 0.0) {
         return None;
     }
     new.set_far(far);
-    let pull = if law.friction > 0.0 { old.friction_force() } else { 0.0 };
-    Some(Dissipation { friction: 0.5 * pull * pull / law.stiffness, ..Dissipation::default() })
+    Some(Dissipation { friction: let_go(law, old), ..Dissipation::default() })
+}
+
+/// The energy of the spring of friction, which lets go. Multipliers store none.
+pub(super) fn let_go(law: &ContactLaw, old: PairMemory) -> f64 {
+    if law.friction == 0.0 || law.tolerance.is_some() {
+        return 0.0;
+    }
+    let pull = old.friction_force();
+    0.5 * pull * (pull / law.stiffness)
+}
+
+/// What a pair loses that is forgotten: the spring of friction lets go, and damping ends.
+pub(super) fn lost(law: &ContactLaw, old: PairMemory, way: f64) -> Dissipation {
+    let impact = 0.5 * way * old.damping_power();
+    Dissipation { friction: let_go(law, old), impact, ..Dissipation::default() }
+}
+
+/// Writes the friction force and the slip speed after `part` of the way from the last state to that where it is `pull` and has slipped by
+/// `slip` in the time `dt`; returns what slip dissipates, where it began under the force `begin`.
+pub(super) fn update_slip(
+    [pull, slip, begin]: [f64; 3],
+    (dt, part): (f64, f64),
+    old: PairMemory,
+    new: &mut PairMemoryMut,
+) -> f64 {
+    let end = old.friction_force() + part * (pull - old.friction_force());
+    new.set_friction_force(end);
+    new.set_slip_speed(if dt > 0.0 { slip / dt } else { old.slip_speed() });
+    0.5 * part * slip * (begin + end)
 }
 
 /// The part of the way from the last state to the instant of equilibrium at which the step ends, `part`. What is not known has no
 /// last state to come from, and stays where it is.
-pub(super) fn way(old: PointHistory, part: f64) -> f64 {
+pub(super) fn way(old: PairMemory, part: f64) -> f64 {
     if old.is_known() { part } else { 1.0 }
 }
 
-/// The friction force at which a pair would have slipped at the last state: what begins to slip in a step has been pulled so far before.
-pub(super) fn slip_limit(law: &ContactLaw, (old, slip_speed): (PointHistory, f64), inset: f64) -> f64 {
+/// The friction force under which a pair has begun to slip: that at which it would have slipped at the last state, if it was not pulled by
+/// more.
+pub(super) fn slip_begin(law: &ContactLaw, old: PairMemory) -> f64 {
     let depth = old.lift(law) - old.gap();
     // Damping alone would press what is still apart.
     if depth <= 0.0 {
-        return 0.0;
+        return old.friction_force();
     }
+    let inset = old.inset(law).max(0.0);
     let pressed = normal_force(law.stiffness, &law.loss, depth, inset, old.rate(), old.impact_speed()).force;
-    law.friction_at(slip_speed) * pressed
+    old.friction_force().max(law.friction_at(old.slip_speed()) * pressed)
 }
 
 /// Writes the motion along the normal, the impact and the power of its damping after `part` of the way from the last state to
@@ -72,8 +102,8 @@ pub(super) fn update_normal(
     at: &NormalMotion,
     now: &Configuration,
     part: f64,
-    old: PointHistory,
-    new: &mut PointHistoryMut,
+    old: PairMemory,
+    new: &mut PairMemoryMut,
 ) -> (f64, f64) {
     let &NormalMotion { gap, inset, rate, power, speed } = at;
     let dt = part * now.dt;
@@ -82,7 +112,9 @@ pub(super) fn update_normal(
     let toward = |old: f64, now: f64| old + way * (now - old);
     let end_gap = if old.is_known() { toward(old.gap(), gap) } else { gap - rate * beyond };
     new.set_motion(end_gap, toward(old.rate(), rate), safe_time(law, end_gap, speed));
-    new.set_impact(impact(law.duration, (gap, rate), dt, old, new.read()));
+    let (impact_speed, age) = impact(law.duration, (gap, rate), dt, old, new.read());
+    new.set_impact_speed(impact_speed);
+    new.set_age(age);
     new.set_damping_power(toward(old.damping_power(), power));
     let damped = 0.5 * dt * (old.damping_power() + new.read().damping_power());
     if !law.keeps_inset() {
@@ -106,7 +138,7 @@ pub(super) fn update_normal(
 
 /// The impact speed and the age to come. `gap` and `rate` are those at the instant of equilibrium; `new` has those at the end
 /// of the step.
-fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PointHistory, new: PointHistory) -> (f64, f64) {
+fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PairMemory, new: PairMemory) -> (f64, f64) {
     let known = old.is_known();
     let touches = new.gap() <= 0.0;
     let touched = known && old.gap() <= 0.0;
@@ -153,15 +185,15 @@ mod tests {
             tolerance: None,
             dynamic: true,
         };
-        let (dt, before) = (1e-3, [0.0, 1.0, -0.02, 1.0, 1.0, 0.0, 0.0, 0.05]);
-        assert_eq!(before.len(), FRICTION_FORCE + 1);
+        let (dt, before) = (1e-3, [0.0, 1.0, -0.02, 1.0, 1.0, 0.0, 0.0, 0.05, 0.0]);
+        assert_eq!(before.len(), FRICTION_FORCE);
         // The inset before, and the gap to where the spring began: inside still, out by a trace, by the near distance, and far.
         for (inset, gap) in [(0.05, 0.03), (0.05, 0.0505), (0.02, 0.028), (0.02, 0.045), (1e-6, 0.5), (0.0, 0.03)] {
             let (speed, mut numbers) = (0.25, before);
-            let mut new = PointHistoryMut::new(&mut numbers);
+            let mut new = PairMemoryMut(&mut numbers);
             let motion = NormalMotion { gap, inset, rate: -speed, power: 0.0, speed };
             let now = Configuration { nodes: &[], history: &[], dt, lead: None };
-            let (_, left) = update_normal(&law, &motion, &now, 1.0, PointHistory::new(&before), &mut new);
+            let (_, left) = update_normal(&law, &motion, &now, 1.0, PairMemory(&before), &mut new);
             // Outside the surface by this: the spring begins a depth `left` inside.
             let (outside, safe) = (gap - inset, new.read().safe_time());
             // Rounding of sums of this size alone.

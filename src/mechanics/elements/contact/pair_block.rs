@@ -1,6 +1,6 @@
 //! The interface of a block of pairs that may touch, whatever finds them: forces, energy, gaps and results follow from what acts in each.
 
-use super::history::PointHistory;
+use super::history::PairMemory;
 use super::law::ContactLaw;
 use crate::elements::block::{ElementBlock, Force, subtract};
 use crate::elements::wandering::Wandering;
@@ -33,12 +33,12 @@ pub struct PairAction<'a> {
     pub(super) F: Vec3,
     /// Moments on the two.
     pub(super) M: [Vec3; 2],
-    /// Signed shares of the nodes of both in a force that is taken off again, and that force.
-    pub(super) less: Option<([PairSide<'a>; 2], Vec3)>,
+    /// To where the force on what is touched acts with the moment on that: from [`PairBlock::carrier`], or else from the origin.
+    pub(super) arm: Vec3,
+    /// Signed shares of the nodes of both in a force that is taken off again, that force, and the arm of it.
+    pub(super) less: Option<([PairSide<'a>; 2], Vec3, Vec3)>,
     /// Energy of the springs.
     pub(super) stored: f64,
-    /// Moment on what is touched: about [`PairBlock::carrier`], or else about the origin.
-    pub(super) moment: Vec3,
 }
 
 impl PairAction<'_> {
@@ -49,8 +49,8 @@ impl PairAction<'_> {
 
     /// Force on what is touched, and its moment: about [`PairBlock::carrier`], or else about the origin.
     pub fn on_touched(&self) -> [Vec3; 2] {
-        let less = self.less.as_ref().map_or_else(Vec3::zeros, |(_, F)| *F);
-        [less - self.F, self.moment]
+        let [f, m] = [-self.F, self.M[1] - self.arm.cross(&self.F)];
+        self.less.as_ref().map_or([f, m], |(_, less, arm)| [f + less, m + arm.cross(less)])
     }
 
     /// Calls with the force and the moment on each node.
@@ -58,7 +58,7 @@ impl PairAction<'_> {
         let [one, other] = self.sides;
         one.parts().for_each(|(node, share)| add(node, share * self.F, share * self.M[0]));
         other.parts().for_each(|(node, share)| add(node, -share * self.F, share * self.M[1]));
-        if let Some((sides, F)) = &self.less {
+        if let Some((sides, F, _)) = &self.less {
             let parts = sides.iter().flat_map(|side| side.parts());
             parts.for_each(|(node, share)| add(node, -share * F, Vec3::zeros()));
         }
@@ -74,7 +74,7 @@ pub trait PairBlock: ElementBlock {
     fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction));
 
     /// True where this is so of what a pair remembers that was near at the end of the last step, by the history of the block.
-    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool;
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool;
 
     /// True where a step from `start` to `now` must be shorter: something would pass through what it touches, or come into an impact that the
     /// step does not resolve (see [`ContactLaw::resolution`]).
@@ -140,7 +140,7 @@ pub trait PairBlock: ElementBlock {
     /// Longest time ahead at which equilibrium may be written next, given the history of the block.
     fn longest_step(&self, history: &[f64]) -> f64 {
         let law = self.law();
-        let mut in_impact = |old: PointHistory| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
+        let mut in_impact = |old: PairMemory| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
         let any = law.resolution < f64::INFINITY && self.any_memory(history, &mut in_impact);
         if any { law.resolution } else { f64::INFINITY }
     }

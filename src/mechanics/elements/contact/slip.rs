@@ -1,7 +1,7 @@
 //! Slip of points and of pairs of solids in a step, from their histories at its two ends.
 
 use super::convex::ConvexPairs;
-use super::history::{self, PointHistory};
+use super::history::PairMemory;
 use super::kinematics::Contacts;
 use crate::elements::slip::{Sliding, Slip};
 use base::math::Vec3;
@@ -13,7 +13,7 @@ impl Sliding for Contacts {
     }
 
     fn slip(&self, e: usize, histories: [&[f64]; 2], _dt: f64) -> Slip {
-        let [old, new] = histories.map(|history| history::of(self, e, history));
+        let [old, new] = histories.map(|history| self.memory(e, history));
         let moved = if new.is_known() && old.is_known() { new.anchor() - old.anchor() } else { Vec3::zeros() };
         let way = if new.slip_speed() > 0.0 { moved } else { Vec3::zeros() };
         slip([old, new], self.law.stiffness, [way, moved])
@@ -35,8 +35,8 @@ impl Sliding for ConvexPairs {
 }
 
 /// The slip in a step between two histories, by its way where the two touch and by their motion `moved` where they are apart.
-fn slip([old, new]: [PointHistory; 2], stiffness: f64, [way, moved]: [Vec3; 2]) -> Slip {
-    let rate = |at: PointHistory| if at.is_known() { at.rate() } else { f64::INFINITY };
+fn slip([old, new]: [PairMemory; 2], stiffness: f64, [way, moved]: [Vec3; 2]) -> Slip {
+    let rate = |at: PairMemory| if at.is_known() { at.rate() } else { f64::INFINITY };
     let approach = [rate(old), rate(new)];
     if new.is_known() && new.gap() <= 0.0 {
         return Slip { way, pull: new.friction_force(), stiffness, touches: true, apart: 0.0, approach };

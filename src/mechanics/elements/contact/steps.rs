@@ -1,6 +1,5 @@
 //! Limits on the step length: no step takes a point through the surface, and impacts are resolved.
 
-use super::history;
 use super::kinematics::Contacts;
 use crate::state::{Configuration, Node};
 use base::math::{Mat3, Vec3};
@@ -21,11 +20,24 @@ pub(super) fn misses(contacts: &Contacts, start: &[Node], now: &Configuration) -
     (0..contacts.points.len()).any(|e| is_missed(contacts, e, start, now, &frames))
 }
 
+/// Where on a way of this `length`, from 0 to 1, a gap first is next to nothing. No way is shorter than the gap, so the search goes on by that.
+pub(super) fn first_reached(length: f64, gap: impl Fn(f64) -> f64) -> Option<f64> {
+    let mut t = 0.0;
+    while t < 1.0 {
+        let at = gap(t);
+        if at < 1e-3 * length {
+            return Some(t);
+        }
+        t += at / length;
+    }
+    None
+}
+
 /// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not
 /// resolve.
 fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration, frames: &Frames) -> bool {
     let point = &contacts.points[e];
-    let old = || history::of(contacts, e, now.history);
+    let old = || contacts.memory(e, now.history);
     let [from, to] = [start, now.nodes].map(|nodes| point.relative_position(&nodes[contacts.carrier], nodes));
     let far = from.norm();
     if far - contacts.reach() - point.radius > (to - from).norm() + frames.turn * far {
@@ -41,20 +53,8 @@ fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration,
         return true;
     }
     let normal = |p: &Vec3| contacts.surface.closest_point(p).n;
-    // Nothing is nearer than the distance, so the search advances along the path by it, from either end, until the
-    // surface is reached.
-    let reached = |at: &dyn Fn(f64) -> Vec3| {
-        let mut t = 0.0;
-        while t < 1.0 {
-            let g = gap(&at(t));
-            if g < 1e-3 * length {
-                return Some(t);
-            }
-            t += g / length;
-        }
-        None
-    };
-    let Some(t0) = (if first > 0.0 { reached(&|t| p0 + t * way) } else { Some(0.0) }) else { return false };
+    let entry = if first > 0.0 { first_reached(length, |t| gap(&(p0 + t * way))) } else { Some(0.0) };
+    let Some(t0) = entry else { return false };
     let entry = normal(&(p0 + t0 * way));
     // The point left by the other side; or by another side from far inside, and not just round an edge.
     let strayed = |n: &Vec3, depth: f64, length: f64| {
@@ -63,13 +63,11 @@ fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration,
     };
     if last < 0.0 {
         let depth = last.min(gap(&(p0 + 0.5 * (1.0 + t0) * way)));
-        let fast = 3.0 * contacts.law.floor;
-        let landing =
-            first > 0.0 && (!old().is_known() || old().rate() > fast || -depth > fast * 2.0 * contacts.law.resolution);
-        return strayed(&normal(&p1), depth, length) || landing && now.dt > contacts.law.resolution;
+        return strayed(&normal(&p1), depth, length)
+            || first > 0.0 && contacts.law.lands_unresolved(old(), -depth, now.dt);
     }
     // The point went in at one place and out at another; a shallow pass along one side is left alone.
-    let Some(t1) = reached(&|t| p1 - t * way).map(|t| 1.0 - t) else { return false };
+    let Some(t1) = first_reached(length, |t| gap(&(p1 - t * way))).map(|t| 1.0 - t) else { return false };
     let (depth, chord) = (gap(&(p0 + 0.5 * (t0 + t1) * way)), (t1 - t0) * length);
     first > 0.0 && depth < -0.02 * chord || strayed(&normal(&(p0 + t1 * way)), depth, chord)
 }

@@ -1,7 +1,6 @@
 //! The derivatives of the force on a point, for the tangent.
 
 use super::force::{ContactForce, touch};
-use super::history;
 use super::kinematics::{ContactKinematics, Contacts};
 use super::point::ContactPoint;
 use crate::state::Configuration;
@@ -35,8 +34,8 @@ pub(super) fn tangent(contacts: &Contacts, e: usize, now: &Configuration, rate_w
         // The moment d × f on the carrier changes with d too.
         block.put(6 * k, &(weight * by_x.0, weight * by_x.1), &(-weight * skew(&f)));
         if acting.friction.is_some() && point.rolling_radius > 0.0 {
-            let old = history::of(contacts, e, now.history);
-            let phi = history::rotation_since(contacts, point, k, old, now.nodes);
+            let old = contacts.memory(e, now.history);
+            let phi = contacts.rotation_since(point, k, old, now.nodes);
             let T = at.R * inverse_tangent_matrix(&phi) * at.R.transpose();
             let by_own = (weight * by_phi.0 * T, weight * by_phi.1 * T);
             block.put(6 * k + 3, &by_own, &Mat3::zeros());

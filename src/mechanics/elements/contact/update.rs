@@ -1,9 +1,11 @@
 //! The history of a point at the end of a step, and what was dissipated on the way.
 
 use super::force::{ContactForce, contact_force};
-use super::history::{self, PointHistory, PointHistoryMut};
+use super::history::{PairMemory, PairMemoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
-use super::normal_motion::{NormalMotion, damping_power, pass_over, slip_limit, update_normal, way};
+use super::normal_motion::{
+    NormalMotion, damping_power, let_go, pass_over, slip_begin, update_normal, update_slip, way,
+};
 use super::point::ContactPoint;
 use crate::materials::Dissipation;
 use crate::state::Configuration;
@@ -16,9 +18,9 @@ pub(super) fn update_point(
     e: usize,
     now: &Configuration,
     part: f64,
-    new: &mut PointHistoryMut,
+    new: &mut PairMemoryMut,
 ) -> Dissipation {
-    let (law, point, old) = (&contacts.law, &contacts.points[e], history::of(contacts, e, now.history));
+    let (law, point, old) = (&contacts.law, &contacts.points[e], contacts.memory(e, now.history));
     let (d, w) = contacts.relative(point, now.nodes);
     let speed = w.norm();
     if let Some(spent) = pass_over(law, (d.norm() - contacts.reach() - point.radius, speed), now, old, new) {
@@ -49,38 +51,31 @@ fn update_friction(
     (at, acting): (&ContactKinematics, Option<&ContactForce>),
     now: &Configuration,
     part: f64,
-    old: PointHistory,
-    new: &mut PointHistoryMut,
+    old: PairMemory,
+    new: &mut PairMemoryMut,
 ) -> f64 {
     let law = &contacts.law;
-    let force = acting.map_or(0.0, |acting| acting.normal.force);
+    let (p, n, held) = (&at.p, &at.closest.n, old.anchor());
+    let mut anchor = held;
     let friction = acting.and_then(|acting| acting.friction.as_ref());
-    let (p, n) = (&at.p, &at.closest.n);
-    let (pull, held) = (old.friction_force(), old.anchor());
-    // A point that slides at t = 0 has been sliding: its spring is stretched.
-    let starts = !old.is_known() && now.dt <= 0.0 && force != 0.0;
-    let (begun, speed) = if starts { sliding(contacts, point, at, now) } else { (Vec3::zeros(), 0.0) };
-    let stretch = law.friction_at(speed) * force;
-    let (shift, spent) = match friction {
+    let spent = match friction {
         Some(friction) => {
-            let end = pull + part * (friction.T.norm() - pull);
-            let (slip, before) = (friction.slip.norm(), old.slip_speed());
-            new.set_friction_force(end);
-            new.set_slip_speed(if now.dt > 0.0 { slip / now.dt } else { before });
-            (friction.slip, 0.5 * part * slip * (pull.max(slip_limit(law, (old, before), contacts.inset(old))) + end))
+            anchor += part * friction.slip + part * n.dot(&(p - held)) * n;
+            let slipped = [friction.T.norm(), friction.slip.norm(), slip_begin(law, old)];
+            update_slip(slipped, (now.dt, part), old, new)
         }
         // The point is free: the anchor goes along, and what was stretched lets go.
         None => {
-            new.set_friction_force(stretch * begun.norm());
+            let force = acting.map_or(0.0, |acting| acting.normal.force);
+            let starts = !old.is_known() && now.dt <= 0.0 && force != 0.0;
+            let slip = if starts { slip_rate(contacts, point, at, now) } else { Vec3::zeros() };
+            let (pull, speed) = law.begun(force, &slip);
+            new.set_friction_force(pull.norm());
             new.set_slip_speed(speed);
-            let stored = if law.tolerance.is_some() { 0.0 } else { 0.5 * pull * (pull / law.stiffness) };
-            (p - held, stored)
+            anchor += part * (p - held) - pull / law.stiffness;
+            let_go(law, old)
         }
     };
-    let mut anchor = held + part * shift - stretch / law.stiffness * begun;
-    if friction.is_some() {
-        anchor += part * n.dot(&(p - held)) * n;
-    }
     if contacts.rolls {
         let rolled = friction.is_some().then_some((n, &mut anchor));
         update_rotations(contacts, point, rolled, now, part, old, new);
@@ -97,8 +92,8 @@ fn update_rotations(
     mut rolled: Option<(&Vec3, &mut Vec3)>,
     now: &Configuration,
     part: f64,
-    old: PointHistory,
-    new: &mut PointHistoryMut,
+    old: PairMemory,
+    new: &mut PairMemoryMut,
 ) {
     for k in 0..contacts.count {
         let present = contacts.relative_rotation(point.nodes[k], now.nodes);
@@ -106,7 +101,7 @@ fn update_rotations(
             new.set_rotation(k, &present);
             continue;
         }
-        let phi = history::rotation_since(contacts, point, k, old, now.nodes);
+        let phi = contacts.rotation_since(point, k, old, now.nodes);
         if let Some((n, anchor)) = &mut rolled {
             **anchor += part * point.weights[k] * point.rolling_radius * phi.cross(n);
         }
@@ -114,13 +109,11 @@ fn update_rotations(
     }
 }
 
-/// Unit vector along the slip, in the frame of the surface, and the slip speed; zero for what does not slip faster than its weight makes it.
-fn sliding(contacts: &Contacts, point: &ContactPoint, at: &ContactKinematics, now: &Configuration) -> (Vec3, f64) {
+/// The velocity of the slip, in the frame of the surface.
+fn slip_rate(contacts: &Contacts, point: &ContactPoint, at: &ContactKinematics, now: &Configuration) -> Vec3 {
     let n = &at.closest.n;
     let spin: Vec3 = point.parts().map(|(node, weight)| weight * now.nodes[node].omega).sum();
     let spin = at.R.tr_mul(&(spin - now.nodes[contacts.carrier].omega));
     let w = at.R.tr_mul(&at.w);
-    let slip = w - n.dot(&w) * n - point.rolling_radius * spin.cross(n);
-    let speed = slip.norm();
-    if speed > contacts.law.floor { (slip / speed, speed) } else { (Vec3::zeros(), 0.0) }
+    w - n.dot(&w) * n - point.rolling_radius * spin.cross(n)
 }

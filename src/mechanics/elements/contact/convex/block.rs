@@ -1,17 +1,62 @@
-//! Pairs of convex solids as a block of elements.
+//! Convex solids on bodies against one on another body or on the ground, as a block of pairs.
 
-use super::pair::width;
-use super::pairs::ConvexPairs;
+use super::memory::Memory;
+use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
 use super::steps::is_missed;
 use super::tangent::tangent;
 use super::update::update_pair;
 use crate::elements::block::{ElementBlock, Force, Moduli};
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
+use crate::elements::contact::surface::Surface;
 use crate::elements::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
+
+/// Convex solids against one.
+pub struct ConvexPairs {
+    /// The law, for the whole of a face.
+    pub(in crate::elements::contact) law: ContactLaw,
+    /// The one that is touched.
+    other: CarriedConvex,
+    /// Those that touch it.
+    touching: Vec<ConvexBody>,
+    /// The node of each of these, then the carrier of the other.
+    nodes: Vec<[usize; 2]>,
+}
+
+impl ConvexPairs {
+    /// `None` where the surface is no convex solid of these kinds. The stiffness and damping of `law` are those of a corner.
+    pub fn new(law: ContactLaw, surface: &Surface, carrier: usize, touching: Vec<ConvexBody>) -> Option<Self> {
+        let nodes = touching.iter().map(|one| [one.node, carrier]).collect();
+        let reach = touching.iter().map(|one| one.shape.reach()).fold(0.0, f64::max);
+        let other = CarriedConvex::of_surface(surface, carrier, reach)?;
+        Some(ConvexPairs { law: law_of_faces(law), other, touching, nodes })
+    }
+
+    /// The number of pairs.
+    fn count(&self) -> usize {
+        self.touching.len()
+    }
+
+    /// One of the pairs.
+    fn pair(&self, e: usize) -> ConvexPair<'_> {
+        ConvexPair { law: &self.law, one: &self.touching[e], other: &self.other }
+    }
+
+    /// The history of a pair, as a part of that of the block.
+    fn history<'a>(&self, e: usize, history: &'a [f64]) -> PairMemory<'a> {
+        let width = width(&self.law);
+        PairMemory(&history[e * width..(e + 1) * width])
+    }
+
+    /// The memory of a pair, with that of its friction.
+    pub(in crate::elements::contact) fn friction_of<'a>(&self, e: usize, history: &'a [f64]) -> (PairMemory<'a>, Memory) {
+        let old = self.history(e, history);
+        (old, Memory::read(old))
+    }
+}
 
 impl ElementBlock for ConvexPairs {
     fn len(&self) -> usize {
@@ -89,7 +134,7 @@ impl PairBlock for ConvexPairs {
         }
     }
 
-    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool {
         (0..self.count()).map(|e| self.history(e, history)).any(|old| old.is_known() && is(old))
     }
 

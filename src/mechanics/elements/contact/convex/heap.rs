@@ -1,11 +1,11 @@
 //! Convex solids among themselves: who is near whom, and what they remember of each other.
 
 use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
-use crate::elements::contact::grid::{BoxGrid, GridBox};
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::grid::GridBox;
+use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::near_lists::NearLists;
 use crate::state::Node;
-use base::math::Vec3;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// Solids at least as large that one remembers at once: the 26 that surround a cube in a lattice, and what hangs over.
@@ -27,22 +27,9 @@ pub struct ConvexHeap {
     pub(super) margin: f64,
     /// The size of the cells in which neighbours are looked for.
     cell: f64,
-    /// Number of history variables of a pair: the number of the other plus one, 0 for none, then those of the pair.
+    /// Number of history variables of a pair, whose key is the number of the other plus one, 0 for none.
     pub(super) width: usize,
-    nearby: Mutex<NearbySolids>,
-}
-
-/// Those near each, of which it is the smaller.
-#[derive(Default)]
-pub(super) struct NearbySolids {
-    /// Places of all when the lists were made; empty before.
-    places: Vec<Vec3>,
-    /// The start of the list of each, and the end of the last.
-    starts: Vec<usize>,
-    lists: Vec<u32>,
-    grid: BoxGrid,
-    /// Those on the way of one: room for them.
-    wide: Vec<u32>,
+    nearby: Mutex<NearLists>,
 }
 
 impl ConvexHeap {
@@ -54,9 +41,8 @@ impl ConvexHeap {
         let mut sizes: Vec<f64> = solids.iter().map(|one| one.shape.reach()).collect();
         sizes.sort_unstable_by(f64::total_cmp);
         let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(1.0);
-        let mut involved: Vec<usize> = solids.iter().map(|one| one.node).collect();
-        involved.sort_unstable();
-        let (margin, cell, width) = (0.1 * usual, 3.0 * usual, 1 + width(&law));
+        let involved = solids.iter().map(|one| one.node).collect();
+        let (margin, cell, width) = (0.1 * usual, 3.0 * usual, width(&law));
         ConvexHeap { law, solids, others, joined, involved, margin, cell, width, nearby: Mutex::default() }
     }
 
@@ -72,10 +58,9 @@ impl ConvexHeap {
     }
 
     /// Who stands in a slot of the history of one, and what is remembered of it.
-    pub(super) fn slot<'a>(&self, history: &'a [f64], slot: usize) -> (Option<usize>, PointHistory<'a>) {
-        let numbers = &history[slot * self.width..(slot + 1) * self.width];
-        let other = (numbers[0] > 0.0).then(|| numbers[0] as usize - 1);
-        (other, PointHistory::new(&numbers[1..]))
+    pub(super) fn slot<'a>(&self, history: &'a [f64], slot: usize) -> (Option<usize>, PairMemory<'a>) {
+        let memory = PairMemory(&history[slot * self.width..(slot + 1) * self.width]);
+        ((memory.key() > 0.0).then(|| memory.key() as usize - 1), memory)
     }
 
     /// The slot of a pair in the history of one.
@@ -83,36 +68,26 @@ impl ConvexHeap {
         (0..SLOTS).find(|&slot| self.slot(history, slot).0 == Some(other))
     }
 
-    /// The history of a pair that has none.
-    pub(super) fn nothing() -> PointHistory<'static> {
-        /// As many numbers as any pair has.
-        static NOTHING: [f64; super::memory::WIDTH] = [0.0; super::memory::WIDTH];
-        PointHistory::new(&NOTHING)
-    }
-
     /// What a pair remembers; nothing where it has no slot.
-    pub(super) fn memory<'a>(&self, history: &'a [f64], e: usize, other: usize) -> PointHistory<'a> {
+    pub(super) fn memory<'a>(&self, history: &'a [f64], e: usize, other: usize) -> PairMemory<'a> {
         let own = self.of_solid(e, history);
         match self.slot_of(own, other) {
             Some(slot) => self.slot(own, slot).1,
-            None => ConvexHeap::nothing(),
+            None => PairMemory::NOTHING,
         }
     }
 
-    /// The histories of all pairs that are remembered.
-    pub(super) fn memories<'a>(&self, history: &'a [f64]) -> impl Iterator<Item = PointHistory<'a>> {
-        let taken = history.chunks_exact(self.width).filter(|numbers| numbers[0] > 0.0);
-        taken.map(|numbers| PointHistory::new(&numbers[1..]))
-    }
-
-    /// Those near each, where the nodes lie thus. Threads take turns: what is found does not depend on them.
-    pub(super) fn nearby(&self, nodes: &[Node]) -> MutexGuard<'_, NearbySolids> {
+    /// Those near each, of which it is the smaller, where the nodes lie thus. Threads take turns: what is found does not depend on them.
+    pub(super) fn nearby(&self, nodes: &[Node]) -> MutexGuard<'_, NearLists> {
         let mut nearby = self.nearby.lock().unwrap_or_else(PoisonError::into_inner);
-        let moved = |place: &Vec3, one: &ConvexBody| (nodes[one.node].x - place).norm();
-        // What is not a number is far.
-        let holds = nearby.places.iter().zip(&self.solids).all(|(place, one)| moved(place, one) <= self.margin);
-        if nearby.places.is_empty() || !holds {
-            nearby.rebuild(self, nodes);
+        // What is asked for lies within twice the margin of touching; both may have moved by the margin.
+        if nearby.are_outdated(&self.involved, nodes, 2.0 * self.margin) {
+            let extent = |one: &ConvexBody, more: f64| {
+                GridBox::around([nodes[one.node].x].into_iter()).wider(one.shape.reach() + more)
+            };
+            let touched = self.solids.iter().map(|one| extent(one, 4.0 * self.margin));
+            let touching = self.solids.iter().map(|one| extent(one, 0.0));
+            nearby.rebuild(self.cell, touched, touching, |e, other| self.is_of(e, other));
         }
         nearby
     }
@@ -141,22 +116,21 @@ impl ConvexHeap {
         }
     }
 
-    /// True for any of the pairs of one that may meet in a step in which nothing moves farther than `way`.
+    /// True for any of the pairs of one that may meet in a step in which nothing moves farther than `way` against the mean.
     pub(super) fn on_the_way(
         &self,
         e: usize,
         way: f64,
-        nearby: &mut NearbySolids,
+        nearby: &mut NearLists,
         mut is: impl FnMut(usize) -> bool,
     ) -> bool {
         if 2.0 * way <= self.margin {
             return nearby.of(e).iter().any(|&other| is(other as usize));
         }
         // The grid knows the places when it was made.
-        let extent = GridBox { low: nearby.places[e], high: nearby.places[e] };
-        nearby.wide.clear();
-        nearby.grid.query(&extent.wider(self.solids[e].shape.reach() + self.margin + 2.0 * way), &mut nearby.wide);
-        nearby.wide.iter().any(|&other| self.is_of(e, other) && is(other as usize))
+        let extent = GridBox::around([nearby.places[e]].into_iter());
+        let extent = extent.wider(self.solids[e].shape.reach() + self.margin + 2.0 * way);
+        nearby.around(&extent, |other| self.is_of(e, other)).iter().any(|&other| is(other as usize))
     }
 
     /// True for the smaller of a pair that may touch, which remembers it.
@@ -165,42 +139,5 @@ impl ConvexHeap {
         let reach = |k: usize| self.solids[k].shape.reach();
         let is_smaller = reach(e) < reach(other) || reach(e) == reach(other) && e < other;
         is_smaller && self.joined.binary_search(&[e.min(other), e.max(other)]).is_err()
-    }
-}
-
-impl NearbySolids {
-    /// Those near one, of which it is the smaller, in ascending order.
-    pub fn of(&self, e: usize) -> &[u32] {
-        &self.lists[self.starts[e]..self.starts[e + 1]]
-    }
-
-    fn rebuild(&mut self, of: &ConvexHeap, nodes: &[Node]) {
-        self.places.clear();
-        self.places.extend(of.solids.iter().map(|one| nodes[one.node].x));
-        // What is asked for lies within twice the margin of touching; both may have moved by the margin.
-        let apart = 4.0 * of.margin;
-        let extents = of
-            .solids
-            .iter()
-            .zip(&self.places)
-            .map(|(one, place)| GridBox { low: *place, high: *place }.wider(one.shape.reach() + apart));
-        self.grid.rebuild(of.cell, extents);
-        self.lists.clear();
-        self.starts.clear();
-        self.starts.push(0);
-        for (e, place) in self.places.iter().enumerate() {
-            let from = self.lists.len();
-            let extent = GridBox { low: *place, high: *place };
-            self.grid.query(&extent.wider(of.solids[e].shape.reach()), &mut self.lists);
-            let mut kept = from;
-            for k in from..self.lists.len() {
-                if of.is_of(e, self.lists[k]) {
-                    self.lists[kept] = self.lists[k];
-                    kept += 1;
-                }
-            }
-            self.lists.truncate(kept);
-            self.starts.push(kept);
-        }
     }
 }

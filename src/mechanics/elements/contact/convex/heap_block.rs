@@ -1,13 +1,15 @@
 //! Convex solids among themselves as a block of elements, one for each, and as pairs for the matrix.
 
 use super::heap::{ConvexHeap, SLOTS};
-use super::heap_steps::misses_heap;
 use super::pair::{ConvexPair, PairForce, PairKinematics};
+use super::steps::is_missed;
 use super::tangent::tangent;
 use super::update::update_pair;
 use crate::elements::block::{ElementBlock, Force, Moduli};
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::history::{PairMemory, PairMemoryMut};
 use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::near_lists::farthest;
+use crate::elements::contact::normal_motion::lost;
 use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
 use crate::elements::wandering::{Partners, Wandering};
 use crate::materials::Dissipation;
@@ -18,7 +20,7 @@ pub(super) struct HeapTouch<'a> {
     pub pair: ConvexPair<'a>,
     pub at: PairKinematics<'a>,
     pub acting: PairForce,
-    old: PointHistory<'a>,
+    old: PairMemory<'a>,
     numbers: [usize; 2],
 }
 
@@ -84,8 +86,8 @@ impl ElementBlock for ConvexHeap {
             let Some(slot) = Some(kept).filter(|&kept| kept < SLOTS).or_else(free) else { return };
             let new = &mut own[slot * self.width..(slot + 1) * self.width];
             new.fill(0.0);
-            new[0] = (other + 1) as f64;
-            spent += update_pair(&pair, self.memory(now.history, e, other), now, part, &mut new[1..]);
+            spent += update_pair(&pair, self.memory(now.history, e, other), now, part, new);
+            PairMemoryMut(new).set_key((other + 1) as f64);
             kept += 1;
         });
         spent += self.let_go(now, part, history);
@@ -112,17 +114,26 @@ impl PairBlock for ConvexHeap {
 
     fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction)) {
         self.each_touch(now, |touch| {
-            let (action, by) = (touch.pair.action(&touch.at, &touch.acting), touch.pair.one.node);
-            act(&PairAction { moment: -(action.M[0] + now.nodes[by].x.cross(&action.F)), ..action });
+            let arm = now.nodes[touch.pair.other.node].x;
+            act(&PairAction { arm, ..touch.pair.action(&touch.at, &touch.acting) });
         });
     }
 
-    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
-        self.memories(history).any(|old| old.is_known() && is(old))
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool {
+        history.chunks_exact(self.width).map(PairMemory).any(|old| old.is_known() && is(old))
     }
 
     fn misses(&self, start: &[Node], now: &Configuration) -> bool {
-        misses_heap(self, start, now)
+        let way = farthest(&self.involved, now.nodes, |_, node| start[node].x);
+        if !way.is_finite() {
+            return true;
+        }
+        let mut nearby = self.nearby(now.nodes);
+        (0..self.solids.len()).any(|e| {
+            self.on_the_way(e, way, &mut nearby, |other| {
+                is_missed(&self.pair(e, other), self.memory(now.history, e, other), start, now)
+            })
+        })
     }
 
     fn wandering(&self) -> Option<&dyn Wandering> {
@@ -152,9 +163,7 @@ impl ConvexHeap {
             for slot in 0..SLOTS {
                 let (Some(other), motion) = self.slot(old, slot) else { continue };
                 if motion.is_known() && self.slot_of(new, other).is_none() {
-                    let pull = if self.law.friction > 0.0 { motion.friction_force() } else { 0.0 };
-                    spent.friction += 0.5 * pull * pull / self.law.stiffness;
-                    spent.impact += 0.5 * part * now.dt * motion.damping_power();
+                    spent += lost(&self.law, motion, part * now.dt);
                 }
             }
         }

@@ -1,16 +1,15 @@
 //! What friction between convex solids remembers: the stretch of its spring and the place of the two that it was found at.
 
-use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
+use crate::elements::contact::history::{OWN, PairMemory};
 use base::math::{Mat3, Vec3};
 
-/// Behind the size of the friction force.
-const STRETCH: usize = FRICTION_FORCE + 1;
+const STRETCH: usize = OWN;
 const TWIST: usize = STRETCH + 3;
 const PLACE: usize = TWIST + 1;
 const AXES: usize = PLACE + 3;
-const SLIP_SPEED: usize = AXES + 9;
-/// Number of history variables of a pair with friction.
-pub const WIDTH: usize = SLIP_SPEED + 1;
+const END: usize = AXES + 9;
+/// The numbers of friction that are a pair's own.
+pub const OWN_NUMBERS: usize = END - OWN;
 
 /// The memory of friction, in the frame of the one that is touched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,8 +18,6 @@ pub struct Memory {
     pub stretch: Vec3,
     /// Angle of the spring about their normal.
     pub twist: f64,
-    /// The slip speed of the step before the last state.
-    pub slip_speed: f64,
     /// Centre of the one.
     pub y: Vec3,
     /// Axes of the one.
@@ -37,14 +34,13 @@ impl Memory {
     }
 
     /// Reads the history of a pair with friction.
-    pub(super) fn read(old: PointHistory) -> Memory {
-        let numbers = old.numbers();
+    pub(super) fn read(old: PairMemory) -> Memory {
+        let numbers = old.0;
         Memory {
             stretch: Vec3::from_column_slice(&numbers[STRETCH..TWIST]),
             twist: numbers[TWIST],
-            slip_speed: numbers[SLIP_SPEED],
             y: Vec3::from_column_slice(&numbers[PLACE..AXES]),
-            Q: Mat3::from_column_slice(&numbers[AXES..SLIP_SPEED]),
+            Q: Mat3::from_column_slice(&numbers[AXES..END]),
         }
     }
 
@@ -53,7 +49,6 @@ impl Memory {
         numbers[STRETCH..TWIST].copy_from_slice(self.stretch.as_slice());
         numbers[TWIST] = self.twist;
         numbers[PLACE..AXES].copy_from_slice(self.y.as_slice());
-        numbers[AXES..SLIP_SPEED].copy_from_slice(self.Q.as_slice());
-        numbers[SLIP_SPEED] = self.slip_speed;
+        numbers[AXES..END].copy_from_slice(self.Q.as_slice());
     }
 }

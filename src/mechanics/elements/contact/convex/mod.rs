@@ -4,8 +4,8 @@
 //! body. So it is opposite on the two, and elastic contact stores ½ k D². `pose` says where two lie, and with `axes` how far they are
 //! apart; `touch` is the depth wherever they are, by the `volume` of the solid that two polyhedra have in common (`overlap`), or a `cylinder` and a
 //! polyhedron (by what of faces lies in its `bore`) or `two_cylinders`, or along the `segment` about which one of the two is round (`swept`). `pair` is what acts between two, `rubbing` their friction and `memory` what it remembers, `update` goes from step to step, `tangent` is what the matrix sees of it, `steps` bounds the
-//! steps. `pairs` are many against one, which `block` shows to the equations, `heap` many among themselves, with `heap_block` and
-//! `heap_steps`.
+//! steps. `block` are many against one, `heap` many among themselves, with `heap_block` and
+//! `heap_gap`.
 
 mod axes;
 mod block;
@@ -14,11 +14,10 @@ mod cylinder;
 mod depth;
 mod heap;
 mod heap_block;
-mod heap_steps;
+mod heap_gap;
 mod memory;
 mod overlap;
 mod pair;
-mod pairs;
 mod pose;
 mod rim;
 mod rubbing;
@@ -31,10 +30,10 @@ mod two_cylinders;
 mod update;
 mod volume;
 
+pub use block::ConvexPairs;
 pub use depth::Depth;
 pub use heap::ConvexHeap;
-pub use heap_steps::heap_gap;
+pub use heap_gap::heap_gap;
 pub use pair::{CarriedConvex, ConvexBody};
-pub use pairs::ConvexPairs;
 pub use pose::ConvexPose;
 pub use touch::depth;

@@ -5,10 +5,10 @@ use super::memory::Memory;
 use super::pose::ConvexPose;
 use super::rubbing::{Rubbing, rubbing};
 use super::touch::{SHALLOW, depth};
-use crate::elements::contact::history::{FRICTION_FORCE, PointHistory};
+use crate::elements::contact::history::{self, PairMemory};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairSide};
-use crate::elements::contact::restitution::{Loss, NormalForce, normal_force};
+use crate::elements::contact::restitution::{Loss, NormalForce};
 use crate::elements::contact::surface::Surface;
 use crate::elements::contact::surfaces::SurfaceShape;
 use crate::state::{Configuration, Node};
@@ -68,8 +68,7 @@ pub(super) fn law_of_faces(law: ContactLaw) -> ContactLaw {
 
 /// The number of history variables of a pair.
 pub(super) fn width(law: &ContactLaw) -> usize {
-    let of_motion = if law.friction > 0.0 { super::memory::WIDTH } else { FRICTION_FORCE };
-    of_motion + usize::from(law.keeps_inset())
+    history::width(law, super::memory::OWN_NUMBERS)
 }
 
 /// Two convex solids and the law between them.
@@ -142,23 +141,18 @@ impl<'a> ConvexPair<'a> {
     }
 
     /// The force; `None` where the two are apart.
-    pub fn force(&self, at: &PairKinematics, old: PointHistory) -> Option<PairForce> {
+    pub fn force(&self, at: &PairKinematics, old: PairMemory) -> Option<PairForce> {
         let depth = depth(&at.pose, self.law.touching)?;
         let rate = depth.g.dot(&at.rates);
-        let speed = match old.is_known() {
-            true if old.gap() <= 0.0 => old.impact_speed().max(rate),
-            true => old.rate().max(rate),
-            false => rate,
-        };
         let law = self.law;
-        let inset = old.inset(law.keeps_inset());
-        let normal = normal_force(law.stiffness, &law.loss, depth.D - inset, inset, rate, speed);
+        let inset = old.inset(law);
+        let normal = law.press(depth.D - inset, inset, rate, old);
         let mut W = -normal.force * depth.g;
         let rubs = law.friction > 0.0 && old.is_known();
         let rubbing = rubs
             .then(|| {
                 let memory = Memory::read(old);
-                let mu = law.friction_at(memory.slip_speed);
+                let mu = law.friction_at(old.slip_speed());
                 rubbing((self.tangential_stiffness(), mu), &at.pose, &depth, normal.force, &memory)
             })
             .flatten();
@@ -172,7 +166,7 @@ impl<'a> ConvexPair<'a> {
     ///
     /// The first are central differences: the solid that the two have in common has exact moments and first derivatives, and
     /// differences over a small part of its thickness are exact to some 1e-8, which no formula in closed form would better by much.
-    pub fn derivatives(&self, at: &PairKinematics, acting: &PairForce, old: PointHistory) -> [Mat6; 2] {
+    pub fn derivatives(&self, at: &PairKinematics, acting: &PairForce, old: PairMemory) -> [Mat6; 2] {
         let (g, normal) = (&acting.depth.g, &acting.normal);
         let mut by_rates = -normal.by_rate * g * g.transpose();
         if let Some(rubbing) = &acting.rubbing {
@@ -211,7 +205,7 @@ impl<'a> ConvexPair<'a> {
     }
 
     /// The kinematics and the force; `None` where the two are apart or known to be far.
-    pub fn touch(&self, old: PointHistory, now: &Configuration) -> Option<(PairKinematics<'a>, PairForce)> {
+    pub fn touch(&self, old: PairMemory, now: &Configuration) -> Option<(PairKinematics<'a>, PairForce)> {
         if now.dt < old.safe_time() {
             return None;
         }
@@ -220,18 +214,18 @@ impl<'a> ConvexPair<'a> {
         Some((at, force))
     }
 
-    /// What acts; the moment on the other is that about its node.
+    /// What acts.
     pub fn action(&self, at: &PairKinematics, acting: &PairForce) -> PairAction<'a> {
         let (F, m) = at.global(&acting.W);
-        let (k, moment) = (self.law.stiffness, -(m + at.d.cross(&F)));
+        let k = self.law.stiffness;
         let pull = acting.rubbing.as_ref().map_or(0.0, |rubbing| rubbing.pull);
         PairAction {
             sides: [PairSide::of_node(&self.one.node), PairSide::of_node(&self.other.node)],
             F,
-            M: [m, moment],
+            M: [m, -(m + at.d.cross(&F))],
+            arm: Vec3::zeros(),
             less: None,
             stored: 0.5 * k * (acting.depth.D - acting.inset).max(0.0).powi(2) + 0.5 * pull * pull / k,
-            moment,
         }
     }
 }

@@ -2,14 +2,14 @@
 
 use super::pair::ConvexPair;
 use super::pose::{ConvexPose, LeastAxis};
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::history::PairMemory;
+use crate::elements::contact::steps::first_reached;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
 /// True where a step from `start` to `now` must be shorter: one would pass through the other, or be more than half way through, or
 /// come into an impact that the step does not resolve.
-pub(super) fn is_missed(pair: &ConvexPair, old: PointHistory, start: &[Node], now: &Configuration) -> bool {
-    let law = pair.law;
+pub(super) fn is_missed(pair: &ConvexPair, old: PairMemory, start: &[Node], now: &Configuration) -> bool {
     let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);
     let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.reach();
     if from.apart() > length {
@@ -30,16 +30,15 @@ pub(super) fn is_missed(pair: &ConvexPair, old: PointHistory, start: &[Node], no
     }
     // Thin ones may overlap already where the one is about to leave by the other side.
     let entry = if first.gap > 0.0 {
-        Way { from: &from, to: &to }.entry(length).map(|(_, axis)| axis)
+        let way = Way { from: &from, to: &to };
+        way.entry(length).map(|t| way.least_axis(t).axis)
     } else {
         Some(first.axis)
     };
     if entry.is_some_and(|entry| is_opposite(&entry, &last.axis)) {
         return true;
     }
-    let fast = 3.0 * law.floor;
-    let landing = first.gap > 0.0 && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * law.resolution);
-    landing && now.dt > law.resolution
+    first.gap > 0.0 && pair.law.lands_unresolved(old, depth, now.dt)
 }
 
 /// True where the side on which the one lies has changed for the other: the axes of neighbouring sides are at right angles.
@@ -60,25 +59,15 @@ impl Way<'_> {
         ConvexPose { y, Q, ..**from }.least_axis()
     }
 
-    /// Where the two meet first on a way of this `length`, and the axis that held them apart until then. No way is shorter than
-    /// the gap, so the search goes on by that.
-    fn entry(&self, length: f64) -> Option<(f64, Vec3)> {
-        let mut t = 0.0;
-        while t < 1.0 {
-            let at = self.least_axis(t);
-            if at.gap < 1e-3 * length {
-                return Some((t, at.axis));
-            }
-            t += at.gap / length;
-        }
-        None
+    /// Where the two meet first on a way of this `length`.
+    fn entry(&self, length: f64) -> Option<f64> {
+        first_reached(length, |t| self.least_axis(t).gap)
     }
 }
 
 /// True where two that are apart before and after have met on the way.
 fn passes(from: &ConvexPose, to: &ConvexPose, length: f64) -> bool {
-    let (Some((t0, _)), Some((back, _))) = (Way { from, to }.entry(length), Way { from: to, to: from }.entry(length))
-    else {
+    let (Some(t0), Some(back)) = (Way { from, to }.entry(length), Way { from: to, to: from }.entry(length)) else {
         return false;
     };
     let t1 = 1.0 - back;

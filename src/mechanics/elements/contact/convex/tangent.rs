@@ -1,7 +1,7 @@
 //! The tangent of the force of a pair on its two nodes.
 
 use super::pair::{ConvexPair, PairKinematics};
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::history::PairMemory;
 use crate::state::Configuration;
 use base::math::{Mat3, Mat6, Vec3, skew};
 use nalgebra::SMatrix;
@@ -13,7 +13,7 @@ type FromNodes = SMatrix<f64, 6, 12>;
 /// Writes the tangent of a pair, 12 rows of 12 over the one and the other, into `K`, which is zero; false where the two are apart.
 pub(super) fn tangent(
     pair: &ConvexPair,
-    old: PointHistory,
+    old: PairMemory,
     now: &Configuration,
     rate_weight: f64,
     K: &mut [f64],

@@ -3,8 +3,11 @@
 use super::memory::Memory;
 use super::pair::{ConvexPair, PairForce, PairKinematics};
 use super::touch::approaching;
-use crate::elements::contact::history::{PointHistory, PointHistoryMut};
-use crate::elements::contact::normal_motion::{NormalMotion, damping_power, pass_over, update_normal, way};
+use crate::elements::contact::history::{PairMemory, PairMemoryMut};
+use crate::elements::contact::law::ContactLaw;
+use crate::elements::contact::normal_motion::{
+    NormalMotion, damping_power, let_go, pass_over, update_normal, update_slip, way,
+};
 use crate::materials::Dissipation;
 use crate::state::Configuration;
 use base::math::rotation::{exp, matrix};
@@ -13,7 +16,7 @@ use base::math::{Vec3, angular, linear};
 /// Writes the history of a pair after `part` of the way from the last state to `now`; returns what was dissipated.
 pub(super) fn update_pair(
     pair: &ConvexPair,
-    old: PointHistory,
+    old: PairMemory,
     now: &Configuration,
     part: f64,
     numbers: &mut [f64],
@@ -21,7 +24,7 @@ pub(super) fn update_pair(
     let law = pair.law;
     let at = pair.kinematics(now.nodes);
     let speed = linear(&at.rates).norm() + angular(&at.rates).norm() * at.pose.own.reach();
-    let mut new = PointHistoryMut::new(numbers);
+    let mut new = PairMemoryMut(numbers);
     if let Some(spent) = pass_over(law, (at.pose.apart(), speed), now, old, &mut new) {
         return spent;
     }
@@ -33,10 +36,9 @@ pub(super) fn update_pair(
     let motion = NormalMotion { gap, inset, rate, power: damping_power(law, gap, rate, force), speed };
     let (impact, inset) = update_normal(law, &motion, now, part, old, &mut new);
     let mut spent = Dissipation { impact, ..Dissipation::default() };
-    new.set_inset(law.keeps_inset(), inset);
+    new.set_inset(law, inset);
     if law.friction > 0.0 {
-        spent.friction =
-            update_friction((&at, acting.as_ref()), (law.stiffness, now.dt), way(old, part), old, &mut new);
+        spent.friction = update_friction((&at, acting.as_ref()), (law, now.dt), way(old, part), old, &mut new);
     }
     spent
 }
@@ -51,29 +53,26 @@ fn approach(at: &PairKinematics) -> (f64, f64) {
 /// Writes what friction remembers; returns what slip dissipated.
 fn update_friction(
     (at, acting): (&PairKinematics, Option<&PairForce>),
-    (stiffness, dt): (f64, f64),
+    (law, dt): (&ContactLaw, f64),
     part: f64,
-    old: PointHistory,
-    new: &mut PointHistoryMut,
+    old: PairMemory,
+    new: &mut PairMemoryMut,
 ) -> f64 {
     let last = Memory::read(old);
-    let pull = old.friction_force();
     let rubbing = acting.and_then(|acting| acting.rubbing.as_ref());
-    let mut slip_speed = 0.0;
     let (stretch, twist, spent) = match rubbing {
         Some(rubbing) => {
-            let end = pull + part * (rubbing.pull - pull);
-            new.set_friction_force(end);
-            slip_speed = if dt > 0.0 { rubbing.slip / dt } else { last.slip_speed };
-            (rubbing.stretch, rubbing.twist, 0.5 * part * rubbing.slip * (pull + end))
+            let slipped = [rubbing.pull, rubbing.slip, old.friction_force()];
+            (rubbing.stretch, rubbing.twist, update_slip(slipped, (dt, part), old, new))
         }
         // The two are apart: what was stretched lets go.
         None => {
             new.set_friction_force(0.0);
-            (Vec3::zeros(), 0.0, 0.5 * pull * pull / stiffness)
+            new.set_slip_speed(0.0);
+            (Vec3::zeros(), 0.0, let_go(law, old))
         }
     };
-    let mut kept = Memory { stretch, twist, slip_speed, y: at.pose.y, Q: at.pose.Q };
+    let mut kept = Memory { stretch, twist, y: at.pose.y, Q: at.pose.Q };
     if old.is_known() && rubbing.is_some() {
         kept.stretch = last.stretch + part * (stretch - last.stretch);
         kept.twist = last.twist + part * (twist - last.twist);
@@ -82,6 +81,6 @@ fn update_friction(
         kept.y = last.y + part * (at.pose.y - last.y);
         kept.Q = matrix(&exp(&(part * last.turned(&at.pose.Q)))) * last.Q;
     }
-    kept.write(new.numbers());
+    kept.write(new.0);
     spent
 }

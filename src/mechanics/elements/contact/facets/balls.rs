@@ -4,7 +4,7 @@
 use super::facing::Facing;
 use super::found::{FacetTouch, TouchQuery};
 use super::scene::FacetScene;
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::history::PairMemory;
 use crate::state::{Configuration, Node};
 use std::ops::Range;
 
@@ -64,7 +64,7 @@ pub(super) fn is_memorable(
     e: usize,
     touch: &FacetTouch,
     now: &Configuration,
-    old: Option<PointHistory>,
+    old: Option<PairMemory>,
 ) -> bool {
     let is_after_impact = || old.is_some_and(|old| old.impact_speed() > 0.0);
     // Load steps have no rates to tell what will land.
@@ -79,7 +79,7 @@ pub(super) fn is_memorable(
 pub(super) fn clear(of: &FacetScene, e: usize, history: &mut [f64]) {
     for slot in 0..of.slots {
         let numbers = &mut history[place(of, e, slot)];
-        if !PointHistory::new(numbers).is_known() {
+        if !PairMemory(numbers).is_known() {
             break;
         }
         numbers.fill(0.0);

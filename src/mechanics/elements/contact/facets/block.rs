@@ -7,7 +7,7 @@ use super::surface::FacetContacts;
 use super::tangent::add_tangent;
 use super::update::update;
 use crate::elements::block::{ElementBlock, Force, Moduli};
-use crate::elements::contact::history::PointHistory;
+use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
 use crate::elements::wandering::{Partners, Wandering};
@@ -73,8 +73,8 @@ impl PairBlock for FacetContacts {
         });
     }
 
-    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PointHistory) -> bool) -> bool {
-        self.known_memories(history).any(|memory| is(memory.motion()))
+    fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool {
+        self.known_memories(history).any(|memory| is(memory))
     }
 
     fn misses(&self, start: &[Node], now: &Configuration) -> bool {
@@ -90,7 +90,21 @@ impl PairBlock for FacetContacts {
     }
 
     fn is_side_by_side(&self, now: &Configuration) -> bool {
-        FacetContacts::is_side_by_side(self, now)
+        /// The square of the cosine of six degrees.
+        const ALONG: f64 = 0.989;
+        if !self.is_of_lines || self.is_of_edges {
+            return false;
+        }
+        let mut found = false;
+        self.each_touch(now.nodes, now.history, |_, touch, pair| {
+            let along = |ends: &[usize]| now.nodes[ends[1]].relative_position(&now.nodes[ends[0]]);
+            let (u, v) = (along(pair.point.nodes()), along(pair.facet.nodes()));
+            let is_parallel = u.dot(&v).powi(2) > ALONG * u.norm_squared() * v.norm_squared();
+            // End to end they touch along themselves.
+            let is_beside = u.dot(&touch.toward).powi(2) < 0.5 * u.norm_squared();
+            found |= is_parallel && is_beside;
+        });
+        found
     }
 }
 

@@ -12,7 +12,7 @@
 
 use super::facet::{FacetPoint, Region};
 use super::pair::{EndForce, FacetPair, PairPlace};
-use crate::elements::contact::restitution::normal_force;
+use crate::elements::contact::history::PairMemory;
 use crate::state::Node;
 use base::math::Vec3;
 use std::borrow::Cow;
@@ -34,11 +34,11 @@ pub(super) fn deepest_end<'a>(pair: &FacetPair<'a>, nodes: &[Node]) -> Option<(F
     all.filter(|(_, place)| place.gap() < 0.0).min_by(|a, b| a.1.gap().total_cmp(&b.1.gap()))
 }
 
-/// What that end does; `speed` is that of the impact by the rate at hand.
-pub(super) fn end_force(pair: &FacetPair, speed: impl Fn(f64) -> f64, nodes: &[Node]) -> Option<EndForce> {
+/// What that end does, of a pair with this memory.
+pub(super) fn end_force(pair: &FacetPair, old: PairMemory, nodes: &[Node]) -> Option<EndForce> {
     let (end, place) = deepest_end(pair, nodes)?;
     let (law, depth, rate) = (pair.law, -place.gap(), place.rate());
-    let normal = normal_force(law.stiffness, &law.loss, depth, place.inset, rate, speed(rate));
+    let normal = law.press(depth, place.inset, rate, old);
     Some(EndForce {
         normal,
         depth,

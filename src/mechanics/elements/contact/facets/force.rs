@@ -2,10 +2,9 @@
 
 use super::crossing;
 use super::line_friction;
-use super::memory::{LineMemory, PairMemory};
 use super::pair::{FacetPair, PairForceOnPoint, PairPlace, Rub, rotation_of};
 use crate::elements::contact::friction::friction_force;
-use crate::elements::contact::restitution::normal_force;
+use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::surfaces::kind::ClosestPoint;
 use crate::state::Node;
 use base::math::rotation::matrix;
@@ -18,21 +17,16 @@ impl FacetPair<'_> {
         if place.inset > 0.0 && place.gap() > 0.0 {
             return PairForceOnPoint::NONE;
         }
-        let rate = place.rate();
-        let speed = |rate: f64| match self.memory.map(PairMemory::motion) {
-            Some(old) if old.gap() <= 0.0 => old.impact_speed().max(rate),
-            Some(old) => old.rate().max(rate),
-            None => rate,
-        };
-        let normal = normal_force(law.stiffness, &law.loss, (-place.gap()).max(0.0), place.inset, rate, speed(rate));
+        let old = self.memory.unwrap_or(PairMemory::NOTHING);
+        let normal = law.press((-place.gap()).max(0.0), place.inset, place.rate(), old);
         let n = &place.n;
-        let less = if self.is_of_edges() { crossing::end_force(self, speed, nodes) } else { None };
+        let less = if self.is_of_edges() { crossing::end_force(self, old, nodes) } else { None };
         let (M, C) = (Vec3::zeros(), Vec3::zeros());
         let free = PairForceOnPoint { normal, less, friction: None, F: normal.force * n, M, C };
         let Some(memory) = self.memory.filter(|_| law.friction > 0.0) else { return free };
         let pressed = if self.sticks { f64::INFINITY } else { free.pressed().max(0.0) };
         if self.is_of_lines() {
-            let rub = line_friction::rub(self, place, LineMemory(memory.0), pressed, nodes);
+            let rub = line_friction::rub(self, place, memory, pressed, nodes);
             let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
             return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), ..free };
         }

@@ -14,8 +14,9 @@
 //! its arm is zero: it rubs at its axis.
 
 use super::lines;
-use super::memory::{LineMemory, LineMemoryMut};
+use super::memory::place_of;
 use super::pair::{FacetPair, PairPlace, Rub};
+use crate::elements::contact::history::{PairMemory, PairMemoryMut};
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 use base::math::rotation::{exp, log, renormalise};
@@ -35,7 +36,7 @@ pub(super) fn arms(pair: &FacetPair, place: &PairPlace) -> [f64; 2] {
 }
 
 /// The friction under the normal force `N`.
-pub(super) fn rub(pair: &FacetPair, place: &PairPlace, memory: LineMemory, N: f64, nodes: &[Node]) -> Rub {
+pub(super) fn rub(pair: &FacetPair, place: &PairPlace, memory: PairMemory, N: f64, nodes: &[Node]) -> Rub {
     let n = &place.n;
     let [along, across] = axes(pair, place, nodes);
     let way = way(pair, place, &ways(pair, memory, nodes));
@@ -75,15 +76,15 @@ fn ends(pair: &FacetPair) -> [usize; ENDS] {
 
 /// Ways and turns of the four ends since the last state, relative to the first node of the line that is remembered. An end that was none of
 /// those remembered goes as the end of its line that was: the two have just come to the next element, and stand near that.
-fn ways(pair: &FacetPair, memory: LineMemory, nodes: &[Node]) -> [Motion; ENDS] {
+fn ways(pair: &FacetPair, memory: PairMemory, nodes: &[Node]) -> [Motion; ENDS] {
     let old = [pair.kept_line[0], pair.kept_line[1], pair.kept.nodes[0], pair.kept.nodes[1]];
     let origin = &nodes[old[2]];
     let (R, q) = (origin.R(), origin.rotation.conjugate());
     let motion = |k: usize| -> Motion {
-        let Some(stored) = LineMemory::place_of(k) else { return (Vec3::zeros(), Vec3::zeros()) };
+        let Some(stored) = place_of(k) else { return (Vec3::zeros(), Vec3::zeros()) };
         let node = &nodes[old[k]];
-        let turned = log(&renormalise(&(q * node.rotation * memory.rotation(stored).conjugate())));
-        (node.relative_position(origin) - R * memory.position(stored), R * turned)
+        let turned = log(&renormalise(&(q * node.rotation * memory.end_rotation(stored).conjugate())));
+        (node.relative_position(origin) - R * memory.end(stored), R * turned)
     };
     let known: [Motion; ENDS] = std::array::from_fn(motion);
     let now = ends(pair);
@@ -102,13 +103,13 @@ fn ways(pair: &FacetPair, memory: LineMemory, nodes: &[Node]) -> [Motion; ENDS] 
 }
 
 /// Writes where the four ends stand after `part` of the way since the last state; without a memory, as the velocities tell.
-pub(super) fn remember(pair: &FacetPair, now: &Configuration, part: f64, new: &mut LineMemoryMut) {
+pub(super) fn remember(pair: &FacetPair, now: &Configuration, part: f64, new: &mut PairMemoryMut) {
     let (nodes, ends) = (now.nodes, ends(pair));
     let origin = &nodes[ends[2]];
     let (R, q) = (origin.R(), origin.rotation.conjugate());
     // What of the way to `now` is still to come at the end of the step.
     let left: [Motion; ENDS] = match pair.memory {
-        Some(memory) => ways(pair, LineMemory(memory.0), nodes).map(|(x, phi)| ((1.0 - part) * x, (1.0 - part) * phi)),
+        Some(memory) => ways(pair, memory, nodes).map(|(x, phi)| ((1.0 - part) * x, (1.0 - part) * phi)),
         None => {
             let dt = (1.0 - part) * now.dt;
             ends.map(|node| (dt * nodes[node].v, dt * nodes[node].omega))
@@ -116,13 +117,13 @@ pub(super) fn remember(pair: &FacetPair, now: &Configuration, part: f64, new: &m
     };
     let (common, turn) = left[2];
     for k in 0..ENDS {
-        let Some(stored) = LineMemory::place_of(k) else { continue };
+        let Some(stored) = place_of(k) else { continue };
         let node = &nodes[ends[k]];
         let arm = node.relative_position(origin);
         let (x, phi) = left[k];
         let way = x - common - turn.cross(&arm);
         let rotation = exp(&-R.tr_mul(&(phi - turn))) * (q * node.rotation);
-        new.set(stored, &R.tr_mul(&(arm - way)), &renormalise(&rotation));
+        new.set_end(stored, &R.tr_mul(&(arm - way)), &renormalise(&rotation));
     }
 }
 
@@ -132,10 +133,10 @@ pub(super) fn remember_stretch(
     place: &PairPlace,
     (stretch, part): (&Vec3, f64),
     nodes: &[Node],
-    new: &mut LineMemoryMut,
+    new: &mut PairMemoryMut,
 ) {
     let [along, across] = axes(pair, place, nodes);
-    let old = pair.memory.map_or([0.0; 2], |memory| LineMemory(memory.0).stretch());
+    let old = pair.memory.map_or([0.0; 2], |memory| memory.stretch());
     let toward = |old: f64, axis: &Vec3| old + part * (stretch.dot(axis) - old);
     new.set_stretch([toward(old[0], &along), toward(old[1], &across)]);
 }

@@ -2,7 +2,7 @@
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
-use super::memory::PairMemory;
+use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairSide};
 use crate::elements::contact::point::{ContactPoint, MOST_NODES, TouchKind};
@@ -178,16 +178,15 @@ impl<'a> FacetPair<'a> {
         R * log(&renormalise(&(now * memory.rotation(k).conjugate())))
     }
 
-    /// What acts; the moment on the facet is that about the origin.
+    /// What acts.
     pub fn action<'b>(&'b self, place: &'b PairPlace, force: &'b PairForceOnPoint, nodes: &[Node]) -> PairAction<'b> {
         let (point, k) = (&*self.point, self.law.stiffness);
         let x = nodes[point.nodes[0]].x + place.x;
-        let (mut moment, mut pressed) = (force.C - (x - place.at.g).cross(&force.F), place.gap().min(0.0).powi(2));
-        if let Some(end) = &force.less {
-            let x: Vec3 = self.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * nodes[node].x).sum();
-            moment += x.cross(&end.F);
-            pressed -= end.depth.powi(2);
-        }
+        let of_end = force.less.as_ref().map_or(0.0, |end| end.depth.powi(2));
+        let pressed = place.gap().min(0.0).powi(2) - of_end;
+        let arm_of = |end: &EndForce| {
+            self.facet.nodes().iter().zip(end.W).map(|(&node, share)| -share * nodes[node].x).sum::<Vec3>()
+        };
         let T = force.friction.as_ref().map_or(0.0, |friction| friction.T.norm_squared());
         let sides = |own: &'b [f64], other: &'b [f64]| {
             [PairSide { nodes: point.nodes(), shares: own }, PairSide { nodes: self.facet.nodes(), shares: other }]
@@ -196,9 +195,9 @@ impl<'a> FacetPair<'a> {
             sides: sides(&point.weights, &place.W),
             F: force.F,
             M: [if point.rolling_radius > 0.0 { force.M } else { Vec3::zeros() }, force.C],
-            less: force.less.as_ref().map(|end| (sides(&end.shares, &end.W), end.F)),
+            arm: x - place.at.g,
+            less: force.less.as_ref().map(|end| (sides(&end.shares, &end.W), end.F, arm_of(end))),
             stored: 0.5 * k * pressed + 0.5 * T / k,
-            moment,
         }
     }
 }

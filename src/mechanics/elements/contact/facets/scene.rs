@@ -2,9 +2,10 @@
 
 use super::facet::{Ball, Facet};
 use super::lines;
-use super::memory::{self, PairMemory};
+use super::memory;
 use super::mesh;
 use crate::elements::contact::grid::GridBox;
+use crate::elements::contact::history::{self, PairMemory};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::point::{ContactPoint, TouchKind};
 use crate::state::Node;
@@ -123,7 +124,7 @@ impl FacetScene {
         let rotations = points.first().map_or(0, |point| if rolls { point.count } else { 0 });
         let turned = turned(&law, &points, &facets, &involved);
         FacetScene {
-            width: if is_of_lines { memory::width_of_lines(rubs) } else { memory::width(rubs, rotations) },
+            width: history::width(&law, if is_of_lines { memory::OF_LINES } else { history::of_points(rotations) }),
             slots: match (is_of_balls, is_of_lines) {
                 (true, _) => MOST_BALLS,
                 (_, true) => MOST_LINES,
@@ -252,9 +253,9 @@ impl FacetScene {
             let own = self.of_point(e, history);
             let all = (0..self.slots).map(move |slot| self.memory(own, slot));
             // Balls fill their slots from the first on.
-            all.take_while(|memory| !self.is_of_balls || memory.motion().is_known())
+            all.take_while(|memory| !self.is_of_balls || memory.is_known())
         };
-        (0..self.points.len()).flat_map(of_point).filter(|memory| memory.motion().is_known())
+        (0..self.points.len()).flat_map(of_point).filter(|memory| memory.is_known())
     }
 }
 

@@ -3,9 +3,10 @@
 use super::balls;
 use super::facet::{Facet, Region};
 use super::found::{FacetTouch, TouchQuery};
-use super::nearby::farthest;
 use super::surface::FacetContacts;
 use super::touch;
+use crate::elements::contact::history::PairMemory;
+use crate::elements::contact::near_lists::farthest;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
@@ -15,7 +16,7 @@ const THROUGH: f64 = 0.9;
 /// True where a step from `start` to `now` must be shorter: a point would pass a facet, would come into an impact that the step does not
 /// resolve, or would slide on so far that its friction is forgotten.
 pub(super) fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
-    let way = farthest(of, now.nodes, |_, node| start[node].x);
+    let way = farthest(&of.involved, now.nodes, |_, node| start[node].x);
     !way.is_finite() || passes_any(of, way, start, now) || 2.0 * way > of.margin && forgets(of, now)
 }
 
@@ -37,7 +38,9 @@ fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration)
                 let pair = of.pair(e, touch, now.history);
                 let place = pair.place(now.nodes);
                 let is_through = place.d < -THROUGH * place.reach;
-                is_through || is_unresolved(of, pair.memory.map(|memory| memory.motion()), place.gap(), now.dt)
+                let old = pair.memory.unwrap_or(PairMemory::NOTHING);
+                let was_apart = !old.is_known() || old.gap() > 0.0;
+                is_through || was_apart && of.law.lands_unresolved(old, -place.gap(), now.dt)
             };
             if found.iter().any(too_far) {
                 return true;
@@ -47,7 +50,7 @@ fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration)
             let is_same = |slot: usize| {
                 let memory = of.memory(old, slot);
                 let other = memory.facet();
-                memory.motion().is_known()
+                memory.is_known()
                     && (other == facet || normal(&of.facets[other]).dot(&normal(&of.facets[facet])).abs() > 0.5)
             };
             (0..of.slots).any(is_same)
@@ -81,7 +84,7 @@ fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
         return false;
     }
     let rubs = |e: usize, slot: usize| {
-        let motion = of.memory(of.of_point(e, now.history), slot).motion();
+        let motion = of.memory(of.of_point(e, now.history), slot);
         motion.is_known() && motion.gap() <= 0.0 && motion.friction_force() > 0.0
     };
     let all = |e: usize| (0..of.slots).filter(|&slot| rubs(e, slot)).count();
@@ -111,27 +114,11 @@ fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
 fn has_come_through(of: &FacetContacts, e: usize, slot: usize, now: &Configuration) -> bool {
     let old = of.of_point(e, now.history);
     let memory = of.memory(old, slot);
-    if !memory.motion().is_known() || memory.motion().gap() > 0.0 || !of.facets[memory.facet()].has_sides() {
+    if !memory.is_known() || memory.gap() > 0.0 || !of.facets[memory.facet()].has_sides() {
         return false;
     }
     let place = of.pair_of(e, slot, old).place(now.nodes);
     place.at.region == Region::Interior && place.d < -THROUGH * place.reach
-}
-
-/// True for a landing that the step does not resolve: see [`crate::elements::contact::ContactLaw::resolution`].
-fn is_unresolved(
-    of: &FacetContacts,
-    old: Option<crate::elements::contact::history::PointHistory>,
-    gap: f64,
-    dt: f64,
-) -> bool {
-    let law = &of.law;
-    let fast = 3.0 * law.floor;
-    let lands = match old {
-        Some(old) => old.gap() > 0.0 && (old.rate() > fast || -gap > fast * 2.0 * law.resolution),
-        None => true,
-    };
-    lands && dt > law.resolution
 }
 
 /// By how far a point has come through a facet between two motions, on straight lines; `None` where it has not.

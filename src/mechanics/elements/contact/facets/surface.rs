@@ -3,15 +3,15 @@
 use super::facet::Facet;
 use super::facing::Facing;
 use super::found::{FacetTouch, TouchQuery};
-use super::memory::PairMemory;
 use super::nearby::NearbyFacets;
 use super::pair::FacetPair;
 use super::scene::{FacetScene, FacetTouchers};
 use super::touch;
+use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::nearest_corner::NearestCorner;
 use crate::elements::contact::point::ContactPoint;
-use crate::state::{Configuration, Node};
+use crate::state::Node;
 use base::math::Vec3;
 use std::ops::Deref;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -54,59 +54,37 @@ impl FacetContacts {
         let place = touch.slot.map(|slot| (e, slot)).or(touch.from);
         let memory = place.map(|(e, slot)| self.memory(self.of_point(e, history), slot));
         let ends = &self.points[place.map_or(e, |(e, _)| e)].nodes;
-        let facet = &self.facets[touch.facet];
-        let kept = memory.map_or(facet, |memory| &self.facets[memory.facet()]);
-        let inset = memory.map_or(touch.inset, PairMemory::inset);
-        let (point, facing) = (self.point_at(e, touch.share), touch.facing);
         FacetPair {
-            law: &self.law,
-            point,
-            facet,
-            facing,
+            facing: touch.facing,
             memory,
-            inset,
-            kept,
+            inset: memory.map_or(touch.inset, |memory| memory.inset(&self.law)),
+            kept: &self.facets[memory.map_or(touch.facet, PairMemory::facet)],
             kept_line: [ends[0], ends[1]],
-            sticks: false,
+            ..self.new_pair(e, touch.facet, touch.share)
         }
     }
 
     /// A point and the facet that it remembers in this slot.
     pub(super) fn pair_of<'a>(&'a self, e: usize, slot: usize, history: &'a [f64]) -> FacetPair<'a> {
         let memory = self.memory(history, slot);
-        let facet = &self.facets[memory.facet()];
-        let point = self.point_at(e, None);
-        let (memory, inset, kept_line) = (Some(memory), memory.inset(), [point.nodes[0], point.nodes[1]]);
+        let inset = memory.inset(&self.law);
+        FacetPair { memory: Some(memory), inset, ..self.new_pair(e, memory.facet(), None) }
+    }
+
+    /// A point, or that of a line at this share, and a facet, which remember nothing.
+    fn new_pair(&self, e: usize, facet: usize, share: Option<f64>) -> FacetPair<'_> {
+        let (point, ends, facet) = (self.point_at(e, share), &self.points[e].nodes, &self.facets[facet]);
         FacetPair {
             law: &self.law,
             point,
             facet,
             facing: Facing::Normal,
-            memory,
-            inset,
+            memory: None,
+            inset: 0.0,
             kept: facet,
-            kept_line,
+            kept_line: [ends[0], ends[1]],
             sticks: false,
         }
-    }
-
-    /// True where two lines touch that are parallel within some degrees, and not end to end.
-    pub(super) fn is_side_by_side(&self, now: &Configuration) -> bool {
-        /// The square of the cosine of six degrees.
-        const ALONG: f64 = 0.989;
-        if !self.is_of_lines || self.is_of_edges {
-            return false;
-        }
-        let mut found = false;
-        self.each_touch(now.nodes, now.history, |_, touch, pair| {
-            let along = |ends: &[usize]| now.nodes[ends[1]].relative_position(&now.nodes[ends[0]]);
-            let (u, v) = (along(pair.point.nodes()), along(pair.facet.nodes()));
-            let is_parallel = u.dot(&v).powi(2) > ALONG * u.norm_squared() * v.norm_squared();
-            // End to end they touch along themselves.
-            let is_beside = u.dot(&touch.toward).powi(2) < 0.5 * u.norm_squared();
-            found |= is_parallel && is_beside;
-        });
-        found
     }
 
     /// Calls with each pair that touches, `history` being that of the block.

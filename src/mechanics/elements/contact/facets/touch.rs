@@ -53,7 +53,7 @@ pub(super) fn find(
     match_memory(of, query.e, nodes, history, found);
     if found.iter().any(|touch| touch.inset > 0.0) {
         // What goes on from one facet to the next in contact is pressed as deep as it was.
-        let memories = (0..of.slots).map(|slot| of.memory(history, slot).motion());
+        let memories = (0..of.slots).map(|slot| of.memory(history, slot));
         let pressed = memories.filter(|motion| motion.is_known()).map(|motion| -motion.gap()).fold(0.0, f64::max);
         found.iter_mut().for_each(|touch| touch.inset = (touch.inset - pressed).max(0.0));
     }
@@ -148,7 +148,7 @@ fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
         let touch = found[k];
         let is_known = |slot: usize| {
             let memory = of.memory(history, slot);
-            memory.motion().is_known() && memory.facet() == touch.facet
+            memory.is_known() && memory.facet() == touch.facet
         };
         let is_deepest = |other: &FacetTouch| {
             !other.counts || other.toward.dot(&touch.toward) < ONE_DIRECTION || touch.gap < AS_DEEP * other.gap
@@ -219,7 +219,7 @@ fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
 fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
     for slot in 0..of.slots {
         let memory = of.memory(history, slot);
-        match memory.motion().is_known() {
+        match memory.is_known() {
             false if of.is_of_balls => break,
             false => continue,
             true => {}
@@ -234,7 +234,7 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
     let (x, origin) = seen(of, e, nodes);
     for slot in 0..of.slots {
         let memory = of.memory(history, slot);
-        if !memory.motion().is_known() || found.iter().any(|touch| touch.slot == Some(slot)) {
+        if !memory.is_known() || found.iter().any(|touch| touch.slot == Some(slot)) {
             continue;
         }
         let facet = &of.facets[memory.facet()];
@@ -250,7 +250,7 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
         let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);
         // It goes on to the same side alone, for of two layers that face alike it lies above the one and below the other; where it has come
         // through nearly to the middle, it is on either side of the next as rounding will have it.
-        let is_deep = memory.motion().gap() < -0.5 * (facet.half + of.points[e].radius);
+        let is_deep = memory.gap() < -0.5 * (facet.half + of.points[e].radius);
         let same_side = |touch: &FacetTouch| !facet.has_sides() || is_deep || memory.side() * touch.height() >= 0.0;
         let goes_on = |touch: &&mut FacetTouch| {
             touch.slot.is_none() && likeness(touch) > NEIGHBOURS && same_side(touch) && is_close(of, e, touch, &at.g)
@@ -274,7 +274,7 @@ pub(super) fn take_over(of: &FacetScene, e: usize, nodes: &[Node], history: &[f6
         let remembers = |(line, slot): &(usize, usize)| {
             let memory = of.memory(of.of_point(*line, history), *slot);
             let meets = || facet.nodes().iter().any(|node| of.facets[memory.facet()].nodes().contains(node));
-            memory.motion().is_known() && (memory.facet() == touch.facet || meets())
+            memory.is_known() && (memory.facet() == touch.facet || meets())
         };
         let ends = of.points[e].nodes().iter().copied();
         let left = ends.flat_map(|node| of.lines_at(node).map(move |line| (line, node))).filter(|&(line, node)| {

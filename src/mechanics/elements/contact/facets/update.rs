@@ -3,12 +3,13 @@
 use super::balls;
 use super::found::{FacetTouch, TouchQuery};
 use super::line_friction;
-use super::memory::{self, LineMemory, LineMemoryMut, PairMemory, PairMemoryMut};
 use super::pair::{FacetPair, PairForceOnPoint, PairPlace, Rub, rotation_of};
 use super::surface::FacetContacts;
 use super::touch;
-use crate::elements::contact::history::PointHistory;
-use crate::elements::contact::normal_motion::{NormalMotion, damping_power, slip_limit, update_normal, way};
+use crate::elements::contact::history::{PairMemory, PairMemoryMut};
+use crate::elements::contact::normal_motion::{
+    NormalMotion, damping_power, let_go, lost, slip_begin, update_normal, update_slip, way,
+};
 use crate::materials::Dissipation;
 use crate::state::Configuration;
 use base::math::rotation::{exp, matrix, renormalise};
@@ -34,16 +35,16 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
             continue;
         }
         let new = &mut new[e * width..(e + 1) * width];
-        spent += let_go(of, now, part, &found, old);
+        spent += forget(of, part * now.dt, &found, old);
         new.fill(0.0);
-        let is_taken = |slot: usize| of.memory(old, slot).motion().is_known();
+        let is_taken = |slot: usize| of.memory(old, slot).is_known();
         for k in 0..found.len() {
             let slot = found[k].slot.or_else(|| touch::free_slot(of.slots, &found, is_taken));
             let Some(slot) = slot else { continue };
             let pair = of.pair(e, &found[k], now.history);
             if let Some((line, from)) = found[k].from {
                 // The neighbour, which forgets it, counts it as lost.
-                let lost = lost(of, now, part, of.memory(of.of_point(line, now.history), from).motion());
+                let lost = lost(&of.law, of.memory(of.of_point(line, now.history), from), part * now.dt);
                 spent.friction -= lost.friction;
                 spent.impact -= lost.impact;
             }
@@ -67,9 +68,9 @@ fn update_balls(
     new: &mut [f64],
 ) -> Dissipation {
     let old = of.of_point(e, now.history);
-    let motion = |touch: &FacetTouch| touch.slot.map(|slot| of.memory(old, slot).motion());
+    let motion = |touch: &FacetTouch| touch.slot.map(|slot| of.memory(old, slot));
     found.retain(|touch| balls::is_memorable(of, e, touch, now, motion(touch)));
-    let mut spent = let_go(of, now, part, found, old);
+    let mut spent = forget(of, part * now.dt, found, old);
     balls::clear(of, e, new);
     for (slot, touch) in found.iter().enumerate() {
         let (pair, place) = (of.pair(e, touch, now.history), balls::place(of, e, slot));
@@ -78,28 +79,18 @@ fn update_balls(
     spent
 }
 
-/// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
-fn let_go(of: &FacetContacts, now: &Configuration, part: f64, found: &[FacetTouch], old: &[f64]) -> Dissipation {
+/// What pairs that are forgotten lose.
+fn forget(of: &FacetContacts, way: f64, found: &[FacetTouch], old: &[f64]) -> Dissipation {
     let mut spent = Dissipation::default();
     for slot in 0..of.slots {
-        let motion = of.memory(old, slot).motion();
-        match motion.is_known() {
-            true if found.iter().all(|touch| touch.slot != Some(slot)) => spent += lost(of, now, part, motion),
+        let memory = of.memory(old, slot);
+        match memory.is_known() {
+            true if found.iter().all(|touch| touch.slot != Some(slot)) => spent += lost(&of.law, memory, way),
             false if of.is_of_balls => break,
             _ => {}
         }
     }
     spent
-}
-
-/// What a pair loses that is forgotten.
-fn lost(of: &FacetContacts, now: &Configuration, part: f64, motion: PointHistory) -> Dissipation {
-    let pull = if of.law.friction > 0.0 { motion.friction_force() } else { 0.0 };
-    Dissipation {
-        friction: 0.5 * pull * pull / of.law.stiffness,
-        impact: 0.5 * part * now.dt * motion.damping_power(),
-        ..Dissipation::default()
-    }
 }
 
 fn update_pair(
@@ -111,18 +102,17 @@ fn update_pair(
     new: &mut PairMemoryMut,
 ) -> Dissipation {
     let place = pair.place(now.nodes);
-    let nothing = [0.0; memory::width(false, 0)];
-    let old = pair.memory.unwrap_or(PairMemory(&nothing));
+    let old = pair.memory.unwrap_or(PairMemory::NOTHING);
     let acting = (place.gap() <= of.law.touching).then(|| pair.force(&place, now.nodes));
     let force = acting.as_ref().map_or(0.0, |acting| acting.normal.force);
     let (gap, rate) = (place.gap(), place.rate());
     let less = acting.as_ref().and_then(|acting| acting.less.as_ref()).map_or(0.0, |end| end.power);
     let power = damping_power(&of.law, gap, rate, force) - less;
     let motion = NormalMotion { gap, inset: place.inset_left(), rate, power, speed: place.w.norm() };
-    let (impact, inset) = update_normal(&of.law, &motion, now, part, old.motion(), &mut new.motion());
+    let (impact, inset) = update_normal(&of.law, &motion, now, part, old, new);
     let mut spent = Dissipation { impact, ..Dissipation::default() };
     new.set_facet(touch.facet, place.side);
-    new.set_inset(inset);
+    new.set_inset(&of.law, inset);
     if of.law.friction > 0.0 {
         spent.friction = update_friction(of, pair, (&place, acting.as_ref()), now, part, new);
     }
@@ -144,38 +134,23 @@ fn update_friction(
     let (q, n) = (rotation_of(pair.facet, now.nodes), &place.n);
     // The point and the anchor stand in global axes from the first node of the facet on which the point is now.
     let x = pair.seen_from(pair.facet, &place.x, now.nodes);
-    let k = of.law.stiffness;
     let Some(memory) = pair.memory else {
-        let (pull, slip_speed) = begun(of, pair, place, acting, now);
-        new.motion().set_friction_force(pull.norm());
-        new.set_slip_speed(slip_speed);
-        new.set_anchor(&pair.facet.components(&(x - pull / k), now.nodes));
+        let pull = begin(of, pair, place, acting, now, new);
+        new.set_anchor(&pair.facet.components(&(x - pull / of.law.stiffness), now.nodes));
         for i in 0..rotations(of, pair) {
             new.set_rotation(i, &(q.conjugate() * now.nodes[pair.point.nodes[i]].rotation));
         }
         return 0.0;
     };
-    let part = way(memory.motion(), part);
+    let part = way(memory, part);
     let old_q = rotation_of(pair.kept, now.nodes);
     let old_R = matrix(&old_q);
-    let pull = memory.motion().friction_force();
     let friction = acting.and_then(|acting| acting.friction.as_ref());
     let moved = now.nodes[pair.kept.nodes[0]].relative_position(&now.nodes[pair.facet.nodes[0]]);
     let mut anchor = moved + pair.kept.base(now.nodes) * memory.anchor();
-    let spent = match friction {
-        Some(friction) => {
-            let rubbed = rubbed(of, friction, (memory, memory.slip_speed()), part, now.dt);
-            new.motion().set_friction_force(rubbed.pull);
-            new.set_slip_speed(rubbed.slip_speed);
-            anchor += part * (friction.slip + n.dot(&(x - anchor)) * n);
-            rubbed.spent
-        }
-        // The point is free: the anchor goes along, and what was stretched lets go.
-        None => {
-            anchor += part * (x - anchor);
-            0.5 * pull * (pull / k)
-        }
-    };
+    // The anchor of a point that is free goes along.
+    anchor += part * friction.map_or(x - anchor, |friction| friction.slip + n.dot(&(x - anchor)) * n);
+    let spent = rubbed(of, friction, memory, (now.dt, part), new);
     for i in 0..rotations(of, pair) {
         let phi = pair.turned(i, memory, (&old_q, &old_R), now.nodes);
         if friction.is_some() {
@@ -188,22 +163,17 @@ fn update_friction(
     spent
 }
 
-/// The friction of a pair at the end of a step.
-struct Rubbed {
-    /// The size of the friction force.
-    pull: f64,
-    /// The slip speed of the step.
-    slip_speed: f64,
-    /// The energy that slip dissipated.
-    spent: f64,
-}
-
-/// The friction after `part` of the way from the last state; `before` is the slip speed that the pair remembers.
-fn rubbed(of: &FacetContacts, friction: &Rub, (memory, before): (PairMemory, f64), part: f64, dt: f64) -> Rubbed {
-    let (old, slip) = (memory.motion().friction_force(), friction.slip.norm());
-    let pull = old + part * (friction.T.norm() - old);
-    let begin = old.max(slip_limit(&of.law, (memory.motion(), before), memory.inset()));
-    Rubbed { pull, slip_speed: if dt > 0.0 { slip / dt } else { before }, spent: 0.5 * part * slip * (begin + pull) }
+/// Writes the friction force and the slip speed; returns what slip dissipated. Where the two are apart what was stretched lets go.
+fn rubbed(
+    of: &FacetContacts,
+    friction: Option<&Rub>,
+    memory: PairMemory,
+    step: (f64, f64),
+    new: &mut PairMemoryMut,
+) -> f64 {
+    let Some(friction) = friction else { return let_go(&of.law, memory) };
+    let slipped = [friction.T.norm(), friction.slip.norm(), slip_begin(&of.law, memory)];
+    update_slip(slipped, step, memory, new)
 }
 
 /// The same for two lines.
@@ -215,49 +185,37 @@ fn update_friction_of_lines(
     part: f64,
     new: &mut PairMemoryMut,
 ) -> f64 {
-    let k = of.law.stiffness;
-    line_friction::remember(pair, now, part, &mut LineMemoryMut(&mut *new.0));
-    let mut stretch = |stretch: Vec3, part: f64| {
-        line_friction::remember_stretch(pair, place, (&stretch, part), now.nodes, &mut LineMemoryMut(&mut *new.0));
-    };
-    let Some(memory) = pair.memory else {
-        let (pull, slip_speed) = begun(of, pair, place, acting, now);
-        stretch(pull / k, 1.0);
-        new.motion().set_friction_force(pull.norm());
-        LineMemoryMut(&mut *new.0).set_slip_speed(slip_speed);
-        return 0.0;
-    };
-    let pull = memory.motion().friction_force();
-    match acting.and_then(|acting| acting.friction.as_ref()) {
-        Some(friction) => {
-            let rubbed = rubbed(of, friction, (memory, LineMemory(memory.0).slip_speed()), part, now.dt);
-            stretch(friction.T / k, part);
-            new.motion().set_friction_force(rubbed.pull);
-            LineMemoryMut(&mut *new.0).set_slip_speed(rubbed.slip_speed);
-            rubbed.spent
+    let friction = acting.and_then(|acting| acting.friction.as_ref());
+    line_friction::remember(pair, now, part, new);
+    // Of two that are apart what was stretched lets go at once.
+    let (pull, way, spent) = match (pair.memory, friction) {
+        (None, _) => (begin(of, pair, place, acting, now, new), 1.0, 0.0),
+        (Some(memory), friction) => {
+            let spent = rubbed(of, friction, memory, (now.dt, part), new);
+            friction.map_or((Vec3::zeros(), 1.0, spent), |friction| (friction.T, part, spent))
         }
-        // The two are apart: what was stretched lets go.
-        None => {
-            stretch(Vec3::zeros(), 1.0);
-            0.5 * pull * (pull / k)
-        }
-    }
+    };
+    line_friction::remember_stretch(pair, place, (&(pull / of.law.stiffness), way), now.nodes, new);
+    spent
 }
 
-/// The friction and the slip speed with which a pair begins of which nothing is known: what slides at t = 0 has been sliding, and its spring is stretched.
-fn begun(
+/// Writes the friction with which a pair begins of which nothing is known: see [`ContactLaw::begun`]. Returns its force.
+fn begin(
     of: &FacetContacts,
     pair: &FacetPair,
     place: &PairPlace,
     acting: Option<&PairForceOnPoint>,
     now: &Configuration,
-) -> (Vec3, f64) {
+    new: &mut PairMemoryMut,
+) -> Vec3 {
     let force = acting.map_or(0.0, PairForceOnPoint::pressed);
     if now.dt > 0.0 || force <= 0.0 {
-        return (Vec3::zeros(), 0.0);
+        return Vec3::zeros();
     }
-    let (direction, speed) = sliding(pair, place, of.law.floor, now);
-    (of.law.friction_at(speed) * force * direction, speed)
+    let (pull, slip_speed) = of.law.begun(force, &slip_rate(pair, place, now));
+    new.set_friction_force(pull.norm());
+    new.set_slip_speed(slip_speed);
+    pull
 }
 
 /// Number of rotations that are kept.
@@ -276,8 +234,8 @@ fn kept_rotation(
     renormalise(&(q.conjugate() * old_q * on))
 }
 
-/// Unit vector along the slip, and the slip speed; zero for what does not slip faster than its weight makes it.
-fn sliding(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration) -> (Vec3, f64) {
+/// The velocity of the slip.
+fn slip_rate(pair: &FacetPair, place: &PairPlace, now: &Configuration) -> Vec3 {
     let (n, r) = (&place.n, pair.point.rolling_radius);
     let spin: Vec3 = pair.point.parts().map(|(node, w)| w * now.nodes[node].omega).sum();
     let of_facet = match pair.facet.has_sides() {
@@ -285,7 +243,5 @@ fn sliding(pair: &FacetPair, place: &PairPlace, floor: f64, now: &Configuration)
         false => pair.facet.nodes().iter().zip(place.W).map(|(&node, w)| w * now.nodes[node].omega).sum(),
     };
     let w = place.w - of_facet.cross(&(place.d * n));
-    let slip = w - n.dot(&w) * n - r * (spin - of_facet).cross(n);
-    let speed = slip.norm();
-    if speed > floor { (slip / speed, speed) } else { (Vec3::zeros(), 0.0) }
+    w - n.dot(&w) * n - r * (spin - of_facet).cross(n)
 }

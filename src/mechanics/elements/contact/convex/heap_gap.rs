@@ -1,25 +1,8 @@
-//! What limits the steps of convex solids among themselves, and their least gap.
+//! The least gap of convex solids among themselves.
 
-use super::heap::ConvexHeap;
 use super::pair::{CarriedConvex, ConvexBody};
-use super::steps::is_missed;
 use crate::elements::contact::gap::distance;
-use crate::state::{Configuration, Node};
-
-/// True where a step from `start` to `now` must be shorter.
-pub(super) fn misses_heap(heap: &ConvexHeap, start: &[Node], now: &Configuration) -> bool {
-    let ways = heap.involved.iter().map(|&node| (now.nodes[node].x - start[node].x).norm());
-    let way = ways.fold(0.0, |most: f64, way| if way > most || way.is_nan() { way } else { most });
-    if !way.is_finite() {
-        return true;
-    }
-    let mut nearby = heap.nearby(now.nodes);
-    (0..heap.solids.len()).any(|e| {
-        heap.on_the_way(e, way, &mut nearby, |other| {
-            is_missed(&heap.pair(e, other), heap.memory(now.history, e, other), start, now)
-        })
-    })
-}
+use crate::state::Node;
 
 /// Least distance of solids among themselves, without the pairs that are `joined`, negative where they overlap; infinite where there are
 /// fewer than two.
