@@ -14,16 +14,12 @@ use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State};
 use model::DIRECTIONS;
 
-/// Refuses a step that leaves the path of equilibria, or turns nodes too far.
+/// Refuses a load step that leaves the path of equilibria, or turns nodes too far.
 pub struct JumpGuard;
 
 impl Guard for JumpGuard {
     fn at_iterate(&mut self, cx: &Context, ws: &Workspace, step: &Step, iterate: &Iterate) -> Result<(), Failure> {
-        match iterate.converged {
-            true if cx.is_dynamic() => check_shells(cx, &ws.trial),
-            true => check_turns(cx, &ws.trial, step),
-            false => Ok(()),
-        }
+        if iterate.converged { check_turns(cx, &ws.trial, step) } else { Ok(()) }
     }
 
     fn at_end(
@@ -34,11 +30,20 @@ impl Guard for JumpGuard {
         dissipated: &Dissipation,
     ) -> Result<(), Failure> {
         // The work of rounding is none.
-        let exempt = cx.is_dynamic() || cx.model.analysis.step_length.is_arc_length() || ws.load_steps.peak.unstressed;
+        let exempt = cx.model.analysis.step_length.is_arc_length() || ws.load_steps.peak.unstressed;
         if exempt || step.dt() <= 0.0 {
             return Ok(());
         }
         check_work(cx, ws, step.state, dissipated, step.to)
+    }
+}
+
+/// Refuses a step of a motion that turns a node of a shell against its element.
+pub struct TwistGuard;
+
+impl Guard for TwistGuard {
+    fn at_iterate(&mut self, cx: &Context, ws: &Workspace, _step: &Step, iterate: &Iterate) -> Result<(), Failure> {
+        if iterate.converged { check_shells(cx, &ws.trial) } else { Ok(()) }
     }
 }
 

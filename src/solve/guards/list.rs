@@ -6,7 +6,7 @@ use crate::guards::contacts::ContactGuard;
 use crate::guards::drift::DriftGuard;
 use crate::guards::guard::Guard;
 use crate::guards::joints::JointGuard;
-use crate::guards::jump::JumpGuard;
+use crate::guards::jump::{JumpGuard, TwistGuard};
 use crate::guards::links::LinkGuard;
 use crate::guards::massless::MasslessNodes;
 use crate::guards::stability::Stability;
@@ -31,6 +31,7 @@ impl Guards {
                 GuardKind::Joints => Box::new(JointGuard),
                 GuardKind::Links => Box::new(LinkGuard),
                 GuardKind::Jump => Box::new(JumpGuard),
+                GuardKind::Twist => Box::new(TwistGuard),
                 GuardKind::Strain => Box::new(StrainGuard),
                 GuardKind::Drift => Box::new(DriftGuard),
                 GuardKind::Stability => Box::new(Stability::new(cx)?),

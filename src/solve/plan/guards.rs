@@ -14,8 +14,10 @@ pub enum GuardKind {
     Joints,
     /// Bushings and supports that have lost count of turns.
     Links,
-    /// Steps that leave the path of equilibria, or turn nodes too far.
+    /// Load steps that leave the path of equilibria, or turn nodes too far.
     Jump,
+    /// Steps of a motion that turn nodes of shells against their elements.
+    Twist,
     /// Shells that are stretched beyond what their measure of strain is for.
     Strain,
     /// Rotations that supports fix alone, whose total drifts.
@@ -36,7 +38,8 @@ pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> V
         (GuardKind::Massless, dynamic && !explicit),
         (GuardKind::Joints, !explicit && !system.joints.is_empty()),
         (GuardKind::Links, !explicit && counts_turns),
-        (GuardKind::Jump, !explicit && !linear && (!dynamic || has_shells)),
+        (GuardKind::Jump, !dynamic && !linear),
+        (GuardKind::Twist, dynamic && !explicit && !linear && has_shells),
         (GuardKind::Strain, has_shells),
         (GuardKind::Drift, model.analysis.begin == 0.0 && holds_rotations),
         (GuardKind::Stability, !dynamic && !linear),
