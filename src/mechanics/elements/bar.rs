@@ -3,7 +3,7 @@
 
 use super::block::{ElementBlock, Force, Moduli, subtract};
 use super::link::{Link, LinkLaw, Links};
-use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, Response, Uniaxial};
+use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, PointResponse, Uniaxial};
 use crate::state::{Configuration, Node, elongation, stretch};
 use base::math::{Mat3, Vec3};
 
@@ -120,7 +120,7 @@ impl YieldingBars {
         if self.law.has_failed(Uniaxial, old) {
             return Tension { modulus: FAILED_STIFFNESS * self.law.elastic().E, ..Tension::default() };
         }
-        let Response { stress: [stress], tangent, .. } =
+        let PointResponse { stress: [stress], tangent, .. } =
             self.law.at_point(Uniaxial, &[at.strain], (dt, old), Ask::Tangent);
         let viscosity = self.damping * self.law.elastic().E;
         let damping = viscosity * at.strain_rate;

@@ -6,7 +6,7 @@ use super::constants::ElasticConstants;
 use super::failure::FailureCriterion;
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
-use super::response::{Ask, PointHistory, Response, Spent};
+use super::response::{Ask, MaterialHistory, PointResponse, Spent};
 use super::return_mapping::{ReturnPoint, Trial, Yielding};
 use super::stress_state::StressState;
 use base::math::lanes::LANES;
@@ -109,12 +109,12 @@ impl MaterialLaw {
         state: S,
         history: &[f64],
         at: impl Fn(usize) -> usize,
-    ) -> PointHistory<T, N> {
+    ) -> MaterialHistory<T, N> {
         let variables = self.history(state);
         let own: [&[f64]; LANES] =
             from_fn(|lane| if lane < T::COUNT { &history[at(lane)..][..variables] } else { &[] });
         let number = |k: usize| T::gather(|lane| own[lane][k]);
-        PointHistory {
+        MaterialHistory {
             plastic: from_fn(number),
             accumulated: number(N),
             back: self.is_kinematic().then(|| from_fn(|i| number(N + 1 + i))),
@@ -128,7 +128,7 @@ impl MaterialLaw {
     pub fn remember<T: Number, const N: usize, S: StressState<N>>(
         &self,
         state: S,
-        of: &PointHistory<T, N>,
+        of: &MaterialHistory<T, N>,
         (history, at): (&mut [f64], impl Fn(usize) -> Option<usize>),
     ) {
         let variables = self.history(state);
@@ -157,12 +157,12 @@ impl MaterialLaw {
         &self,
         state: S,
         strain: &[T; N],
-        (dt, old): (f64, &PointHistory<T, N>),
+        (dt, old): (f64, &MaterialHistory<T, N>),
         ask: Ask,
-    ) -> Response<T, N> {
+    ) -> PointResponse<T, N> {
         let failed = self.failure.as_ref().map(|failure| failed(failure, old));
         let answer = self.answer::<T, N, S>(strain, dt, old, failed);
-        let mut out = Response { stress: S::modes(answer.stress()), tangent: None, new: *old, dissipation: None };
+        let mut out = PointResponse { stress: S::modes(answer.stress()), tangent: None, new: *old, dissipation: None };
         match ask {
             Ask::Stress => {}
             Ask::Tangent => out.tangent = self.tangent(state, &answer),
@@ -189,7 +189,7 @@ impl MaterialLaw {
         strain: &[f64; N],
         (dt, old): (f64, &[f64]),
         ask: Ask,
-    ) -> Response<f64, N> {
+    ) -> PointResponse<f64, N> {
         self.respond(state, strain, (dt, &self.recall(state, old, |_| 0)), ask)
     }
 
@@ -225,10 +225,10 @@ impl MaterialLaw {
     fn advance<T: Number, const N: usize, S: StressState<N>>(
         &self,
         _: S,
-        (strain, old): (&[T; N], &PointHistory<T, N>),
+        (strain, old): (&[T; N], &MaterialHistory<T, N>),
         answer: &Answer<T, N>,
         (dt, part): (f64, f64),
-        out: &mut Response<T, N>,
+        out: &mut PointResponse<T, N>,
     ) {
         let (part, half) = (T::splat(part), T::splat(0.5));
         if let Some(from) = old.overstress {
@@ -284,7 +284,7 @@ impl MaterialLaw {
     fn give_up<T: Number, const N: usize, S: StressState<N>>(
         &self,
         strain: &[T; N],
-        new: &PointHistory<T, N>,
+        new: &MaterialHistory<T, N>,
         gone: T::Mask,
         spent: &mut Spent<T>,
     ) {
@@ -332,7 +332,11 @@ impl MaterialLaw {
 
     /// The elastic energy of a point, per volume, whether it has failed or not.
     #[inline(always)]
-    fn stored<T: Number, const N: usize, S: StressState<N>>(&self, strain: &[T; N], history: &PointHistory<T, N>) -> T {
+    fn stored<T: Number, const N: usize, S: StressState<N>>(
+        &self,
+        strain: &[T; N],
+        history: &MaterialHistory<T, N>,
+    ) -> T {
         let e = S::moduli(&self.elastic);
         let elastic = S::modes(from_fn(|i| strain[i] - history.plastic[i]));
         let mut sum = T::ZERO;
@@ -357,7 +361,7 @@ impl MaterialLaw {
         &self,
         strain: &[T; N],
         dt: f64,
-        old: &PointHistory<T, N>,
+        old: &MaterialHistory<T, N>,
         failed: Option<T::Mask>,
     ) -> Answer<T, N> {
         let e = S::moduli(&self.elastic);
@@ -402,7 +406,7 @@ impl MaterialLaw {
 
 /// True where a point has failed by its history.
 #[inline(always)]
-fn failed<T: Number, const N: usize>(failure: &FailureCriterion, history: &PointHistory<T, N>) -> T::Mask {
+fn failed<T: Number, const N: usize>(failure: &FailureCriterion, history: &MaterialHistory<T, N>) -> T::Mask {
     match history.damage {
         Some(damage) => T::ONE.le(damage),
         None => T::splat(failure.strain).le(history.accumulated),

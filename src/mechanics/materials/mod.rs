@@ -21,5 +21,5 @@ pub use failure::FailureCriterion;
 pub use hardening::Hardening;
 pub use law::{FAILED_STIFFNESS, MaterialLaw};
 pub use overstress::{Overstress, Viscosity};
-pub use response::{Ask, PointHistory, Response, Spent};
+pub use response::{Ask, MaterialHistory, PointResponse, Spent};
 pub use stress_state::{FibreStress, PlaneStress, StressState, Uniaxial};

@@ -17,7 +17,7 @@ pub enum Ask {
 
 /// The history variables of a point.
 #[derive(Debug, Clone, Copy)]
-pub struct PointHistory<T, const N: usize> {
+pub struct MaterialHistory<T, const N: usize> {
     /// Plastic strain.
     pub plastic: [T; N],
     /// Accumulated plastic strain.
@@ -32,13 +32,13 @@ pub struct PointHistory<T, const N: usize> {
 
 /// What a material answers.
 #[derive(Debug, Clone, Copy)]
-pub struct Response<T, const N: usize> {
+pub struct PointResponse<T, const N: usize> {
     /// Stress.
     pub stress: [T; N],
     /// Derivative of the stress by the strain, if asked for; `None` where it is the elastic stiffness.
     pub tangent: Option<[[T; N]; N]>,
     /// History variables, the old ones unless asked for.
-    pub new: PointHistory<T, N>,
+    pub new: MaterialHistory<T, N>,
     /// What the step dissipates, per volume, if the history is asked for; `None` where nothing yields.
     pub dissipation: Option<Spent<T>>,
 }
@@ -88,13 +88,13 @@ impl<T: Number> Spent<T> {
     }
 }
 
-impl<T: Number, const N: usize> PointHistory<T, N> {
+impl<T: Number, const N: usize> MaterialHistory<T, N> {
     /// `old` where the condition holds, this elsewhere.
     #[inline(always)]
     pub(super) fn unless(self, condition: T::Mask, old: &Self) -> Self {
         let of = |new, old| T::select(condition, old, new);
         let both = |new: Option<T>, old: Option<T>| new.zip(old).map(|(new, old)| of(new, old));
-        PointHistory {
+        MaterialHistory {
             plastic: from_fn(|i| of(self.plastic[i], old.plastic[i])),
             accumulated: of(self.accumulated, old.accumulated),
             back: self.back.zip(old.back).map(|(new, old)| from_fn(|i| of(new[i], old[i]))),

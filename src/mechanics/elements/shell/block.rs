@@ -4,7 +4,7 @@ use super::interpolation::Interpolation;
 use super::pack::{ShellPack, Shells, Strains};
 use super::results;
 use super::section::{NewHistory, ShellSections};
-use super::tangent::Damping;
+use super::tangent::RateTerms;
 use crate::elements::block::{ElementBlock, Force, Moduli};
 use crate::elements::results::ShellResultants;
 use crate::materials::{Dissipation, FAILED_STIFFNESS, Spent};
@@ -42,7 +42,7 @@ where
     ) {
         let mut H = [[[[Lanes::ZERO; 6]; N]; 6]; N];
         let damping = rate_weight.filter(|_| self.damping > 0.0);
-        let damping = damping.map(|rate_weight| Damping { factor: self.damping, rate_weight });
+        let damping = damping.map(|rate_weight| RateTerms { factor: self.damping, rate_weight });
         pack.tangents::<K>((now, stressed), moduli, damping, &mut H);
         let (H, length) = (H.as_flattened().as_flattened().as_flattened(), 36 * N * N);
         if first == 0 {

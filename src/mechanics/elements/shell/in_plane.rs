@@ -34,7 +34,7 @@ impl<const P: usize, const E: usize> InPlane<P, E> {
 }
 
 /// Stress of elements in their planes, and the stiffness C.
-pub struct Linearised<const P: usize, const E: usize, T> {
+pub struct LinearisedPlane<const P: usize, const E: usize, T> {
     /// Stress.
     pub stress: InPlane<P, E, T>,
     /// Membrane.

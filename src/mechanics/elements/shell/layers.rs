@@ -1,7 +1,7 @@
 //! Shells of layers in plane stress, each with history variables of its own, that yield. Strain of the reference surface is Green's, or
 //! logarithmic, see [`super::stretch`], and curvature adds to it. Transverse shear stays elastic until all layers have failed.
 
-use super::in_plane::{InPlane, Linearised, product, subtract};
+use super::in_plane::{InPlane, LinearisedPlane, product, subtract};
 use super::plane_strains::PointStrains;
 use super::section::{Drilling, InPlaneSection, NewHistory, ShellSections, StiffnessPack};
 use super::stretch::Stretch;
@@ -109,7 +109,7 @@ struct Resultants<T> {
 /// What the layers are asked besides the stress.
 enum LayersAsk<'a, const P: usize, const E: usize, T> {
     Stress,
-    Tangent(&'a mut Linearised<P, E, T>),
+    Tangent(&'a mut LinearisedPlane<P, E, T>),
     History(NewHistory<'a, T>),
 }
 
@@ -158,7 +158,7 @@ impl<const P: usize, const E: usize, T: Number> PointPack<P, E, T> {
 
     /// Takes off the stiffness what the point has lost.
     #[inline(always)]
-    fn subtract(&self, Resultants { loss, yields, .. }: &Resultants<T>, out: &mut Linearised<P, E, T>) {
+    fn subtract(&self, Resultants { loss, yields, .. }: &Resultants<T>, out: &mut LinearisedPlane<P, E, T>) {
         let loss = loss.map(|loss| loss.map(|row| row.map(|lost| self.weight * lost)));
         subtract(&self.membrane, &loss[0], &self.membrane, &mut out.N);
         if *yields {
@@ -333,7 +333,7 @@ impl<const P: usize, const E: usize, T: Number> ShellSections<P, E, T> for Layer
         self.respond(strain, now, LayersAsk::Stress)
     }
 
-    fn linearise(&self, strain: &InPlane<P, E, T>, now: &Configuration, moduli: Moduli) -> Linearised<P, E, T> {
+    fn linearise(&self, strain: &InPlane<P, E, T>, now: &Configuration, moduli: Moduli) -> LinearisedPlane<P, E, T> {
         let mut out = self.elastic.linearised();
         out.stress = match moduli {
             Moduli::Algorithmic => self.respond(strain, now, LayersAsk::Tangent(&mut out)),

@@ -1,6 +1,6 @@
 //! What shells ask of their sections; sections that stay elastic. Those that yield stand in [`super::layers`].
 
-use super::in_plane::{InPlane, Linearised, product};
+use super::in_plane::{InPlane, LinearisedPlane, product};
 use super::plane_strains::PointStrains;
 use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
@@ -28,7 +28,7 @@ pub trait ShellSections<const P: usize, const E: usize, T: Number>: Send + Sync 
     /// Stress at a strain.
     fn stress(&self, strain: &InPlane<P, E, T>, now: &Configuration) -> InPlane<P, E, T>;
     /// Stress at a strain and its derivative.
-    fn linearise(&self, strain: &InPlane<P, E, T>, now: &Configuration, moduli: Moduli) -> Linearised<P, E, T>;
+    fn linearise(&self, strain: &InPlane<P, E, T>, now: &Configuration, moduli: Moduli) -> LinearisedPlane<P, E, T>;
     /// Stress at a strain, with the history variables there.
     fn advance(&self, strain: &InPlane<P, E, T>, now: &Configuration, to: NewHistory<T>) -> InPlane<P, E, T>;
     /// Elastic energy of an element.
@@ -177,9 +177,9 @@ impl<const P: usize, const E: usize, T: Number> StiffnessPack<P, E, T> {
 
     /// The whole matrices, without stress.
     #[inline(always)]
-    pub fn linearised(&self) -> Linearised<P, E, T> {
+    pub fn linearised(&self) -> LinearisedPlane<P, E, T> {
         let (N, M) = (&self.N[..E * (E + 1) / 2], &self.M[..P * (P + 1) / 2]);
-        let mut out = Linearised {
+        let mut out = LinearisedPlane {
             stress: InPlane::ZERO,
             N: [[T::ZERO; E]; E],
             M: [[T::ZERO; P]; P],
@@ -215,8 +215,8 @@ impl<const P: usize, const E: usize, T: Number> ShellSections<P, E, T> for Stiff
     }
 
     #[inline(always)]
-    fn linearise(&self, strain: &InPlane<P, E, T>, _: &Configuration, _: Moduli) -> Linearised<P, E, T> {
-        Linearised { stress: StiffnessPack::stress(self, strain), ..self.linearised() }
+    fn linearise(&self, strain: &InPlane<P, E, T>, _: &Configuration, _: Moduli) -> LinearisedPlane<P, E, T> {
+        LinearisedPlane { stress: StiffnessPack::stress(self, strain), ..self.linearised() }
     }
 
     #[inline(always)]

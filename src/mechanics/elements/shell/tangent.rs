@@ -4,7 +4,7 @@
 //! translation of all nodes does nothing. Only a node's own rotations have a part that is not symmetric, and damping.
 
 use super::arc::Slopes;
-use super::in_plane::{InPlane, Linearised};
+use super::in_plane::{InPlane, LinearisedPlane};
 use super::interpolation::Interpolation;
 use super::lane_matrix::{LaneMatrix, complete, hold_translations, product, subtract_skew};
 use super::pack::{Motion, ShellPack, Strains, by_pairs, sum, total};
@@ -213,7 +213,12 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
 
     /// C B, with what the stress of the membrane does to the camber.
     #[inline(always)]
-    fn times<K: Interpolation<N, V, P>>(&self, C: &Linearised<P, E, Lanes>, B: &Rows<N, P, E>, CB: &mut Rows<N, P, E>) {
+    fn times<K: Interpolation<N, V, P>>(
+        &self,
+        C: &LinearisedPlane<P, E, Lanes>,
+        B: &Rows<N, P, E>,
+        CB: &mut Rows<N, P, E>,
+    ) {
         let mut bending = B.bending;
         if K::EDGES_BEND {
             for (row, by) in bending.iter_mut().zip(&self.bent.0) {
@@ -378,7 +383,7 @@ where
         &self,
         (now, stressed): (&Configuration, Option<&[Node]>),
         moduli: Moduli,
-        damping: Option<Damping>,
+        damping: Option<RateTerms>,
         H: &mut LaneMatrix<N>,
     ) {
         let motion = self.gather(now.nodes);
@@ -404,7 +409,7 @@ where
     /// Adds the derivatives of the forces of damping by positions and rotations, and `rate_weight` times those by their rates.
     fn add_damping<K: Interpolation<N, V, P>>(
         &self,
-        Damping { factor, rate_weight }: Damping,
+        RateTerms { factor, rate_weight }: RateTerms,
         motion: &Motion<N>,
         nodes: &[Node],
         [B, CB]: [&mut Rows<N, P, E>; 2],
@@ -445,7 +450,7 @@ where
 
 /// Damping of a tangent.
 #[derive(Clone, Copy)]
-pub(super) struct Damping {
+pub(super) struct RateTerms {
     /// The factor of the stress by strain rates.
     pub factor: f64,
     /// What derivatives by rates are multiplied by.

@@ -2,7 +2,7 @@
 
 use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain, StrainHessian};
 use crate::elements::block::Moduli;
-use crate::elements::shell::in_plane::Linearised;
+use crate::elements::shell::in_plane::LinearisedPlane;
 use crate::elements::shell::nodal_vectors::{NodalVectors, sum};
 use crate::elements::shell::section::ShellSections;
 use crate::state::{Configuration, Node};
@@ -119,7 +119,7 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
     #[inline(always)]
     fn times(
         &self,
-        Linearised { N: membrane, M: bending, NM, coupled, .. }: &Linearised<P, P, f64>,
+        LinearisedPlane { N: membrane, M: bending, NM, coupled, .. }: &LinearisedPlane<P, P, f64>,
         B: &CurvedRows<N, P, Q>,
     ) -> CurvedRows<N, P, Q> {
         let mut CB = CurvedRows::ZERO;
