@@ -70,6 +70,33 @@ fn cantilever_under_end_shear() {
     }
 }
 
+/// A narrow strip that moments at the two nodes of its end roll into a part of a circle, in meshes of 24, 48 and 96 elements: the end comes
+/// nearer to the circle with each, and the corners keep the width. Bounds: elements that the moments act on err by their length; the width is
+/// that of rounding, which iterations leave.
+#[test]
+fn moments_at_nodes_roll_a_strip_up() {
+    let (turn, radius) = (0.4 * std::f64::consts::PI, 12.0 / (0.4 * std::f64::consts::PI));
+    let exact = [radius * turn.sin() - 12.0, radius * (1.0 - turn.cos())];
+    for kind in ["quadrilateral", "triangle"] {
+        let mut before = f64::INFINITY;
+        for elements in [24, 48, 96] {
+            let deck = STRIP
+                .replace("LENGTH", "12.0")
+                .replace("KIND", &kind_of(kind))
+                .replace("[16, 1]", &format!("[{elements}, 1]"))
+                .replace("time_step = 0.05", "time_step = 0.2")
+                + "[[loads]]\nat = [\"b\", \"c\"]\nmoment = [0.0, -5.235987755982989, 0.0]\n";
+            let rows = displacements(&read(&deck), &[("b", 0), ("b", 2), ("b", 1)]);
+            let [u, w, v] = rows.last().unwrap()[..] else { unreachable!("three quantities") };
+            let error = (u - exact[0]).hypot(w - exact[1]) / radius;
+            println!("{kind} {elements}: {error:e}, {v:e}");
+            assert!(error < 0.8 * before, "{kind} {elements}: {error:e} after {before:e}");
+            assert!(error < 4e-3 / f64::from(elements) && v.abs() < 1e-6, "{kind} {elements}: {error:e}, {v:e}");
+            before = error;
+        }
+    }
+}
+
 #[test]
 fn cantilever_rolled_up() {
     for kind in ["quadrilateral", "triangle", "quadrilateral2", "triangle2"] {

@@ -41,6 +41,7 @@ mod nodal_vectors;
 mod pack;
 mod plane_strains;
 mod results;
+mod rolled_edges;
 mod section;
 mod stretch;
 mod surface;

@@ -7,6 +7,7 @@ use super::edge::EdgeTangents;
 use super::edge_bending::EdgeBending;
 use super::in_plane::{InPlane, product};
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
+use super::rolled_edges::RolledEdges;
 use super::section::{InPlaneSection, ShellSections, StiffnessPack};
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
@@ -71,6 +72,8 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
     pub arc: [[Lanes; 2]; 2],
     pub camber: Camber<Lanes>,
     pub edges: [[[Lanes; 2]; 2]; N],
+    /// The part of bulges in the curvature; `None` where all edges are straight.
+    pub rolled: Option<RolledEdges<N>>,
     pub shear: [[Lanes; N]; N],
     pub bent: EdgeBending<Lanes, N>,
     /// Strains at t = 0.
@@ -175,6 +178,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
             arc: from_fn(|i| from_fn(|j| of(&|e| e.arc[i][j]))),
             camber: Camber(from_fn(|m| from_fn(|n| from_fn(|k| of(&|e| e.camber.0[m][n][k]))))),
             edges: from_fn(|i| from_fn(|j| from_fn(|k| of(&|e| e.edges[i].0[j][k])))),
+            rolled: RolledEdges::new(|lane, e| at(lane).section.mean_of_membrane(P + e)),
             shear: from_fn(|i| from_fn(|j| of(&|e| e.shear[i][j]))),
             bent: EdgeBending(from_fn(|i| from_fn(|j| of(&|e| e.bent.0[i][j])))),
             start: Strains::ZERO,
@@ -273,6 +277,11 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
             plane.membrane[P + e] = along.dot(&self.bulging(e, [a, b], turning));
             shear[e] = half * along.dot(&(turning[0][a] + turning[0][b]));
         }
+        if let Some(rolled) = self.rolled.as_ref().filter(|_| *by_arcs) {
+            let t = rolled.strain(&from_fn(|e| plane.membrane[P + e]));
+            let more = rolled.curvature(&t, from_fn(|n| plane.bending[n]));
+            (0..3).for_each(|n| plane.bending[n] += more[n]);
+        }
         if K::EDGES_BEND {
             let more = self.bent.curvature(&shear);
             (0..3).for_each(|n| plane.bending[n] += more[n]);
@@ -305,19 +314,40 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         from_fn(|i| product(&self.shear[i], shear))
     }
 
-    /// The derivative of energy by the numbers of bending: the stress of bending and, by [`super::camber`], of the membrane.
+    /// The bulges of the edges.
     #[inline(always)]
-    pub fn bending_stress<K: Interpolation<N, V, P>>(
+    pub fn bulges<K: Interpolation<N, V, P>>(&self, Motion { x, turning }: &Motion<N>) -> [Lanes; N] {
+        from_fn(|e| {
+            let [a, b] = K::EDGES[e];
+            (x[b] - x[a]).dot(&self.bulging(e, [a, b], turning))
+        })
+    }
+
+    /// The derivative of energy by the numbers that are polynomials of positions and directors: the stress, and what [`super::camber`] and
+    /// [`super::rolled_edges`] make of it.
+    #[inline(always)]
+    pub fn pulled_back<K: Interpolation<N, V, P>>(
         &self,
-        plane: &InPlane<P, E, Lanes>,
+        mut stress: Strains<N, P, E>,
+        motion: &Motion<N>,
         slopes: &Slopes<V>,
-    ) -> [Lanes; P] {
-        let mut bending = plane.bending;
-        if K::CAMBERED && slopes.by_arcs {
-            let more = self.camber.moments(&plane.membrane, &slopes.first_bending());
-            (0..3).for_each(|n| bending[n] += more[n]);
+    ) -> Strains<N, P, E> {
+        if !slopes.by_arcs {
+            return stress;
         }
-        bending
+        let (first, plane) = (slopes.first_bending(), &mut stress.plane);
+        if let Some(rolled) = &self.rolled {
+            let M: [Lanes; 3] = from_fn(|n| plane.bending[n]);
+            let t = rolled.strain(&self.bulges::<K>(motion));
+            let (moments, of_bulges) = (rolled.moments(&t, &M), rolled.stress(first, &M));
+            (0..3).for_each(|n| plane.bending[n] += moments[n]);
+            (0..N).for_each(|e| plane.membrane[P + e] += of_bulges[e]);
+        }
+        if K::CAMBERED {
+            let more = self.camber.moments(&plane.membrane, &first);
+            (0..3).for_each(|n| plane.bending[n] += more[n]);
+        }
+        stress
     }
 
     /// The derivative of energy by the numbers of shear: the stress of shear and, by [`super::edge_bubbles`], of bending.
@@ -335,7 +365,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         stress
     }
 
-    /// The gradient Bᵀσ by positions, directors and tangents.
+    /// The gradient Bᵀσ by positions, directors and tangents, of the stress pulled back.
     #[inline(always)]
     pub fn gradient<K: Interpolation<N, V, P>>(
         &self,
@@ -345,8 +375,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
     ) -> Motion<N> {
         let [d, t1, t2] = turning;
         let Slopes { v, long, .. } = slopes;
-        let bending = self.bending_stress::<K>(plane, slopes);
-        let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &bending));
+        let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &plane.bending));
         let mut along: [LaneVec3; V] = from_fn(|i| sum(&Q[i], v));
         let bent: [LaneVec3; V] = from_fn(|i| sum(&M[i], v));
         (0..V).for_each(|i| along[i] += sum(&M[i], long));
@@ -396,6 +425,7 @@ where
         let Strains { plane, shear } = self.strains::<K>(&motion, &slopes);
         let plane = stress(&self.sections, &plane);
         let stress = Strains { shear: self.edge_stress::<K>(&shear, &plane), plane };
+        let stress = self.pulled_back::<K>(stress, &motion, &slopes);
         let mut g = self.gradient::<K>(&stress, &motion, &slopes);
         if damping > 0.0 {
             g = g.plus(1.0, &self.viscous_gradient::<K>(damping, &motion, nodes));

@@ -125,6 +125,16 @@ pub struct InPlaneSection<const P: usize, const E: usize> {
     pub points: Vec<PointStrains<P, E>>,
 }
 
+impl<const P: usize, const E: usize> InPlaneSection<P, E> {
+    /// The mean strain of the element by a number of the membrane, as 11, 22 and 12 of a symmetric tensor.
+    pub fn mean_of_membrane(&self, number: usize) -> [f64; 3] {
+        let area: f64 = self.points.iter().map(|point| point.weight).sum();
+        let mean =
+            |i: usize| self.points.iter().map(|point| point.weight / area * point.membrane[(i, number)]).sum::<f64>();
+        [mean(0), mean(1), 0.5 * mean(2)]
+    }
+}
+
 /// The stiffnesses of one element or of eight by the rows of their upper halves: the matrices are symmetric to the last bit.
 #[derive(Debug, Clone)]
 pub struct StiffnessPack<const P: usize, const E: usize, T> {

@@ -216,10 +216,14 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
     fn times<K: Interpolation<N, V, P>>(
         &self,
         C: &LinearisedPlane<P, E, Lanes>,
+        rolled: Option<&Rolled<N>>,
         B: &Rows<N, P, E>,
         CB: &mut Rows<N, P, E>,
     ) {
         let mut bending = B.bending;
+        if let Some(rolled) = rolled {
+            rolled.turn::<K, V, P, E>(B, &mut bending);
+        }
         if K::EDGES_BEND {
             for (row, by) in bending.iter_mut().zip(&self.bent.0) {
                 (0..N).for_each(|e| row.add_edge(K::EDGES[e], by[e], &B.shear[e]));
@@ -248,6 +252,9 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
                 (0..3).for_each(|n| row.add(self.bent.0[n][i], &CB.bending[n]));
             }
             CB.shear[i] = row;
+        }
+        if let Some(rolled) = rolled {
+            rolled.pull_back::<K, V, P, E>(B, CB);
         }
         if K::CAMBERED {
             for n in 0..3 {
@@ -320,7 +327,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         H: &mut LaneMatrix<N>,
     ) {
         let (d, Slopes { v, w, y, .. }) = (&motion.turning[0], slopes);
-        let Q = by_pairs::<V, P>(&K::PAIRS, &self.bending_stress::<K>(plane, slopes));
+        let Q = by_pairs::<V, P>(&K::PAIRS, &plane.bending);
         let p: [LaneVec3; V] = from_fn(|k| sum(&Q[k], v));
         let pair = |s: &[Lanes; 2], of: &[LaneVec3; 2]| s[0] * of[0] + s[1] * of[1];
         let s: [[Lanes; 2]; N] = from_fn(|a| [self.slopes[0][a], self.slopes[1][a]]);
@@ -396,8 +403,14 @@ where
         let stress = Strains { shear: self.edge_stress::<K>(&strains.shear, &C.stress), plane: C.stress };
         let (mut B, mut CB) = (Rows::ZERO, Rows::ZERO);
         self.rows::<K>(&motion, &slopes, &mut B);
-        self.times::<K>(&C, &B, &mut CB);
+        let rolled = self.rolled.as_ref().map(|rolled| Rolled {
+            t: rolled.strain(&self.bulges::<K>(&motion)),
+            by_bulges: rolled.by_bulges(slopes.first_bending()),
+            mixed: rolled.mixed(&from_fn(|n| C.stress.bending[n])),
+        });
+        self.times::<K>(&C, rolled.as_ref(), &B, &mut CB);
         B.transpose_times::<K, V>(&CB, H);
+        let stress = self.pulled_back::<K>(stress, &motion, &slopes);
         self.add_strain_hessian::<K>(&stress, &motion, &slopes, H);
         complete(H);
         self.gradient::<K>(&stress, &motion, &slopes).add_turning(&motion, H);
@@ -434,7 +447,7 @@ where
             }
         }
         *CB = Rows::ZERO;
-        self.times::<K>(&self.sections.elastic().linearised(), &D, CB);
+        self.times::<K>(&self.sections.elastic().linearised(), None, &D, CB);
         let stress = self.viscous_stress::<K>(factor, motion, &rates);
         let (chords, mut viscous) = (self.chords(motion), [[[[Lanes::ZERO; 6]; N]; 6]; N]);
         self.add_strain_hessian::<K>(&stress, motion, &chords, &mut viscous);
@@ -445,6 +458,65 @@ where
         B.all().zip(CB.all()).for_each(|(B, CB)| B.add_product(CB, &mut viscous));
         hold_translations(&mut viscous);
         add(&viscous, H);
+    }
+}
+
+/// What the rows of bending need of [`super::rolled_edges`].
+struct Rolled<const N: usize> {
+    /// Strain by the bulges.
+    t: [Lanes; 3],
+    /// What each bulge adds to the first numbers of bending.
+    by_bulges: [[Lanes; 3]; N],
+    /// The second derivatives by each bulge and those numbers.
+    mixed: [[Lanes; 3]; N],
+}
+
+impl<const N: usize> Rolled<N> {
+    /// ∂/∂k of sym(t K), of numbers of bending by numbers of bending; `None` where it is zero.
+    #[inline(always)]
+    fn of_bending(&self) -> [[Option<Lanes>; 3]; 3] {
+        let ([a, b, mixed], half) = (self.t, Lanes::splat(0.5));
+        let of = |of: Lanes| Some(half * of);
+        [[Some(a), None, of(mixed)], [None, Some(b), of(mixed)], [Some(mixed), Some(mixed), of(a + b)]]
+    }
+
+    /// Adds to the rows of the first numbers of bending what strain by bulges makes of them.
+    #[inline(always)]
+    fn turn<K: Interpolation<N, V, P>, const V: usize, const P: usize, const E: usize>(
+        &self,
+        B: &Rows<N, P, E>,
+        bending: &mut [Row<N>; P],
+    ) {
+        for (n, row) in self.of_bending().into_iter().enumerate() {
+            for (m, factor) in row.into_iter().enumerate() {
+                factor.into_iter().for_each(|factor| bending[n].add(factor, &B.bending[m]));
+            }
+            for (e, ends) in K::EDGES.into_iter().enumerate() {
+                bending[n].add_edge(ends, self.by_bulges[e][n], &B.membrane[P + e]);
+            }
+        }
+    }
+
+    /// The transpose of it on the rows of C B, and the second derivatives.
+    #[inline(always)]
+    fn pull_back<K: Interpolation<N, V, P>, const V: usize, const P: usize, const E: usize>(
+        &self,
+        B: &Rows<N, P, E>,
+        CB: &mut Rows<N, P, E>,
+    ) {
+        let moments: [Row<N>; 3] = from_fn(|n| CB.bending[n]);
+        for (n, row) in self.of_bending().into_iter().enumerate() {
+            for (m, factor) in row.into_iter().enumerate() {
+                factor.into_iter().for_each(|factor| CB.bending[m].add(factor, &moments[n]));
+            }
+        }
+        for (e, ends) in K::EDGES.into_iter().enumerate() {
+            for n in 0..3 {
+                CB.membrane[P + e].add(self.by_bulges[e][n], &moments[n]);
+                CB.membrane[P + e].add(self.mixed[e][n], &B.bending[n]);
+                CB.bending[n].add_edge(ends, self.mixed[e][n], &B.membrane[P + e]);
+            }
+        }
     }
 }
 
