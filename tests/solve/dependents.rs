@@ -53,7 +53,7 @@ fn matrices_are_projected_as_by_general_products() {
             let width = d * list.len();
             let mut K: Vec<f64> = (0..width * width).map(|_| vector(1.0).x).collect();
             let expected = general(&K, d, list, &of, &T);
-            let mut arms = Arms::new();
+            let mut arms = Arms::default();
             let (projection, rows) = arms.push(&followers, &dofs, list, d);
             let mut room = vec![0.0; rows.len().pow(2)];
             let result = arms.project(&projection, &T, (&mut K, width), &mut room);

@@ -102,6 +102,7 @@ struct Arm {
 }
 
 /// The arms of all local matrices, one after the other.
+#[derive(Default)]
 pub struct Arms(Vec<Arm>);
 
 /// The place of a local matrix with dependent nodes among [`Arms`].
@@ -112,11 +113,6 @@ pub struct Projection {
 }
 
 impl Arms {
-    /// No arms.
-    pub fn new() -> Self {
-        Arms(Vec::new())
-    }
-
     /// Adds the arms of a local matrix over `nodes` with `d` degrees of freedom each. Returns its place, and node and degree
     /// of freedom of each row of the projected matrix.
     pub fn push(

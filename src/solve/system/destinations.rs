@@ -77,7 +77,7 @@ pub struct Destinations<'a> {
 impl<'a> Destinations<'a> {
     /// Finds them for these unknowns in the matrix of the solver.
     pub fn new(dofs: &'a DofMap, solver: &'a Solver, followers: &'a Followers) -> Self {
-        let (scatter, blocks, arms) = (Scatter(Vec::new()), BlockScatter::new(), Arms::new());
+        let (scatter, blocks, arms) = (Scatter(Vec::new()), BlockScatter::new(), Arms::default());
         Destinations { dofs, solver, followers, scatter, blocks, arms, most: 0 }
     }
 
