@@ -134,6 +134,20 @@ pub struct Deck {
     pub spoiled: Vec<Spoiled>,
 }
 
+impl Deck {
+    /// The tables that may be limited to stages: supports, joints, links, contacts, then loads. What is carried over from one stage to the
+    /// next comes with its name.
+    pub fn staged(&self) -> Vec<(Option<&At<String>>, &Maybe<words::Names>)> {
+        let mut all: Vec<(Option<&At<String>>, &Maybe<words::Names>)> = Vec::new();
+        all.extend(self.supports.iter().map(|table| (None, &table.stages)));
+        all.extend(self.joints.iter().map(|table| (table.name.as_ref(), &table.stages)));
+        all.extend(self.links.iter().map(|table| (table.name.as_ref(), &table.stages)));
+        all.extend(self.contacts.iter().map(|table| (table.name.as_ref(), &table.stages)));
+        all.extend(self.loads.iter().map(|table| (None, &table.stages)));
+        all
+    }
+}
+
 /// An entry taken out of its table because it is wrong.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spoiled {

@@ -3,11 +3,9 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::Deck;
 use super::analysis::{Integrator, Iteration, ResponseWord};
 use super::words::kinds::OneOf;
-use super::words::{Frequencies, Maybe, Names, NumberOrAuto, Table};
-use base::diagnostic::At;
+use super::words::{Frequencies, Maybe, NumberOrAuto, Table};
 
 /// A stage of a run. A stage starts from positions, rotations, plastic strains, contacts with friction, and multipliers of joints of the
 /// stage before. A dynamic stage also inherits velocities. Time runs on.
@@ -46,20 +44,6 @@ pub struct Stage {
     pub integrator: Maybe<OneOf<Integrator>>,
     /// The iteration of this stage. Default: that of `[iteration]`.
     pub iteration: Maybe<Table<Iteration>>,
-}
-
-impl Deck {
-    /// The tables that may be limited to stages: supports, joints, links, contacts, then loads. What is carried over from one stage to the
-    /// next comes with its name.
-    pub fn staged(&self) -> Vec<(Option<&At<String>>, &Maybe<Names>)> {
-        let mut all: Vec<(Option<&At<String>>, &Maybe<Names>)> = Vec::new();
-        all.extend(self.supports.iter().map(|table| (None, &table.stages)));
-        all.extend(self.joints.iter().map(|table| (table.name.as_ref(), &table.stages)));
-        all.extend(self.links.iter().map(|table| (table.name.as_ref(), &table.stages)));
-        all.extend(self.contacts.iter().map(|table| (table.name.as_ref(), &table.stages)));
-        all.extend(self.loads.iter().map(|table| (None, &table.stages)));
-        all
-    }
 }
 
 /// The kind of a stage.

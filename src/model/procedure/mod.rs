@@ -3,6 +3,7 @@
 pub mod choose_scheme;
 pub mod control;
 pub mod displacement_targets;
+pub mod extent;
 pub mod mass_scaling;
 pub mod modes;
 pub mod response;

@@ -3,7 +3,8 @@
 //! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
 //! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
 
-use crate::data::{Analysis, AnalysisKind, History, ModeExtent, Model, ModesAsked, StepLength};
+use crate::data::{Analysis, AnalysisKind, History, Model, ModesAsked, StepLength};
+use crate::procedure::extent::{count, extent};
 use crate::procedure::response::{is_harmonic, keys_of_response, response};
 use crate::report::Report;
 use crate::values::{flag, keys, span};
@@ -12,10 +13,6 @@ use deck::Deck;
 use deck::analysis::{self as words, AnalysisKind as Word};
 use mechanics::amplitude::Amplitude;
 
-/// Number of modes unless the deck says otherwise.
-const MODES: usize = 10;
-/// Most modes that are computed at once.
-const MOST: usize = 2000;
 /// The static analysis in which loads are brought on ends at this time, as if it were their factor.
 const END: f64 = 1.0;
 /// Load steps; they are halved where they fail.
@@ -74,26 +71,6 @@ fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
             report.push(Diagnostic::note(message).at(place).hint(hint));
         }
     }
-}
-
-/// The modes that the keys of modes ask for.
-pub fn extent(analysis: &words::Analysis, report: &mut Report) -> ModeExtent {
-    if let (Some(_), Some(up_to)) = (&analysis.modes, &analysis.up_to) {
-        let hint = "the number of modes follows from the frequency";
-        report.error_with::<()>(&up_to.span, "`modes` or `up_to` is given, not both", hint);
-    }
-    if let Some(frequency) = report.positive("up_to", &analysis.up_to) {
-        return ModeExtent::UpTo(frequency);
-    }
-    ModeExtent::Count(count(analysis, report))
-}
-
-fn count(analysis: &words::Analysis, report: &mut Report) -> usize {
-    let count = report.count("modes", &analysis.modes, MODES);
-    if let Some(at) = analysis.modes.as_ref().filter(|_| count > MOST) {
-        report.error_with::<()>(&at.span, "`modes` asks for too many", format!("at most {MOST} are computed at once"));
-    }
-    count
 }
 
 /// Warns of what has no effect on modes.

@@ -1,10 +1,10 @@
 //! The frequency response of `[analysis]`, and what excites it: loads and motions with amplitudes of kind "harmonic".
 
-use super::modes;
 use crate::data::{
     self, AroundResonances, Expect, ExpectAt, ModeExtent, OverFrequencies, ResponseAsked, ResponseMethod,
 };
 use crate::doubts::usage::amplitudes_over_time;
+use crate::procedure::extent::extent as given_extent;
 use crate::report::{Owner, Report};
 use crate::values::{chosen, keys};
 use base::diagnostic::{At, Span};
@@ -53,7 +53,7 @@ pub fn response<'d>(analysis: &'d Analysis, place: &'d Span, report: &mut Report
         );
     }
     let extent_is_open = analysis.modes.is_none() && analysis.up_to.is_none();
-    let extent = if extent_is_open { extent(&frequencies) } else { modes::extent(analysis, report) };
+    let extent = if extent_is_open { extent(&frequencies) } else { given_extent(analysis, report) };
     ResponseAsked { frequencies, resonances, method, damping_ratio, extent, extent_is_open }
 }
 

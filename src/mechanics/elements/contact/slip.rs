@@ -30,7 +30,7 @@ impl Sliding for ConvexPairs {
         // Friction acts along the slip.
         let along = memory.stretch.try_normalize(0.0).unwrap_or_else(Vec3::zeros);
         let moved = if new.is_known() && old.is_known() { memory.y - before.y } else { Vec3::zeros() };
-        slip([old, new], self.law.stiffness, [memory.slip_speed * dt * along, moved])
+        slip([old, new], self.law.stiffness, [new.slip_speed() * dt * along, moved])
     }
 }
 

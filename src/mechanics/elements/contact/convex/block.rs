@@ -52,7 +52,11 @@ impl ConvexPairs {
     }
 
     /// The memory of a pair, with that of its friction.
-    pub(in crate::elements::contact) fn friction_of<'a>(&self, e: usize, history: &'a [f64]) -> (PairMemory<'a>, Memory) {
+    pub(in crate::elements::contact) fn friction_of<'a>(
+        &self,
+        e: usize,
+        history: &'a [f64],
+    ) -> (PairMemory<'a>, Memory) {
         let old = self.history(e, history);
         (old, Memory::read(old))
     }
