@@ -1,6 +1,5 @@
 //! The interface of a group of like elements to assembly.
 
-use super::contact::PairBlock;
 use super::results::{IntegrationPoint, ShellResultants};
 use super::slip::Sliding;
 use crate::materials::Dissipation;
@@ -30,10 +29,6 @@ pub trait ElementBlock: Send + Sync {
     }
     /// Nodes of element `e`.
     fn nodes(&self, e: usize) -> &[usize];
-    /// The block as pairs that may touch; `None` for all others.
-    fn pairs(&self) -> Option<&dyn PairBlock> {
-        None
-    }
     /// The block as springs of friction; `None` for all others.
     fn sliding(&self) -> Option<&dyn Sliding> {
         None

@@ -1,6 +1,6 @@
 //! Builds the masses of nodes, the blocks of like elements, and the joints from the model.
 
-use super::group::Group;
+use super::group::{Group, GroupBlock};
 use super::inertia::{ConsistentMass, Inertia};
 use super::parts::{NodalMasses, Setting, assembled};
 use base::math::Vec3;
@@ -33,7 +33,11 @@ pub fn groups(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Group> {
     let mut groups = Vec::new();
     let mut end = 0;
     for (place, part) in model.parts.iter().enumerate() {
-        for (block, first) in assembled(part).blocks(&setting) {
+        let elements = assembled(part).blocks(&setting).into_iter();
+        let elements = elements.map(|(block, first)| (GroupBlock::Elements(block), first));
+        let pairs = assembled(part).pairs(&setting).into_iter();
+        let pairs = pairs.map(|(block, first)| (GroupBlock::Pairs(block), first));
+        for (block, first) in elements.chain(pairs) {
             if !block.is_empty() {
                 let history = end..end + block.history();
                 end = history.end;

@@ -1,14 +1,53 @@
 //! Blocks of like elements, each with the part that it belongs to.
 
+use mechanics::elements::contact::PairBlock;
 use mechanics::elements::{ElementBlock, Wandering};
 use mechanics::state::Configuration;
 use model::{Model, Part, PartKind};
-use std::ops::Range;
+use std::ops::{Deref, DerefMut, Range};
+
+/// Elements, or pairs that may touch.
+pub enum GroupBlock {
+    /// Elements.
+    Elements(Box<dyn ElementBlock>),
+    /// Pairs.
+    Pairs(Box<dyn PairBlock>),
+}
+
+impl GroupBlock {
+    /// The pairs; `None` for elements.
+    pub fn pairs(&self) -> Option<&dyn PairBlock> {
+        match self {
+            GroupBlock::Elements(_) => None,
+            GroupBlock::Pairs(block) => Some(&**block),
+        }
+    }
+}
+
+impl Deref for GroupBlock {
+    type Target = dyn ElementBlock;
+
+    fn deref(&self) -> &Self::Target {
+        match self {
+            GroupBlock::Elements(block) => &**block,
+            GroupBlock::Pairs(block) => &**block,
+        }
+    }
+}
+
+impl DerefMut for GroupBlock {
+    fn deref_mut(&mut self) -> &mut Self::Target {
+        match self {
+            GroupBlock::Elements(block) => &mut **block,
+            GroupBlock::Pairs(block) => &mut **block,
+        }
+    }
+}
 
 /// A group of like elements of one part: all of them, or a contiguous range where they are many.
 pub struct Group {
     /// The elements with their formulation.
-    pub block: Box<dyn ElementBlock>,
+    pub block: GroupBlock,
     /// The kind of the part, which says to which energy the elements contribute.
     pub kind: PartKind,
     /// The part's index in [`model::Model::parts`]. Links share one group; it has the index of the first link.

@@ -68,10 +68,6 @@ impl ElementBlock for Contacts {
         now.dt < old.safe_time() || self.is_idle(old) || gap() - old.lift(&self.law) > self.law.touching
     }
 
-    fn pairs(&self) -> Option<&dyn PairBlock> {
-        Some(self)
-    }
-
     fn sliding(&self) -> Option<&dyn Sliding> {
         Some(self)
     }

@@ -1,7 +1,6 @@
 //! The numbers of a contact law.
 
-use super::history::PairMemory;
-use super::restitution::{Loss, NormalForce, normal_force};
+use super::restitution::Loss;
 use base::math::Vec3;
 
 /// The parameters of a contact law.
@@ -42,24 +41,6 @@ impl ContactLaw {
             return self.friction;
         }
         self.kinetic + (self.friction - self.kinetic) * (-self.decay * slip_speed).exp()
-    }
-
-    /// The normal force of a spring that begins at a depth `inset` and is pressed in by a `depth`, of a pair with this memory.
-    #[inline]
-    pub(super) fn press(&self, depth: f64, inset: f64, rate: f64, old: PairMemory) -> NormalForce {
-        let speed = match old.is_known() {
-            true if old.gap() <= 0.0 => old.impact_speed().max(rate),
-            // It is faster now than in the last state where something presses from rest.
-            true => old.rate().max(rate),
-            false => rate,
-        };
-        normal_force(self.stiffness, &self.loss, depth, inset, rate, speed)
-    }
-
-    /// True where a pair that was apart lands in a step of length `dt`, which does not resolve the impact: see [`ContactLaw::resolution`].
-    pub(super) fn lands_unresolved(&self, old: PairMemory, depth: f64, dt: f64) -> bool {
-        let fast = 3.0 * self.floor;
-        dt > self.resolution && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * self.resolution)
     }
 
     /// The friction with which a pair begins of which nothing is known, under a normal force, and its slip speed: what slides at t = 0 has been

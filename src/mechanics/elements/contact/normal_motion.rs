@@ -2,9 +2,29 @@
 
 use super::history::{PairMemory, PairMemoryMut};
 use super::law::ContactLaw;
-use super::restitution::{normal_force, taken_over};
+use super::restitution::{NormalForce, normal_force, taken_over};
 use crate::materials::Dissipation;
 use crate::state::Configuration;
+
+impl ContactLaw {
+    /// The normal force of a spring that begins at a depth `inset` and is pressed in by a `depth`, of a pair with this memory.
+    #[inline]
+    pub(super) fn press(&self, depth: f64, inset: f64, rate: f64, old: PairMemory) -> NormalForce {
+        let speed = match old.is_known() {
+            true if old.gap() <= 0.0 => old.impact_speed().max(rate),
+            // It is faster now than in the last state where something presses from rest.
+            true => old.rate().max(rate),
+            false => rate,
+        };
+        normal_force(self.stiffness, &self.loss, depth, inset, rate, speed)
+    }
+
+    /// True where a pair that was apart lands in a step of length `dt`, which does not resolve the impact: see [`ContactLaw::resolution`].
+    pub(super) fn lands_unresolved(&self, old: PairMemory, depth: f64, dt: f64) -> bool {
+        let fast = 3.0 * self.floor;
+        dt > self.resolution && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * self.resolution)
+    }
+}
 
 /// The motion along the normal at the instant of equilibrium.
 pub(super) struct NormalMotion {

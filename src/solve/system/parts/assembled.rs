@@ -5,6 +5,7 @@ use crate::system::plane::MotionPlane;
 use crate::system::thread_partition::MOST_IN_GROUP;
 use base::math::{Mat3, Vec3};
 use mechanics::elements::ElementBlock;
+use mechanics::elements::contact::PairBlock;
 use mechanics::sections::Stiffness;
 use model::Model;
 use std::ops::Range;
@@ -22,6 +23,9 @@ pub struct Setting<'s> {
 /// A block of like elements, and the number of its first element within its part.
 pub type NumberedBlock = (Box<dyn ElementBlock>, usize);
 
+/// A block of pairs, and the number of its first element within its part.
+pub type NumberedPairs = (Box<dyn PairBlock>, usize);
+
 /// The contributions of a part while a system is built.
 pub trait Assembled {
     /// Adds the mass of the part at its nodes or over its elements; a part may have none.
@@ -38,8 +42,15 @@ pub trait Assembled {
         Mat3::zeros()
     }
 
-    /// The blocks of the part; some may be empty.
-    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock>;
+    /// The blocks of elements of the part; some may be empty.
+    fn blocks(&self, _setting: &Setting) -> Vec<NumberedBlock> {
+        Vec::new()
+    }
+
+    /// The blocks of pairs that may touch, likewise.
+    fn pairs(&self, _setting: &Setting) -> Vec<NumberedPairs> {
+        Vec::new()
+    }
 
     /// True where a motion in the plane drives nothing of the part out of it.
     fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool;

@@ -1,6 +1,6 @@
 //! Contacts in the equation of motion: their blocks.
 
-use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::assembled::{Assembled, NumberedPairs, Setting, pieces};
 use crate::system::plane::MotionPlane;
 use crate::tolerances::plane::SMALL;
 use mechanics::elements::contact::{
@@ -13,7 +13,7 @@ use std::sync::Arc;
 impl Assembled for Contact {
     /// The blocks of points with equally many nodes, with the number of the first point among those; none for a clearance
     /// monitor.
-    fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
+    fn pairs(&self, setting: &Setting) -> Vec<NumberedPairs> {
         let Some(law) = self.law else { return Vec::new() };
         let carried = match &self.surface {
             TouchedSurface::Shape(carried) => carried,
@@ -28,7 +28,7 @@ impl Assembled for Contact {
                 return blocks;
             }
         };
-        let mut blocks: Vec<NumberedBlock> = Vec::new();
+        let mut blocks: Vec<NumberedPairs> = Vec::new();
         for count in 1..=MOST_NODES {
             let points: Vec<ContactPoint> = self.points.iter().filter(|point| point.count == count).cloned().collect();
             for piece in pieces(points.len()) {
@@ -70,8 +70,8 @@ fn facet_blocks(
     faces: &FacetSurface,
     points: &[ContactPoint],
     setting: &Setting,
-) -> Vec<NumberedBlock> {
-    let mut blocks: Vec<NumberedBlock> = Vec::new();
+) -> Vec<NumberedPairs> {
+    let mut blocks: Vec<NumberedPairs> = Vec::new();
     let of_points = (1..=MOST_NODES).map(|count| (count, TouchKind::Point));
     for (count, extent) in of_points.chain([(2, TouchKind::Line), (2, TouchKind::Edge)]) {
         let is_alike = |point: &&ContactPoint| point.count == count && point.extent == extent;

@@ -108,10 +108,6 @@ impl ElementBlock for ConvexPairs {
             || self.pair(e).kinematics(now.nodes).pose.least_axis().gap > self.law.touching
     }
 
-    fn pairs(&self) -> Option<&dyn PairBlock> {
-        Some(self)
-    }
-
     fn sliding(&self) -> Option<&dyn Sliding> {
         Some(self)
     }

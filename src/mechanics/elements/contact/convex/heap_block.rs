@@ -101,10 +101,6 @@ impl ElementBlock for ConvexHeap {
     fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
         true
     }
-
-    fn pairs(&self) -> Option<&dyn PairBlock> {
-        Some(self)
-    }
 }
 
 impl PairBlock for ConvexHeap {

@@ -55,10 +55,6 @@ impl ElementBlock for FacetContacts {
     fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
         true
     }
-
-    fn pairs(&self) -> Option<&dyn PairBlock> {
-        Some(self)
-    }
 }
 
 impl PairBlock for FacetContacts {
