@@ -351,7 +351,7 @@ impl Newton {
         let report = &progress.report;
         // Forces balance while the joints are open: the constraints contradict each other.
         if report.residual < BALANCED
-            && let Err(violated) = joints::check(cx, &ws.trial.nodes, ws.reach, &mut ws.forces.multipliers.gaps)
+            && let Err(violated) = joints::note(cx, ws)
         {
             return violated;
         }
