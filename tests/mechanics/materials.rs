@@ -692,8 +692,8 @@ fn no_number_is_too_large_and_no_strain_loops() {
     }
 }
 
-/// Eight points side by side, from histories of earlier steps, below yield and far beyond, history and dissipation have the
-/// bits of one point; stress and tangent too where the squares of stresses are out of range.
+/// Eight points side by side, from histories of earlier steps, below yield and far beyond: stress, tangent, history and dissipation have the
+/// bits of one point. So have stress and tangent where squares of stresses are out of range.
 fn eight_are_one_eight_times<const N: usize, S: StressState<N>>(law: &MaterialLaw, state: S, rng: &mut SmallRng) {
     let size = law.history(state);
     let mut old = vec![0.0; LANES * size];
