@@ -63,7 +63,7 @@ pub use table::text;
 use deck::Deck;
 use manifest::Manifest;
 use model::Model;
-use run_all::Trial;
+use run_all::RunSeries;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
@@ -97,8 +97,8 @@ pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -
     };
     let mut manifest = Manifest::begin(&options.folder, &[TABLE, PICTURE, ASKED, PAGE], &run_all::folders(&grid))?;
     let once_run = &mut |_, _: &StudyRun, _: &Path| Ok(());
-    let trial = Trial { options, quantities: &quantities, samples: grid.samples, end: grid.end_time, once_run };
-    let (runs, stopped) = trial.run_all(&run_all::jobs(&grid, options), &mut manifest, stop)?;
+    let series = RunSeries { options, quantities: &quantities, samples: grid.samples, end: grid.end_time, once_run };
+    let (runs, stopped) = series.run_all(&run_all::jobs(&grid, options), &mut manifest, stop)?;
     let mut runs: Vec<StudyRun> = runs.into_iter().flatten().collect();
     let reference = match given {
         Some(given) => Ok(given.into()),

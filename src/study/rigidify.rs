@@ -7,7 +7,7 @@ use super::history;
 use super::manifest::Manifest;
 use super::options::{AS_IT_IS, Options, RIGID, RUNS, StudyFault};
 use super::run::{RunStatus, StudyRun};
-use super::run_all::{Job, Trial};
+use super::run_all::{Job, RunSeries};
 use base::diagnostic::Diagnostic;
 use deck::Deck;
 use deck::parts::DeckPart;
@@ -58,8 +58,8 @@ pub fn rigidify(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool
         }
         Ok(())
     };
-    let trial = Trial { options, quantities: &quantities, samples, end, once_run };
-    let (runs, stopped) = trial.run_all(&jobs, &mut manifest, stop)?;
+    let series = RunSeries { options, quantities: &quantities, samples, end, once_run };
+    let (runs, stopped) = series.run_all(&jobs, &mut manifest, stop)?;
     let mut runs = runs.into_iter();
     let Some(base) = runs.next().flatten() else {
         let message = "stopped before the first run came to its end";

@@ -52,7 +52,7 @@ pub fn jobs(grid: &StudyGrid, options: &Options) -> Vec<Job> {
 }
 
 /// How settings are run, and what is kept of each.
-pub struct Trial<'t> {
+pub struct RunSeries<'t> {
     /// The options of the study.
     pub options: &'t Options,
     /// The quantities that are kept.
@@ -65,7 +65,7 @@ pub struct Trial<'t> {
     pub once_run: &'t mut dyn FnMut(usize, &StudyRun, &Path) -> Result<(), StudyFault>,
 }
 
-impl Trial<'_> {
+impl RunSeries<'_> {
     /// Runs all settings, each again and again in turn. Returns the runs that came to be, and whether a signal has ended it.
     ///
     /// # Errors
@@ -76,7 +76,7 @@ impl Trial<'_> {
         manifest: &mut Manifest,
         stop: &AtomicBool,
     ) -> Result<(Vec<Option<StudyRun>>, bool), StudyFault> {
-        let Trial { options, quantities, samples, end, once_run } = self;
+        let RunSeries { options, quantities, samples, end, once_run } = self;
         let (program, repeats) = (program(options)?, options.repeats);
         let all: f64 = jobs.iter().map(|job| job.work).sum();
         let mut progress = StudyProgress::new(options.quiet, all * repeats as f64);

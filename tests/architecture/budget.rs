@@ -11,7 +11,7 @@ const BUDGET: [(&str, usize); 10] = [
     ("model", 20_700),
     ("solve", 28_600),
     ("results", 8000),
-    ("study", 4000),
+    ("study", 3900),
     ("sweep", 1500),
     ("program", 4200),
 ];
