@@ -54,6 +54,8 @@ pub enum Failure {
     ConstraintsViolated {
         /// The largest gaps.
         largest: Vec<NamedResidual>,
+        /// Smallest and largest principal inertia with their bodies, if rounding cannot resolve their ratio; otherwise empty.
+        inertias: Vec<NamedResidual>,
     },
     /// One step of the deck, or several in a row, needed too many substeps.
     TooManySubsteps {
@@ -186,7 +188,7 @@ keep_either!(Failure {
     1 => Singular { label, direction, open, at_start },
     2 => MasslessDirection { label, rotation, direction, buckles, open },
     3 => NotConverged { iterations, cause, open, lacks_slip, largest },
-    4 => ConstraintsViolated { largest },
+    4 => ConstraintsViolated { largest, inertias },
     5 => TooManySubsteps { steps, substeps, dt, cause },
     6 => NoEquilibriumOnArc { largest },
     7 => TooManySteps { steps },
@@ -308,7 +310,7 @@ impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.message())?;
         let (Failure::NotConverged { largest, .. }
-        | Failure::ConstraintsViolated { largest }
+        | Failure::ConstraintsViolated { largest, .. }
         | Failure::NoEquilibriumOnArc { largest }
         | Failure::NotFinite { largest }) = self
         else {
@@ -372,6 +374,17 @@ impl Failure {
             Failure::NotFinite { .. } => {
                 "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
             }
+            Failure::ConstraintsViolated { inertias, .. } if inertias.len() == 2 => format!(
+                "joints cannot be closed at the end of the step: the principal inertias of `{}`, {}, and of `{}`, {}, are {:.0e} times apart, \
+                 which rounding does not resolve. Take `scheme = \"esdirk3\"`, or give `{}` an inertia of {} about each axis; the widest gaps are",
+                inertias[0].label,
+                short(inertias[0].residual),
+                inertias[1].label,
+                short(inertias[1].residual),
+                inertias[1].residual / inertias[0].residual,
+                inertias[0].label,
+                short(1e-10 * inertias[1].residual)
+            ),
             Failure::ConstraintsViolated { .. } => {
                 "joints cannot be closed at the end of the step (prescribed motions or joints contradict \
                                       each other, or the step is too long); the widest gaps are"

@@ -83,6 +83,10 @@ pub mod joints {
     pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
     /// The largest gap, relative to positions, that a joint may have at the end of a step; iteration and projection leave far less.
     pub const LARGEST_GAP: f64 = 1e-9;
+    /// Ratio of two principal inertias from which redundant loops do not close with explicit schemes.
+    pub const UNLIKE: f64 = 1e11;
+    /// Part of a body's largest inertia below which an axis has none.
+    pub const NO_INERTIA: f64 = 1e-12;
 }
 
 pub mod residual {

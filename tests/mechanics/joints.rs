@@ -720,7 +720,7 @@ motion = { ux = { amplitude = "ramp" } }
     for kind in ["static", "dynamic"] {
         let model = from_text(&scene(kind, 1.0, 0.5, rest));
         match support::run(&model, &mut |_| vec![]).outcome {
-            Outcome::Failed { failure: Failure::ConstraintsViolated { largest }, .. } => {
+            Outcome::Failed { failure: Failure::ConstraintsViolated { largest, .. }, .. } => {
                 println!("{kind}: {largest:?}");
                 assert!(!largest.is_empty() && largest.iter().all(|gap| gap.residual != 0.0), "{kind}: {largest:?}");
             }

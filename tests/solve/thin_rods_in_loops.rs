@@ -86,3 +86,18 @@ fn runge_kutta_keeps_the_energy_of_redundant_loops() {
         }
     }
 }
+
+/// A ratio of 1e-9 beside masses of 1e-3 and 1e3 exceeds the digits of accelerations: the run ends and names both inertias.
+#[test]
+fn a_loop_that_does_not_close_for_its_inertias_names_them() {
+    let mut ended = 0;
+    for (_, corners, axes) in loops() {
+        let deck = deck(&corners, &axes, (1e-9, [1e-3, 1e3]), ("runge-kutta", 0.01));
+        let (outcome, _) = crate::support::doubts(&deck);
+        let rdsolve::solve::Outcome::Failed { failure, .. } = &outcome else { continue };
+        let text = failure.to_string();
+        ended += 1;
+        assert!(text.contains("the principal inertias of `r") && text.contains("esdirk3"), "{text}");
+    }
+    assert!(ended > 0, "all loops close");
+}

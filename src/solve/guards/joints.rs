@@ -1,13 +1,14 @@
 //! Checks whether the joints are closed at the end of a step.
 
 use crate::context::Context;
-use crate::failure::{self, Failure};
+use crate::failure::{self, Failure, NamedResidual};
 use crate::guards::guard::Guard;
 use crate::step::trial::Step;
-use crate::tolerances::joints::LARGEST_GAP;
+use crate::tolerances::joints::{LARGEST_GAP, NO_INERTIA, UNLIKE};
 use crate::workspace::Workspace;
 use mechanics::materials::Dissipation;
 use mechanics::state::Node;
+use model::Body;
 
 /// Refuses a step whose joints are open at its end.
 pub struct JointGuard;
@@ -54,5 +55,24 @@ pub fn check(cx: &Context, nodes: &[Node], reach: f64, gaps: &mut [f64]) -> Resu
 
 /// The failure of joints that cannot be closed; the gaps say where.
 pub fn constraints_violated(cx: &Context, gaps: &[f64]) -> Failure {
-    Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, gaps) }
+    Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, gaps), inertias: unlike_inertias(cx) }
+}
+
+/// Smallest and largest principal inertia of all bodies, if their ratio exceeds the digits of accelerations; otherwise empty.
+fn unlike_inertias(cx: &Context) -> Vec<NamedResidual> {
+    let (mut least, mut most): (Option<(&Body, f64)>, Option<(&Body, f64)>) = (None, None);
+    for body in &cx.model.bodies {
+        let moments = body.inertia.symmetric_eigenvalues();
+        // An axis without inertia rotates with its body.
+        for &moment in moments.iter().filter(|&&moment| moment > NO_INERTIA * moments.max()) {
+            least = least.filter(|of| of.1 <= moment).or(Some((body, moment)));
+            most = most.filter(|of| of.1 >= moment).or(Some((body, moment)));
+        }
+    }
+    let named =
+        |(body, moment): (&Body, f64)| NamedResidual { label: body.name.clone(), direction: "", residual: moment };
+    match (least, most) {
+        (Some(least), Some(most)) if most.1 > UNLIKE * least.1 => vec![named(least), named(most)],
+        _ => Vec::new(),
+    }
 }
