@@ -32,8 +32,7 @@ pub trait StepController: Keep {
     /// There is none.
     fn propose(&mut self, cx: &Context, ws: &mut Workspace, state: &State, left: f64) -> Result<f64, Failure>;
 
-    /// Takes a step to the time `to`, for which the proposal was `length`. Returns `None` where no step was taken but
-    /// the next proposal will be better.
+    /// Takes a step to the time `to`, proposed as `length`. Returns `None` where no step was taken but the next proposal will be better.
     ///
     /// # Errors
     /// As for [`crate::time_stepper::TimeStepper::step`], and [`Failure::ErrorTooLarge`]; `state` is untouched.
@@ -46,11 +45,10 @@ pub trait StepController: Keep {
         length: f64,
     ) -> Result<Option<StepReport>, Failure>;
 
-    /// Notes that a step of `dt` failed otherwise than by its error, which already limits the next length.
+    /// Notes a step of `dt` that failed for a reason other than its error, which already limits the next length.
     fn cut_back(&mut self, dt: f64);
 
-    /// The state at a time inside the step that was taken last, to the time `end`, and what it took to find it; `None` where steps end at all
-    /// times that are looked at.
+    /// State at a time inside the last step, which ended at `end`, and its cost; `None` if steps end at all output times.
     ///
     /// # Errors
     /// No equilibrium was found there.
@@ -64,7 +62,7 @@ pub trait StepController: Keep {
         Ok(None)
     }
 
-    /// Returns to the start of the step that was taken last, where the motion inside is not known after all.
+    /// Returns to the start of the last step, if the motion inside turns out unknown.
     fn take_back(&mut self, _: &mut State) {}
 }
 
@@ -129,7 +127,7 @@ impl<C: StepController> CoverInterval for C {
     }
 }
 
-/// Takes a step to a time, for which the proposal was `length`, or to where the stage stops before it; its length is then told beside the report.
+/// Takes a step to a time, proposed as `length`, or to an earlier stop of the stage; its length is then returned beside the report.
 ///
 /// # Errors
 /// As for [`StepController::step`].
@@ -149,7 +147,7 @@ fn step_or_stop(
     taken.map(|report| end_at_stop(march, (from, target), report, again)).transpose()
 }
 
-/// Shows what lies inside the step of length `dt` that was taken. The failure inside is that of a time where no equilibrium was found.
+/// Shows the times inside the last step of length `dt`. The failure belongs to a time inside without an equilibrium.
 ///
 /// # Errors
 /// As for [`March::notify_inside`].

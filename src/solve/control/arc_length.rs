@@ -1,6 +1,5 @@
-//! Control of the arc length along an equilibrium path: the first step is one of load and sets the scale, the others
-//! are as long as their iterations allow. Where a step passes a target that it must end at, the arc to it is found
-//! between the step's ends.
+//! Arc-length control along an equilibrium path: the first step is a load step and sets the scale, the others are as long as their
+//! iterations allow. If a step passes a target at which it must end, the arc to it is found between the ends of the step.
 
 use super::targets::{TargetQuantity, Targets};
 use crate::context::Context;
@@ -26,14 +25,14 @@ pub struct ArcLengthController {
     constraint: ArcLengthConstraint,
     path: ArcLength,
     targets: Targets,
-    /// Time at which loads or prescribed motion begin to change.
+    /// Start of the change of loads or prescribed motion.
     begin: f64,
     /// Length of the first step, once it is known.
     unit: Option<f64>,
     /// Length of the next step over that of the first, and the least such ratio.
     size: f64,
     least: f64,
-    /// Cutbacks before the step at hand, and those of them because of a sharp bend.
+    /// Cutbacks before the current step, and those due to a sharp bend.
     cuts: usize,
     bent: usize,
     /// The displacement at the end of a path that did not reach its `stop`.
@@ -42,7 +41,7 @@ pub struct ArcLengthController {
 
 keep!(ArcLengthController { solver, constraint, targets, unit, size, cuts, bent, short_of_stop } without { path, begin, least });
 
-/// An equilibrium that was found, with the target that it lies at.
+/// An equilibrium, with its target if it lies at one.
 struct Found {
     report: StepReport,
     reached: Option<usize>,
@@ -83,7 +82,7 @@ impl ArcLengthController {
         self.follow(march)
     }
 
-    /// Finds the equilibrium under loads that do not begin at zero, which act at once.
+    /// Finds the equilibrium under loads that do not start at zero, which act at once.
     ///
     /// # Errors
     /// No equilibrium is found under them.
@@ -159,8 +158,8 @@ impl ArcLengthController {
         Ok(None)
     }
 
-    /// Finds the equilibrium at the time `to`, or where the condition holds. The step ends at the first target that it
-    /// passes, which is returned.
+    /// Finds the equilibrium at the time `to`, or where the condition holds. The step ends at the first target that it passes, which is
+    /// returned.
     fn find(
         &mut self,
         cx: &Context,
@@ -252,7 +251,7 @@ impl ArcLengthController {
     }
 }
 
-/// Shortens the motion that was found to a fraction, from which the search for a point on the way begins.
+/// Shortens the motion found to a fraction, the start of the search for a point inside.
 fn shorten(cx: &Context, ws: &mut Workspace, state: &State, part: f64) {
     for &node in &cx.independent_nodes {
         ws.trial.increments[node].q *= part;

@@ -48,7 +48,7 @@ impl Keep for Controller<'_> {
 }
 
 impl<'a> Controller<'a> {
-    /// The controller that the deck asks for, with its stepper.
+    /// The controller of the deck, with its stepper.
     ///
     /// # Errors
     /// There is no memory for the solver.
@@ -79,7 +79,7 @@ impl<'a> Controller<'a> {
         }
     }
 
-    /// True where the motion is known inside steps too, so that these need not end where it is looked at.
+    /// True if the motion is known inside steps, so output times need no step end.
     pub fn looks_inside(&self) -> bool {
         matches!(self, Controller::ErrorControlled(controller) if controller.looks_inside())
     }
@@ -108,7 +108,7 @@ impl<'a> Controller<'a> {
     }
 }
 
-/// Covers one interval after the other; after a jump of the loads with the accelerations that the jump leaves.
+/// Covers the intervals in turn; after a jump of loads with the accelerations after the jump.
 fn through_intervals(
     controller: &mut impl CoverInterval,
     march: &mut March,
@@ -139,7 +139,7 @@ fn through_intervals(
     march.end(controller)
 }
 
-/// The intervals of a run, or those that are left of it where it has been made longer.
+/// Intervals of a run, or the remaining ones of an extended run.
 fn rest<'i>(march: &March, intervals: &'i [Interval]) -> Cow<'i, [Interval]> {
     let begin = march.place.begin;
     if begin == 0.0 {

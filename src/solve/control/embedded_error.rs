@@ -19,7 +19,7 @@ pub struct EmbeddedErrorController {
     stepper: Box<RungeKuttaStepper>,
     /// Error of displacements allowed for the whole run, relative to the largest displacement.
     tolerance: f64,
-    /// The same as the deck asks for it.
+    /// Value in the deck.
     asked: f64,
     /// Length of the next step.
     next: f64,
@@ -28,7 +28,7 @@ pub struct EmbeddedErrorController {
     /// Length of the first step of a run, and the longest allowed.
     first: f64,
     longest: f64,
-    /// The state at the start of the step, of scenes in which events may fall into it.
+    /// State at the start of the step, in scenes with events.
     before: State,
     events: EventLimit,
 }
@@ -87,7 +87,7 @@ impl EmbeddedErrorController {
 
 impl FollowTolerance for EmbeddedErrorController {
     fn follow(&mut self, _: &Context, tolerance: f64, longest: Option<f64>) {
-        // A trial has a longer first step too, or what that decides would be the same in both runs.
+        // A trial has a longer first step too, otherwise both runs would share its effects.
         let longer = (tolerance / self.asked).powf(1.0 / self.stepper.error_order()).clamp(1.0, 2.0);
         (self.tolerance, self.next) = (tolerance, self.first * longer);
         self.longest = longest.unwrap_or(f64::INFINITY);

@@ -1,4 +1,4 @@
-//! The last step of a stage that a value stops: it ends where it comes to the value.
+//! Last step of a stage with a `stop`: it ends at the value.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -11,11 +11,11 @@ use mechanics::state::State;
 /// Takes a step from a state to a time.
 pub type TakeStep<'s> = dyn FnMut(&Context, &mut Workspace, &mut State, f64) -> Result<StepReport, Failure> + 's;
 
-/// Takes account of the step between two times that has been taken. One that passes the value at which the stage stops is taken once more, to
-/// where it comes to the value. Returns the report of the step, and its length where it is the last.
+/// Takes account of the step between two times that has been taken. A step that passes the stop value is repeated up to the value. Returns
+/// the report of the step, and its length where it is the last.
 ///
 /// # Errors
-/// The step cannot be taken again, as where a signal ends it; the state is that at its beginning.
+/// The step cannot be repeated, for example after a signal; the state is that at its start.
 pub fn end_at_stop(
     march: &mut March,
     (from, to): (f64, f64),

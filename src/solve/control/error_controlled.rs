@@ -1,9 +1,9 @@
 //! Implicit steps whose length follows an estimate of their error.
 //!
-//! A scheme of second order makes an error c Δt³ |q‴| in a step of smooth motion; for Newmark's that is the estimate of
-//! O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Modes that the step does not resolve have
-//! large accelerations and hardly move, so the estimate e is passed through the matrix of the step, (K + w M)⁻¹ w M e,
-//! which leaves resolved modes as they are (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
+//! A scheme of second order has the error c Δt³|q‴| in a step of smooth motion; for Newmark it is the estimate of O. C. Zienkiewicz & Y. M.
+//! Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Unresolved modes have large accelerations and hardly move. The estimate e is therefore
+//! filtered by the matrix of the step, (K + wM)⁻¹wM e, which keeps resolved modes (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11
+//! (1984)).
 //!
 //! Errors of steps add up: each step may use the share of the tolerance that its length has of the run; their lasting
 //! part decides (see [`LastingError`]).
@@ -35,7 +35,7 @@ pub struct ErrorController<'a> {
     stepper: Box<Implicit<'a>>,
     /// Error of displacements allowed for the whole run, relative to the largest displacement.
     tolerance: f64,
-    /// The same as the deck asks for it.
+    /// Value in the deck.
     asked: f64,
     /// The error constant c of the scheme.
     constant: f64,
@@ -55,7 +55,7 @@ pub struct ErrorController<'a> {
     /// Largest displacement of a node and largest rotation of a body so far.
     motion: Size,
     measure: ErrorMeasure,
-    /// The state at the start of the step, to which a refused step returns.
+    /// State at the start of the step, for a refused step.
     start: State,
     /// The state at a time inside the step.
     inside: State,
@@ -191,7 +191,7 @@ impl<'a> ErrorController<'a> {
             filter(cx, ws, state, matrix, errors);
             *error = relative(errors);
         }
-        // Unresolved motion leaves the first filter with about its amplitude.
+        // Unresolved motion passes the first filter with about its amplitude.
         let [raw, amplitude, mut error] = passed;
         let allowed = self.tolerance * dt / cx.model.analysis.duration();
         if amplitude < SLIGHT * self.tolerance && error > allowed && error < RESOLVED * raw {
@@ -232,7 +232,7 @@ fn third_derivative(start: &State, end: &State, node: usize) -> Vec6 {
     end.jerk[node] - stack(&Vec3::zeros(), &across)
 }
 
-/// Filters the errors by node, e ← (K + w M)⁻¹ w M e, with w the weight of the mass in the matrix at hand.
+/// Filters the errors by node, e ← (K + wM)⁻¹wM e, with the weight w of the mass in the current matrix.
 fn filter(cx: &Context, ws: &mut Workspace, state: &State, matrix: &mut IterationMatrix, errors: &mut [Vec6]) {
     cx.system.apply_mass(&state.nodes, errors, &mut ws.forces);
     ws.residual.write(cx, &ws.forces, matrix.mass_weight);
@@ -249,7 +249,7 @@ impl FollowTolerance for ErrorController<'_> {
         self.tolerance = tolerance;
         self.stepper.begin_run(cx);
         self.stepper.solver.newton.tolerance.follow(tolerance);
-        // A trial has a longer first step too, or what that decides would be the same in both runs.
+        // A trial has a longer first step too, otherwise both runs would share its effects.
         self.length = self.first * (tolerance / self.asked).powf(1.0 / f64::from(self.order)).clamp(1.0, 2.0);
         self.longest = longest.unwrap_or(self.most);
         (self.lasting_intensity, self.intensity) = (None, None);

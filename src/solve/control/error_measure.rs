@@ -9,10 +9,10 @@ use model::Model;
 
 /// The measure that makes errors relative.
 pub struct ErrorMeasure {
-    /// Largest motion of the trial steps, and the time at which these were taken.
+    /// Largest motion of the trial steps, and the time of these steps.
     ahead: Size,
     begun: Option<f64>,
-    /// Largest distance in the scene, by which displacements and rotations are compared.
+    /// Largest distance in the scene, the scale between displacements and rotations.
     extent: f64,
     end_time: f64,
     /// The nodes of bodies: errors of their rotations count.

@@ -1,9 +1,9 @@
-//! Linear buckling: the factors λ of loads at which K + λ K' is singular, K the stiffness of the state without them.
+//! Linear buckling: factors λ of the loads at which K + λK' is singular. K is the stiffness of the state without these loads.
 //!
-//! K' is the rate at which the tangent changes with the loads: the stiffness of stresses K(σ) of the linear response, that of loads that
-//! follow and of the forces of joints. It is taken by differences between stresses at small loads and their opposite, in the geometry
-//! without them: what the deflection before buckling changes is left out, for the square of a rotation times the stiffness along a
-//! slender part counts as much as its product with other rotations, and only both together are small.
+//! K' is the rate of the tangent with the loads: K(σ) of the linear response, follower loads and joint forces. Differences between the
+//! stresses of small loads and their opposite give K', in the geometry without loads. The deflection before buckling is neglected: the
+//! square of a rotation times the axial stiffness of a slender part counts as much as its product with other rotations, and only both
+//! together are small.
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
@@ -71,7 +71,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
         AnalysisKind::Buckling(count) => count,
         _ => 1,
     };
-    // Of a state that a stage has reached the balance is judged with that of other modes.
+    // The balance of a stage's state is judged with that of other modes.
     let rests = is_stage || multipliers_at_rest(at, (&mut *linear.0, &mut *linear.1)).is_some();
     let mut pencil = Pencil::new(*at, linear);
     let K = pencil.matrix(weights(0.0, 0.0));
@@ -109,7 +109,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     })
 }
 
-/// What is doubtful about so many factors found of those wanted, in words; the scene may not rest without loads.
+/// Doubts about the factors found and wanted, in words; the scene may not rest without loads.
 fn doubts(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)) -> Vec<String> {
     let mut doubts = Vec::new();
     if !rests {
@@ -162,7 +162,7 @@ fn factors(pencil: &mut Pencil, (K, rate): (&Sparse, &Sparse), wanted: usize) ->
         let reached = thetas.last().map_or(0.0, |theta| 1.0 / theta.abs());
         let least = least(thetas.first());
         let found = thetas.iter().filter(|theta| **theta > least).count();
-        // Factors of reversed loads take places of their own.
+        // Factors of reversed loads count too.
         if found < wanted && !whole && goal < 4 * wanted + 24 {
             goal += (wanted - found).max(goal / 2);
             continue;
@@ -263,7 +263,7 @@ impl Response {
         pencil.summed(&sum)
     }
 
-    /// What the loads slacken, and pull taut, up to the lowest factor, in words.
+    /// Cables slackened or tightened by the loads up to the lowest factor, in words.
     fn slackened(&self, lowest: f64, pencil: &Pencil) -> Vec<String> {
         let factor = lowest.min(MODERATE / self.size(pencil));
         let moved = self.moved(factor, pencil);

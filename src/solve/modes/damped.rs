@@ -2,8 +2,8 @@
 //!
 //! With z = (φ, s φ) the roots nearest to a shift σ are the largest eigenvalues 1/(s − σ) of
 //!   φ' = −(K + σ C + σ² M)⁻¹ (C φ + M (s φ + σ φ)),   (s φ)' = φ + σ φ',
-//! a real operator for a real shift (F. Tisseur & K. Meerbergen, SIAM Rev. 43 (2001)). The shift is above zero, where motions that
-//! last or decay have no root, so that what has no stiffness is no exception.
+//! a real operator for a real shift (F. Tisseur & K. Meerbergen, SIAM Rev. 43 (2001)). The shift is positive, where motions that last or
+//! decay have no root, so motions without stiffness need no exception.
 
 use super::fault::ModesFault;
 use super::gyroscopic::Gyroscopic;
@@ -36,7 +36,7 @@ struct Quadratic<'q, 'a> {
     pencil: &'q mut Pencil<'a>,
     damping: &'q Sparse,
     shift: f64,
-    /// Weights by which motions are measured, and the square of the frequency by which velocities are.
+    /// Weights of motions, and the squared frequency that weights velocities.
     diagonal: Vec<f64>,
     square: f64,
     scratch: Vec<f64>,
@@ -71,7 +71,7 @@ impl Operator for Quadratic<'_, '_> {
     }
 }
 
-/// Finds the complex modes that the model asks for.
+/// Finds the complex modes of the model.
 ///
 /// # Errors
 /// The reason why there are none.
@@ -129,7 +129,7 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response: None })
 }
 
-/// The motions without stiffness. Each is a root at zero, of however much damping; their roots are multiple ones with too few vectors, of which a
+/// The motions without stiffness. Each is a root at zero, whatever its damping. The roots are multiple with too few vectors, of which a
 /// Krylov space holds some.
 fn free_modes(pencil: &mut Pencil, near: Near) -> Result<Vec<EigenMode>, ModesFault> {
     let up_to = near.zero.max(LOW.sqrt() * near.shift);
@@ -212,8 +212,7 @@ fn root(theta: Complex, Near { shift, zero }: Near) -> Complex {
     if size(s) <= zero { [0.0; 2] } else { s }
 }
 
-/// The modes of some roots: of two that are conjugate that above the real axis, of the double root of a motion without stiffness
-/// one.
+/// Modes of some roots: the upper one of two conjugate roots, and one for the double root of a motion without stiffness.
 fn roots(pairs: &[ComplexPair], near: Near) -> impl Iterator<Item = (Complex, &ComplexPair)> {
     let mut zeros = 0;
     pairs.iter().filter_map(move |pair| {
@@ -222,18 +221,18 @@ fn roots(pairs: &[ComplexPair], near: Near) -> impl Iterator<Item = (Complex, &C
             zeros += 1;
             return (zeros % 2 == 1).then_some((s, pair));
         }
-        // What lies on the real axis to the digits of a double root does not oscillate.
+        // A root on the real axis, to the digits of a double root, does not oscillate.
         let s = if s[1].abs() <= 1e-9 * s[0].abs() { [s[0], 0.0] } else { s };
         (s[1] >= 0.0).then_some((s, pair))
     })
 }
 
-/// The number of roots, the nearest to the shift first, that hold all modes wanted; `None` where there are not enough yet.
+/// Number of roots, nearest to the shift first, that include all modes wanted; `None` if there are too few.
 fn enough(thetas: &[Complex], near: Near, extent: ModeExtent) -> Option<usize> {
     let all: Vec<Complex> = thetas.iter().map(|theta| root(*theta, near)).collect();
     let distance = |theta: &Complex| 1.0 / size(*theta);
     let reached = thetas.last().map_or(0.0, distance);
-    // Within this distance of zero everything is nearer to the shift than what has been reached.
+    // Within this distance of zero every root is nearer to the shift than the farthest root found.
     let radius = reached - near.shift;
     let there = all.iter().filter(|s| size(**s) <= radius);
     match extent {

@@ -1,7 +1,7 @@
 //! The gyroscopic moments of bodies that spin, as matrices of small motions.
 //!
-//! A small turn θ of a body, in space, changes its angular momentum π by θ×π + J θ̇, whatever it turns by already; so its rate
-//! changes by J θ̈ + (ω~J − J ω~ − π~) θ̇ − π̇~ θ. About an axis of symmetry the first two terms cancel.
+//! A small rotation θ of a body changes its angular momentum π by θ×π + Jθ̇, whatever its earlier rotation. The rate changes by Jθ̈ + (ω~J
+//! − Jω~ − π~)θ̇ − π̇~θ. About an axis of symmetry the first two terms cancel.
 
 use super::linearized::Linearized;
 use crate::tolerances::gyroscopic::SYMMETRIC;
@@ -11,7 +11,7 @@ use base::math::{Mat3, skew};
 pub struct Gyroscopic {
     /// The rows of the rotations of a node, with the matrices of θ̇ and of θ.
     blocks: Vec<([Option<usize>; 3], Mat3, Mat3)>,
-    /// What they leave out, in words.
+    /// Neglected terms, in words.
     pub doubts: Vec<String>,
 }
 

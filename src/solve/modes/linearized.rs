@@ -11,7 +11,7 @@ use mechanics::state::{Node, State};
 use model::{DIRECTIONS, Model};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A state, and what the scene is there.
+/// A state, with the scene in it.
 #[derive(Clone, Copy)]
 pub struct Linearized<'a> {
     /// The model.
@@ -24,14 +24,14 @@ pub struct Linearized<'a> {
     pub state: &'a State,
     /// The loads that act in it.
     pub loading: &'a Loading,
-    /// The loads of which buckling seeks the factor; nothing for other modes.
+    /// Loads of the buckling factor; none for other modes.
     pub factored: &'a Loading,
     /// The flag that ends a search when it is raised.
     pub stop: &'a AtomicBool,
 }
 
 impl Linearized<'_> {
-    /// A solver of its own, with the symmetric part of matrices.
+    /// A separate solver with the symmetric part of matrices.
     ///
     /// # Errors
     /// There is no memory for it.
@@ -52,7 +52,7 @@ impl Linearized<'_> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// True where the loads that act have a potential, as in [`System::loads_have_potential`].
+    /// True if the active loads have a potential, as in [`System::loads_have_potential`].
     pub fn loads_have_potential(&self) -> bool {
         let factors = self.loading.factors.iter().zip(&self.factored.factors);
         let acts = factors.map(|(loading, factored)| *loading != 0.0 || *factored != 0.0);
@@ -60,7 +60,7 @@ impl Linearized<'_> {
         acting.all(|(load, _)| load.has_potential(self.system.plane))
     }
 
-    /// True for an angular velocity that is no rounding: it turns by more than that over the time of the analysis.
+    /// True for an angular velocity above rounding: it turns by more than that over the analysis.
     pub fn spins(&self, omega: &Vec3) -> bool {
         omega.norm() * self.model.analysis.end_time > ROUNDING
     }

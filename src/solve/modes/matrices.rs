@@ -1,5 +1,5 @@
-//! The matrices of the equation of motion of a scene as the deck draws it, M q̈ + C q̇ + K q + Gᵀ λ = f with G q = 0, for other programs.
-//! K has K(σ) of what is stretched there, no loads act; nodes are at rest.
+//! Matrices of the equation of motion for other programs, in the geometry of the deck: M q̈ + C q̇ + K q + Gᵀλ = f with G q = 0. K includes
+//! K(σ) of prestressed parts; no loads act, and nodes are at rest.
 
 use super::pencil::weights;
 use crate::plan::Plan;
@@ -10,7 +10,7 @@ use linear::{Factorization, Solver, Sparse, TooLarge};
 use mechanics::state::{Configuration, Node};
 use model::{DIRECTIONS, Model};
 
-/// The weight with which C is assembled beside K, a power of two: large, so that of C no digits are lost to K.
+/// Weight of C in the assembly beside K, a large power of two, so that C keeps its digits.
 const RATE: f64 = 1_048_576.0;
 
 /// SceneMatrices by the unknowns of nodes.
@@ -58,7 +58,7 @@ impl SceneMatrices {
     }
 }
 
-/// G, by the gaps that a unit of each unknown leaves where joints are.
+/// G, from the gaps of joints under unit values of each unknown.
 fn constraints(system: &System, plan: &Plan, nodes: &[Node]) -> Vec<(usize, usize, f64)> {
     let mut found = Vec::new();
     let mut gaps = vec![0.0; system.multipliers()];

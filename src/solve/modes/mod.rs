@@ -1,9 +1,9 @@
 //! Small motions about a state: natural modes, buckling loads and the frequency response of the scene linearized there.
 //!
-//! [`find`] takes a state and the loads that hold it in equilibrium and gives modes or the response; it knows nothing of files or of how the state
-//! came about. The matrices are those of a step, from the same assembly: K with K(σ), loads that follow, joints and contacts as
-//! they are, M as the program moves masses. Eigenvalues come from a Krylov space of the factorised matrix, and the signs of its
-//! pivots tell how many there are (Sylvester's law of inertia), so that none is missed.
+//! [`find`] computes modes or the response of a state under the loads that hold it. It knows neither files nor the history of the state.
+//! The matrices are those of a step from the same assembly: K with K(σ), follower loads, joints and contacts, M as in the motion. A Krylov
+//! space of the factorized matrix gives the eigenvalues. The signs of its pivots give their number (Sylvester's law of inertia), so none is
+//! missed.
 
 mod buckling;
 mod damped;
@@ -32,7 +32,7 @@ use crate::system::assembly::Assembly;
 use linear::Solver;
 use model::AnalysisKind;
 
-/// Finds the modes that the model asks for about a state. The solver and its assembly are overwritten where the solver is symmetric.
+/// Finds the modes of the model about a state. The solver and its assembly are overwritten where the solver is symmetric.
 ///
 /// # Errors
 /// The reason why there are none; [`ModesFault::Stopped`] where the search is to pause or to end.

@@ -1,9 +1,9 @@
 //! Natural modes K φ = ω² M φ, the lowest first.
 //!
-//! Lanczos' method on (K − σ M)⁻¹ M finds the eigenvalues nearest to the shift σ, which lies below all of them: at zero where K is
-//! positive definite, else below zero, so that motions without stiffness, of frequency zero, are found like all others. The number
-//! of negative pivots of K − s M, with s just above the last mode, is the number of modes that there are (T. Ericsson & A. Ruhe,
-//! Math. Comp. 35 (1980)); where one is missing, the search goes on with new vectors.
+//! Lanczos' method on (K − σM)⁻¹M finds the eigenvalues nearest to the shift σ below all of them. The shift is zero if K is positive
+//! definite, otherwise negative, so motions without stiffness are found like all others. The number of modes is the number of negative
+//! pivots of K − sM with s just above the last mode (T. Ericsson & A. Ruhe, Math. Comp. 35 (1980)); where one is missing, the search goes
+//! on with new vectors.
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
@@ -21,7 +21,7 @@ use linear::eigen::{Converged, EigenPair, Lanczos};
 use model::ModeExtent;
 use std::f64::consts::TAU;
 
-/// Finds the natural modes that the model asks for.
+/// Finds the natural modes of the model.
 ///
 /// # Errors
 /// The reason why there are none, or why some are missing.
@@ -49,7 +49,7 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
     Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts, response: None })
 }
 
-/// The natural frequencies up to one, without zeros; what it takes is counted.
+/// Natural frequencies up to a value, without zeros; the cost is counted.
 ///
 /// # Errors
 /// As for [`natural_modes`].
@@ -90,7 +90,7 @@ pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<V
         0 => Vec::new(),
         _ => complete(pencil, goal)?,
     };
-    // The shapes that follow need no memory beside the factor more than what the count has left behind.
+    // The shapes fit into the memory that the count has left.
     pencil.solver.rest();
     pairs.retain(|(_, vector)| pencil.allows(&[vector.as_slice()]));
     Ok(pairs)
@@ -101,7 +101,7 @@ pub(super) fn fewer(found: usize, count: usize) -> String {
     format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
 }
 
-/// What rounding hides of modes, in words.
+/// Modes hidden by rounding, in words.
 pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     let mut doubts = Vec::new();
     let lost: Vec<f64> = list.iter().filter_map(|mode| mode.lost).collect();
@@ -125,7 +125,7 @@ pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     doubts
 }
 
-/// What modes without damping leave out, in words.
+/// Terms neglected by modes without damping, in words.
 pub(super) fn left_out(at: &Linearized) -> Vec<String> {
     let mut doubts = Vec::new();
     if !at.loads_have_potential() {
@@ -163,11 +163,11 @@ pub(super) fn lowest_square(pencil: &mut Pencil) -> Result<(f64, bool), ModesFau
 #[derive(Clone, Copy)]
 struct Goal {
     wanted: usize,
-    /// The eigenvalue below which they lie, where that was asked for.
+    /// Upper bound of the eigenvalues, if one was given.
     below: Option<f64>,
 }
 
-/// The number of eigenvalues below `s`, which moves a little where it meets one.
+/// Number of eigenvalues below `s`, which moves slightly if it meets one.
 fn count_below(pencil: &mut Pencil, s: f64) -> Result<usize, ModesFault> {
     let mut row = 0;
     for moved in [1.0, 1.0 + 1e-9, 1.0 + NEAR] {
@@ -213,7 +213,7 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
             }
         };
         goal = found.len() + missing;
-        // What new vectors would find may lie in those that have not been expanded yet.
+        // Vectors that are not yet expanded may hold the part that new vectors would find.
         if missing == 0 || !lanczos.start(pencil, missing) && lanczos.is_expanded() {
             let mut pairs = sorted(lanczos.into_pairs(), shift, wanted);
             pairs.retain(|(lambda, _)| below.is_none_or(|below| *lambda <= below * (1.0 + NEAR)));
@@ -265,18 +265,18 @@ fn settle(pencil: &mut Pencil) -> Result<Lanczos, ModesFault> {
     Err(pencil.singular(row))
 }
 
-/// True for values of 1/λ, the largest first, of which that is of a motion which nothing but rounding resists: beside it others are lost. Rounding may
-/// make it negative where the pivots are not.
+/// True if the largest value 1/λ belongs to a motion resisted by rounding alone, beside which others are lost. Rounding may make it
+/// negative where the pivots are not.
 fn is_drowned(pencil: &Pencil, thetas: &[f64]) -> bool {
     let rounding = Shapes::new(pencil).rounding(pencil);
     thetas.first().is_none_or(|theta| *theta < 0.0 || 1.0 / theta <= NEXT_TO * rounding)
 }
 
-/// A shift that suits the first estimates of 1/(λ − σ), the largest first, better; `None` where this one will do.
+/// A better shift for these first estimates of 1/(λ − σ), largest first; `None` if the current shift suffices.
 fn better_shift(shift: f64, thetas: &[f64]) -> Option<f64> {
     let values: Vec<f64> = thetas.iter().filter(|theta| **theta > 0.0).map(|theta| shift + 1.0 / theta).collect();
     if shift == 0.0 {
-        // What follows a wide gap is the first motion with stiffness.
+        // The first motion with stiffness follows a wide gap.
         let gap = values.windows(2).position(|pair| pair[1] > APART * pair[0].abs())?;
         return Some(-values[gap + 1]);
     }

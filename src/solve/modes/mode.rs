@@ -1,4 +1,4 @@
-//! What is known of a mode.
+//! Data of a mode.
 
 use super::steady::Response;
 use base::math::Vec6;
@@ -42,7 +42,7 @@ pub struct Modes {
 pub struct EigenMode {
     /// The root: growth rate and angular frequency.
     pub root: Complex,
-    /// The factor of the loads at which the state buckles; `None` of natural modes.
+    /// Load factor of buckling; `None` for natural modes.
     pub factor: Option<f64>,
     /// Small motion (u, θ) of each node; its largest displacement is 1.
     pub shape: Vec<Vec6>,
@@ -54,7 +54,7 @@ pub struct EigenMode {
     pub participation: [f64; 6],
     /// Parts of the strain energy, in the order of [`model::Model::parts`].
     pub shares: Vec<Share>,
-    /// The frequency below which rounding hides that of a motion with stiffness, which is given as zero; `None` of all others.
+    /// Frequency below which rounding hides a motion with stiffness, which is listed as zero; `None` otherwise.
     pub lost: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ pub struct EigenMode {
 pub struct Share {
     /// Index into [`model::Model::parts`].
     pub part: usize,
-    /// Its strain energy over that of all; negative where stress takes more stiffness than the part has.
+    /// Its share of the strain energy; negative if stress removes more stiffness than the part has.
     pub strain: f64,
 }
 

@@ -103,8 +103,8 @@ impl<'a> Pencil<'a> {
         Sparse::sum(&[(1.0, &with), (-1.0, &without)])
     }
 
-    /// Hands what closes the gaps of joints that these motions of all nodes leave, real and imaginary parts, to `visit`: the number of
-    /// the equation and the entries of its right-hand side.
+    /// Passes the right-hand sides that close the gaps of joints under these motions, real and imaginary, to `visit`: number of the
+    /// equation and entries.
     pub fn close_gaps(&mut self, motions: &[Vec<Vec6>; 2], mut visit: impl FnMut(usize, [f64; 2])) {
         let Pencil { at, nodes, forces, .. } = self;
         let multipliers = &mut forces.multipliers;
@@ -120,7 +120,7 @@ impl<'a> Pencil<'a> {
     /// Factorises K − σ M. Returns the number of eigenvalues below σ.
     ///
     /// # Errors
-    /// The row of a pivot that vanishes; any where a signal has come, of which [`Pencil::singular`] makes what it is.
+    /// Row of a vanishing pivot; arbitrary after a signal, which [`Pencil::singular`] distinguishes.
     pub fn factor(&mut self, shift: f64) -> Result<usize, usize> {
         self.shift = shift;
         self.form(weights(0.0, -shift), true);
@@ -132,7 +132,7 @@ impl<'a> Pencil<'a> {
         }
     }
 
-    /// Counts the eigenvalues below `s`, above some of which it lies, by factors of K − s M, which take the place of those of the shift.
+    /// Counts the eigenvalues below `s`, which lies above some of them, by factors of K − sM in place of those of the shift.
     ///
     /// # Errors
     /// The row of a pivot that vanishes.
@@ -160,7 +160,7 @@ impl<'a> Pencil<'a> {
         rhs[*unknowns..].fill(0.0);
         solver.solve(rhs);
         first.copy_from_slice(&rhs[..*unknowns]);
-        // Redundant equations are regularised, which leaves a small part of each gap: a second solution takes it away.
+        // Redundant equations are regularized, which keeps a small part of each gap; a second solution removes it.
         let motions = at.motions(nodes, first);
         at.system.gaps_of_motion(nodes, &motions, &mut forces.multipliers.gaps);
         rhs[..*unknowns].fill(0.0);
@@ -172,8 +172,8 @@ impl<'a> Pencil<'a> {
         }
     }
 
-    /// Adds K of the state with the stresses that elements have at other positions of the nodes, and with other loads and multipliers, times
-    /// a weight, to a sum of such matrices, which begins empty: the entries of the solver, without the rows of joints.
+    /// Adds a weight times K of the state, with the stresses of other node positions and with other loads and multipliers. The sum starts
+    /// empty and has the entries of the solver without the rows of joints.
     pub fn add_stressed(
         &mut self,
         weight: f64,
@@ -235,7 +235,7 @@ impl<'a> Pencil<'a> {
         Some(self.negative())
     }
 
-    /// Solves as [`Pencil::solve`] does where some nodes are moved by supports, which joints follow.
+    /// Solves like [`Pencil::solve`] with some nodes moved by supports, which joints follow.
     pub fn follow(&mut self, b: &mut [f64], moved: &[Vec6]) {
         let Pencil { at, nodes, solver, forces, unknowns, rhs, .. } = self;
         let (at, multipliers, n) = (*at, &mut forces.multipliers, *unknowns);
@@ -292,8 +292,7 @@ impl<'a> Pencil<'a> {
         std::mem::replace(&mut self.forces.multipliers.values, self.at.state.multipliers.clone())
     }
 
-    /// Takes into the multipliers of joints what balances these forces on the unknowns of nodes; returns the motion that they would cause
-    /// besides.
+    /// Moves the part of these forces that joints balance into their multipliers; returns the remaining motion.
     pub fn balance(&mut self, forces: &[f64]) -> Vec<f64> {
         let Pencil { solver, forces: Forces { multipliers, .. }, unknowns, rhs, .. } = self;
         rhs[..*unknowns].copy_from_slice(forces);
@@ -305,8 +304,8 @@ impl<'a> Pencil<'a> {
         rhs[..*unknowns].to_vec()
     }
 
-    /// True where joints allow a motion, of one or more parts of which none need be large. Their equations are regularised, so that what they
-    /// forbid still has a frequency, one that means nothing.
+    /// True if joints allow a motion, given as one or more parts of any size. Joint equations are regularized, so a forbidden motion still
+    /// has a meaningless frequency.
     pub fn allows(&mut self, parts: &[&[f64]]) -> bool {
         let Pencil { at, nodes, forces, .. } = self;
         let gaps = &mut forces.multipliers.gaps;
@@ -320,8 +319,8 @@ impl<'a> Pencil<'a> {
         largest > 0.0 && widest <= FORBIDDEN * largest
     }
 
-    /// The ratio of stiffness to mass of the degree of freedom where it is least; 1 where none has both. What is this far below the largest is
-    /// rounding of a motion that nothing resists.
+    /// Smallest ratio of stiffness to mass of a degree of freedom; 1 if none has both. A ratio this far below the largest is rounding of a
+    /// motion without resistance.
     pub fn least_ratio(&mut self) -> f64 {
         self.form(weights(0.0, 0.0), false);
         let mut ratios = vec![0.0; self.unknowns];
@@ -341,7 +340,7 @@ impl<'a> Pencil<'a> {
         if self.at.is_stopped() { ModesFault::Stopped } else { ModesFault::NotConverged { wanted } }
     }
 
-    /// The fault of a matrix that is singular at this row, or that a signal has left without factors.
+    /// Fault of a matrix that is singular at this row, or without factors after a signal.
     pub fn singular(&self, row: usize) -> ModesFault {
         if self.at.is_stopped() {
             return ModesFault::Stopped;

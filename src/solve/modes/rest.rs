@@ -1,4 +1,4 @@
-//! Whether a scene rests in a state: supports and joints carry all that acts, and nothing has to move for it; and what resists its motion there.
+//! Tests whether a scene is at rest in a state, with supports and joints carrying all loads, and its resistance to motion there.
 
 use super::linearized::Linearized;
 use super::pencil::{Pencil, weights};
@@ -7,8 +7,7 @@ use crate::tolerances::rest::{STILL, UNBALANCED};
 use linear::Solver;
 use mechanics::state::Configuration;
 
-/// The multipliers with which the scene rests in the state; `None` where it would move. Mass stands in for the stiffness that a
-/// mechanism does not have.
+/// Multipliers of the scene at rest in the state; `None` if it would move. Mass stands in for the stiffness that a mechanism does not have.
 pub fn multipliers_at_rest(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Option<Vec<f64>> {
     let mut pencil = Pencil::new(*at, linear);
     let rest = |pencil: &mut Pencil| -> (Vec<f64>, f64) {

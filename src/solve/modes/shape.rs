@@ -1,4 +1,4 @@
-//! The shapes of modes: motions of all nodes, their scale, what of rigid motions they hold, and where their energy is.
+//! Shapes of modes: motions of all nodes, scale, rigid-motion content, and distribution of energy.
 
 use super::mode::EigenMode;
 use super::pencil::Pencil;
@@ -10,7 +10,7 @@ use linear::eigen::{Complex, ComplexPair};
 use mechanics::state::Node;
 use std::f64::consts::TAU;
 
-/// What all modes of a state share.
+/// Common data of all modes of a state.
 pub struct Shapes {
     /// M r over the unknowns for the six rigid motions r.
     rigid: [Vec<f64>; 6],
@@ -61,7 +61,7 @@ impl Shapes {
         Shapes { rigid: [x.0, y.0, z.0, rx.0, ry.0, rz.0], masses, length }
     }
 
-    /// The ω² that rounding gives to rigid motions, which have none.
+    /// ω² of rigid motions caused by rounding.
     pub fn rounding(&self, pencil: &Pencil) -> f64 {
         let nodes = &pencil.nodes;
         let center = nodes.iter().map(|node| node.x).sum::<Vec3>() / nodes.len().max(1) as f64;
@@ -110,7 +110,7 @@ impl Shapes {
         let n = pencil.at.unknowns();
         let motions = |x: &[f64]| pencil.at.motions(&pencil.nodes, &x[..n]);
         let (a, b) = (motions(&pair.real), motions(&pair.imaginary));
-        // The motion is the real part of (a + i b) e^(s t): the phase is that of the component that moves most.
+        // The motion is the real part of (a + i b) e^(s t); the largest component defines the phase.
         let sizes = |of: &dyn Fn(&Vec6) -> Vec3| {
             let nodes = a.iter().zip(&b).map(|(a, b)| (of(a), of(b)));
             let size = |(a, b): &(Vec3, Vec3)| a.norm_squared() + b.norm_squared();
@@ -156,8 +156,7 @@ impl Shapes {
         }
     }
 
-    /// The factor by which the largest displacement becomes 1, or the largest rotation where nothing is displaced; the component that
-    /// is largest becomes positive.
+    /// Factor that makes the largest displacement 1, or the largest rotation without displacements; the largest component becomes positive.
     pub fn scale(&self, shape: &[Vec6]) -> f64 {
         let most = |of: &dyn Fn(&Vec6) -> Vec3| {
             let largest = shape.iter().map(of).max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));

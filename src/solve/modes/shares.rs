@@ -11,15 +11,15 @@ use model::Part;
 /// Twice the strain energies of a small motion.
 #[derive(Clone, Default)]
 pub struct Energies {
-    /// Those of the parts, in the order of the model.
+    /// Shares of the parts, in the order of the model.
     pub parts: Vec<Share>,
-    /// The sum of all terms of all elements, without their signs, by which rounding is measured.
+    /// Sum of the magnitudes of all terms of all elements, the measure of rounding.
     pub without_signs: f64,
-    /// The same of each part, and the sum of its terms were all its motions the largest anywhere.
+    /// Sum of each part, and the sum of its terms with the largest motions anywhere.
     of_parts: Vec<[f64; 2]>,
     /// The square of the largest motion anywhere.
     largest: f64,
-    /// True where a part stores energy that is not its own rounding.
+    /// True if a part stores energy above its rounding.
     pub is_stiff: bool,
 }
 
@@ -74,7 +74,7 @@ fn place(parts: &[Part], from: usize, part: &Part) -> usize {
 struct Sums {
     /// φᵀ K φ of each shape.
     energy: Vec<f64>,
-    /// The same of the sizes of all terms.
+    /// Sums of the magnitudes of all terms.
     without_signs: Vec<f64>,
     /// One row of K φ, and of the sizes of its terms.
     row: [Vec<f64>; 2],
@@ -88,7 +88,7 @@ impl Sums {
         Sums { energy: zeros(), without_signs: zeros(), row: [zeros(), zeros()], entries: 0.0 }
     }
 
-    /// Those of a matrix, row-major, and motions, the shapes side by side.
+    /// Energies of a matrix, row-major, for motions with shapes side by side.
     fn form(&mut self, K: &[f64], phi: &[f64]) {
         let Sums { energy, without_signs, row: [row, sizes], entries } = self;
         let shapes = row.len();

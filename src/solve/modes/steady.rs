@@ -26,22 +26,22 @@ pub struct ResponseRow {
 
 keep!(ResponseRow: Default { frequency, motions });
 
-/// What has been found of a response, from which a search that was stopped goes on.
+/// Response found so far, for a search that was interrupted.
 #[derive(Debug, Default)]
 pub struct ResponseSoFar {
     /// The rows of the frequencies solved for, ascending.
     pub rows: Vec<ResponseRow>,
-    /// What has been left of the equations at most, and the frequency.
+    /// Largest residual of the equations, and its frequency.
     pub(super) worst: (f64, f64),
-    /// Frequencies at which there is no steady motion, each with the mode that grows there, from 0.
+    /// Frequencies without a steady motion, each with the growing mode, counted from 0.
     pub(super) resonances: Vec<(f64, Option<usize>)>,
 }
 
 keep!(ResponseSoFar { rows, worst, resonances });
 
-/// A search that may be interrupted: what it has found of a response, and whether it is to pause between two frequencies.
+/// An interruptible search: the response found so far, and whether it pauses between two frequencies.
 pub struct Search<'s> {
-    /// What has been found of a response; the rows of one that is whole go into it.
+    /// Response found so far; a complete response moves its rows there.
     pub so_far: &'s mut ResponseSoFar,
     /// Tells whether a checkpoint is due.
     pub pauses: &'s mut dyn FnMut() -> bool,

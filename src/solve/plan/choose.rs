@@ -11,9 +11,8 @@ pub fn kind(structure: &Structure, gyroscopic: Gyroscopic) -> Factorization {
     }
 }
 
-/// Cost of forming and factorizing a matrix, in units of one residual and one solve, measured on chains of beams and on
-/// space frames (benches/iteration.rs). It is a number of the plan, not of the clock, so that a deck always takes the
-/// same path.
+/// Cost of forming and factorizing a matrix, in units of one residual and one solve, measured on chains of beams and on space frames
+/// (benches/iteration.rs). It is a number of the plan instead of a measured time, so a deck always takes the same path.
 pub fn refresh_cost(kind: Factorization) -> f64 {
     match kind {
         Factorization::BlockLu => 3.0,

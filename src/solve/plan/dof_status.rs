@@ -199,7 +199,7 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
         rotary[inertia.node] = inertia.rotary;
         turn(&mut moved[inertia.node]);
     }
-    // A rotating master takes its dependent nodes along, and their inertia excites the free rotations that they have.
+    // A rotating master moves its dependent nodes, and their inertia excites their free rotations.
     for dependent in &system.rigid_links {
         for dof in (3..6).filter(|&d| dependent.dofs[d]) {
             moved[dependent.node][dof] |= moved[dependent.master][dof];

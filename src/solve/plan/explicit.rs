@@ -11,7 +11,7 @@ use mechanics::integrators::Stepping;
 use model::{DIRECTIONS, Model};
 
 impl Plan {
-    /// The block-diagonal masses, where each moving node is a rigid body of its own.
+    /// Block-diagonal masses, if each moving node is a rigid body.
     pub fn masses(&self, system: &System) -> Option<Masses> {
         Masses::new(system, &self.dofs)
     }
@@ -40,7 +40,7 @@ impl Plan {
         if !self.explicit {
             return Vec::new();
         }
-        // What gears share has no mass, and needs none: the joints lead it.
+        // The common number of gears has no mass and needs none: the joints drive it.
         let shared: Vec<usize> = system.joints.iter().filter_map(|joint| Some(joint.shared()?.node)).collect();
         let mut missing: Vec<(usize, usize)> = match self.masses(system) {
             Some(masses) => {
@@ -79,8 +79,8 @@ impl Plan {
         errors
     }
 
-    /// An error for each node that follows its master in some rotations and has others of its own, with Runge-Kutta.
-    /// The rotation vector of a step ties it to its master, not the rates at the stages, which would be of first order.
+    /// An error for each node with Runge-Kutta that follows its master in some rotations and has others free. The rotation vector of a step
+    /// ties it to its master, not the rates at the stages, which would be of first order.
     pub fn partial_rotations(&self, model: &Model) -> Vec<Diagnostic> {
         if !matches!(model.solution.scheme.stepping(), Stepping::RungeKutta(_)) {
             return Vec::new();

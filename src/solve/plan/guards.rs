@@ -3,7 +3,7 @@
 use crate::system::System;
 use model::{AnalysisKind, Model};
 
-/// What refuses steps, or warns of them.
+/// Kinds of guards, which refuse steps or warn of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GuardKind {
     /// Steps too long for contacts, and contacts that are pressed in too deep.
@@ -18,16 +18,16 @@ pub enum GuardKind {
     Jump,
     /// Steps of a motion that turn nodes of shells against their elements.
     Twist,
-    /// Shells that are stretched beyond what their measure of strain is for.
+    /// Shells stretched beyond the validity of their strain measure.
     Strain,
-    /// Rotations that supports fix alone, whose total drifts.
+    /// Drift of rotations that supports fix alone.
     Drift,
     /// Equilibria that are unstable.
     Stability,
 }
 
-/// The guards of a scene, in the order in which they are asked. `linear`: the matrix never changes; `explicit`: no step is one of
-/// equilibrium, and steppers check their ends themselves.
+/// Guards of a scene, in the order of their calls. `linear`: the matrix never changes; `explicit`: no step is one of equilibrium, and
+/// steppers check their ends themselves.
 pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> Vec<GuardKind> {
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let has_shells = system.groups.iter().any(|group| group.kind.is_surface());

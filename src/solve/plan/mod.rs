@@ -1,5 +1,5 @@
-//! The plan of a run, decided once: which degrees of freedom are unknowns and why the others are not, the structure of
-//! the matrix, its factorization, and when it is formed anew.
+//! The plan of a run, decided once: unknowns, reasons for omissions, structure of the matrix, its factorization, and when it is formed
+//! again.
 
 mod choose;
 mod dof_status;
@@ -35,7 +35,7 @@ pub struct Plan {
     pub explicit: bool,
     /// True where the matrix never changes: it is factorized once for each length of step.
     pub linear: bool,
-    /// What refuses steps, or warns of them, in the order in which it is asked.
+    /// Guards, in the order of their calls.
     pub guards: Vec<GuardKind>,
     /// Cost of forming and factorizing the matrix, in units of one residual and one solve.
     pub refresh_cost: f64,
@@ -127,7 +127,7 @@ impl Plan {
         Ok((solver, assembly))
     }
 
-    /// The same with the symmetric part of the matrix, by a Cholesky factorisation.
+    /// Like the above with the symmetric part of the matrix, by a Cholesky factorization.
     ///
     /// # Errors
     /// As for [`Plan::build`].
@@ -137,7 +137,7 @@ impl Plan {
         Ok((solver, assembly))
     }
 
-    /// The same with room for pairs of elements that wander.
+    /// Like the above with room for pairs of elements that wander.
     ///
     /// # Errors
     /// As for [`Plan::build`].
@@ -145,7 +145,7 @@ impl Plan {
         self.build_of(self.kind, system, partners)
     }
 
-    /// The same for a matrix that is stored in full, unsymmetric as it may be.
+    /// Like the above for a matrix stored in full, which may be unsymmetric.
     ///
     /// # Errors
     /// As for [`Plan::build`].
@@ -170,8 +170,8 @@ impl Plan {
         Ok((solver, assembly))
     }
 
-    /// The plan with degrees of freedom that supports prescribe, given by node and direction, among the unknowns: in its matrices they have
-    /// columns, which are forces of their motion.
+    /// The plan with some prescribed degrees of freedom, by node and direction, among the unknowns: their columns in its matrices are the
+    /// forces of their motion.
     pub fn with_prescribed(&self, system: &System, prescribed: &[(usize, usize)]) -> Plan {
         let mut unknown: Vec<[bool; 6]> = self.dofs.each_node().iter().map(NodeRows::unknown).collect();
         prescribed.iter().for_each(|&(node, dof)| unknown[node][dof] = true);
@@ -212,14 +212,13 @@ fn structure(system: &System, dofs: &DofMap) -> Structure {
     structure_with(system, dofs, &[])
 }
 
-/// The same with room for pairs of elements that wander.
+/// Like the above with room for pairs of elements that wander.
 fn structure_with(system: &System, dofs: &DofMap, partners: &[(usize, Partners)]) -> Structure {
     let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
     grouped(&sizes, connectivity(system, sizes.len(), partners), system.joints.len())
 }
 
-/// The structure from the number of unknowns of each node, of which the last `multipliers` stand for joints, and from
-/// the connectivity of the nodes.
+/// Structure from the number of unknowns of each node and the connectivity of the nodes. The last `multipliers` groups are those of joints.
 fn grouped(unknowns: &[usize], connectivity: Vec<Vec<usize>>, multipliers: usize) -> Structure {
     let mut sizes = Vec::new();
     let mut last = 0;

@@ -18,8 +18,7 @@ fn size(nodes: &[Node]) -> f64 {
     if length > ROUNDING * reach { length } else { 1.0 }
 }
 
-/// Numbers of the multipliers whose equations depend linearly on those before them; `None` where there are too many to
-/// search.
+/// Multipliers whose equations depend linearly on earlier ones; `None` if there are too many to search.
 pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>> {
     let directions = dofs.nodal_dofs().len();
     let count = dofs.unknowns() - directions;
@@ -29,7 +28,7 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     // The size of the scene makes rotations comparable with translations.
     let length = size(&nodes);
 
-    // The columns are the degrees of freedom on which joints act, numbered as they are met.
+    // Columns are the degrees of freedom of joints, numbered as they occur.
     let mut column = vec![None; directions];
     let mut columns = 0;
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
@@ -71,8 +70,8 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     Some(dependent_rows(&loops, columns).into_iter().map(|row| rows[row]).collect())
 }
 
-/// The rows that may depend on each other. A joint whose equations are independent in the degrees of freedom on which no other joint acts, as
-/// that at the end of a chain, has no part in what depends on what; without it the next one is at the end.
+/// The rows that may depend on each other. A joint with independent equations in degrees of freedom of its own, such as at the end of a
+/// chain, does not affect dependence. Without it the next joint is at the end.
 fn without_branches(sparse: &[Vec<(usize, f64)>], joints: &[Range<usize>], columns: usize) -> Vec<usize> {
     let columns_of = |joint: &Range<usize>| -> BTreeSet<usize> {
         sparse[joint.clone()].iter().flatten().map(|&(column, _)| column).collect()

@@ -1,4 +1,4 @@
-//! The operations that the omissions of a plan avoid: the matrix with each of them undone, against that of the plan.
+//! Operations avoided by the omissions of a plan: the matrix with each of them undone, against that of the plan.
 
 use super::dof_status::DofStatus;
 use super::{Plan, grouped};
@@ -56,8 +56,8 @@ impl Plan {
         sizes
     }
 
-    /// The structure with multipliers in place of elimination: dependent nodes with unknowns of their own, and a
-    /// multiplier for each of their dependent degrees of freedom.
+    /// The structure with multipliers in place of elimination: dependent nodes get unknowns, and each of their dependent degrees of freedom
+    /// a multiplier.
     fn with_multipliers(&self, system: &System) -> Structure {
         let mut sizes = self.sizes_with(DofStatus::Dependent);
         let nodes = sizes.len();

@@ -1,4 +1,4 @@
-//! What a plane motion leaves out: the motion out of the plane, in which a structure that is compressed in its plane may buckle.
+//! Motion out of the plane, which a plane motion omits, and in which a compressed structure may buckle.
 
 use super::Plan;
 use crate::system::assembly::Assembly;
@@ -19,8 +19,7 @@ pub struct Sideways {
 }
 
 impl Sideways {
-    /// The equations that the plan leaves out; `None` where it leaves out nothing that deforms, and where there are joints,
-    /// whose forces out of the plane are not known.
+    /// The omitted equations; `None` if nothing deformable is omitted, or if joints exist, whose forces out of the plane are unknown.
     ///
     /// # Errors
     /// There is no memory for the solver.
@@ -39,7 +38,7 @@ impl Sideways {
             return Ok(None);
         }
         let structure = super::structure(&system, &dofs);
-        // Without a potential the tangent is not symmetric, and its determinant tells of stability.
+        // Without a potential the tangent is unsymmetric, and its determinant decides stability.
         let kind = match system.loads_have_potential(None) {
             true => Factorization::choose(&structure),
             false => Factorization::BlockLu,

@@ -1,4 +1,4 @@
-//! Displacements that an equilibrium path is to reach, but which the plan omits: they stay zero.
+//! Targets of an equilibrium path that the plan omits, and which stay zero.
 
 use super::Plan;
 use super::dof_status::DofStatus;

@@ -1,9 +1,8 @@
 //! Motions beside the modes found that dampers of these modes cause.
 //!
-//! Local dampers push motions that the modes found do not hold; left out, they stiffen too little and damp too little. The static answers
-//! P S C φ to the damping forces of the modes join the modes as further motions, with their stiffness, mass and damping (residual
-//! vectors; R. R. Craig & A. J. Kurdila, Fundamentals of Structural Dynamics (2006), chapter 17). Damping in proportion to mass and
-//! stiffness causes none.
+//! Local dampers push motions that the modes found do not hold; left out, they stiffen too little and damp too little. The static responses
+//! PSCφ to the damping forces of the modes join the modes with their stiffness, mass and damping (residual vectors; R. R. Craig & A. J.
+//! Kurdila, Fundamentals of Structural Dynamics (2006), chapter 17). Damping in proportion to mass and stiffness causes none.
 
 use super::super::pencil::Pencil;
 use super::matrices::Matrices;
@@ -21,7 +20,7 @@ pub struct RestMotion {
     pub mass: f64,
 }
 
-/// The further motions, without coupling by stiffness and mass between them; `remove` takes the modes found from a motion.
+/// Residual vectors, uncoupled in stiffness and mass; `remove` projects the modes found out of a motion.
 pub fn rest_motions(
     pencil: &mut Pencil,
     matrices: &Matrices,

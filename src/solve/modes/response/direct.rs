@@ -57,7 +57,7 @@ pub fn response(
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
-    // Next to zero, where what is only held by joints has no pivot that vanishes.
+    // The shift is next to zero, where parts held by joints alone have no vanishing pivot.
     let shift = -NEXT_TO_ZERO * pencil.least_ratio();
     let unstable = !unsymmetric && is_unstable(&mut pencil, shift);
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
@@ -91,7 +91,7 @@ fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
         })
 }
 
-/// What is not judged of a state whose loads have no potential, in words.
+/// Properties that cannot be judged for loads without a potential, in words.
 fn unjudged(at: &Linearized) -> Option<String> {
     (!at.loads_have_potential()).then(|| {
         "loads that follow, and moments about axes fixed in space, have no potential: whether the state is stable, and the steady motion \
@@ -100,7 +100,7 @@ fn unjudged(at: &Linearized) -> Option<String> {
     })
 }
 
-/// True for motions beside a frequency that are the same to what the frequencies differ by, many times over: near a resonance they are
+/// True for motions beside a frequency that agree within many times the difference of the frequencies; across a resonance they are
 /// opposite.
 fn agree([before, after]: &[[Vec<Vec6>; 2]; 2]) -> bool {
     let pairs = || before.iter().flatten().zip(after.iter().flatten());
@@ -155,14 +155,14 @@ impl Direct<'_> {
         }
     }
 
-    /// Notes a frequency at which nothing limits the motion.
+    /// Notes a frequency of unlimited motion.
     fn note(&mut self, frequency: f64) {
         let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME_FREQUENCY * frequency);
         self.so_far.resonances.push((frequency, mode));
     }
 
-    /// Looks for resonances that rounding makes very large, not infinite: such a motion falls off within a part of its frequency in which no
-    /// damping that anything has would let it.
+    /// Looks for resonances that rounding makes very large instead of infinite: such a motion decreases within a fraction of its frequency
+    /// that no real damping allows.
     ///
     /// # Errors
     /// [`ModesFault::Stopped`] where a signal ends the search.
@@ -242,7 +242,7 @@ impl Direct<'_> {
         motions
     }
 
-    /// What is doubtful about the response, in words.
+    /// Doubts about the response, in words.
     fn doubts(&self) -> Vec<String> {
         let mut doubts = Vec::new();
         doubts.extend(resonances_in_words(&self.so_far.resonances));

@@ -1,7 +1,7 @@
 //! The dynamic stiffness K + iωC − ω²M with the equations of joints, factorised at a frequency.
 //!
-//! A complex number a + ib stands as the real matrix [a −b; b a]. Real and imaginary parts of a group of unknowns are one group of the
-//! solver, so that pivots are sought among both: at a resonance all of a real part may vanish. Groups are of three unknowns at most.
+//! A complex number a + ib stands as the real matrix [a −b; b a]. Real and imaginary parts of a group of unknowns form one group of the
+//! solver, so pivots are sought among both: at a resonance a real part may vanish entirely. Groups are of three unknowns at most.
 
 use super::excitation::C64;
 use super::matrices::Matrices;
@@ -36,8 +36,7 @@ pub struct DynamicStiffness {
 }
 
 impl DynamicStiffness {
-    /// The matrix of the unknowns of a structure, the last of which are the multipliers of `joints`: their rows and columns, and what
-    /// penalties add to others.
+    /// Matrix of the unknowns of a structure, with the multipliers of `joints` last: their rows, columns and penalties.
     ///
     /// # Errors
     /// There is no memory.
@@ -81,8 +80,8 @@ impl DynamicStiffness {
         self.solver.factor().is_ok()
     }
 
-    /// Solves for the response to `f`, and returns what is left of the equations relative to the largest entry of `f`; 0 where what is left is the
-    /// rounding of stiff terms, which corrects the solution by next to nothing.
+    /// Solves for the response to `f`, and returns the residual relative to the largest entry of `f`. It returns 0 if the residual is
+    /// rounding of stiff terms, which hardly changes the solution.
     pub fn solve(&mut self, f: &[C64], x: &mut [C64]) -> f64 {
         let largest = f.iter().map(|f| f.norm()).fold(0.0, f64::max);
         x.fill(C64::new(0.0, 0.0));
@@ -108,7 +107,7 @@ impl DynamicStiffness {
         if change <= NEGLIGIBLE { 0.0 } else { left }
     }
 
-    /// Adds the solution for `f` to `x`, and returns the part of its largest entry by which it changes.
+    /// Adds the solution for `f` to `x`, and returns its change relative to its largest entry.
     fn correct(&mut self, f: &[C64], x: &mut [C64]) -> f64 {
         for ([real, imaginary], f) in self.places.iter().zip(f) {
             (self.scratch[*real], self.scratch[*imaginary]) = (f.re, f.im);

@@ -1,4 +1,4 @@
-//! What excites a response: loads and motions of supports whose amplitudes are harmonic.
+//! Excitation of a response: harmonic loads and support motions.
 
 use super::super::fault::ModesFault;
 use super::super::gyroscopic::Gyroscopic;
@@ -27,7 +27,7 @@ pub struct HarmonicExcitation {
 pub struct SupportMotion {
     factor: C64,
     history: History,
-    /// Motions of all nodes: those of supports and of what is rigidly attached to them, zero elsewhere.
+    /// Motions of all nodes: supports and rigidly attached nodes; zero elsewhere.
     pub moved: Vec<Vec6>,
     /// Changes of the gaps of joints.
     pub gaps: Vec<f64>,
@@ -36,7 +36,7 @@ pub struct SupportMotion {
 }
 
 impl SupportMotion {
-    /// The factor of the displacement at an angular frequency: that of a velocity is 1/iω, that of an acceleration −1/ω².
+    /// Displacement factor at an angular frequency: 1/iω for a velocity, −1/ω² for an acceleration.
     pub fn factor(&self, omega: f64) -> C64 {
         match self.history {
             History::Displacement => self.factor,
@@ -64,7 +64,7 @@ impl HarmonicExcitation {
     }
 }
 
-/// The part of an amplitude that has this factor, 1 or i; 0 of those that are not harmonic.
+/// Part of an amplitude with this factor, 1 or i; 0 if it is not harmonic.
 fn part(model: &Model, amplitude: Option<usize>, factor: C64) -> f64 {
     let phase = amplitude.and_then(|i| model.loading.amplitudes[i].harmonic_phase());
     phase.map_or(0.0, |phase| if factor.re > 0.0 { phase.cos() } else { phase.sin() })
@@ -87,8 +87,8 @@ fn forces(pencil: &Pencil, factor: C64) -> Vec<f64> {
     at.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
 }
 
-/// The motions of supports, with the forces that they exert on the unknowns: columns of the matrices of a plan in which the
-/// prescribed degrees of freedom are unknowns too.
+/// Support motions with their forces on the unknowns: columns of the matrices of a plan in which prescribed degrees of freedom are
+/// unknowns.
 fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, ModesFault> {
     let model = at.model;
     let mut all: Vec<SupportMotion> = Vec::new();
@@ -137,7 +137,7 @@ fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, Mod
             force.into_iter().zip(&own).filter(|(_, own)| **own).map(|(force, _)| force).collect()
         });
         at.system.project(nodes, &mut motion.moved);
-        // Masses are damped against the frames that supports move, so what moves with them is not.
+        // Masses are damped relative to frames moved by supports, so motion with a frame is not damped.
         if at.system.mass_damping().has_frames() {
             let mut drag = Forces::new(at.system, nodes.len());
             at.system.drag_of(nodes, &at.system.mass_damping().carry(nodes, &motion.moved), &mut drag);
@@ -150,7 +150,7 @@ fn motions(at: &Linearized, unsymmetric: bool) -> Result<Vec<SupportMotion>, Mod
     Ok(all)
 }
 
-/// Replaces changes of rotations that are given together by the spin that they are at the rotation of the state.
+/// Converts changes of rotations prescribed together into the spin at the rotation of the state.
 fn turn_together(at: &Linearized, all: &mut [SupportMotion], prescribed: &mut Vec<(usize, usize)>) {
     let constraints = &at.model.constraints;
     let mut given = Vec::new();

@@ -6,7 +6,7 @@ use linear::Sparse;
 
 /// K, C and M over the unknowns of nodes, without the equations of joints.
 pub struct Matrices {
-    /// Stiffness, with what a spin that is not steady adds.
+    /// Stiffness, with the terms of an unsteady spin.
     pub K: Sparse,
     /// Damping and gyroscopic moments.
     pub C: Sparse,
@@ -15,7 +15,7 @@ pub struct Matrices {
 }
 
 impl Matrices {
-    /// The matrices of a pencil, which has a solver for unsymmetric ones where they are.
+    /// Matrices of a pencil, which has an unsymmetric solver if they are unsymmetric.
     pub fn of(pencil: &mut Pencil, gyroscopic: &Gyroscopic) -> Matrices {
         let (plain, with_rates) = (pencil.matrix(weights(0.0, 0.0)), pencil.matrix(weights(1.0, 0.0)));
         let n = plain.rows();

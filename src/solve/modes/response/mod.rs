@@ -1,7 +1,7 @@
 //! The steady motion that harmonic loads and motions of supports cause about a state: amplitude and phase at each frequency.
 //!
-//! Every motion is the real part of a complex one times exp(iωt). [`direct`] solves (K + iωC − ω²M) x = f at each frequency, with
-//! the matrices as they are; [`modal`] takes natural modes.
+//! Every motion is the real part of a complex one times exp(iωt). [`direct`] solves (K + iωC − ω²M) x = f at each frequency; [`modal`] uses
+//! natural modes.
 
 mod damped_rest;
 mod direct;
@@ -23,7 +23,7 @@ use crate::system::assembly::Assembly;
 use linear::Solver;
 use model::{ResponseAsked, ResponseMethod};
 
-/// Finds the response that a model asks for about a state. The solver is symmetric; it and its assembly are overwritten.
+/// Finds the response of a model about a state. The solver is symmetric; it and its assembly are overwritten.
 ///
 /// # Errors
 /// The reason why there is none.

@@ -1,11 +1,12 @@
 //! The response by natural modes.
 //!
-//! The modes found answer with their inertia and with Ĉ = Φᵀ C Φ, which need not be diagonal; all others as springs with the first
-//! term of their inertia (mode acceleration and its next term; R. R. Craig & A. J. Kurdila, Fundamentals of Structural Dynamics (2006),
-//! chapter 11). Local dampers add motions to these modes ([`super::damped_rest`]). With the shift s, at which K − s M is factorised, and P that removes the modes found,
+//! The modes found respond with their inertia and with Ĉ = ΦᵀCΦ, which may be full. All others respond as springs with the first inertia
+//! term (mode acceleration and its next term; R. R. Craig & A. J. Kurdila, Fundamentals of Structural Dynamics (2006), chapter 11). Local
+//! dampers add motions to these modes ([`super::damped_rest`]). With the shift s, for which K − sM is factorized, and the projection P off
+//! the modes found,
 //!   x = Σ φ q + P (r + (ω² − s) S M r),   r = S f,   S = (K − s M)⁻¹.
-//! Supports that move carry the scene along as S would have it; what is left are forces of inertia and damping. The damping ratio of modes is
-//! that of motions relative to what follows supports in statics: of that S leaves s/λ of the inertia of what it carries along.
+//! Moving supports carry the scene along statically by S; forces of inertia and damping remain. The damping ratio of modes refers to
+//! motions relative to the static motion with the supports. S leaves s/λ of the inertia of that motion.
 
 use super::super::fault::ModesFault;
 use super::super::gyroscopic::Gyroscopic;
@@ -92,7 +93,7 @@ pub fn response(
     Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response })
 }
 
-/// What the modes that were not found leave out, in words, where it may be seen.
+/// Error from modes that were not found, in words, where it may be visible.
 fn truncation((natural, extent): (&[f64], ModeExtent), unknowns: usize, highest: f64, spins: bool) -> Option<String> {
     let (last, all) = match extent {
         ModeExtent::UpTo(frequency) => (frequency, false),
@@ -144,7 +145,7 @@ struct Space<'p> {
 struct Part {
     /// The forces on the modes.
     modal: Vec<f64>,
-    /// What all other modes answer: P r, and P S M r.
+    /// Response of all other modes: P r, and P S M r.
     rest: [Vec<f64>; 2],
 }
 
@@ -175,7 +176,7 @@ impl<'p> Space<'p> {
         let stiff = |lambda: f64| lambda > ZERO * stiffest;
         let carried =
             pairs.iter().map(|(lambda, _)| if stiff(*lambda) { 2.0 * ratio * shift / lambda.sqrt() } else { 0.0 });
-        // What dampers cause besides has mass of its own and is not carried.
+        // The further effect of dampers has its own mass and is not carried.
         let carried = carried.chain(rest.iter().map(|_| 0.0)).collect();
         Space { pairs, rest, damping, diagonal: !coupled, shift, carried }
     }
@@ -199,7 +200,7 @@ impl<'p> Space<'p> {
         self.pairs.iter().map(|(_, phi)| phi).chain(self.rest.iter().map(|of| &of.shape))
     }
 
-    /// Removes the modes found from the answer S g to a force g, and what it has of the motions besides.
+    /// Projects the modes and further motions out of the response S g to a force g.
     fn remove(&self, pencil: &Pencil, force: &[f64], x: &mut [f64]) {
         remove_modes(pencil, self.pairs, x);
         for RestMotion { shape, stiffness, mass } in self.rest {
@@ -228,7 +229,7 @@ impl<'p> Space<'p> {
         Parts { loads, supports }
     }
 
-    /// What stiffness and inertia of a motion leave at the square of an angular frequency.
+    /// Dynamic stiffness of a motion at the square of an angular frequency.
     fn stiffness(&self, i: usize, square: f64) -> f64 {
         match i.checked_sub(self.pairs.len()) {
             None => self.pairs[i].0 - square,
@@ -270,7 +271,7 @@ type Rest = [Vec<Vec6>; 2];
 struct Motion {
     modes: Vec<Vec<Vec6>>,
     loads: Vec<Rest>,
-    /// Those of supports with what follows them, then what inertia and damping do besides.
+    /// Static motion with each support, then the responses to its inertia and damping.
     supports: Vec<(Vec<Vec6>, [Rest; 2])>,
 }
 
@@ -294,7 +295,7 @@ impl Motion {
         }
     }
 
-    /// The motions at a frequency, complex. Where nothing limits them they are not finite, and the mode is told, from 0.
+    /// The motions at a frequency, complex. Without a limit the motions are not finite, and the mode is returned, counted from 0.
     fn at(
         &self,
         space: &Space,

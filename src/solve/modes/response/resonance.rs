@@ -1,9 +1,9 @@
-//! Frequencies at which nothing limits the motion, in words.
+//! Frequencies of unlimited motion, in words.
 
 use base::names::short;
 
-/// What is said of frequencies at which there is no steady motion, in cycles per time, each with the mode that grows without limit, from 0, where
-/// modes are known; `None` where there are none.
+/// Message about frequencies without a steady motion, in cycles per time, each with the growing mode, counted from 0, if modes are known;
+/// `None` without such frequencies.
 pub(super) fn resonances_in_words(all: &[(f64, Option<usize>)]) -> Option<String> {
     let (&(frequency, mode), count) = (all.first()?, all.len());
     let mode = mode.map_or_else(String::new, |mode| format!(", that of mode {},", mode + 1));

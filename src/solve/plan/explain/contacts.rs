@@ -1,4 +1,4 @@
-//! Contacts: what meets what, and how.
+//! Contacts: touching pairs and their law.
 
 use super::explanation::Explanation;
 
@@ -7,7 +7,7 @@ use base::names::short;
 use mechanics::elements::contact::{ConvexBody, Facet, FacetTouchers};
 use model::{CarriedSurface, Contact, Model, TouchedSurface};
 
-/// Adds lines about contacts. What a monitor does not see may not pass: its gaps are those of its points, and its line says so.
+/// Adds lines about contacts. Parts may pass a monitor unseen: its gaps are those of its points, and its line says so.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for contact in model.each::<Contact>() {
         text.add("contact", contact_in_words(model, contact));
@@ -17,7 +17,7 @@ pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     }
 }
 
-/// What a contact does not see, for each kind of what touches.
+/// Undetected contact, for each kind of touching part.
 fn unseen(contact: &Contact) -> impl Iterator<Item = &'static str> {
     contact.touchers.iter().filter_map(|toucher| match &contact.surface {
         TouchedSurface::Shape(carried) => toucher.unseen(&carried.surface.shape, contact.has_multipliers()),

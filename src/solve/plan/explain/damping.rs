@@ -1,4 +1,4 @@
-//! Rayleigh damping in words: on what each factor acts, and relative to what.
+//! Rayleigh damping in words: parts that each factor acts on, and the reference of velocities.
 
 use super::explanation::Explanation;
 use base::names::{joined, short};

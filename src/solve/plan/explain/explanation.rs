@@ -2,21 +2,21 @@
 
 use std::fmt::{self, Display, Formatter};
 
-/// A plan in words. Whoever prints it may add lines of what comes before and after the plan.
+/// A plan in words. The printer may add lines before and after the plan.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Explanation {
     /// The label of each line, and its text.
     pub computed: Vec<(&'static str, String)>,
     /// The omissions, and why.
     pub omitted: Vec<String>,
-    /// The operations that the omissions avoid, where they can be counted.
+    /// Operations avoided by the omissions, if countable.
     pub avoided: Vec<String>,
     /// Notes that the reader of a result must know.
     pub notes: Vec<String>,
 }
 
 impl Explanation {
-    /// Adds a line to what is computed.
+    /// Adds a line to the computed items.
     pub(super) fn add(&mut self, label: &'static str, what: impl Into<String>) {
         self.computed.push((label, what.into()));
     }

@@ -1,4 +1,4 @@
-//! Mass scaling in words: what it adds, to what, and what comes of it.
+//! Mass scaling in words: additions, parts and effects.
 
 use super::explanation::Explanation;
 use crate::system::{MassScaling, ScaledPart, System};
@@ -30,7 +30,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     }
 }
 
-/// What mass scaling adds, in lines with their labels.
+/// Additions of mass scaling, as lines with labels.
 pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
     let [elements, heavier, turning] = counts(scaling);
     let step = short(scaling.critical_step);
@@ -55,7 +55,7 @@ pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
     lines
 }
 
-/// The numbers of elements, of those that are given mass, and of those that are given rotary inertia.
+/// Numbers of elements in total, with added mass, and with added rotary inertia.
 fn counts(scaling: &MassScaling) -> [usize; 3] {
     let sum = |of: fn(&ScaledPart) -> usize| scaling.parts.iter().map(of).sum();
     [sum(|part| part.elements), sum(|part| part.heavier), sum(|part| part.turning)]

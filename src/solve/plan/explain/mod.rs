@@ -1,4 +1,4 @@
-//! The plan in words, for `rdsolve check`, the log and result.json: what will be computed, what is omitted and why.
+//! The plan in words, for `rdsolve check`, the log and result.json: computed items, omissions and reasons.
 
 mod analysis;
 mod bars;

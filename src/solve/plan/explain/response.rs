@@ -3,7 +3,7 @@
 use base::names::{joined, short};
 use model::{ModeExtent, Model, ResponseAsked, ResponseMethod};
 
-/// What a frequency response is to, where, and how it is found.
+/// Excitation, frequencies and method of a frequency response.
 pub fn explain(response: &ResponseAsked, model: &Model) -> String {
     let all = &response.frequencies;
     let range = match (all.as_slice(), all.len()) {

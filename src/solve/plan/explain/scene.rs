@@ -33,7 +33,7 @@ pub fn explain(text: &mut Explanation, plan: &Plan, model: &Model, system: &Syst
     PARTS.iter().for_each(|explain| explain(text, model, system));
 }
 
-/// The note on a scene that lies in a plane, out of which its modes may lead.
+/// Note on a plane scene whose modes may leave the plane.
 pub fn plane_modes(model: &Model, system: &System) -> Option<String> {
     let analysis = &model.analysis;
     let lists_all = analysis.has_modes() && analysis.response().is_none() && !analysis.plane;

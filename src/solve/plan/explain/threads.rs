@@ -1,5 +1,5 @@
-//! Which loops several threads share, in words. Each loop decides by the size of the scene alone: below it threads cost more time than they
-//! save, and with one as with many the results are the same.
+//! Which loops several threads share, in words. Each loop decides by the size of the scene alone. Below it threads cost more time than they
+//! save, and results do not depend on the number of threads.
 
 use super::explanation::Explanation;
 use crate::plan::Plan;
