@@ -1,8 +1,8 @@
 //! Forces and tangents of elastic beams in microseconds an element: forces of a group, tangents one after the other and eight side by side,
 //! without their places in the matrix. Least of many repeats, one thread. `cargo bench --bench beams`
 
-use rdsolve::elements::beam::{BeamGeometry, Beams};
-use rdsolve::elements::{ElementBlock, Moduli};
+use rdsolve::elements::beam::{BeamGeometry, elastic_beams};
+use rdsolve::elements::Moduli;
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::sections::Stiffness;
 use rdsolve::state::{Configuration, Node};
@@ -27,11 +27,8 @@ fn beams<const N: usize>() {
     let lists: Vec<[usize; N]> = (0..COUNT).map(|e| std::array::from_fn(|a| e * (N - 1) + a)).collect();
     let stiffness = Stiffness::general(2e6, [8e5, 8e5], 1e5, [2e5, 1e5], 1.0, [1.0; 3]);
     let frame = Mat3::identity();
-    let block = Beams::<N>::new(
-        lists.iter().map(|nodes| BeamGeometry { nodes, frame: &frame, stiffness: &stiffness }),
-        &x,
-        0.0,
-    );
+    let elements = lists.iter().map(|nodes| BeamGeometry { nodes, frame: &frame, stiffness: &stiffness });
+    let block = elastic_beams(N - 1, &elements.collect::<Vec<_>>(), &x, 0.0);
     let moved = |(i, x): (usize, &Vec3)| Node {
         rotation: rotation::exp(&Vec3::new(0.01 * (i as f64).cos(), 0.2, 0.03)),
         ..Node::at_rest(x + Vec3::new(1e-3 * (i as f64).sin(), 2e-3 * (0.7 * i as f64).cos(), 0.0))

@@ -3,7 +3,7 @@
 use crate::support::random::{turn, vector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::beam::{BeamGeometry, Beams, FibreModel, IntegrationRule};
+use rdsolve::elements::beam::{BeamGeometry, FibreModel, IntegrationRule, elastic_beams};
 use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::materials::{FailureCriterion, Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
@@ -56,9 +56,10 @@ impl<const N: usize> Chain<N> {
             frame: &self.frames[e],
             stiffness: &self.sections[if yielding.is_some() { 0 } else { e }],
         });
+        let elements: Vec<BeamGeometry> = elements.collect();
         match yielding {
-            None => Box::new(Beams::<N>::new(elements, &self.x, damping)),
-            Some(model) => model.beams::<N>(elements, &self.x, damping),
+            None => elastic_beams(N - 1, &elements, &self.x, damping),
+            Some(model) => model.beams(N - 1, &elements, &self.x, damping),
         }
     }
 

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
-use rdsolve::elements::beam::{BeamGeometry, Beams, FibreModel, IntegrationRule};
+use rdsolve::elements::beam::{BeamGeometry, FibreModel, IntegrationRule, elastic_beams};
 use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Link, LinkLaw, Links};
 use rdsolve::elements::relative_rotation::RotationalSpring;
@@ -150,7 +150,7 @@ fn nodes_of(n: usize, frame: &Mat3, start: Vec3) -> Vec<Vec3> {
 fn beam<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn ElementBlock> {
     let nodes: Vec<usize> = (0..N).collect();
     let one = [BeamGeometry { nodes: &nodes, frame, stiffness: &section() }];
-    Box::new(Beams::<N>::new(one.into_iter(), &nodes_of(N, frame, start), damping))
+    elastic_beams(N - 1, &one, &nodes_of(N, frame, start), damping)
 }
 
 /// E = 20; hardening of both kinds, linear or by a table.
@@ -200,7 +200,7 @@ fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, 
             let x = nodes_of(N, &frame, vector(rng, 2.0));
             let nodes: Vec<usize> = (0..N).collect();
             let one = [BeamGeometry { nodes: &nodes, frame: &frame, stiffness: &section() }];
-            let block = yielding.beams::<N>(one.into_iter(), &x, damping);
+            let block = yielding.beams(N - 1, &one, &x, damping);
             let past = vec![0.0; block.history()];
             let with = if shear { "with" } else { "without" };
             let name = format!("{name} beam of {N} nodes, {rule:?} {points}, {with} shear");
@@ -511,7 +511,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let (length, C) = (1.7, section());
     let frame = Mat3::identity();
     let one = [BeamGeometry { nodes: &[0, 1], frame: &frame, stiffness: &C }];
-    let beam = Beams::<2>::new(one.into_iter(), &x, 0.0);
+    let beam = elastic_beams(1, &one, &x, 0.0);
     let nodes = x.map(Node::at_rest);
     let mut K = [0.0; 144];
     beam.tangent(0, &Configuration::of(&nodes), 0.0, Moduli::Algorithmic, &mut K);

@@ -28,15 +28,20 @@ struct Damping<T> {
     elastic: SectionStiffness<T>,
 }
 
+/// The stress resultants at an integration point.
+type Stress<'a, T> = dyn FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2] + 'a;
+
 /// Internal forces and moments on the nodes of a pack, global components, whose nodes move by `motion` and whose sections have the stress
 /// resultants `stress`.
-#[inline(always)]
+///
+/// It is compiled once for all sections, which `stress` hides at the cost of a call.
+#[inline(never)]
 fn forces_of<T: Number, const N: usize>(
     pack: &Pack<T, N>,
     points: usize,
     (motion, nodes): (&BeamMotion<T, N>, &[Node]),
     damping: Option<Damping<T>>,
-    mut stress: impl FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2],
+    stress: &mut Stress<T>,
 ) -> [[T; 6]; N] {
     let q = &motion.q;
     let mut gradient = [[T::ZERO; 4]; N]; // ∂U/∂q_a
@@ -87,12 +92,12 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     }
 
     /// Internal forces and moments on the nodes of an element.
-    #[inline(always)]
+    #[inline(never)]
     fn nodal_forces(&self, e: usize, now: &Configuration) -> [Force; N] {
         let (pack, motion) = self.one(e, now.nodes);
         let section = &self.elements[e].section;
         let damping = self.damping_of(e, now);
-        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, |g, point| {
+        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
             let (gamma, kappa) = point.strains();
             single(section.stress(g, &gamma, &kappa, now))
         })
@@ -105,8 +110,8 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         let motion = pack.gather(now.nodes);
         let elastic = BeamStiffness::side_by_side(|lane| elements[lane.min(elements.len() - 1)].section.elastic());
         let damping = (self.damping > 0.0).then(|| Damping { factor: Lanes::splat(self.damping), elastic });
-        let stress = |_, point: &GaussPoint<Lanes>| elastic.stress(&point.strain);
-        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, stress)
+        let mut stress = |_, point: &GaussPoint<Lanes>| elastic.stress(&point.strain);
+        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut stress)
     }
 
     /// Subtracts forces on the nodes of element `e` from `F`.
@@ -137,10 +142,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
             viscous: elastic.scaled(T::splat(self.damping)),
             has_failed: self.damping > 0.0 && section(0).has_failed(now.history),
         };
-        match rate_weight.filter(|_| self.damping > 0.0) {
-            Some(rate_weight) => tangent::<T, N, true>(&pack, &sections, (now.nodes, lead), rate_weight, K),
-            None => tangent::<T, N, false>(&pack, &sections, (now.nodes, lead), 0.0, K),
-        }
+        tangent(&pack, &sections, (now.nodes, lead), rate_weight.filter(|_| self.damping > 0.0), K);
     }
 }
 
@@ -150,7 +152,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
         let mut sum = Dissipation::default();
         for g in 0..self.integration_points() {
-            let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+            let (gamma, kappa) = pack.point(g, &motion).strains();
             sum += element.section.lost(g, (&gamma, &kappa), now) * (self.shape.weight[g] * element.jacobian);
         }
         sum
@@ -202,7 +204,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
             let damping = self.damping_of(e, now);
-            let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, |g, point| {
+            let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
                 let (gamma, kappa) = point.strains();
                 let (n, m, spent) = element.section.advance(g, (&gamma, &kappa), now, new);
                 sum += spent * (self.shape.weight[g] * element.jacobian);
@@ -224,7 +226,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
         let (pack, motion) = self.one(e, now);
         // The axis opposes the normals of its sections: Rᵀr′·t ≤ 0.
-        let along = |g| pack.interpolate(g, &motion).strain[0].dot(&pack.tangent) + 1.0;
+        let along = |g| pack.point(g, &motion).strain[0].dot(&pack.tangent) + 1.0;
         (0..self.integration_points()).any(|g| along(g) <= 0.0)
     }
 
@@ -260,7 +262,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
             for g in 0..self.integration_points() {
-                let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+                let (gamma, kappa) = pack.point(g, &motion).strains();
                 let dissipation = element.section.update_history(g, (&gamma, &kappa), now, part, new);
                 sum += dissipation * (self.shape.weight[g] * element.jacobian);
             }
@@ -276,7 +278,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
             for g in 0..self.integration_points() {
-                let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+                let (gamma, kappa) = pack.point(g, &motion).strains();
                 let energy = element.section.energy(g, &gamma, &kappa, now);
                 sum += self.shape.weight[g] * element.jacobian * energy;
             }
@@ -291,7 +293,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
 
     fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Configuration) -> Option<IntegrationPoint> {
         let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
-        let (gamma, kappa) = pack.interpolate(g, &motion).strains();
+        let (gamma, kappa) = pack.point(g, &motion).strains();
         let (n, m) = element.section.stress(g, &gamma, &kappa, now);
         let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
         Some(IntegrationPoint {
@@ -323,9 +325,7 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
         for (e, element) in self.elements.iter().enumerate().filter(intact) {
             let (pack, motion) = self.one(e, nodes);
             for g in 0..self.integration_points() {
-                let point = pack.interpolate(g, &motion);
-                let ([gamma, kappa], _) = pack.rates(g, &point, &motion.q, nodes);
-                let (gamma, kappa) = (gamma.lane(0), kappa.lane(0));
+                let (gamma, kappa) = pack.strain_rates(g, &motion, nodes);
                 let (n, m) = element.section.elastic().stress(&gamma, &kappa);
                 sum += self.damping * self.shape.weight[g] * element.jacobian * (n.dot(&gamma) + m.dot(&kappa));
             }

@@ -20,9 +20,19 @@ pub struct BeamGeometry<'a> {
     pub stiffness: &'a Stiffness,
 }
 
+/// Elastic beams of a polynomial order, 1 to 4. `x`: positions of all nodes at t = 0; `damping`: factor of stiffness-proportional damping
+/// (time). All kinds of beams are made here, so that no other crate compiles them again.
+pub fn elastic_beams(order: usize, elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Box<dyn ElementBlock> {
+    match order {
+        1 => Box::new(Beams::<2>::new(elements, x, damping)),
+        2 => Box::new(Beams::<3>::new(elements, x, damping)),
+        3 => Box::new(Beams::<4>::new(elements, x, damping)),
+        _ => Box::new(Beams::<5>::new(elements, x, damping)),
+    }
+}
+
 impl<const N: usize> Beams<N> {
-    /// Elastic beams. `x`: positions of all nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
-    pub fn new<'a>(elements: impl Iterator<Item = BeamGeometry<'a>>, x: &[Vec3], damping: f64) -> Self {
+    fn new(elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Self {
         let section = |e: &BeamGeometry, length: f64| match N {
             2 => BeamStiffness::new(&with_bending_flexibility(e.stiffness, length), e.frame),
             _ => BeamStiffness::new(e.stiffness, e.frame),
@@ -47,14 +57,18 @@ pub struct FibreModel {
 }
 
 impl FibreModel {
-    /// Beams of N nodes, all of one section. The shear stiffness of two-node elements is not corrected, because the correction
-    /// is that of an elastic beam.
-    pub fn beams<'a, const N: usize>(
-        &self,
-        elements: impl Iterator<Item = BeamGeometry<'a>>,
-        x: &[Vec3],
-        damping: f64,
-    ) -> Box<dyn ElementBlock> {
+    /// Beams of a polynomial order, 1 to 4, all of one section. The shear stiffness of two-node elements is not corrected, because the
+    /// correction is that of an elastic beam.
+    pub fn beams(&self, order: usize, elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Box<dyn ElementBlock> {
+        match order {
+            1 => self.of_nodes::<2>(elements, x, damping),
+            2 => self.of_nodes::<3>(elements, x, damping),
+            3 => self.of_nodes::<4>(elements, x, damping),
+            _ => self.of_nodes::<5>(elements, x, damping),
+        }
+    }
+
+    fn of_nodes<const N: usize>(&self, elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Box<dyn ElementBlock> {
         match self.shear {
             true => self.in_state::<N, _, 3>(FibreStress, elements, x, damping),
             false => self.in_state::<N, _, 1>(Uniaxial, elements, x, damping),
@@ -62,10 +76,10 @@ impl FibreModel {
     }
 
     /// Beams whose fibres are in the stress state `state`.
-    fn in_state<'a, const N: usize, S: StressState<C> + 'static, const C: usize>(
+    fn in_state<const N: usize, S: StressState<C> + 'static, const C: usize>(
         &self,
         state: S,
-        elements: impl Iterator<Item = BeamGeometry<'a>>,
+        elements: &[BeamGeometry],
         x: &[Vec3],
         damping: f64,
     ) -> Box<dyn ElementBlock> {
@@ -82,21 +96,22 @@ impl FibreModel {
 
 impl<const N: usize, S: BeamSection> Beams<N, S> {
     /// Beams integrated by `rule`; `section` makes the sections of an element of given length.
-    fn build<'a>(
-        elements: impl Iterator<Item = BeamGeometry<'a>>,
+    fn build(
+        elements: &[BeamGeometry],
         x: &[Vec3],
         damping: f64,
         rule: (&'static [f64], &[f64]),
         mut section: impl FnMut(&BeamGeometry, f64) -> S,
     ) -> Self {
         let elements = elements
+            .iter()
             .map(|e| {
                 let mut nodes = [0; N];
                 nodes.copy_from_slice(&e.nodes[..N]);
                 let axis = x[nodes[N - 1]] - x[nodes[0]];
                 let length = axis.norm();
                 let start = nodes.map(|node| x[node]);
-                Beam { nodes, start, jacobian: 0.5 * length, tangent: axis / length, section: section(&e, length) }
+                Beam { nodes, start, jacobian: 0.5 * length, tangent: axis / length, section: section(e, length) }
             })
             .collect();
         Beams { shape: ShapeFunctions::new(rule), elements, damping }

@@ -114,9 +114,9 @@ pub(super) struct Hessian<T> {
 }
 
 impl<T: Number> Hessian<T> {
-    /// BᵀX of rows of strains and of stresses; unless `ALL` those of a symmetric matrix, which has no columns of r′.
+    /// BᵀX of rows of strains and of stresses; unless `all` those of a symmetric matrix, which has no columns of r′.
     #[inline(always)]
-    pub fn product<const ALL: bool>(B: &ZRows<T>, X: &ZRows<T>, coupled: bool) -> Self {
+    pub fn product(B: &ZRows<T>, X: &ZRows<T>, [all, coupled]: [bool; 2]) -> Self {
         let (four, three) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 3]);
         let r_r = [[T::ZERO; 3]; 3];
         let mut h = Hessian {
@@ -137,7 +137,7 @@ impl<T: Number> Hessian<T> {
                 add(&mut h.p_p[k], kappa.p[k], &m.p);
                 add(&mut h.dp_p[k], kappa.dp[k], &m.p);
                 add(&mut h.dp_dp[k], kappa.dp[k], &m.dp);
-                if ALL {
+                if all {
                     add(&mut h.p_dp[k], gamma.p[k], &n.dp);
                     add(&mut h.p_dp[k], kappa.p[k], &m.dp);
                 }
@@ -148,14 +148,14 @@ impl<T: Number> Hessian<T> {
                 if coupled {
                     add(&mut h.r_dp[k], gamma.r[k], &n.dp);
                 }
-                if ALL {
+                if all {
                     add(&mut h.p_r[k], n.r[k], &gamma.p);
                     add(&mut h.p_r[k], m.r[k], &kappa.p);
                     add(&mut h.dp_r[k], m.r[k], &kappa.dp);
                 }
             }
         }
-        if !ALL {
+        if !all {
             (0..4).for_each(|i| (0..4).for_each(|k| h.p_dp[i][k] = h.dp_p[k][i]));
         }
         h

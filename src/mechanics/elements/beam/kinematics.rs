@@ -8,10 +8,9 @@ use crate::state::Node;
 use base::math::Vec3;
 use base::math::lanes::LANES;
 use base::math::number::{LaneVec3, Number};
-use std::array::from_fn;
 
 /// A group of beams of N nodes, whose sections are of type `S`.
-pub struct Beams<const N: usize, S = BeamStiffness> {
+pub(super) struct Beams<const N: usize, S = BeamStiffness> {
     /// The shape functions at the integration points, the same for all elements.
     pub(super) shape: ShapeFunctions<N>,
     /// The elements.
@@ -97,11 +96,15 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
     pub fn new<S>(elements: &'a [Beam<N, S>], shape: &'a ShapeFunctions<N>) -> Self {
         let at = |lane: usize| &elements[lane.min(elements.len() - 1)];
         let jacobian = T::gather(|lane| at(lane).jacobian);
+        let (mut nodes, mut start) = ([&at(0).nodes; LANES], [&at(0).start; LANES]);
+        for lane in 1..LANES {
+            (nodes[lane], start[lane]) = (&at(lane).nodes, &at(lane).start);
+        }
         Pack {
             count: elements.len(),
             shape,
-            nodes: from_fn(|lane| &at(lane).nodes),
-            start: from_fn(|lane| &at(lane).start),
+            nodes,
+            start,
             jacobian,
             per_length: T::splat(1.0) / jacobian,
             tangent: LaneVec3::gather(|lane| at(lane).tangent),
@@ -224,6 +227,29 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
     }
 }
 
+/// One instance for all sections and all that is asked of an element once a step.
+impl<const N: usize> Pack<'_, f64, N> {
+    /// [`Pack::gather`] of one element.
+    #[inline(never)]
+    pub fn motion(&self, nodes: &[Node]) -> BeamMotion<f64, N> {
+        self.gather(nodes)
+    }
+
+    /// [`Pack::interpolate`] of one element.
+    #[inline(never)]
+    pub fn point(&self, g: usize, motion: &BeamMotion<f64, N>) -> GaussPoint<f64> {
+        self.interpolate(g, motion)
+    }
+
+    /// Γ̇ and κ̇ of one element, see [`Pack::rates`].
+    #[inline(never)]
+    pub fn strain_rates(&self, g: usize, motion: &BeamMotion<f64, N>, nodes: &[Node]) -> (Vec3, Vec3) {
+        let point = self.interpolate(g, motion);
+        let ([gamma, kappa], _) = self.rates(g, &point, &motion.q, nodes);
+        (gamma.lane(0), kappa.lane(0))
+    }
+}
+
 impl<const N: usize, S: BeamSection> Beams<N, S> {
     /// The number of integration points of an element.
     #[inline(always)]
@@ -235,7 +261,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     #[inline(always)]
     pub(super) fn one(&self, e: usize, nodes: &[Node]) -> (Pack<'_, f64, N>, BeamMotion<f64, N>) {
         let pack = Pack::new(&self.elements[e..=e], &self.shape);
-        let motion = pack.gather(nodes);
+        let motion = pack.motion(nodes);
         (pack, motion)
     }
 }

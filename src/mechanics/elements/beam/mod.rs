@@ -26,8 +26,7 @@ mod section;
 mod shape;
 mod tangent;
 
-pub use build::{BeamGeometry, FibreModel};
-pub use kinematics::Beams;
+pub use build::{BeamGeometry, FibreModel, elastic_beams};
 pub use section::BeamStiffness;
 pub use shape::{IntegrationRule, MOST_POINTS, cubic_deflection};
 

@@ -26,15 +26,15 @@ struct Pairs<T, const N: usize> {
 
 impl<T: Number, const N: usize> Pairs<T, N> {
     #[inline(always)]
-    fn zero<const ALL: bool>() -> Self {
+    fn zero(all: bool) -> Self {
         let (four, three) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 3]);
         let of = [[Pair { q_q: four, x_q: three, x_x: [[T::ZERO; 3]; 3] }; N]; N];
-        Pairs { of, q_x: if ALL { Some([[three; N]; N]) } else { None } }
+        Pairs { of, q_x: all.then(|| [[three; N]; N]) }
     }
 
     /// Adds w ∂z/∂(nodes)ᵀ h ∂z/∂(nodes).
     #[inline(always)]
-    fn add<const ALL: bool>(&mut self, h: &Hessian<T>, w: T, (value, slope): (&[T; N], &[T; N])) {
+    fn add(&mut self, all: bool, h: &Hessian<T>, w: T, (value, slope): (&[T; N], &[T; N])) {
         for a in 0..N {
             let (v, s) = (w * value[a], w * slope[a]);
             let (mut by_value, mut by_slope) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 4]);
@@ -52,7 +52,7 @@ impl<T: Number, const N: usize> Pairs<T, N> {
             for b in 0..N {
                 // By the position of b and the quaternion of a.
                 (0..3).for_each(|k| add(&mut self.of[b][a].x_q[k], w * slope[b], &by_r[k]));
-                if !ALL && b < a {
+                if !all && b < a {
                     continue;
                 }
                 let to = &mut self.of[a][b];
@@ -69,6 +69,12 @@ impl<T: Number, const N: usize> Pairs<T, N> {
                 }
             }
         }
+    }
+
+    /// Adds w Bᵀ C B of a viscous section.
+    #[inline(never)]
+    fn add_viscous(&mut self, B: &ZRows<T>, viscous: &SectionStiffness<T>, w: T, at: (&[T; N], &[T; N])) {
+        self.add(true, &Hessian::product(B, &viscous.times(B), [true, true]), w, at);
     }
 
     /// Adds the derivatives of damping by the rates of the nodes, `viscous` by those of z: `rate_weight` times ∂f/∂ż, and ∂f/∂z by
@@ -98,7 +104,7 @@ impl<T: Number, const N: usize> Pairs<T, N> {
 
     /// The Hessian by positions and rotations, x and δθ of each node: δq_a = ½ δθ q_a at fixed q_a. Where it is symmetric one half is a copy.
     #[inline(always)]
-    fn project<const ALL: bool>(&self, q: &[Quat<T>; N]) -> [[[[T; 6]; N]; 6]; N] {
+    fn project(&self, all: bool, q: &[Quat<T>; N]) -> [[[[T; 6]; N]; 6]; N] {
         let mut E = [[[T::ZERO; 4]; 3]; N];
         (0..N).for_each(|a| E[a] = rotation_columns(&q[a]));
         let mut H = [[[[T::ZERO; 6]; N]; 6]; N];
@@ -115,7 +121,7 @@ impl<T: Number, const N: usize> Pairs<T, N> {
                         }
                     }
                 }
-                if !ALL && b < a {
+                if !all && b < a {
                     continue;
                 }
                 for j in 0..3 {
@@ -125,7 +131,7 @@ impl<T: Number, const N: usize> Pairs<T, N> {
                         let by_turns = product(&turned, &E[a][i]);
                         H[a][i][b][j] = of.x_x[i][j];
                         H[a][3 + i][b][3 + j] = by_turns;
-                        if !ALL && b > a {
+                        if !all && b > a {
                             H[b][j][a][i] = of.x_x[i][j];
                             H[b][3 + j][a][3 + i] = by_turns;
                         }
@@ -178,19 +184,21 @@ pub(super) struct PackSections<'a, T> {
 }
 
 /// Tangents of the elements of a pack, row-major, one after the other into `K`, see [`crate::elements::ElementBlock::tangent`], with the
-/// stresses that `lead` tells; symmetric unless `DAMPED`.
-pub(super) fn tangent<T: Number, const N: usize, const DAMPED: bool>(
+/// stresses that `lead` tells; symmetric without a
+/// `rate_weight`, with which they are those of damped elements.
+pub(super) fn tangent<T: Number, const N: usize>(
     pack: &Pack<T, N>,
     sections: &PackSections<T>,
     (nodes, lead): (&[Node], Option<&[Node]>),
-    rate_weight: f64,
+    rate_weight: Option<f64>,
     K: &mut [f64],
 ) {
+    let damped = rate_weight.is_some();
     let motion = pack.gather(nodes);
     let before = lead.map(|nodes| (nodes, pack.gather(nodes)));
     let lead = before.as_ref().map(|(nodes, motion)| (*nodes, motion));
-    let mut pairs = Pairs::<T, N>::zero::<DAMPED>();
-    let mut of_rates = if DAMPED { Some(Pairs::<T, N>::zero::<true>()) } else { None };
+    let mut pairs = Pairs::<T, N>::zero(damped);
+    let mut of_rates = damped.then(|| Pairs::<T, N>::zero(true));
     let mut gradient = [[T::ZERO; 4]; N];
     for g in 0..sections.points {
         let point = pack.interpolate(g, &motion);
@@ -207,24 +215,23 @@ pub(super) fn tangent<T: Number, const N: usize, const DAMPED: bool>(
             stresses.add(T::splat(1.0), &sections.viscous.times(&D));
             let [n, m] = sections.viscous.stress(&strain_rates);
             stress = [stress[0] + n, stress[1] + m];
-            let h = Hessian::product::<true>(&B, &sections.viscous.times(&B), true);
-            of_rates.add::<true>(&h, w, (&value, &slope));
+            of_rates.add_viscous(&B, &sections.viscous, w, (&value, &slope));
         }
         let along = B.gradient(&stress);
-        let mut h = Hessian::product::<DAMPED>(&B, &stresses, DAMPED || C.coupled);
+        let mut h = Hessian::product(&B, &stresses, [damped, damped || C.coupled]);
         h.add_second(&point, &pack.tangent, &along, &stress);
-        pairs.add::<DAMPED>(&h, w, (&value, &slope));
+        pairs.add(damped, &h, w, (&value, &slope));
         // δq_a = ½ δθ q_a changes with q_a.
         for a in 0..N {
             add(&mut gradient[a], w * value[a], &along.p);
             add(&mut gradient[a], w * slope[a], &along.dp);
         }
     }
-    if let Some(of_rates) = &of_rates {
+    if let (Some(of_rates), Some(rate_weight)) = (&of_rates, rate_weight) {
         let omega = |b: usize| pack.of_node(b, nodes, |node| node.omega);
         pairs.add_rate_terms(of_rates, T::splat(rate_weight), omega);
     }
-    let mut H = pairs.project::<DAMPED>(&motion.q);
+    let mut H = pairs.project(damped, &motion.q);
     add_change_of_direction(&gradient, &motion.q, &mut H);
     T::store(H.as_flattened().as_flattened().as_flattened(), pack.count, K);
 }

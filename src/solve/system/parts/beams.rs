@@ -7,7 +7,7 @@ use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
 use crate::tolerances::plane::SMALL;
 use base::math::{Mat3, Vec3, quadrature};
-use mechanics::elements::beam::{BeamGeometry, Beams, FibreModel};
+use mechanics::elements::beam::{BeamGeometry, FibreModel, elastic_beams};
 use mechanics::elements::{ElementBlock, Force, IntegrationPoint};
 use mechanics::sections::{self, Stiffness};
 use mechanics::state::Configuration;
@@ -39,13 +39,7 @@ impl Assembled for Beam {
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
-        let block = |piece: Range<usize>| match self.order {
-            1 => block::<2>(self, piece, setting),
-            2 => block::<3>(self, piece, setting),
-            3 => block::<4>(self, piece, setting),
-            _ => block::<5>(self, piece, setting),
-        };
-        pieces(self.elements.len()).map(|piece| (block(piece.clone()), piece.start)).collect()
+        pieces(self.elements.len()).map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
     }
 
     fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool {
@@ -53,7 +47,7 @@ impl Assembled for Beam {
     }
 }
 
-fn block<const N: usize>(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn ElementBlock> {
+fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn ElementBlock> {
     let &Setting { model, x, plane } = setting;
     let beta = model.damping.beta(&part.damping);
     let elements = part.elements[piece].iter().map(|e| BeamGeometry {
@@ -61,14 +55,15 @@ fn block<const N: usize>(part: &Beam, piece: Range<usize>, setting: &Setting) ->
         frame: &e.frame,
         stiffness: &model.stiffnesses[e.section],
     });
+    let elements: Vec<BeamGeometry> = elements.collect();
     match &part.yielding {
-        None => Box::new(Beams::<N>::new(elements, x, beta)),
+        None => elastic_beams(part.order, &elements, x, beta),
         Some(yielding) => {
             let fibres = match in_plane(part, plane) {
                 Some(along_z) => sections::flattened(&yielding.fibres, along_z),
                 None => yielding.fibres.clone(),
             };
-            FibreModel { fibres, ..yielding.clone() }.beams::<N>(elements, x, beta)
+            FibreModel { fibres, ..yielding.clone() }.beams(part.order, &elements, x, beta)
         }
     }
 }
