@@ -29,7 +29,7 @@ impl<T: Number, const N: usize> Pairs<T, N> {
     fn zero(all: bool) -> Self {
         let (four, three) = ([[T::ZERO; 4]; 4], [[T::ZERO; 4]; 3]);
         let of = [[Pair { q_q: four, x_q: three, x_x: [[T::ZERO; 3]; 3] }; N]; N];
-        Pairs { of, q_x: all.then(|| [[three; N]; N]) }
+        Pairs { of, q_x: if all { Some([[three; N]; N]) } else { None } }
     }
 
     /// Adds w ∂z/∂(nodes)ᵀ h ∂z/∂(nodes).
