@@ -1,8 +1,8 @@
 //! Forces and tangents of elastic beams in microseconds an element: forces of a group, tangents one after the other and eight side by side,
 //! without their places in the matrix. Least of many repeats, one thread. `cargo bench --bench beams`
 
-use rdsolve::elements::beam::{BeamGeometry, elastic_beams};
 use rdsolve::elements::Moduli;
+use rdsolve::elements::beam::{BeamGeometry, elastic_beams};
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::sections::Stiffness;
 use rdsolve::state::{Configuration, Node};

@@ -3,11 +3,11 @@
 use super::go;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
-use rdsolve::elements::ElementBlock;
 use rdsolve::elements::contact::restitution::Loss;
 use rdsolve::elements::contact::{
     ContactLaw, ContactPoint, Facet, FacetContacts, FacetTouchers, MOST_NODES, TouchKind,
 };
+use rdsolve::elements::{Mechanics, Results};
 use rdsolve::math::Vec3;
 use rdsolve::solve::Frame;
 use rdsolve::state::{Configuration, Node};

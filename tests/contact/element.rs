@@ -3,7 +3,7 @@
 use super::touch::{Touch, vector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::ElementBlock;
+use rdsolve::elements::Mechanics;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::surfaces::{Capsule, Cuboid, Cylinder, Plane, Sphere};
 use rdsolve::elements::contact::{ContactLaw, ContactPoint, Contacts, MOST_NODES, Surface, SurfaceShape, TouchKind};

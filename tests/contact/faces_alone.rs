@@ -7,7 +7,7 @@ use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::{
     ContactLaw, ContactPoint, Facet, FacetContacts, FacetTouchers, MOST_NODES, TouchKind,
 };
-use rdsolve::elements::{ElementBlock, Wandering};
+use rdsolve::elements::{Mechanics, Results, Wandering};
 use rdsolve::math::Vec3;
 use rdsolve::math::rotation::{exp, matrix};
 use rdsolve::state::{Configuration, Node};

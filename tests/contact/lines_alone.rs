@@ -4,7 +4,7 @@ use super::faces_alone::{STIFFNESS, Scene, law};
 use super::touch::vector;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::ElementBlock;
+use rdsolve::elements::Results;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::{ContactPoint, Facet, FacetTouchers, MOST_NODES, TouchKind};
 use rdsolve::math::Vec3;

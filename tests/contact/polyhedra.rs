@@ -6,7 +6,7 @@ use super::touch::{Touch, vector};
 use crate::support::read_deck;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::ElementBlock;
+use rdsolve::elements::Mechanics;
 use rdsolve::elements::contact::convex::{ConvexPose, depth};
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::contact::{ContactLaw, ConvexBody, ConvexPairs, Surface};

@@ -12,7 +12,7 @@ use rdsolve::elements::bushing::{Bushing, Bushings};
 use rdsolve::elements::link::{Link, LinkLaw, Links};
 use rdsolve::elements::relative_rotation::RotationalSpring;
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
-use rdsolve::elements::{ElementBlock, Force, Moduli};
+use rdsolve::elements::{ElementBlock, Force, Mechanics, Moduli};
 use rdsolve::materials::{Dissipation, Hardening, MaterialLaw as Material, Overstress, Viscosity};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
 use rdsolve::sections::{Fibre, Stiffness};

@@ -172,7 +172,7 @@ fn a_pretensioned_bolt_fails() {
 #[test]
 fn tangents_are_those_of_forces() {
     use rdsolve::elements::link::{LinkLaw, Links};
-    use rdsolve::elements::{ElementBlock, Moduli, link};
+    use rdsolve::elements::{Mechanics, Moduli, link};
     use rdsolve::math::Vec3;
     use rdsolve::state::{Configuration, Node};
     let start = [Vec3::new(0.3, -0.2, 0.1), Vec3::new(1.0, 0.7, -0.4), Vec3::new(0.3, -0.2, 0.1)];

@@ -1,7 +1,7 @@
 //! Bar or cable: a straight two-node element with an axial force only, N = A σ(ε) with ε = (l − L)/L, L the length without
 //! force.
 
-use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
 use super::link::{Link, LinkLaw, Links};
 use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, PointResponse, Uniaxial};
 use crate::state::{Configuration, Node, elongation, stretch};
@@ -146,23 +146,7 @@ struct Tension {
     viscosity: f64,
 }
 
-impl ElementBlock for YieldingBars {
-    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
-        self.is_slack(self.strain(e, now.nodes).strain, &now.history[self.history_range(e)])
-    }
-
-    fn has_kinks(&self) -> bool {
-        self.tension_only
-    }
-
-    fn branches(&self, now: &Configuration) -> usize {
-        if self.tension_only { (0..self.len()).filter(|&e| self.is_inactive(e, now)).count() } else { 0 }
-    }
-
-    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
-        !self.tension_only && self.strain(e, before).e.dot(&self.strain(e, now).e) < 0.0
-    }
-
+impl Elements for YieldingBars {
     fn len(&self) -> usize {
         self.elements.len()
     }
@@ -174,7 +158,9 @@ impl ElementBlock for YieldingBars {
     fn dofs(&self) -> usize {
         3
     }
+}
 
+impl Mechanics for YieldingBars {
     fn is_damped(&self) -> bool {
         self.damping > 0.0
     }
@@ -191,12 +177,6 @@ impl ElementBlock for YieldingBars {
             subtract(&mut F[*a], 0, &-f);
             subtract(&mut F[*b], 0, &f);
         }
-    }
-
-    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
-        let old = now.history.get(self.history_range(e))?;
-        let tension = self.tension(&self.strain(e, now.nodes), now.dt, old, Moduli::Algorithmic);
-        Some(tension.material + tension.damping)
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
@@ -254,6 +234,14 @@ impl ElementBlock for YieldingBars {
         }
         sum
     }
+}
+
+impl Results for YieldingBars {
+    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
+        let old = now.history.get(self.history_range(e))?;
+        let tension = self.tension(&self.strain(e, now.nodes), now.dt, old, Moduli::Algorithmic);
+        Some(tension.material + tension.damping)
+    }
 
     fn energy(&self, now: &Configuration) -> f64 {
         let energy = |e: usize| {
@@ -284,5 +272,23 @@ impl ElementBlock for YieldingBars {
 
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
         self.law.has_failed(Uniaxial, &history[self.history_range(e)])
+    }
+}
+
+impl Branches for YieldingBars {
+    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
+        self.is_slack(self.strain(e, now.nodes).strain, &now.history[self.history_range(e)])
+    }
+
+    fn has_kinks(&self) -> bool {
+        self.tension_only
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        if self.tension_only { (0..self.len()).filter(|&e| self.is_inactive(e, now)).count() } else { 0 }
+    }
+
+    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
+        !self.tension_only && self.strain(e, before).e.dot(&self.strain(e, now).e) < 0.0
     }
 }

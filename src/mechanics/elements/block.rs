@@ -5,7 +5,6 @@ use super::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 use base::math::{Mat3, Vec3};
-use base::names::short;
 
 /// Generalised force on a node: force and moment, global components.
 pub type Force = [f64; 6];
@@ -19,8 +18,22 @@ pub enum Moduli {
     Elastic,
 }
 
-/// A group of like elements. Matrices are row-major over the element's nodes, [`ElementBlock::dofs`] degrees of freedom each.
-pub trait ElementBlock: Send + Sync {
+/// Why an element has failed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FailureCause {
+    /// The largest plastic strain in it.
+    PlasticStrain(f64),
+    /// The forces of a link at its failure.
+    Forces {
+        /// Normal force, positive in tension.
+        normal: f64,
+        /// Shear force.
+        shear: f64,
+    },
+}
+
+/// The elements of a group, all alike, and the nodes that they join.
+pub trait Elements: Send + Sync {
     /// The number of elements.
     fn len(&self) -> usize;
     /// True where the group has no elements.
@@ -35,6 +48,19 @@ pub trait ElementBlock: Send + Sync {
     }
     /// Degrees of freedom of each node: 3, translations only, or 6, translations and rotations.
     fn dofs(&self) -> usize;
+    /// True where element `e`, with six degrees of freedom a node, acts on the rotations of its `node`-th.
+    fn is_rotational(&self, _e: usize, _node: usize) -> bool {
+        true
+    }
+    /// The unit vector along which element `e` acts, where that is fixed in space.
+    fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
+        None
+    }
+}
+
+/// The forces of elements, their tangents and what materials remember: all that assembly asks. Matrices are row-major over the nodes of an
+/// element, [`Elements::dofs`] degrees of freedom each.
+pub trait Mechanics: Elements {
     /// The number of history variables of all material points.
     fn history(&self) -> usize {
         0
@@ -43,7 +69,7 @@ pub trait ElementBlock: Send + Sync {
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]);
     /// Tangent of element `e`: K ← ∂f/∂(x, θ) + `rate_weight` · ∂f/∂(v, ω), f the internal force, θ spatial.
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]);
-    /// Tangents of the elements from `first` on, one after the other, as many as `K` holds: those of [`ElementBlock::tangent`] but for
+    /// Tangents of the elements from `first` on, one after the other, as many as `K` holds: those of [`Mechanics::tangent`] but for
     /// rounding.
     fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let length = (self.dofs() * self.nodes(first).len()).pow(2);
@@ -56,16 +82,28 @@ pub trait ElementBlock: Send + Sync {
         self.tangent(e, &Configuration { nodes: stressed, lead: None, ..*now }, 0.0, Moduli::Elastic, K);
     }
     /// Writes the history variables at `part` of the way from the last state to `now` into `new`, which has the length
-    /// [`ElementBlock::history`], and returns the work that material points dissipate or store inelastically on that way.
+    /// [`Mechanics::history`], and returns the work that material points dissipate or store inelastically on that way.
     fn update_history(&self, _now: &Configuration, _part: f64, _new: &mut [f64]) -> Dissipation {
         Dissipation::default()
     }
-    /// Subtracts the internal forces from `F` as [`ElementBlock::subtract_forces`] does and writes the history variables in `now` into `new`
-    /// as [`ElementBlock::update_history`] does: the same numbers, with the material computed once.
+    /// Subtracts the internal forces from `F` as [`Mechanics::subtract_forces`] does and writes the history variables in `now` into `new`
+    /// as [`Mechanics::update_history`] does: the same numbers, with the material computed once.
     fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
         self.subtract_forces(now, F);
         self.update_history(now, 1.0, new)
     }
+    /// True where the tangent is the same in every configuration.
+    fn is_linear(&self) -> bool {
+        false
+    }
+    /// True where forces depend on velocities.
+    fn is_damped(&self) -> bool {
+        false
+    }
+}
+
+/// Energies, stresses and strains of elements, and whether they have failed: what is written and warned of.
+pub trait Results: Elements {
     /// Elastic energy stored.
     fn energy(&self, now: &Configuration) -> f64;
     /// Power that the damping of the elements dissipates, ≥ 0.
@@ -80,7 +118,7 @@ pub trait ElementBlock: Send + Sync {
     fn axial_force(&self, _e: usize, _now: &Configuration) -> Option<f64> {
         None
     }
-    /// The number of integration points of an element at which [`ElementBlock::point`] gives results.
+    /// The number of integration points of an element at which [`Results::point`] gives results.
     fn points(&self) -> usize {
         0
     }
@@ -111,21 +149,13 @@ pub trait ElementBlock: Send + Sync {
         false
     }
     /// Why element `e` has failed.
-    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
-        format!("its plastic strain is {}", short(self.plastic_strain(e, history)))
+    fn failure_cause(&self, e: usize, history: &[f64]) -> FailureCause {
+        FailureCause::PlasticStrain(self.plastic_strain(e, history))
     }
-    /// True where the tangent is the same in every configuration.
-    fn is_linear(&self) -> bool {
-        false
-    }
-    /// The unit vector along which element `e` acts, where that is fixed in space.
-    fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
-        None
-    }
-    /// True where element `e`, with six degrees of freedom a node, acts on the rotations of its `node`-th.
-    fn is_rotational(&self, _e: usize, _node: usize) -> bool {
-        true
-    }
+}
+
+/// The branches between kinks on which elements are, and the states that they must not pass.
+pub trait Branches: Elements {
     /// True where element `e` has neither force nor tangent in this configuration.
     fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
         false
@@ -143,11 +173,12 @@ pub trait ElementBlock: Send + Sync {
     fn is_turned_over(&self, _e: usize, _before: &[Node], _now: &[Node]) -> bool {
         false
     }
-    /// True where forces depend on velocities.
-    fn is_damped(&self) -> bool {
-        false
-    }
 }
+
+/// A group of like elements with all that is asked of it.
+pub trait ElementBlock: Mechanics + Results + Branches {}
+
+impl<B: Mechanics + Results + Branches> ElementBlock for B {}
 
 /// Subtracts `f` from three components of `F` from `at` on: 0, the force, or 3, the moment.
 #[inline]

@@ -4,7 +4,7 @@
 //! [`super::relative_rotation`] the moment B m(Q). Dampers act on ḋ and on the relative angular velocity in the frame. If full turns count,
 //! the history of a bushing holds the angle of twist at the end of the last step. A bushing with failure also remembers its failure.
 
-use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::block::{Branches, Elements, FailureCause, Force, Mechanics, Moduli, Results, subtract};
 use super::link_failure::{self, LinkFailure, has_failed};
 use super::memories::places;
 use super::relative_rotation::{ElasticMoment, RotationalSpring};
@@ -179,7 +179,7 @@ impl Bushings {
     }
 }
 
-impl ElementBlock for Bushings {
+impl Elements for Bushings {
     fn len(&self) -> usize {
         self.bushings.len()
     }
@@ -191,7 +191,9 @@ impl ElementBlock for Bushings {
     fn dofs(&self) -> usize {
         6
     }
+}
 
+impl Mechanics for Bushings {
     fn is_damped(&self) -> bool {
         self.bushings.iter().any(|b| b.damping.iter().any(|&c| c > 0.0))
     }
@@ -224,18 +226,6 @@ impl ElementBlock for Bushings {
             }
         }
         lost
-    }
-
-    fn can_fail(&self) -> bool {
-        self.bushings.iter().any(|bushing| bushing.failure.is_some())
-    }
-
-    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
-        has_failed(self.remembered(e, history).1)
-    }
-
-    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
-        link_failure::reason(self.remembered(e, history).1)
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
@@ -290,6 +280,16 @@ impl ElementBlock for Bushings {
             K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
         }
     }
+}
+
+impl Results for Bushings {
+    fn can_fail(&self) -> bool {
+        self.bushings.iter().any(|bushing| bushing.failure.is_some())
+    }
+
+    fn has_failed(&self, e: usize, history: &[f64]) -> bool {
+        has_failed(self.remembered(e, history).1)
+    }
 
     fn energy(&self, now: &Configuration) -> f64 {
         self.whole(now.history).map(|(bushing, last)| bushing.energy(&bushing.motion(now.nodes), last)).sum()
@@ -304,7 +304,13 @@ impl ElementBlock for Bushings {
         };
         self.whole(now.history).map(power).sum()
     }
+
+    fn failure_cause(&self, e: usize, history: &[f64]) -> FailureCause {
+        link_failure::cause(self.remembered(e, history).1)
+    }
 }
+
+impl Branches for Bushings {}
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! Springs and dampers between two points: a force N(δ) + c δ̇ along the line of the points or along a fixed direction.
 
-use super::block::{ElementBlock, Force, Moduli, subtract};
+use super::block::{Branches, Elements, FailureCause, Force, Mechanics, Moduli, Results, subtract};
 use super::link_failure::{self, LinkFailure, has_failed};
 use super::memories::places;
 use crate::materials::{Dissipation, FAILED_STIFFNESS};
@@ -323,7 +323,7 @@ impl Links {
     }
 }
 
-impl ElementBlock for Links {
+impl Elements for Links {
     fn len(&self) -> usize {
         self.links.len()
     }
@@ -337,39 +337,19 @@ impl ElementBlock for Links {
         3
     }
 
+    fn fixed_direction(&self, e: usize) -> Option<Vec3> {
+        self.links[e].direction
+    }
+}
+
+impl Mechanics for Links {
     fn is_linear(&self) -> bool {
         self.memories.is_empty()
             && self.links.iter().all(|l| l.direction.is_some() && matches!(l.law, LinkLaw::Linear { .. }))
     }
 
-    fn fixed_direction(&self, e: usize) -> Option<Vec3> {
-        self.links[e].direction
-    }
-
     fn is_damped(&self) -> bool {
         self.links.iter().any(Link::is_damped)
-    }
-
-    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
-        let link = &self.links[e];
-        let one_sided = matches!(link.law, LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. });
-        one_sided && link.law.force(link.line(now.nodes).delta).1 == 0.0
-    }
-
-    fn has_kinks(&self) -> bool {
-        self.links.iter().any(|link| link.failure.is_some() || link.law.kinks() > 0)
-    }
-
-    fn branches(&self, now: &Configuration) -> usize {
-        self.links.iter().map(|link| link.law.branch(link.line(now.nodes).delta)).sum()
-    }
-
-    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
-        let link = &self.links[e];
-        let line = link.line(now);
-        // A link that pulls at every length, or is slack, may pass through itself.
-        let pushes = link.law.force(line.delta - line.length).0 < 0.0;
-        link.direction.is_none() && pushes && link.line(before).e.dot(&line.e) < 0.0
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
@@ -383,11 +363,6 @@ impl ElementBlock for Links {
                 F[node][0] -= force;
             }
         }
-    }
-
-    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
-        let link = &self.links[e];
-        Some(link.force(&link.line(now.nodes), self.memory(e, now.history)).force)
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
@@ -427,20 +402,6 @@ impl ElementBlock for Links {
         }
     }
 
-    fn energy(&self, now: &Configuration) -> f64 {
-        let whole = self.with_memory(now.history).filter(|(_, memory)| !has_failed(memory));
-        whole.map(|(link, _)| link.law.energy(link.line(now.nodes).delta)).sum()
-    }
-
-    fn damping_power(&self, now: &Configuration) -> f64 {
-        let power = |(link, memory): (&Link, &[f64])| {
-            let line = link.line(now.nodes);
-            let r = link.force(&line, memory);
-            (r.force - r.elastic) * line.rate
-        };
-        self.with_memory(now.history).filter(|(link, _)| link.is_damped()).map(power).sum()
-    }
-
     fn history(&self) -> usize {
         self.memories.last().map_or(0, |last| last.end)
     }
@@ -460,6 +421,27 @@ impl ElementBlock for Links {
         }
         lost
     }
+}
+
+impl Results for Links {
+    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
+        let link = &self.links[e];
+        Some(link.force(&link.line(now.nodes), self.memory(e, now.history)).force)
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        let whole = self.with_memory(now.history).filter(|(_, memory)| !has_failed(memory));
+        whole.map(|(link, _)| link.law.energy(link.line(now.nodes).delta)).sum()
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        let power = |(link, memory): (&Link, &[f64])| {
+            let line = link.line(now.nodes);
+            let r = link.force(&line, memory);
+            (r.force - r.elastic) * line.rate
+        };
+        self.with_memory(now.history).filter(|(link, _)| link.is_damped()).map(power).sum()
+    }
 
     fn can_fail(&self) -> bool {
         !self.memories.is_empty()
@@ -469,8 +451,32 @@ impl ElementBlock for Links {
         has_failed(self.memory(e, history))
     }
 
-    fn failure_reason(&self, e: usize, history: &[f64]) -> String {
-        link_failure::reason(self.memory(e, history))
+    fn failure_cause(&self, e: usize, history: &[f64]) -> FailureCause {
+        link_failure::cause(self.memory(e, history))
+    }
+}
+
+impl Branches for Links {
+    fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
+        let link = &self.links[e];
+        let one_sided = matches!(link.law, LinkLaw::CompressionOnly { .. } | LinkLaw::TensionOnly { .. });
+        one_sided && link.law.force(link.line(now.nodes).delta).1 == 0.0
+    }
+
+    fn has_kinks(&self) -> bool {
+        self.links.iter().any(|link| link.failure.is_some() || link.law.kinks() > 0)
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        self.links.iter().map(|link| link.law.branch(link.line(now.nodes).delta)).sum()
+    }
+
+    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
+        let link = &self.links[e];
+        let line = link.line(now);
+        // A link that pulls at every length, or is slack, may pass through itself.
+        let pushes = link.law.force(line.delta - line.length).0 < 0.0;
+        link.direction.is_none() && pushes && link.line(before).e.dot(&line.e) < 0.0
     }
 }
 

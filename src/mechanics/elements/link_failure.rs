@@ -1,7 +1,7 @@
 //! Failure of bolts, welds and other links by an interaction of normal and shear force, (F_n/N)ᵃ + (F_s/S)ᵇ ≥ 1. Only tension counts as
 //! normal force. A failed link carries nothing; its memory holds the two forces at failure.
 
-use base::names::short;
+use super::block::FailureCause;
 
 /// The number of history variables of a link that may fail: normal and shear force at its failure, zeros before.
 pub const MEMORY: usize = 2;
@@ -31,10 +31,8 @@ pub fn has_failed(memory: &[f64]) -> bool {
     memory.iter().any(|force| *force != 0.0)
 }
 
-/// Why a link has failed.
-pub fn reason(memory: &[f64]) -> String {
-    match *memory {
-        [normal, shear] => format!("normal force {}, shear force {}", short(normal), short(shear)),
-        _ => String::new(),
-    }
+/// Why a link has failed: the forces in its memory, none where it cannot fail.
+pub fn cause(memory: &[f64]) -> FailureCause {
+    let force = |k: usize| memory.get(k).copied().unwrap_or_default();
+    FailureCause::Forces { normal: force(0), shear: force(1) }
 }

@@ -20,6 +20,6 @@ pub mod slip;
 mod wandering;
 
 pub use block::subtract;
-pub use block::{ElementBlock, Force, Moduli};
+pub use block::{Branches, ElementBlock, Elements, FailureCause, Force, Mechanics, Moduli, Results};
 pub use results::{IntegrationPoint, LayerStress, ShellResultants};
 pub use wandering::{Partners, Wandering};

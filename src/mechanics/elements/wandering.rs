@@ -46,7 +46,7 @@ impl Partners {
     }
 }
 
-/// A group of elements that also act on nodes that [`super::ElementBlock::nodes`] does not list.
+/// A group of elements that also act on nodes that [`super::Elements::nodes`] does not list.
 pub trait Wandering {
     /// Nodes on which elements may act beside their own, and the nodes that they may turn.
     fn further_nodes(&self) -> [&[usize]; 2];

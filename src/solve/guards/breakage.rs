@@ -3,7 +3,9 @@
 use crate::context::Context;
 use crate::system::System;
 use base::math::Vec3;
+use base::names::short;
 use base::snapshot::keep;
+use mechanics::elements::FailureCause;
 use mechanics::state::State;
 
 /// An element or a link that has failed.
@@ -29,6 +31,16 @@ pub struct Breakage {
 }
 
 keep!(Breakage { groups, failed } without { new });
+
+/// The cause of a failure in words.
+fn reason(cause: FailureCause) -> String {
+    match cause {
+        FailureCause::PlasticStrain(strain) => format!("its plastic strain is {}", short(strain)),
+        FailureCause::Forces { normal, shear } => {
+            format!("normal force {}, shear force {}", short(normal), short(shear))
+        }
+    }
+}
 
 impl Breakage {
     /// Takes what has failed before the run, or the stage.
@@ -59,7 +71,7 @@ impl Breakage {
                 };
                 let nodes = group.block.nodes(e);
                 let place = nodes.iter().map(|&node| state.nodes[node].x).sum::<Vec3>() / nodes.len() as f64;
-                self.new.push(Broken { what, reason: group.block.failure_reason(e, history), place });
+                self.new.push(Broken { what, reason: reason(group.block.failure_cause(e, history)), place });
             }
         }
     }

@@ -6,7 +6,7 @@ use rdsolve::constraints::joint::ConstraintEquation;
 use rdsolve::elements::contact::restitution::{Loss, number};
 use rdsolve::elements::coordinate_law::{CoordinateLaw, JointFriction, MEMORY, Stops};
 use rdsolve::elements::hysteresis::Hysteresis;
-use rdsolve::elements::{ElementBlock, Moduli};
+use rdsolve::elements::{Mechanics, Moduli};
 use rdsolve::math::{Mat3, Vec3, Vec6, rotation};
 use rdsolve::state::{Configuration, Node};
 use rdsolve::system::parts::coordinate_springs::{CoordinateSpring, CoordinateSprings};

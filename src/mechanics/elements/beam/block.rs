@@ -5,7 +5,7 @@ use super::lane_section::SectionStiffness;
 use super::quaternion::{left, right, times_conjugate};
 use super::section::{BeamSection, BeamStiffness};
 use super::tangent::{PackSections, tangent};
-use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::results::IntegrationPoint;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
@@ -123,7 +123,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         }
     }
 
-    /// Tangents of elements into `K`, one after the other, see [`ElementBlock::tangent`]: as many as `T` has lanes, or fewer. The stresses are
+    /// Tangents of elements into `K`, one after the other, see [`Mechanics::tangent`]: as many as `T` has lanes, or fewer. The stresses are
     /// those at the nodes `lead`, where there are such.
     fn tangents_of<T: Number>(
         &self,
@@ -159,7 +159,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     }
 }
 
-impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
+impl<const N: usize, S: BeamSection> Elements for Beams<N, S> {
     fn len(&self) -> usize {
         self.elements.len()
     }
@@ -171,7 +171,9 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
     fn dofs(&self) -> usize {
         6
     }
+}
 
+impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
     fn is_damped(&self) -> bool {
         self.damping > 0.0
     }
@@ -218,18 +220,6 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
         sum
     }
 
-    fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {
-        let forces = self.nodal_forces(e, now);
-        Some([forces[0], forces[N - 1]])
-    }
-
-    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
-        let (pack, motion) = self.one(e, now);
-        // The axis opposes the normals of its sections: Rᵀr′·t ≤ 0.
-        let along = |g| pack.point(g, &motion).strain[0].dot(&pack.tangent) + 1.0;
-        (0..self.integration_points()).any(|g| along(g) <= 0.0)
-    }
-
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         // Where material yields, its state counts more than what a correction stretches.
         let lead = now.lead.filter(|_| S::IS_ELASTIC);
@@ -271,6 +261,13 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
             }
         }
         sum
+    }
+}
+
+impl<const N: usize, S: BeamSection> Results for Beams<N, S> {
+    fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {
+        let forces = self.nodal_forces(e, now);
+        Some([forces[0], forces[N - 1]])
     }
 
     fn energy(&self, now: &Configuration) -> f64 {
@@ -331,5 +328,14 @@ impl<const N: usize, S: BeamSection> ElementBlock for Beams<N, S> {
             }
         }
         sum
+    }
+}
+
+impl<const N: usize, S: BeamSection> Branches for Beams<N, S> {
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let (pack, motion) = self.one(e, now);
+        // The axis opposes the normals of its sections: Rᵀr′·t ≤ 0.
+        let along = |g| pack.point(g, &motion).strain[0].dot(&pack.tangent) + 1.0;
+        (0..self.integration_points()).any(|g| along(g) <= 0.0)
     }
 }

@@ -183,7 +183,7 @@ pub(super) struct PackSections<'a, T> {
     pub has_failed: bool,
 }
 
-/// Tangents of the elements of a pack, row-major, one after the other into `K`, see [`crate::elements::ElementBlock::tangent`], with the
+/// Tangents of the elements of a pack, row-major, one after the other into `K`, see [`crate::elements::Mechanics::tangent`], with the
 /// stresses that `lead` tells; symmetric without a
 /// `rate_weight`, with which they are those of damped elements.
 pub(super) fn tangent<T: Number, const N: usize>(

@@ -9,13 +9,13 @@ use super::pair_block::{PairAction, PairBlock, PairSide, energy, subtract_forces
 use super::steps::misses;
 use super::tangent::tangent;
 use super::update::update_point;
-use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::slip::Sliding;
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
-impl ElementBlock for Contacts {
+impl Elements for Contacts {
     fn len(&self) -> usize {
         self.points.len()
     }
@@ -32,6 +32,12 @@ impl ElementBlock for Contacts {
         node == self.count || self.law.friction > 0.0 && self.points[e].rolling_radius > 0.0
     }
 
+    fn sliding(&self) -> Option<&dyn Sliding> {
+        Some(self)
+    }
+}
+
+impl Mechanics for Contacts {
     fn history(&self) -> usize {
         self.width() * self.points.len()
     }
@@ -54,11 +60,15 @@ impl ElementBlock for Contacts {
         }
         spent
     }
+}
 
+impl Results for Contacts {
     fn energy(&self, now: &Configuration) -> f64 {
         energy(self, now)
     }
+}
 
+impl Branches for Contacts {
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
         if now.history.is_empty() {
             return true;
@@ -66,10 +76,6 @@ impl ElementBlock for Contacts {
         let old = self.memory(e, now.history);
         let gap = || self.kinematics(&self.points[e], now.nodes).gap + self.inset(old);
         now.dt < old.safe_time() || self.is_idle(old) || gap() - old.lift(&self.law) > self.law.touching
-    }
-
-    fn sliding(&self) -> Option<&dyn Sliding> {
-        Some(self)
     }
 }
 

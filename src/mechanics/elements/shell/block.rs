@@ -5,7 +5,7 @@ use super::pack::{ShellPack, Shells, Strains};
 use super::results;
 use super::section::{NewHistory, ShellSections};
 use super::tangent::RateTerms;
-use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::results::ShellResultants;
 use crate::materials::{Dissipation, FAILED_STIFFNESS, Spent};
 use crate::state::{Configuration, Node};
@@ -113,7 +113,7 @@ fn subtract<const N: usize, const V: usize, const P: usize, const E: usize, S: S
     }
 }
 
-impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> ElementBlock for Shells<K, N, V, P, E, S>
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Elements for Shells<K, N, V, P, E, S>
 where
     K: Interpolation<N, V, P>,
     S: ShellSections<P, E, Lanes>,
@@ -130,7 +130,13 @@ where
     fn dofs(&self) -> usize {
         6
     }
+}
 
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Mechanics for Shells<K, N, V, P, E, S>
+where
+    K: Interpolation<N, V, P>,
+    S: ShellSections<P, E, Lanes>,
+{
     fn is_damped(&self) -> bool {
         self.damping > 0.0
     }
@@ -156,16 +162,6 @@ where
             self.dissipated(pack, &spent, now, new, &mut sum);
         }
         sum
-    }
-
-    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
-        let (pack, lane) = self.place(e);
-        let motion = pack.gather(now);
-        // The normal at a corner opposes the director there.
-        (0..N).any(|a| {
-            let side = |b: usize| motion.x[b % N] - motion.x[a];
-            side(a + 1).cross(&side(a + N - 1)).dot(&motion.turning[0][a]).as_array()[lane] <= 0.0
-        })
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
@@ -201,7 +197,13 @@ where
         }
         sum
     }
+}
 
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Results for Shells<K, N, V, P, E, S>
+where
+    K: Interpolation<N, V, P>,
+    S: ShellSections<P, E, Lanes>,
+{
     fn energy(&self, now: &Configuration) -> f64 {
         let mut sum = 0.0;
         for (pack, intact) in self.intact(now.history) {
@@ -251,5 +253,21 @@ where
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
         let (pack, lane) = self.place(e);
         pack.sections.has_failed(lane, history)
+    }
+}
+
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Branches for Shells<K, N, V, P, E, S>
+where
+    K: Interpolation<N, V, P>,
+    S: ShellSections<P, E, Lanes>,
+{
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let (pack, lane) = self.place(e);
+        let motion = pack.gather(now);
+        // The normal at a corner opposes the director there.
+        (0..N).any(|a| {
+            let side = |b: usize| motion.x[b % N] - motion.x[a];
+            side(a + 1).cross(&side(a + N - 1)).dot(&motion.turning[0][a]).as_array()[lane] <= 0.0
+        })
     }
 }

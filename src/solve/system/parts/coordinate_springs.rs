@@ -13,7 +13,7 @@ use mechanics::elements::coordinate_law::{
 };
 use mechanics::elements::memories::places;
 use mechanics::elements::slip::{Sliding, Slip};
-use mechanics::elements::{ElementBlock, Force, Moduli, subtract};
+use mechanics::elements::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node};
 use std::ops::Range;
@@ -94,7 +94,7 @@ impl Sliding for CoordinateSprings {
     }
 }
 
-impl ElementBlock for CoordinateSprings {
+impl Elements for CoordinateSprings {
     fn len(&self) -> usize {
         self.springs.len()
     }
@@ -111,21 +111,16 @@ impl ElementBlock for CoordinateSprings {
         self.springs[e].lock.reach()[node][3..].contains(&true)
     }
 
+    fn sliding(&self) -> Option<&dyn Sliding> {
+        Some(self)
+    }
+}
+
+impl Mechanics for CoordinateSprings {
     fn is_damped(&self) -> bool {
         // What an impact loses is lost over the rate.
         let loses = |law: &CoordinateLaw| law.stops.as_ref().is_some_and(|stops| stops.loss != Loss::None);
         self.springs.iter().any(|spring| spring.law.damping > 0.0 || loses(&spring.law))
-    }
-
-    fn has_kinks(&self) -> bool {
-        let has = |law: &CoordinateLaw| law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some();
-        self.springs.iter().any(|spring| has(&spring.law))
-    }
-
-    fn branches(&self, now: &Configuration) -> usize {
-        let memories = self.memories.iter().filter_map(|memory| now.history.get(memory.clone()));
-        let states = self.states(now).zip(memories);
-        states.fold(0, |sum, ((spring, at), memory)| sum.wrapping_add(spring.law.branch(at.q, at.rate, memory)))
     }
 
     fn history(&self) -> usize {
@@ -198,16 +193,27 @@ impl ElementBlock for CoordinateSprings {
             }
         }
     }
+}
 
-    fn sliding(&self) -> Option<&dyn Sliding> {
-        Some(self)
-    }
-
+impl Results for CoordinateSprings {
     fn energy(&self, now: &Configuration) -> f64 {
         self.states(now).map(|(_, at)| at.energy).sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
         self.states(now).map(|(spring, at)| spring.law.damping * at.rate * at.rate).sum()
+    }
+}
+
+impl Branches for CoordinateSprings {
+    fn has_kinks(&self) -> bool {
+        let has = |law: &CoordinateLaw| law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some();
+        self.springs.iter().any(|spring| has(&spring.law))
+    }
+
+    fn branches(&self, now: &Configuration) -> usize {
+        let memories = self.memories.iter().filter_map(|memory| now.history.get(memory.clone()));
+        let states = self.states(now).zip(memories);
+        states.fold(0, |sum, ((spring, at), memory)| sum.wrapping_add(spring.law.branch(at.q, at.rate, memory)))
     }
 }

@@ -5,7 +5,7 @@ use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
 use super::steps::is_missed;
 use super::tangent::tangent;
 use super::update::update_pair;
-use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
@@ -62,7 +62,7 @@ impl ConvexPairs {
     }
 }
 
-impl ElementBlock for ConvexPairs {
+impl Elements for ConvexPairs {
     fn len(&self) -> usize {
         self.count()
     }
@@ -75,6 +75,12 @@ impl ElementBlock for ConvexPairs {
         6
     }
 
+    fn sliding(&self) -> Option<&dyn Sliding> {
+        Some(self)
+    }
+}
+
+impl Mechanics for ConvexPairs {
     fn history(&self) -> usize {
         width(&self.law) * self.count()
     }
@@ -97,19 +103,19 @@ impl ElementBlock for ConvexPairs {
         }
         spent
     }
+}
 
+impl Results for ConvexPairs {
     fn energy(&self, now: &Configuration) -> f64 {
         energy(self, now)
     }
+}
 
+impl Branches for ConvexPairs {
     fn is_inactive(&self, e: usize, now: &Configuration) -> bool {
         now.history.is_empty()
             || now.dt < self.history(e, now.history).safe_time()
             || self.pair(e).kinematics(now.nodes).pose.least_axis().gap > self.law.touching
-    }
-
-    fn sliding(&self) -> Option<&dyn Sliding> {
-        Some(self)
     }
 }
 

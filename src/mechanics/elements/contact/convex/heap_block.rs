@@ -5,7 +5,7 @@ use super::pair::{ConvexPair, PairForce, PairKinematics};
 use super::steps::is_missed;
 use super::tangent::tangent;
 use super::update::update_pair;
-use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::contact::history::{PairMemory, PairMemoryMut};
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::near_lists::farthest;
@@ -39,7 +39,7 @@ impl ConvexHeap {
     }
 }
 
-impl ElementBlock for ConvexHeap {
+impl Elements for ConvexHeap {
     fn len(&self) -> usize {
         self.solids.len()
     }
@@ -51,7 +51,9 @@ impl ElementBlock for ConvexHeap {
     fn dofs(&self) -> usize {
         6
     }
+}
 
+impl Mechanics for ConvexHeap {
     fn history(&self) -> usize {
         SLOTS * self.width * self.solids.len()
     }
@@ -93,11 +95,15 @@ impl ElementBlock for ConvexHeap {
         spent += self.let_go(now, part, history);
         spent
     }
+}
 
+impl Results for ConvexHeap {
     fn energy(&self, now: &Configuration) -> f64 {
         energy(self, now)
     }
+}
 
+impl Branches for ConvexHeap {
     fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
         true
     }

@@ -6,7 +6,7 @@ use super::steps::misses_facet;
 use super::surface::FacetContacts;
 use super::tangent::add_tangent;
 use super::update::update;
-use crate::elements::block::{ElementBlock, Force, Moduli};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results};
 use crate::elements::contact::history::PairMemory;
 use crate::elements::contact::law::ContactLaw;
 use crate::elements::contact::pair_block::{PairAction, PairBlock, energy, subtract_forces};
@@ -14,7 +14,7 @@ use crate::elements::wandering::{Partners, Wandering};
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 
-impl ElementBlock for FacetContacts {
+impl Elements for FacetContacts {
     fn len(&self) -> usize {
         self.points.len()
     }
@@ -30,7 +30,9 @@ impl ElementBlock for FacetContacts {
     fn is_rotational(&self, e: usize, _: usize) -> bool {
         self.law.friction > 0.0 && self.points[e].rolling_radius > 0.0
     }
+}
 
+impl Mechanics for FacetContacts {
     fn history(&self) -> usize {
         self.slots * self.width * self.points.len()
     }
@@ -47,11 +49,15 @@ impl ElementBlock for FacetContacts {
     fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64]) -> Dissipation {
         update(self, now, part, history)
     }
+}
 
+impl Results for FacetContacts {
     fn energy(&self, now: &Configuration) -> f64 {
         energy(self, now)
     }
+}
 
+impl Branches for FacetContacts {
     fn is_inactive(&self, _: usize, _: &Configuration) -> bool {
         true
     }

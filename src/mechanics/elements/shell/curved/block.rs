@@ -4,7 +4,7 @@ use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
 use super::sampling::CurvedStrains;
 use super::surface::{CurvedSurface, tangents};
 use super::tangent::tangent;
-use crate::elements::block::{ElementBlock, Force, Moduli, subtract};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
 use crate::elements::results::ShellResultants;
 use crate::elements::shell::nodal_vectors::NodalVectors;
 use crate::elements::shell::results::MeanStress;
@@ -39,8 +39,7 @@ fn stored<const N: usize, const V: usize, const P: usize, const Q: usize, S: She
         + 0.5 * sum(&element.drilling_stress(&strains.drilling), &strains.drilling)
 }
 
-impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> ElementBlock
-    for CurvedShells<K, N, V, P, Q, S>
+impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> Elements for CurvedShells<K, N, V, P, Q, S>
 where
     K: CurvedStrains<N, V, P, Q>,
     S: ShellSections<P, P, f64>,
@@ -56,7 +55,13 @@ where
     fn dofs(&self) -> usize {
         6
     }
+}
 
+impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> Mechanics for CurvedShells<K, N, V, P, Q, S>
+where
+    K: CurvedStrains<N, V, P, Q>,
+    S: ShellSections<P, P, f64>,
+{
     fn is_damped(&self) -> bool {
         self.damping > 0.0
     }
@@ -87,15 +92,6 @@ where
         }
     }
 
-    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
-        let motion = self.elements[e].gather(now);
-        // The normal at a corner opposes the director there.
-        (0..K::CORNERS).any(|a| {
-            let [r, s] = tangents::<K, N>(&motion.x, K::NODES[a]);
-            r.cross(&s).dot(&motion.turning[0][a]) < 0.0
-        })
-    }
-
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         tangent(self, e, (now, None), (self.damping > 0.0).then_some(rate_weight), moduli, K);
         if self.elements[e].section.has_failed(0, now.history) {
@@ -122,7 +118,13 @@ where
         }
         dissipation
     }
+}
 
+impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> Results for CurvedShells<K, N, V, P, Q, S>
+where
+    K: CurvedStrains<N, V, P, Q>,
+    S: ShellSections<P, P, f64>,
+{
     fn energy(&self, now: &Configuration) -> f64 {
         let whole = self.elements.iter().filter(|element| !element.section.has_failed(0, now.history));
         whole.map(|element| stored(element, &element.strains(&element.gather(now.nodes)), now)).sum()
@@ -174,5 +176,20 @@ where
 
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
         self.elements[e].section.has_failed(0, history)
+    }
+}
+
+impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> Branches for CurvedShells<K, N, V, P, Q, S>
+where
+    K: CurvedStrains<N, V, P, Q>,
+    S: ShellSections<P, P, f64>,
+{
+    fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
+        let motion = self.elements[e].gather(now);
+        // The normal at a corner opposes the director there.
+        (0..K::CORNERS).any(|a| {
+            let [r, s] = tangents::<K, N>(&motion.x, K::NODES[a]);
+            r.cross(&s).dot(&motion.turning[0][a]) < 0.0
+        })
     }
 }
