@@ -111,15 +111,16 @@ impl MaterialLaw {
         at: impl Fn(usize) -> usize,
     ) -> MaterialHistory<T, N> {
         let variables = self.history(state);
-        let own: [&[f64]; LANES] =
-            from_fn(|lane| if lane < T::COUNT { &history[at(lane)..][..variables] } else { &[] });
-        let number = |k: usize| T::gather(|lane| own[lane][k]);
+        // The length is known where it is compiled, and each is looked up once.
+        let first: [&[f64]; LANES] = from_fn(|lane| if lane < T::COUNT { &history[at(lane)..][..N + 1] } else { &[] });
+        let number = |k: usize| T::gather(|lane| first[lane][k]);
+        let further = |k: usize| T::gather(|lane| history[at(lane) + k]);
         MaterialHistory {
             plastic: from_fn(number),
             accumulated: number(N),
-            back: self.is_kinematic().then(|| from_fn(|i| number(N + 1 + i))),
-            damage: self.sums_damage().then(|| number(self.damage_place::<N>())),
-            overstress: self.yielding.viscosity.map(|_| number(variables - 1)),
+            back: self.is_kinematic().then(|| from_fn(|i| further(N + 1 + i))),
+            damage: self.sums_damage().then(|| further(self.damage_place::<N>())),
+            overstress: self.yielding.viscosity.map(|_| further(variables - 1)),
         }
     }
 
@@ -136,8 +137,9 @@ impl MaterialLaw {
         for lane in 0..T::COUNT {
             let Some(at) = at(lane) else { continue };
             let own = &mut history[at..][..variables];
-            (0..N).for_each(|i| own[i] = plastic[i][lane]);
-            own[N] = accumulated[lane];
+            let first = &mut own[..N + 1];
+            (0..N).for_each(|i| first[i] = plastic[i][lane]);
+            first[N] = accumulated[lane];
             if let Some(back) = &of.back {
                 (0..N).for_each(|i| own[N + 1 + i] = back[i].lane(lane));
             }
