@@ -76,7 +76,7 @@ impl PairBlock for FacetContacts {
     }
 
     fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool {
-        self.known_memories(history).any(|memory| is(memory))
+        self.known_memories(history).any(is)
     }
 
     fn misses(&self, start: &[Node], now: &Configuration) -> bool {
