@@ -306,6 +306,26 @@ fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, op
     )
 }
 
+/// The message where joints cannot be closed; the smallest and the largest inertia if their ratio is the cause.
+fn constraints_violated(inertias: &[NamedResidual]) -> String {
+    let [least, most] = inertias else {
+        return "joints cannot be closed at the end of the step (prescribed motions or joints contradict \
+                each other, or the step is too long); the widest gaps are"
+            .to_owned();
+    };
+    format!(
+        "joints cannot be closed at the end of the step: the principal inertias of `{}`, {}, and of `{}`, {}, are {:.0e} times apart, \
+         which rounding does not resolve. Take `scheme = \"esdirk3\"`, or give `{}` an inertia of {} about each axis; the widest gaps are",
+        least.label,
+        short(least.residual),
+        most.label,
+        short(most.residual),
+        most.residual / least.residual,
+        least.label,
+        short(1e-10 * most.residual)
+    )
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.message())?;
@@ -374,22 +394,7 @@ impl Failure {
             Failure::NotFinite { .. } => {
                 "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
             }
-            Failure::ConstraintsViolated { inertias, .. } if inertias.len() == 2 => format!(
-                "joints cannot be closed at the end of the step: the principal inertias of `{}`, {}, and of `{}`, {}, are {:.0e} times apart, \
-                 which rounding does not resolve. Take `scheme = \"esdirk3\"`, or give `{}` an inertia of {} about each axis; the widest gaps are",
-                inertias[0].label,
-                short(inertias[0].residual),
-                inertias[1].label,
-                short(inertias[1].residual),
-                inertias[1].residual / inertias[0].residual,
-                inertias[0].label,
-                short(1e-10 * inertias[1].residual)
-            ),
-            Failure::ConstraintsViolated { .. } => {
-                "joints cannot be closed at the end of the step (prescribed motions or joints contradict \
-                                      each other, or the step is too long); the widest gaps are"
-                    .to_owned()
-            }
+            Failure::ConstraintsViolated { inertias, .. } => constraints_violated(inertias),
             Failure::ContactNotResolved { .. } | Failure::ContactNotClosed { .. } => self.message_of_contact(),
             Failure::BushingTurnedOver { name } => format!(
                 "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \

@@ -6,6 +6,7 @@ use super::friction_warnings::SlipBegins;
 use super::throws::Throw;
 use super::warning::Warning;
 use crate::system::{FrictionPlace, friction_places, law_of, slip};
+use crate::tolerances::slip_watch::{LEFT, OF_LENGTH, OF_STRETCH, SEEN};
 use base::math::Vec3;
 use base::snapshot::keep;
 use mechanics::elements::slip::Slip;
@@ -23,8 +24,6 @@ keep!(SlipWatch { springs, throws });
 
 /// The way from which a motion is one of the scene, where springs of friction give by `stick`.
 fn visible(cx: &Context, stick: f64) -> f64 {
-    const OF_LENGTH: f64 = 1e-3;
-    const OF_STRETCH: f64 = 10.0;
     (OF_LENGTH * cx.length).max(OF_STRETCH * stick)
 }
 
@@ -108,9 +107,6 @@ impl SlipWatch {
 
     /// The warning of the contact or joint whose slip has the largest error, in parts of the largest slip.
     pub fn warning(&self, cx: &Context) -> Option<Warning> {
-        /// Part of the largest slip from which the error is told, and the part that the remedy leaves.
-        const SEEN: f64 = 0.02;
-        const LEFT: f64 = 0.01;
         let part = |spring: &Spring| spring.largest / spring.farthest;
         let seen = self.springs.iter().filter(|spring| spring.is_seen(cx) && part(spring) > SEEN);
         let worst = seen.max_by(|a, b| part(a).total_cmp(&part(b)))?;

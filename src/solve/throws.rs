@@ -5,6 +5,7 @@ use super::context::Context;
 use super::friction_warnings::ContactThrows;
 use super::warning::Warning;
 use crate::system::{FrictionPlace, law_of};
+use crate::tolerances::throws::{BRIEF, FASTER, PERIODS, STEPS};
 use base::snapshot::keep;
 use mechanics::elements::slip::Slip;
 use std::f64::consts::PI;
@@ -60,13 +61,6 @@ impl Throw {
 
     /// Takes account of all of them, after a step of length `dt`.
     pub fn end_step(&mut self, dt: f64) {
-        /// A contact that steps resolve lasts longer.
-        const BRIEF: usize = 3;
-        /// Elastic ones give back what they take.
-        const FASTER: f64 = 2.0;
-        /// What touches for so many periods, and steps, rests.
-        const PERIODS: f64 = 4.0;
-        const STEPS: f64 = 10.0;
         let (touches, [met, parts, apart]) = std::mem::take(&mut self.step);
         if touches {
             if self.steps == 0 {
@@ -98,6 +92,6 @@ impl Throw {
             stiffness: [law.stiffness, law.stiffness * (enough / step).powi(2)],
             step: [step, enough],
         };
-        (enough < step).then(|| Warning::ContactThrows(throws))
+        (enough < step).then_some(Warning::ContactThrows(throws))
     }
 }

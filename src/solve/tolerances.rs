@@ -828,3 +828,25 @@ pub mod element_stability {
     /// slow what bends for next to nothing.
     pub const OF_USE: f64 = 0.02;
 }
+
+pub mod slip_watch {
+    /// Part of the scene's length from which slip is a motion of the scene.
+    pub const OF_LENGTH: f64 = 1e-3;
+    /// Multiple of the stretch of a spring of friction from which slip is a motion of the scene.
+    pub const OF_STRETCH: f64 = 10.0;
+    /// Error, as a part of the largest slip, that a warning reports.
+    pub const SEEN: f64 = 0.02;
+    /// Error, as a part of the largest slip, that the remedy of the warning leaves.
+    pub const LEFT: f64 = 0.01;
+}
+
+pub mod throws {
+    /// Largest number of steps of an unresolved contact; a resolved one lasts longer.
+    pub const BRIEF: usize = 3;
+    /// Ratio of speeds after and before an unresolved contact; an elastic one returns its speed.
+    pub const FASTER: f64 = 2.0;
+    /// Periods of its springs after which a touching body rests.
+    pub const PERIODS: f64 = 4.0;
+    /// Steps after which a touching body rests.
+    pub const STEPS: f64 = 10.0;
+}

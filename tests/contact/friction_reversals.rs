@@ -87,7 +87,7 @@ fn exact() -> [f64; 2] {
 /// Where the block, or the angle at which the wheel, comes to rest.
 fn left(deck: &str) -> f64 {
     let tables = tables_of(&read_deck(deck));
-    let last = tables.rows("bodies.csv").into_iter().filter(|row| row.text("body") == "block").next_back().unwrap();
+    let last = tables.rows("bodies.csv").into_iter().rfind(|row| row.text("body") == "block").unwrap();
     if deck.contains("name = \"pin\"") { 2.0 * last.number("qz") } else { last.number("x") }
 }
 

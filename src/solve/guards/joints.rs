@@ -60,15 +60,15 @@ pub fn constraints_violated(cx: &Context, gaps: &[f64]) -> Failure {
 
 /// Smallest and largest principal inertia of all bodies, if their ratio exceeds the digits of accelerations; otherwise empty.
 fn unlike_inertias(cx: &Context) -> Vec<NamedResidual> {
-    let (mut least, mut most): (Option<(&Body, f64)>, Option<(&Body, f64)>) = (None, None);
-    for body in &cx.model.bodies {
+    let principal = cx.model.bodies.iter().flat_map(|body| {
         let moments = body.inertia.symmetric_eigenvalues();
         // An axis without inertia rotates with its body.
-        for &moment in moments.iter().filter(|&&moment| moment > NO_INERTIA * moments.max()) {
-            least = least.filter(|of| of.1 <= moment).or(Some((body, moment)));
-            most = most.filter(|of| of.1 >= moment).or(Some((body, moment)));
-        }
-    }
+        let own =
+            [moments.x, moments.y, moments.z].into_iter().filter(move |&moment| moment > NO_INERTIA * moments.max());
+        own.map(move |moment| (body, moment))
+    });
+    let least = principal.clone().min_by(|a, b| a.1.total_cmp(&b.1));
+    let most = principal.max_by(|a, b| a.1.total_cmp(&b.1));
     let named =
         |(body, moment): (&Body, f64)| NamedResidual { label: body.name.clone(), direction: "", residual: moment };
     match (least, most) {
