@@ -59,6 +59,9 @@ impl fmt::Display for TooLarge {
 
 impl std::error::Error for TooLarge {}
 
+/// Bytes of buffers that products of large matrices take during a factorization; a limit of the process counts them.
+const PRODUCTS: usize = 96 << 20;
+
 /// Makes sure that the memory holds so many `numbers` of a matrix, its factor and its update matrices.
 ///
 /// # Errors
@@ -67,7 +70,7 @@ pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     let needed = size_of::<f64>() as f64 * numbers as f64 + BESIDE * unknowns as f64;
     let fits = available().is_none_or(|available| needed <= available);
     // The available memory of the system does not show a limit of this process. The memory is given back at once, untouched.
-    let granted = Vec::<u8>::new().try_reserve_exact(needed as usize).is_ok();
+    let granted = Vec::<u8>::new().try_reserve_exact(needed as usize + PRODUCTS).is_ok();
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
 }
 
