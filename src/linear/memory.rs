@@ -70,7 +70,7 @@ pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     let needed = size_of::<f64>() as f64 * numbers as f64 + BESIDE * unknowns as f64;
     let fits = available().is_none_or(|available| needed <= available);
     // The available memory of the system does not show a limit of this process. The memory is given back at once, untouched.
-    let granted = Vec::<u8>::new().try_reserve_exact(needed as usize + PRODUCTS).is_ok();
+    let granted = Vec::<u8>::new().try_reserve_exact((needed as usize).saturating_add(PRODUCTS)).is_ok();
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
 }
 
