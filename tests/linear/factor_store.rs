@@ -77,7 +77,7 @@ fn a_factor_that_memory_does_not_hold_lies_in_a_file() {
         if !scratch.starts_with(folder) && !scratch.is_dir() {
             continue;
         }
-        let (code, said) = run(folder, "refused", "200000", &scratch);
+        let (code, said) = run(folder, "refused", "240000", &scratch);
         assert!(code == 7 && said.contains(reason) && said.contains("TMPDIR may name a folder"), "{code} {said}");
         assert!(!folder.join("refused").exists());
     }

@@ -183,8 +183,8 @@ impl MaterialLaw {
         out
     }
 
-    /// The answer at one point, whose history variables are `old`.
-    #[inline]
+    /// The answer at one point, whose history variables are `old`. It is inlined, so that each caller pays only for what it asks.
+    #[inline(always)]
     pub fn at_point<const N: usize, S: StressState<N>>(
         &self,
         state: S,
