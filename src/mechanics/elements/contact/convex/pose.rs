@@ -1,6 +1,6 @@
 //! Two convex solids, one in the axes of the other.
 
-use crate::elements::contact::segments::nearest;
+use crate::elements::contact::segments::PARALLEL;
 use base::math::convex::ConvexShape;
 use base::math::polyhedron::Polyhedron;
 use base::math::{Mat3, Vec3};
@@ -120,9 +120,16 @@ fn nearest_parts(pose: &PolyhedronPose) -> f64 {
     least
 }
 
-/// The distance of two segments.
+/// The distance of two segments whose nearest points lie within both; infinite otherwise, since corners cover that case.
 fn between_segments([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> f64 {
-    let (u, v, r) = (b - a, d - c, a - c);
-    let [s, t] = nearest(&r, &u, &v);
-    (r + s * u - t * v).norm()
+    let (u, w, r) = (b - a, d - c, a - c);
+    let (uu, uw, ww) = (u.dot(&u), u.dot(&w), w.dot(&w));
+    let det = uu * ww - uw * uw;
+    if det <= PARALLEL * uu * ww {
+        return f64::INFINITY;
+    }
+    let s = (uw * w.dot(&r) - ww * u.dot(&r)) / det;
+    let t = (uu * w.dot(&r) - uw * u.dot(&r)) / det;
+    let within = |s: f64| (0.0..=1.0).contains(&s);
+    if within(s) && within(t) { (r + s * u - t * w).norm() } else { f64::INFINITY }
 }
