@@ -115,8 +115,10 @@ impl MaterialLaw {
         let first: [&[f64]; LANES] = from_fn(|lane| if lane < T::COUNT { &history[at(lane)..][..N + 1] } else { &[] });
         let number = |k: usize| T::gather(|lane| first[lane][k]);
         let further = |k: usize| T::gather(|lane| history[at(lane) + k]);
+        let mut plastic = [T::ZERO; N];
+        (0..N).for_each(|i| plastic[i] = number(i));
         MaterialHistory {
-            plastic: from_fn(number),
+            plastic,
             accumulated: number(N),
             back: self.is_kinematic().then(|| from_fn(|i| further(N + 1 + i))),
             damage: self.sums_damage().then(|| further(self.damage_place::<N>())),

@@ -198,17 +198,19 @@ const STEEP: f64 = 1e-6;
 fn root<T: Number>(mut x: T, mut active: T::Mask, at: impl Fn(T) -> ReturnPoint<T>) -> ReturnPoint<T> {
     let (half, infinity) = (T::splat(0.5), T::splat(f64::INFINITY));
     let (mut low, mut high, mut last) = (T::ZERO, infinity, infinity);
-    let mut point = at(x);
     // Bisection from the greatest number to the least takes 2100 steps; Newton takes 3 to 7.
-    for _ in 0..2100 {
+    let mut left = 2100;
+    loop {
+        let point = at(x);
         let misfit = T::ONE - point.sum.sqrt();
         let step = point.sum * misfit / point.slope;
         // A step of less than a few units in the last place is none.
         let moves = T::splat(2.0 * f64::EPSILON).lt(step.abs());
         active = active & !misfit.abs().le(T::select(moves, T::splat(TOLERANCE), T::splat(STEEP)));
-        if !active.any() {
-            break;
+        if left == 0 || !active.any() {
+            return point;
         }
+        left -= 1;
         let above = T::ZERO.lt(misfit);
         (high, low) = (T::select(above, x, high), T::select(above, low, x));
         let newton = x * (T::ONE - step);
@@ -221,10 +223,8 @@ fn root<T: Number>(mut x: T, mut active: T::Mask, at: impl Fn(T) -> ReturnPoint<
         // Neighbours in a bracket, or no numbers: nothing is left to find.
         active = active & (T::splat(f64::EPSILON) * x).lt((next - x).abs());
         if !active.any() {
-            break;
+            return point;
         }
         (x, last) = (T::select(active, next, x), misfit.abs());
-        point = at(x);
     }
-    point
 }

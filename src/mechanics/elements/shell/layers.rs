@@ -269,16 +269,16 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
         ask: &mut LayersAsk<P, E, T>,
     ) -> Resultants<T> {
         let Layers { law, at, stiffness, .. } = &*self.layers;
+        let asked = match ask {
+            LayersAsk::Stress => Ask::Stress,
+            LayersAsk::Tangent(_) => Ask::Tangent,
+            LayersAsk::History(to) => Ask::History(to.part),
+        };
         let mut sum = Resultants::ZERO;
         for (layer, &[z, w]) in at.iter().enumerate() {
             let place = |lane: usize| self.place(lane, g, layer);
             let old = law.recall(PlaneStress, now.history, place);
-            let respond = |ask: Ask| law.respond(PlaneStress, &state.at(z), (now.dt, &old), ask);
-            let answer = match ask {
-                LayersAsk::Stress => respond(Ask::Stress),
-                LayersAsk::Tangent(_) => respond(Ask::Tangent),
-                LayersAsk::History(to) => respond(Ask::History(to.part)),
-            };
+            let answer = law.respond(PlaneStress, &state.at(z), (now.dt, &old), asked);
             sum.add([z, w], &answer.stress);
             if let Some(C) = &answer.tangent {
                 sum.lose([z, w], C, stiffness);
