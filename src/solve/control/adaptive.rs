@@ -45,7 +45,7 @@ pub trait StepController: Keep {
         length: f64,
     ) -> Result<Option<StepReport>, Failure>;
 
-    /// Notes a step of `dt` that failed for a reason other than its error, which already limits the next length.
+    /// Records a step of length `dt` that failed for another reason than its error; errors limit the next length anyway.
     fn cut_back(&mut self, dt: f64);
 
     /// State at a time inside the last step, which ended at `end`, and its cost; `None` if steps end at all output times.

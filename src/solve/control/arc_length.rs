@@ -1,5 +1,5 @@
 //! Arc-length control along an equilibrium path: the first step is a load step and sets the scale, the others are as long as their
-//! iterations allow. If a step passes a target at which it must end, the arc to it is found between the ends of the step.
+//! iterations allow. If a step passes a target that must be hit, the arc to the target is found between the ends of the step.
 
 use super::targets::{TargetQuantity, Targets};
 use crate::context::Context;
@@ -82,7 +82,7 @@ impl ArcLengthController {
         self.follow(march)
     }
 
-    /// Finds the equilibrium under loads that do not start at zero, which act at once.
+    /// Finds the equilibrium under loads that do not start at zero and therefore act suddenly.
     ///
     /// # Errors
     /// No equilibrium is found under them.
@@ -158,7 +158,7 @@ impl ArcLengthController {
         Ok(None)
     }
 
-    /// Finds the equilibrium at the time `to`, or where the condition holds. The step ends at the first target that it passes, which is
+    /// Finds the equilibrium at the time `to`, or where the condition holds. The step ends at the first target that it passes; its index is
     /// returned.
     fn find(
         &mut self,

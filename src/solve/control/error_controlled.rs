@@ -1,9 +1,8 @@
 //! Implicit steps whose length follows an estimate of their error.
 //!
-//! A scheme of second order has the error c Δt³|q‴| in a step of smooth motion; for Newmark it is the estimate of O. C. Zienkiewicz & Y. M.
-//! Xie, Earthquake Eng. Struct. Dyn. 20 (1991). Unresolved modes have large accelerations and hardly move. The estimate e is therefore
-//! filtered by the matrix of the step, (K + wM)⁻¹wM e, which keeps resolved modes (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11
-//! (1984)).
+//! Schemes of second order have the error c Δt³|q‴| in smooth motion; for Newmark see O. C. Zienkiewicz & Y. M. Xie, Earthquake Eng.
+//! Struct. Dyn. 20 (1991). Unresolved modes have large accelerations and hardly move. The matrix of the step filters the estimate e, (K +
+//! wM)⁻¹wM e, which keeps resolved modes (L. F. Shampine & L. S. Baca, J. Comput. Appl. Math. 11 (1984)).
 //!
 //! Errors of steps add up: each step may use the share of the tolerance that its length has of the run; their lasting
 //! part decides (see [`LastingError`]).

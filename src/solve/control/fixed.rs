@@ -46,7 +46,7 @@ struct Substeps {
     /// Time from the start of the step, and the length of the next substep, in parts of [`WHOLE_STEP`].
     at: u64,
     length: u64,
-    /// Substeps taken, substeps since one was cut or doubled, and cutbacks before the one at hand.
+    /// Number of substeps completed, of substeps since the last cutback or doubling, and of cutbacks before the current substep.
     taken: usize,
     successes: usize,
     cuts: usize,
@@ -151,7 +151,7 @@ impl CoverInterval for FixedController<'_> {
     fn cover(&mut self, march: &mut March, interval: &Interval) -> Result<(), Outcome> {
         let is_static = !march.cx.is_dynamic();
         for k in march.place.step + 1..=interval.steps {
-            // What comes or goes with a stage is brought on over all of it.
+            // Loads that change with a stage are ramped over the whole stage, not applied suddenly.
             let begin = march.cx.model.analysis.begin;
             let begins = begin > 0.0 && march.state.time <= begin;
             if is_static && std::mem::take(&mut self.sudden) && !begins {
@@ -185,7 +185,7 @@ impl Substeps {
         Substeps { from, to, at: 0, ..Substeps::NONE }
     }
 
-    /// Time at which the next substep ends.
+    /// End time of the next substep.
     fn target(&self) -> f64 {
         match self.at + self.length {
             WHOLE_STEP => self.to,
@@ -261,8 +261,8 @@ impl Substeps {
         Ok(())
     }
 
-    /// After the failure of the shortest step: begins again at full length, with shortened corrections, where nothing is stressed yet. A flat
-    /// membrane or net is so soft then that no step is short enough. Returns false elsewhere, and where that was done already.
+    /// After the failure of the shortest step: begins again at full length, with shortened corrections, where nothing is stressed yet. A
+    /// flat membrane or net is so soft then that no step is short enough. Returns false in other cases, and if this retry was already made.
     fn is_tried_with_care(&mut self, march: &mut March, failure: &Failure) -> bool {
         let load_steps = &mut march.ws.load_steps;
         let is_lost = matches!(

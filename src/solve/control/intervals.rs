@@ -45,7 +45,7 @@ impl Interval {
         if k == self.steps { self.to } else { self.from + (self.to - self.from) * (k as f64 / self.steps as f64) }
     }
 
-    /// What is left of it after a time, in steps no longer than `dt`.
+    /// The remainder of the interval after a time, in steps no longer than `dt`.
     pub fn after(self, begin: f64, dt: f64) -> Interval {
         if begin <= self.from {
             return self;
@@ -54,7 +54,7 @@ impl Interval {
     }
 }
 
-/// What a run must look at, and where its steps must end.
+/// The output times of a run, and the intervals between the required ends of steps.
 #[derive(Debug, Clone, Default)]
 pub struct Schedule {
     /// The intervals that steps cover, one after the other.
@@ -63,7 +63,7 @@ pub struct Schedule {
     pub samples: Vec<Sample>,
 }
 
-/// A time at which something is due.
+/// A time with an output, a comparison or a jump.
 struct Event {
     ending: Interval,
     /// True where a step must end at it, however well the motion is known inside steps.
@@ -71,8 +71,8 @@ struct Event {
 }
 
 impl Schedule {
-    /// Divides [0, end] where loads jump, at output times, the times of expectations and those at which runs are `compared`, each interval into steps no
-    /// longer than the deck's. With `inside`, output times and the times of comparison lie inside steps.
+    /// Divides [0, end] at jumps of loads, at output times, at times of expectations and at `compared` times. Each interval has steps no
+    /// longer than the step of the deck. With `inside`, output times and the times of comparison lie inside steps.
     pub fn new(model: &Model, compared: impl Iterator<Item = f64>, inside: bool) -> Schedule {
         let mut events: Vec<Event> = compared.map(|time| comparison(time, !inside)).collect();
         add_output_times(model, &mut events, !inside);
@@ -80,7 +80,7 @@ impl Schedule {
         divide(model, events)
     }
 
-    /// The same with each interval cut into so many equal ones: steps become shorter where nothing but the ends of intervals sets their length.
+    /// The schedule with each interval cut into this number of equal ones, which shortens steps limited only by the ends of intervals.
     pub fn cut(mut self, pieces: usize) -> Schedule {
         let cut = |interval: &Interval| {
             let &Interval { from, to, steps, due, jump, compared } = interval;
@@ -99,7 +99,7 @@ impl Schedule {
         self
     }
 
-    /// The same up to a time inside.
+    /// The schedule up to a time inside.
     pub fn until(mut self, end: f64) -> Schedule {
         self.intervals.retain(|interval| interval.from < end);
         self.samples.retain(|sample| sample.time < end);
@@ -109,7 +109,7 @@ impl Schedule {
         self
     }
 
-    /// The times of a trial run, of which nothing is written.
+    /// The times of a trial run, which writes no results.
     pub fn of_trial(model: &Model, compared: impl Iterator<Item = f64>, inside: bool) -> Schedule {
         let mut events: Vec<Event> = compared.map(|time| comparison(time, !inside)).collect();
         add_jumps_and_kinks(model, &mut events);
@@ -117,13 +117,13 @@ impl Schedule {
     }
 }
 
-/// Number of times at which runs of one scene are compared.
+/// Number of times for the comparison of two runs of one model.
 pub const COMPARISONS: usize = 16;
 
-/// The k-th time of comparison in a run between these times, k = 1..=[`COMPARISONS`]: spread evenly, but equidistant with no vibration, which
-/// might pass through its extremes at all of them, where an error of phase does not show.
+/// The k-th time of comparison in a run between these times, k = 1..=[`COMPARISONS`]. The times are spread evenly but not equidistant: a
+/// vibration could pass its extremes at equidistant times, which would hide its phase error.
 pub fn comparison_time(k: usize, [begin, end]: [f64; 2]) -> f64 {
-    /// The part of the golden section of which multiples are spread most evenly between whole numbers.
+    /// The golden section: the fractional parts of its multiples are spread most evenly.
     const GOLDEN: f64 = 0.618_033_988_749_895;
     begin + (end - begin) * ((k as f64 - 0.6 * (k as f64 * GOLDEN).fract()) / COMPARISONS as f64)
 }
@@ -219,7 +219,8 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
     Schedule { intervals: parted(intervals, &kicks(model), 1e-9 * end), samples }
 }
 
-/// Times at which the velocity of a prescribed motion jumps, or the acceleration of a curve, in order: the work of both sides counts.
+/// Sorted times of jumps in the velocity of a prescribed motion or in the acceleration of a curve; the work is computed separately before
+/// and after them.
 fn kicks(model: &Model) -> Vec<f64> {
     let mut all = Vec::new();
     if model.analysis.kind != AnalysisKind::Dynamic {

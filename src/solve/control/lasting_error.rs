@@ -1,6 +1,6 @@
-//! The lasting part of the errors of steps. A vibration of amplitude A goes out of phase, with the error φ A, φ = c ω³
-//! Δt² T, at the end of a run of length T, but never by much more than A. Butterworth's filter of third order over the
-//! time, with its corner at φ = 1, makes that φ A/√(1 + φ²): modes long out of phase count by their amplitude.
+//! The lasting part of the errors of steps. A vibration of amplitude `A` has the phase error φ A, φ = c ω³ Δt² T, at the end of a run of
+//! length T, but never much more than `A`. A Butterworth filter of third order over time, with its corner at φ = 1, gives φ A/√(1 + φ²):
+//! modes long out of phase count by their amplitude.
 
 use base::math::Vec6;
 use base::snapshot::keep;
@@ -36,8 +36,8 @@ impl LastingError {
         &self.value
     }
 
-    /// Passes the errors of a step of length `dt`, divided by `per` = c Δt³, through the filter with the time constant
-    /// `tau`: implicit Euler for τ y₁' + y₁ = e and τ² y'' + τ y' + y = y₁.
+    /// Filters the errors of a step of length `dt`, divided by `per` = c Δt³, with the time constant `tau`. Implicit Euler integrates
+    /// `τ y₁' + y₁ = e` and `τ² y'' + τ y' + y = y₁`.
     pub fn update(&mut self, errors: &[Vec6], per: f64, dt: f64, tau: f64) {
         let (s, stretched) = (dt / tau, self.tau.map(|before| tau / before));
         self.tau = Some(tau);

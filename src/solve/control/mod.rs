@@ -1,4 +1,4 @@
-//! Control of the step length: each way has a controller of its own, which leads its stepper through the run.
+//! Control of the step length: each method has its own controller, which drives its stepper through the run.
 
 mod adaptive;
 mod arc_length;

@@ -1,4 +1,4 @@
-//! The times and displacements at which a step along a path must end.
+//! The times and displacements that steps along a path must hit.
 
 use crate::context::Context;
 use crate::workspace::Workspace;
@@ -6,7 +6,7 @@ use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::State;
 use model::{ArcLength, DisplacementTarget, Model, When};
 
-/// A time or displacement at which a step must end.
+/// A time or displacement that a step must hit.
 pub struct Target {
     /// The quantity.
     pub quantity: TargetQuantity,
@@ -14,7 +14,7 @@ pub struct Target {
     pub value: f64,
     /// Number of passages still to come; the last of them counts.
     passes: usize,
-    /// Side of the value on which the path is: −1, 1, or 0 where it has not left it.
+    /// Side of the value on which the path lies: −1, 1, or 0 before it has left the value.
     side: f64,
     /// True where the path ends at it.
     pub ends: bool,
@@ -79,8 +79,7 @@ impl Targets {
         }
     }
 
-    /// The target that the motion found from `state` passes first, except one, and the fraction of the motion at which
-    /// it does.
+    /// The index of the target, other than `but`, that the motion from `state` passes first, and the fraction of the motion up to it.
     pub fn first_passed(
         &self,
         cx: &Context,

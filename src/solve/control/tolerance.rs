@@ -8,12 +8,12 @@ use mechanics::state::State;
 
 /// A controller that can run again with another tolerance.
 pub trait FollowTolerance {
-    /// Prepares for a run with this tolerance of the error of its steps, none of which is longer than `longest`; `None`: as long as the
-    /// controller allows. It forgets what the iteration has learnt in earlier runs.
+    /// Prepares for a run with this error tolerance and with steps no longer than `longest`; with `None` only the controller limits the
+    /// length. Statistics of the iteration from earlier runs are discarded.
     fn follow(&mut self, cx: &Context, tolerance: f64, longest: Option<f64>);
 }
 
-/// Finds steps that are too long for an event which falls into them.
+/// Finds steps that are too long for an event inside them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct EventLimit {
     /// Whether material flows, and whether something slips, in the step that was taken last.
@@ -23,8 +23,8 @@ pub struct EventLimit {
 keep!(EventLimit { flows });
 
 impl EventLimit {
-    /// True where the step from a state to the next is to be taken in halves. What fails in it may err by the `tolerance` times the duration
-    /// of the run, over which motions err by the same part; other events bend forces alone.
+    /// True where the step from a state to the next is to be taken in halves. A failure inside the step may be late by `tolerance` times
+    /// the duration of the run, which shifts motions by the same part. Other events change only the slope of forces.
     pub fn is_passed(&self, cx: &Context, [before, after]: [&State; 2], tolerance: f64) -> bool {
         let (dt, analysis) = (after.time - before.time, &cx.model.analysis);
         let longer_than = |part: f64| dt > (part * analysis.duration()).max(2.0 * analysis.least_step);

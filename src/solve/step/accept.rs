@@ -13,11 +13,12 @@ use crate::system::contact_work;
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
-/// Accepts the equilibrium that was found: the state moves to the time `to`, written once. `work` is that of loads and damping where the
-/// stages of the step tell it better than its ends.
+/// Accepts the equilibrium that was found: the state moves to the time `to`, written once. `work` holds the work of loads and damping by
+/// quadrature over the stages; `None` uses the trapezoidal rule over the step.
 ///
 /// # Errors
-/// [`Failure::ConstraintsViolated`] where joints cannot be closed at the end of the step, and what guards refuse there; `state` is untouched.
+/// [`Failure::ConstraintsViolated`] if the joints cannot be closed at the end of the step, and the failures of the guards; `state` is
+/// untouched.
 pub fn accept(
     cx: &Context,
     ws: &mut Workspace,
@@ -59,8 +60,8 @@ fn account(cx: &Context, ws: &mut Workspace, step: &Step) -> Account {
         }
     }
     if has_history {
-        // Plastic strains, like reactions, are taken where equilibrium is written and extrapolated linearly to the end
-        // of the step: at the end itself stiff parts are not in equilibrium, and would yield from step to step.
+        // Plastic strains are evaluated at the instant of equilibrium and extrapolated linearly to the end of the step. At the end itself
+        // stiff parts are out of equilibrium and would yield from step to step.
         let ahead = 1.0 / step.stage.scheme.instant;
         account.dissipated = cx.system.update_history(&now, ahead, &mut ws.history, cx.plan.threads);
     }

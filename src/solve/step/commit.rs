@@ -21,7 +21,7 @@ pub struct Account {
     pub damping_power: Option<f64>,
     /// Work of loads and damping by quadrature over the stages; `None`: by the trapezoidal rule over the step.
     pub work: Option<WorkQuadrature>,
-    /// What the trapezoidal rule over a load step counts too much because contacts close or open on the way.
+    /// Excess of the trapezoidal rule in the work of a load step, caused by contacts that close or open within the step.
     pub contact_excess: f64,
 }
 
@@ -64,8 +64,8 @@ pub fn commit(
             (state.work.external, state.work.damping) = (before.external, before.damping);
             work.add_to(&mut state.work);
             if !cx.numbers.is_empty() {
-                // In a stage a drive carries what the error of the accelerations there takes; at the end of a step they have been
-                // projected, and the trapezoidal rule is of second order.
+                // The reaction of a driven joint within a stage includes the error of the accelerations there. At the end of a step the
+                // accelerations are projected, so the trapezoidal rule is of second order.
                 state.work.external += driven;
             }
         }
@@ -79,7 +79,7 @@ pub fn commit(
     ws.note_slip(cx, state, dt);
 }
 
-/// As [`commit`] for explicit steps, whose trial motion is that at the end.
+/// Like [`commit`], for explicit steps: their trial motion already lies at the end of the step.
 pub fn commit_trial(
     cx: &Context,
     ws: &mut Workspace,
@@ -100,8 +100,8 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
     for &node in &cx.independent_nodes {
         let (start, end, increment) = (&state.nodes[node], &ws.end.nodes[node], &ws.end.increments[node]);
         let before = stack(&start.a, &start.alpha);
-        // The combination holds for the second derivative of the rotation vector of the step, or for the rates of a body's angular
-        // momentum; it is stored as a spatial vector like every other acceleration.
+        // The combination applies to the second derivative of the rotation vector of the step, or to the rates of a body's angular
+        // momentum. It is stored as a spatial vector like every other acceleration.
         let old = state.algorithmic_accelerations[node];
         let a = old * of_a + before * of_start + increment.dd * of_end;
         let turn = match TurningBody::next_at(&mut bodies, node) {
@@ -114,8 +114,8 @@ fn update_algorithmic_accelerations(cx: &Context, ws: &Workspace, state: &mut St
     }
 }
 
-/// Updates reactions and work. Reactions and damping power are taken where equilibrium is written and extrapolated
-/// linearly to the end of the step, where stiff parts are not in equilibrium. Returns the work on prescribed motion.
+/// Updates reactions and work. Reactions and damping power are evaluated at the instant of equilibrium and extrapolated linearly to the end
+/// of the step, because stiff parts are out of equilibrium there. Returns the work on prescribed motion.
 fn update_reactions_and_work(
     cx: &Context,
     ws: &Workspace,

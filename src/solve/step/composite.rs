@@ -1,4 +1,4 @@
-//! A step in two stages, of which the second also uses the start of the step (Bathe's scheme).
+//! A step in two stages; the second stage also uses the start of the step (Bathe's scheme).
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -19,7 +19,7 @@ pub struct Composite<'a> {
     start: State,
     /// Velocities and accelerations that the second stage uses at its start, by node.
     start_rates: Vec<[Vec6; 2]>,
-    /// What stands in place of accelerations of turning bodies there.
+    /// For each turning body, the substitutes for its accelerations at the start of the second stage.
     turning: Vec<[Vec3; 2]>,
 }
 

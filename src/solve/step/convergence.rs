@@ -11,7 +11,7 @@ pub struct Convergence {
     last: Option<Correction>,
     /// The contraction that the first correction is judged by.
     usual: f64,
-    /// Number of corrections whose residual was not half of that before.
+    /// Number of corrections whose residual stayed above half of the previous one.
     stagnant: usize,
 }
 
@@ -94,8 +94,8 @@ impl Judgement {
         self.contraction > SLOW
     }
 
-    /// True where the residual has so often not fallen that it will not: the first correction of a step may well raise it, where
-    /// rotations stretch what they should only bend.
+    /// True once the residual has failed to fall so often that further iterations are useless. A single rise proves nothing: the first
+    /// correction of a step may stretch parts that only bend.
     pub fn is_stagnant(&self) -> bool {
         self.stagnant >= STAGNANT
     }

@@ -1,10 +1,10 @@
-//! When the iteration ends: its tolerance, and what earlier steps tell of its contraction.
+//! The tolerance of the equilibrium iteration, and the contraction seen in earlier steps.
 //!
-//! Where the deck gives no tolerance, equal steps are iterated to a part of their own error (E. Hairer & G. Wanner, Solving Ordinary
-//! Differential Equations II, IV.8). Predictions let accelerations go on in a straight line, so the first correction is what the second
-//! difference of the accelerations moves, Δt² times their second derivative; schemes of second order err by a twelfth of that and more.
-//! Errors are compared as accelerations, for what is left unbalanced acts on in all steps to come. A tolerance of the deck is a ceiling over
-//! that: errors of one sign add up over the steps, so a tolerance that does not know their number may not end an iteration.
+//! If the deck gives no tolerance, steps of equal length are iterated to a part of the error that each step makes (E. Hairer & G. Wanner,
+//! Solving Ordinary Differential Equations II, IV.8). The prediction extrapolates accelerations linearly, so the first correction is the
+//! second difference of the accelerations, Δt² times their second derivative. Schemes of second order err by at least a twelfth of it.
+//! Errors are compared as accelerations, because a residual force acts on in all later steps. A tolerance from the deck is an upper bound:
+//! errors of one sign add up over the steps, and a fixed tolerance does not account for their number.
 
 use crate::context::Context;
 use crate::step::convergence::Judgement;
@@ -27,9 +27,9 @@ pub struct ConvergenceTolerance {
     bounds: [f64; 2],
     /// The contraction seen last; none is carried from step to step where every step is iterated to the digits of the deck.
     contraction: Option<f64>,
-    /// True where steps are iterated to a part of the error that they may leave.
+    /// True if steps are iterated to a part of the error that the controller allows.
     pub carries: bool,
-    /// True where steps are iterated to a part of the error that they make.
+    /// True if steps are iterated to a part of the error that they make.
     of_own_error: bool,
 }
 
@@ -45,21 +45,21 @@ impl ConvergenceTolerance {
         ConvergenceTolerance { tolerance, residual: tolerance, bounds, contraction: None, carries: false, of_own_error }
     }
 
-    /// Iterates to a part of the error that steps may leave, and takes the contraction of one step for that of the next.
+    /// Iterates to a part of the allowed `error` of a step, and starts the next step with the contraction of the last one.
     pub fn follow(&mut self, error: f64) {
         (self.tolerance, self.carries) = (self.bounded(PART * error), true);
         self.residual = self.bounded(PART_OF_FORCES * error);
         self.contraction = None;
     }
 
-    /// The contraction by which the first correction of a step is judged.
+    /// The contraction assumed for the first correction of a step.
     pub fn usual(&self) -> f64 {
         self.contraction.map_or(UNKNOWN, |seen| seen.min(UNKNOWN))
     }
 
-    /// The tolerances of correction and residual in a step that begins with a correction of this relative size, which answers this
-    /// relative residual; none where all steps have the same. Contractions are not carried over here: without a second correction that
-    /// confirms, what is left has one sign for many steps and adds up to a sixth of their error.
+    /// The tolerances of correction and residual for a step whose first correction has this relative size and residual; `None` if all steps
+    /// have the same tolerances. Contractions are not carried over here: without a second correction the remaining errors keep one sign and
+    /// add up to a sixth of the error of the steps.
     pub fn of_step(&self, size: f64, residual: f64) -> Option<[f64; 2]> {
         self.of_own_error
             .then(|| [size, residual].map(|first| self.bounded((PART_OF_FIRST * first).min(MOST_OF_FIRST))))
@@ -91,8 +91,8 @@ fn follows_own_error(cx: &Context) -> bool {
         && (!cx.model.solution.iteration.follows_step || may_keep_less(cx))
 }
 
-/// True where energy need not be kept to the digits of the default. Steps that end with their own error keep it to that and no better,
-/// which schemes that dissipate do not promise; bodies alone turn with an error of higher order.
+/// True where energy need not be kept to the digits of the default. Iterating to the error of the steps conserves energy only to it, which
+/// is enough for dissipative schemes. Models of rigid bodies only are excluded: their rotations have an error of higher order.
 fn may_keep_less(cx: &Context) -> bool {
     let scheme = &*cx.model.solution.scheme;
     matches!(scheme.stepping(), Stepping::OneStage)

@@ -9,7 +9,7 @@ use base::math::rotation::inverse_tangent;
 use base::math::{Vec6, angular, larger};
 use base::snapshot::keep;
 
-/// The solution of a linear system by unknown: displacements and rotations, then multipliers as [`Multipliers::add`] takes them.
+/// The solution of a linear system by unknown: displacements and rotations, then multipliers as used by [`Multipliers::add`].
 pub struct Correction {
     /// Its entries.
     pub values: Vec<f64>,
@@ -49,7 +49,8 @@ impl Correction {
     }
 
     /// Shortens the correction to what may still lie on the way to the equilibrium; returns whether it did. A flat membrane resists
-    /// pressure by its bending alone until it has moved: its first correction is far too long, and each later one takes a third of that back.
+    /// pressure only by its bending stiffness until it has moved. Its first correction is far too long, and each later one reduces it by
+    /// only a third.
     pub fn shorten(&mut self, cx: &Context) -> bool {
         let size = self.size(cx);
         let excess = (size.translation / (LARGEST[0] * cx.length)).max(size.rotation / LARGEST[1]);
@@ -100,10 +101,10 @@ pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
     translation.max(correction.rotation / motion.rotation.max(STILL))
 }
 
-/// True for a correction that changes only the last digits of positions, which are as large as `reach`. The iteration must have stopped
-/// contracting as well, for increments and accelerations have more digits than positions. Axial stiffness turns rounding of positions
-/// into forces, and bending answers these with corrections larger by the slenderness squared. Where even a `fresh`
-/// matrix does not help, four more digits are allowed for that, and rotations follow positions over the model's length.
+/// True if a correction changes only the last digits of positions, whose magnitude is `reach`. The iteration must have stopped contracting
+/// as well, for increments and accelerations have more digits than positions. Axial stiffness turns rounding of positions into forces, and
+/// bending answers these with corrections larger by the slenderness squared. With a `fresh` matrix the limit is wider by four digits, and
+/// the limit of rotations follows positions over the model's length.
 pub fn is_rounding(cx: &Context, reach: f64, correction: Size, fresh: bool) -> bool {
     let (translation, rotation) = if fresh {
         (SLENDER * ROUNDING * reach, SLENDER * ROUNDING * (reach / cx.length).max(1.0))

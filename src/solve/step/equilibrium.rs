@@ -17,17 +17,17 @@ use base::snapshot::keep;
 use linear::TooLarge;
 use mechanics::state::State;
 
-/// Takes the stages of implicit steps. What a scene does not need is `None`.
+/// Takes the stages of implicit steps. Parts that a model does not need are `None`.
 pub struct EquilibriumSolver {
     /// The equilibrium iteration.
     pub newton: Newton,
-    /// What refuses steps, or warns of them.
+    /// The guards that refuse steps or warn of them.
     guards: Guards,
     /// Projection onto the constraints in a dynamic analysis with joints.
     projection: Option<ConstraintProjection>,
-    /// What closes contacts without depth in load steps.
+    /// The augmentation that closes contacts without penetration in load steps.
     augmentation: Option<Box<Augmentation>>,
-    /// True where loads grow along the path at the equilibrium at hand; a path of given arc length may go back.
+    /// True if loads grow along the path at the current equilibrium; with arc-length control they may fall.
     pub grows: bool,
 }
 
@@ -79,7 +79,7 @@ impl EquilibriumSolver {
         accepted
     }
 
-    /// Finds the equilibrium without depth from the one at hand; the history of `state` then has its multipliers.
+    /// Finds the equilibrium without penetration from the current one and writes its contact multipliers to the history of `state`.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -131,8 +131,8 @@ impl EquilibriumSolver {
         self.newton.equilibrate(cx, ws, &mut self.guards, step, path)
     }
 
-    /// Finds an equilibrium inside a step that was taken, as [`EquilibriumSolver::find`]: what is learnt there of matrices and contraction
-    /// does not count for the steps.
+    /// Finds an equilibrium inside a completed step, like [`EquilibriumSolver::find`]. The statistics of matrices and contraction stay
+    /// those of the steps.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -163,7 +163,7 @@ impl EquilibriumSolver {
         self.accept_with(cx, ws, state, (stage, to), None)
     }
 
-    /// Accepts the equilibrium that was found at the end of a step whose stages tell the work of loads and damping.
+    /// Accepts the equilibrium at the end of a step with stages; `work` is the work of loads and damping by quadrature over the stages.
     ///
     /// # Errors
     /// As for [`accept`]; `state` is untouched.

@@ -22,7 +22,7 @@ pub struct Implicit<'a> {
 
 keep!(Implicit<'_> { solver, stages });
 
-/// The stages of a step, with what they need besides the iteration.
+/// The stages of a step, with their data besides the iteration.
 enum Stages<'a> {
     One,
     Composite(Composite<'a>),
@@ -63,8 +63,7 @@ impl<'a> Implicit<'a> {
         }
     }
 
-    /// Writes the state at a time inside the last step, which has led from the first state to the time beside it; `None` for schemes that
-    /// know their motion at the ends of steps alone.
+    /// Writes the state at a time inside the last step, given by its start state and end time; `None` if the scheme interpolates no motion.
     ///
     /// # Errors
     /// See [`Failure`].

@@ -1,7 +1,7 @@
-//! What the load steps of a static analysis leave to those after them: the largest loads and forces so far, and their works.
+//! The data that load steps of a static analysis pass to later ones: the largest loads and forces so far, and their works.
 //!
-//! Where the loads have gone back to zero, what is left in an elastic structure is rounding, which balances nothing: the forces that it
-//! had are then the measure.
+//! Once the loads are back at zero, the remaining forces of an elastic structure are rounding errors. The residual is then measured by the
+//! largest earlier forces.
 
 use crate::sudden_loads::SuddenLoads;
 use crate::system::{Loading, Prescribed, Scale};
@@ -17,9 +17,9 @@ pub struct Peak {
     pub forces: Scale,
     /// The forces of the residual evaluated last.
     last: Scale,
-    /// True where nothing acts any more in the step at hand.
+    /// True if all loads and prescribed displacements have gone in the current step.
     released: bool,
-    /// True where no loads act in the step at hand, and supports are where they were or have moved so far that stresses would be seen.
+    /// True if no loads act in the current step, and the supports are either unmoved or moved far enough to cause visible stresses.
     unloaded: bool,
     /// True where the last equilibrium had no forces but those of rounding.
     pub unstressed: bool,
@@ -29,18 +29,18 @@ pub struct Peak {
 
 keep!(Peak { acting, forces, last, released, unloaded, unstressed, stressed });
 
-/// What load steps leave to those after them.
+/// The data that load steps pass to later ones.
 #[derive(Debug, Clone, Default)]
 pub struct LoadSteps {
     /// Time and stored energy at the end of the last one.
     pub stored: Option<(f64, f64)>,
-    /// Time at the start of the last one that was refused for its work, and what was missed.
+    /// Start time of the last load step that was refused for its work, and the missing work.
     pub doubtful: Option<(f64, f64)>,
     /// The largest loads and forces so far.
     pub peak: Peak,
     /// The works of loads and supports.
     pub works: Works,
-    /// The loads that the step under way brings on.
+    /// The loads that the current step introduces gradually.
     pub sudden: Option<SuddenLoads>,
     /// True where no step was short enough to leave the unstressed state: corrections are shortened then.
     pub careful: bool,
@@ -68,9 +68,9 @@ pub struct Works {
     supports: f64,
     /// The largest sum of their magnitudes: what supports do to loads may leave nothing of either.
     pub largest: f64,
-    /// The sum of the works of single loads and supports in all steps, without signs: twice what they do to each other where they cancel.
+    /// The sum of the works of single loads and supports in all steps, without signs; works that cancel count twice.
     pub gross: f64,
-    /// What loads may have done before they were in equilibrium, where they act at once.
+    /// Upper bound of the work of suddenly applied loads before equilibrium was reached.
     pub sudden: f64,
 }
 
@@ -87,7 +87,7 @@ impl Works {
 }
 
 impl Peak {
-    /// Looks at what acts at the end of a load step in a model of this length.
+    /// Records the loads and prescribed displacements at the end of a load step; `length` is the length of the model.
     pub fn begin_step(&mut self, loads: &Loading, prescribed: &[Prescribed], length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let moved = prescribed.iter().fold(0.0, |most: f64, given| most.max(given.u.abs()));
@@ -98,7 +98,7 @@ impl Peak {
         self.acting.iter_mut().zip(acting).for_each(|(most, now)| *most = most.max(now));
     }
 
-    /// The forces by which a residual is measured whose own forces are `scale`.
+    /// The reference forces of a residual whose own forces are `scale`.
     pub fn scale(&mut self, scale: Scale) -> Scale {
         self.last = scale;
         match self.released {
@@ -107,8 +107,8 @@ impl Peak {
         }
     }
 
-    /// True where an equilibrium with this residual has no forces but those of rounding, as where nothing acts yet, or supports move all
-    /// that hangs on them as one.
+    /// True if an equilibrium with this residual has only forces of rounding size: nothing acts yet, or the supports move the whole
+    /// structure as a rigid body.
     pub fn is_unstressed(&self, residual: f64) -> bool {
         self.unloaded && residual > ROUNDING
     }

@@ -26,8 +26,7 @@ use crate::tolerances::iteration::{BALANCED, LONGER, NEAR_LIMIT};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 
-/// Newton's method, modified where a matrix is worth keeping, with what it needs besides the workspace. What a scene does not need is
-/// `None`.
+/// Newton's method, modified where reusing a matrix pays, with its data besides the workspace. Parts that a model does not need are `None`.
 pub struct Newton {
     /// The matrix that it solves with.
     pub matrix: IterationMatrix,
@@ -54,7 +53,7 @@ enum Verdict {
 }
 
 impl Newton {
-    /// The iteration that the deck asks for.
+    /// The iteration chosen in the deck.
     pub fn new(cx: &Context) -> Newton {
         let (method, _) = Refresh::rule(cx);
         Newton {
@@ -73,8 +72,8 @@ impl Newton {
         predict(cx, ws, step);
     }
 
-    /// Finds the equilibrium of a step from the increments at hand. Under a condition in place of the time it finds the equilibrium where the
-    /// condition holds, from the end of the step on.
+    /// Finds the equilibrium of a step from the current increments. Under a condition in place of the time it finds the equilibrium where
+    /// the condition holds, from the end of the step on.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -91,7 +90,7 @@ impl Newton {
         self.arrive(ws, found)
     }
 
-    /// Finds the equilibrium anew from the one at hand, under contact forces that have been changed.
+    /// Finds the equilibrium again from the current one, under changed contact forces.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -108,8 +107,8 @@ impl Newton {
         self.arrive(ws, found)
     }
 
-    /// Begins an equilibrium inside a step that was taken. Returns what the steps go on with: what is learnt meanwhile of matrices and
-    /// contraction does not count for them.
+    /// Begins an equilibrium inside a step that was taken. Returns the refresh rule and tolerance of the steps, which resume with them
+    /// unchanged.
     pub fn begin_inside(&mut self) -> (Refresh, ConvergenceTolerance) {
         let inside = self.matrix.refresh.inside();
         (std::mem::replace(&mut self.matrix.refresh, inside), self.tolerance)
@@ -125,13 +124,13 @@ impl Newton {
         self.extrapolation.forget();
     }
 
-    /// Discards the matrix at hand, which belongs to a motion that was not taken or to other loads.
+    /// Discards the current matrix, which belongs to a rejected motion or to other loads.
     pub fn discard_matrix(&mut self) {
         self.matrix.discard();
         self.extrapolation.forget();
     }
 
-    /// The iteration itself. Each line is a stage of it or a named point at which strategies and guards are asked.
+    /// The iteration itself. Each line is a stage of it, or a named point where strategies and guards act.
     fn iterate(
         &mut self,
         cx: &Context,
@@ -181,7 +180,7 @@ impl Newton {
         self.regime.begin(cx, ws);
     }
 
-    /// Evaluates the residual of the iterate; that of a prediction, which only steps to a given time have, may be linearized.
+    /// Evaluates the residual of the iterate; at the prediction of a step to a given time it may be linearized.
     fn residual(&mut self, cx: &Context, ws: &mut Workspace, step: &Step, progress: &mut StepProgress) {
         let linearized = match std::mem::take(&mut progress.predicted) && progress.has_given_time {
             true => self.linearized.as_mut().and_then(|linearized| linearized.evaluate(cx, ws, step)),
@@ -198,7 +197,7 @@ impl Newton {
         let Workspace { residual, trial, forces, .. } = ws;
         let shortened = relaxation.shorten(cx, residual, size, trial, &mut forces.multipliers);
         if shortened {
-            // The correction that was extrapolated with is no longer the one that was applied.
+            // The extrapolation used the full correction, which no longer is the applied one.
             self.extrapolation.restart();
         }
         shortened
@@ -271,7 +270,7 @@ impl Newton {
         if progress.is_exhausted() {
             return Ok(Verdict::Exhausted);
         }
-        // The second correction may well be longer than the first, which begins from what was predicted.
+        // The first correction starts from the prediction, so the second may well be longer.
         if judgement.grows && iterations > 2 && progress.new_matrix && self.extrapolation.mistrust() {
             return Ok(Verdict::Restart);
         }
@@ -327,7 +326,7 @@ impl Newton {
         self.relaxation.iter_mut().for_each(Relaxation::forget);
     }
 
-    /// What an equilibrium, or that there is none, tells those to come.
+    /// Passes the outcome of an iteration, an equilibrium or a failure, to later ones.
     fn arrive(&mut self, ws: &mut Workspace, found: Result<StepReport, Failure>) -> Result<StepReport, Failure> {
         let unheld = self.matrix.unheld();
         let found = found.map_err(|failure| match failure {

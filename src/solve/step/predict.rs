@@ -1,4 +1,4 @@
-//! What a step begins with: its loads and prescribed motion, and a prediction; and how its trial motion follows the increments.
+//! The start of a step: its loads, prescribed motion and prediction, and the update of the trial motion from the increments.
 
 use crate::context::Context;
 use crate::step::trial::{Step, reach};
@@ -27,9 +27,8 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
         a: a.a + instant * (b.a - a.a),
     }));
     if instant > 1.0 {
-        // Joints take accelerations of what they tie to a prescribed motion from its positions, so positions and
-        // accelerations must be consistent. Past the end of the step, linear extrapolation of positions would leave six
-        // sevenths of the acceleration out.
+        // The accelerations of parts joined to a prescribed motion follow from its positions, so positions and accelerations must be
+        // consistent. Past the end of the step, linear extrapolation of positions would leave six sevenths of the acceleration out.
         let tau = instant * (to - from);
         for &i in &cx.driving {
             let (start, now) = (&prescribed.start[i], &mut prescribed.instant[i]);

@@ -16,15 +16,15 @@ use crate::workspace::Workspace;
 pub struct StepProgress {
     pub report: StepReport,
     pub convergence: Convergence,
-    /// True where the matrix was formed for the iterate at hand.
+    /// True if the matrix was formed for the current iterate.
     pub new_matrix: bool,
-    /// Number of iterations after which the step is given up.
+    /// Number of iterations after which the step fails.
     pub limit: usize,
-    /// True where the increments at hand are the prediction.
+    /// True if the current increments are the prediction.
     pub predicted: bool,
     /// True where the time of the step is given, not found.
     pub has_given_time: bool,
-    /// True where the correction at hand tells nothing of convergence: it was shortened, or answers a linearized residual.
+    /// True if the current correction says nothing about convergence: it was shortened, or answers a linearized residual.
     pub unjudged: bool,
     /// Number of corrections still needed at the contraction seen last.
     pub remaining: f64,
@@ -52,13 +52,12 @@ impl StepProgress {
         }
     }
 
-    /// The same where the increments at hand are those of an equilibrium under other forces.
+    /// This progress for a start from an equilibrium under other forces.
     pub fn at_equilibrium(self) -> StepProgress {
         StepProgress { predicted: false, ..self }
     }
 
-    /// Moves the end of the step. A correction δt of the time leaves an error of the loads of order δt², whatever the
-    /// motion.
+    /// Moves the end of the step. A correction δt of the time causes an error of the loads of order δt², for every motion.
     pub fn move_time(&mut self, cx: &Context, to: f64) {
         self.time_error = ((to - self.report.to) / cx.model.analysis.duration()).powi(2);
         self.report.to = to;
@@ -69,7 +68,7 @@ impl StepProgress {
         Iterate { number: self.report.iterations, new_matrix: self.new_matrix, converged }
     }
 
-    /// True where the matrix at hand was formed in this step.
+    /// True if the current matrix was formed in this step.
     pub fn has_own_matrix(&self) -> bool {
         self.report.factorizations > 0
     }
@@ -79,14 +78,14 @@ impl StepProgress {
         self.report.iterations >= self.limit
     }
 
-    /// The number of iterations that would do, with half as many to spare, where corrections still shrink and twice the limit is enough.
+    /// The number of iterations that would suffice, with a reserve of one half; `None` if it exceeds twice the limit.
     pub fn enough(&self) -> Option<usize> {
         let needed = 1.5 * (self.report.iterations as f64 + self.remaining);
         (needed <= 2.0 * self.limit as f64).then(|| needed.ceil() as usize)
     }
 
-    /// Judges convergence to this relative `tolerance`. Where material yields, one contraction says little of the next, and what is small
-    /// against positions may be large against elastic strains: the residual must have decreased as well, or nothing but rounding be left.
+    /// Judges convergence to this relative `tolerance`. If material yields, one contraction says little about the next, and corrections
+    /// small against positions may be large against elastic strains. The residual must then also have decreased, or be rounding.
     pub fn has_converged(
         &self,
         cx: &Context,

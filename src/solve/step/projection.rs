@@ -1,9 +1,8 @@
-//! Projection onto the constraints at the end of a step and at the start of a run. Where a scheme writes equilibrium
-//! past the end of the step, the joints are not closed at the end itself. Position, velocity and acceleration there are
-//! projected onto the constraints, one after the other, by the least change in the norm of the masses (E. Eich, SIAM J.
-//! Numer. Anal. 30 (1993)), as if the joints had exerted slightly other forces within the step: they do not drift, and
-//! the accelerations of one step bring no oscillation into the next. The result does not depend on the path of the
-//! iteration.
+//! Projection onto the constraints at the end of a step and at the start of a run. Where a scheme writes equilibrium past the end of the
+//! step, the joints are not closed at the end itself. Position, velocity and acceleration there are projected onto the constraints, one
+//! after the other, by the least change in the norm of the masses (E. Eich, SIAM J. Numer. Anal. 30 (1993)), as if the joints had exerted
+//! slightly different forces within the step. Joints therefore do not drift, and accelerations of one step cause no oscillation in the
+//! next. The result does not depend on the path of the iteration.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -42,9 +41,9 @@ pub struct ConstraintProjection {
 
 keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless, shares });
 
-/// What the joints must carry in addition for the accelerations that were projected last: with M a + Gᵀλ = f before and
-/// M δa + Gᵀδλ = 0, forces and accelerations at the end of a step belong to one another, and both are of the scheme's order.
-/// Where equilibrium is written past the end, forces are carried there on a straight line, which has that order already.
+/// The change of the joint forces due to the last projection of accelerations. With M a + Gᵀλ = f before and M δa + Gᵀδλ = 0, forces and
+/// accelerations at the end of a step have the order of the scheme. If equilibrium is written past the end of the step, linear
+/// interpolation of the forces to the end already has that order.
 #[derive(Default)]
 struct ForceChange {
     /// δλ, per constraint equation.
@@ -56,7 +55,7 @@ struct ForceChange {
 keep!(ForceChange { multipliers, reactions });
 
 impl ForceChange {
-    /// No change: what an earlier step has noted belongs to that step alone.
+    /// Clears the change: it belongs only to the step that recorded it.
     fn forget(&mut self) {
         self.multipliers.fill(0.0);
         self.reactions.clear();
@@ -117,8 +116,8 @@ impl ConstraintProjection {
         needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
     }
 
-    /// Projects the motion at the end of a step of length `dt` from `state` onto the constraints, and writes the increments that lead there;
-    /// `reach` is the largest coordinate of a node.
+    /// Projects the motion at the end of a step of length `dt` from `state` onto the constraints and writes its increments; `reach` is the
+    /// largest coordinate of a node.
     ///
     /// # Errors
     /// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
@@ -177,7 +176,7 @@ impl ConstraintProjection {
         false
     }
 
-    /// Projects velocities, then accelerations, and notes what the joints carry in addition for the latter.
+    /// Projects velocities, then accelerations, and records the change of the joint forces due to the latter.
     fn close_rates(&mut self, cx: &Context, end: &mut End) {
         self.close_rate(cx, end, 1);
         // Trial steps may have another scheme.
@@ -225,7 +224,7 @@ impl ConstraintProjection {
         }
     }
 
-    /// Adds to the multipliers what the joints carry for the accelerations projected last.
+    /// Adds the change of the joint forces due to the last projection of accelerations to the multipliers.
     pub fn carry_multipliers(&self, multipliers: &mut [f64]) {
         multipliers.iter_mut().zip(&self.change.multipliers).for_each(|(value, change)| *value += change);
     }
@@ -242,7 +241,7 @@ impl ConstraintProjection {
         cx.system.largest_gap(gaps, end.reach)
     }
 
-    /// Makes one correction of the motion, its velocity or its acceleration: the least that closes the gaps at hand.
+    /// Corrects the motion, its velocity or its acceleration once, by the least change that closes the current gaps.
     fn correct(&mut self, cx: &Context, end: &mut End, derivative: usize) {
         let End { motion, state, scheme, .. } = end;
         self.r[..cx.nodal_unknowns()].fill(0.0);
@@ -272,9 +271,9 @@ impl ConstraintProjection {
         motion.update_dependent_nodes(cx, &state.nodes);
     }
 
-    /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least
-    /// ones with the same forces. In a load step the regularization alone would not do: gaps of second order on the way to equilibrium, over
-    /// ε, stay in what redundant joints do to each other, and grow from step to step.
+    /// Replaces the multipliers of redundant constraint equations, which equilibrium does not determine, by the least ones with the same
+    /// forces. In a load step the regularization is not enough: second-order gaps, divided by ε, remain as self-equilibrated forces of
+    /// redundant joints and grow.
     pub fn distribute_multipliers(&mut self, cx: &Context, nodes: &[Node], state: &mut State) {
         if !cx.plan.has_redundant_constraints() {
             return;
@@ -287,7 +286,7 @@ impl ConstraintProjection {
         let mut left = std::mem::take(&mut state.multipliers);
         state.multipliers = std::mem::take(&mut self.shares);
         state.multipliers.fill(0.0);
-        // M δ + Gᵀμ = Gᵀλ, G δ = 0. A solution leaves the part ε of the forces, which a second one shares out.
+        // M δ + Gᵀμ = Gᵀλ, G δ = 0. One solution misses the fraction ε of the forces; a second one distributes it.
         for _ in 0..2 {
             forces.multipliers.values.copy_from_slice(&left);
             bare.joint_forces(nodes, forces);

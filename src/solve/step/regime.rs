@@ -1,4 +1,4 @@
-//! What steps of load and steps of time do differently in their iteration.
+//! The differences between load steps and time steps in the equilibrium iteration.
 
 use crate::context::Context;
 use crate::tolerances::progress::UNBALANCED;
@@ -10,10 +10,10 @@ pub trait Regime {
     /// The relation between displacements and their rates in a step of one stage.
     fn coefficients(&self, cx: &Context, dt: f64) -> Coefficients;
 
-    /// Looks at what acts in a step that begins.
+    /// Records the loads and prescribed motion of a step that begins.
     fn begin(&self, _cx: &Context, _ws: &mut Workspace) {}
 
-    /// True where this residual is as small as a step that ends at rounding with this tolerance has to have it.
+    /// True if this residual is small enough for a step that ends at rounding, with this tolerance of the deck.
     fn is_precise(&self, _ws: &Workspace, _residual: f64, _tolerance: f64) -> bool {
         true
     }

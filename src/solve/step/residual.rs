@@ -51,7 +51,7 @@ impl Residual {
                 moment = larger(moment, size);
             }
         }
-        // Forces and moments are judged apart; where one has no scale of its own, the other counts over the model's length.
+        // Forces and moments are judged separately; if one has no scale, the other is used with the model's length as arm.
         let forces = scale.force.max(OTHER * scale.moment / cx.length);
         let moments = scale.moment.max(OTHER * scale.force * cx.length);
         let ratio = |size: f64, of: f64| if size == 0.0 { 0.0 } else { size / of.max(f64::MIN_POSITIVE) };

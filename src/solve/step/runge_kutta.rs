@@ -1,11 +1,11 @@
 //! Steps of diagonally implicit Runge-Kutta schemes.
 //!
-//! What moves is y = (q, q̇), q the increment of the step with its rotation vector: in these coordinates the motion is an ordinary
-//! differential equation, and a scheme of order p is of order p for it, rotations included. Every stage finds its equilibrium
-//! from the start of the step; the last is the end of the step.
+//! The unknowns are y = (q, q̇) with q the increment of the step including its rotation vector. In these coordinates the motion is an
+//! ordinary differential equation, so a scheme keeps its order p for rotations too. Every stage finds its equilibrium from the start of the
+//! step; the last is the end of the step.
 //!
-//! Inside a step the motion is that of the polynomial of fifth degree through both ends, their velocities and their accelerations, of
-//! which one more stage makes an equilibrium: forces and energies there are as exact as at the ends, with stiff parts too.
+//! Inside a step the motion is the polynomial of fifth degree through positions, velocities and accelerations at both ends. One more stage
+//! equilibrates it, so forces and energies are as accurate as at the ends, even with stiff parts.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -26,9 +26,9 @@ pub struct StageStepper {
     tableau: &'static StageTableau,
     /// Rates (q̇, q̈) of all stages of the last step, stage by stage, of the independent nodes.
     rates: Vec<[Vec6; 2]>,
-    /// What the stage at hand starts from, (q*, q̇*)/(γΔt), by node.
+    /// Start values of the current stage, (q*, q̇*)/(γΔt), by node.
     start_rates: Vec<[Vec6; 2]>,
-    /// The predicted increments of the stage at hand, by node.
+    /// The predicted increments of the current stage, by node.
     prediction: Vec<Vec6>,
     /// Weights of the accelerations of earlier stages in the predicted ones, by stage.
     extrapolation: Vec<Vec<f64>>,
@@ -39,7 +39,7 @@ pub struct StageStepper {
     /// Power at both ends of it, and its work.
     powers: [Power; 2],
     work: WorkQuadrature,
-    /// True where motion is prescribed whose work the stages tell; that of drives of joints is taken from the ends of steps.
+    /// True if the stages integrate the work on prescribed motion; the work of joint drives follows from the ends of steps.
     driven: bool,
 }
 
@@ -148,7 +148,7 @@ impl StageStepper {
         }
     }
 
-    /// Writes what a stage starts from, and its prediction.
+    /// Writes the start values of a stage, and its prediction.
     fn start_stage(&mut self, cx: &Context, state: &State, stage: usize, dt: f64) {
         let moving = cx.independent_nodes.len();
         let ahead = self.tableau.gamma * dt;
@@ -174,8 +174,8 @@ impl StageStepper {
         }
     }
 
-    /// Writes what the stage inside the last step starts from, such that the polynomial through its ends is the prediction and needs no
-    /// correction where it is in equilibrium.
+    /// Writes the start values of the stage inside the last step such that its prediction is the polynomial through both ends. No
+    /// correction is needed if the polynomial is in equilibrium.
     fn start_inside(&mut self, cx: &Context, part: f64, dt: f64) {
         let ahead = self.tableau.gamma * dt;
         let weights = quintic::weights(part, dt);
@@ -194,7 +194,7 @@ impl StageStepper {
         }
     }
 
-    /// The power of the equilibrium that was found; the forces at hand are lost.
+    /// The power at the equilibrium that was found; the current forces are overwritten.
     fn power(&self, cx: &Context, ws: &mut Workspace, found: &Step) -> Power {
         move_trial(cx, ws, found);
         if self.driven {

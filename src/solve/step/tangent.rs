@@ -1,4 +1,4 @@
-//! The matrix of the iteration: formed where it is due, carried along with a scene that turns.
+//! The matrix of the iteration: formed when due, and rotated with the model.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -16,20 +16,20 @@ use mechanics::integrators::Coefficients;
 use mechanics::state::{Configuration, Node};
 use model::Update;
 
-/// The matrix at hand; its numbers are in the workspace.
+/// The current matrix; its values are in the workspace.
 pub struct IterationMatrix {
-    /// The rule by which it is renewed.
+    /// The rule that decides when it is renewed.
     pub refresh: Refresh,
-    /// What carries it along with a scene that turns.
+    /// The rotation of the matrix with the model, if used.
     rotated: Option<RotatedMatrix>,
     mechanisms: MechanismWatch,
     /// The factor of the mass in it.
     pub mass_weight: f64,
     /// The first matrix of a load step, where it was singular and a stabilized one has led on.
     unheld: Option<Unheld>,
-    /// True where the matrix at hand is stabilized.
+    /// True if the current matrix is stabilized.
     is_stabilized: bool,
-    /// True where the matrix at hand has elastic moduli because the tangent had a pivot that vanished.
+    /// True if the current matrix has elastic moduli because a pivot of the tangent vanished.
     has_yielded: bool,
 }
 
@@ -50,11 +50,11 @@ impl IterationMatrix {
         }
     }
 
-    /// Forms and factorizes the matrix for the trial motion where that is due; returns whether it was. `lead` is the iterate from which
-    /// stresses are extrapolated.
+    /// Forms and factorizes the matrix for the trial motion when due; returns whether it did. `lead` is the iterate whose stresses are
+    /// extrapolated.
     ///
     /// # Errors
-    /// [`Failure::Singular`] where it cannot be factorised, [`Failure::Stopped`] where a signal came meanwhile.
+    /// [`Failure::Singular`] if the matrix cannot be factorized, [`Failure::Stopped`] if a signal arrived meanwhile.
     pub fn refresh(
         &mut self,
         cx: &Context,
@@ -81,8 +81,8 @@ impl IterationMatrix {
         Ok(true)
     }
 
-    /// Forms and factorizes the matrix. It may be singular where everything that resists has yielded; the elastic
-    /// matrix then leads on. Where it is singular for want of the forces that joints will exert, a stabilized one does.
+    /// Forms and factorizes the matrix. If it is singular because all resisting parts have yielded, the elastic matrix replaces it. If it
+    /// is singular because joints exert no forces yet, a stabilized matrix replaces it.
     fn form(
         &mut self,
         cx: &Context,
@@ -120,7 +120,8 @@ impl IterationMatrix {
                     let weights = (weights, held.as_ref());
                     match self.mechanisms.search(cx, &mut matrix.solver, &now, weights, openings) {
                         Ok(()) => {
-                            // What stands on its joints, and falls, has as much stiffness as what hangs, of the other sign.
+                            // A part standing on its joints has the stiffness of a hanging part with opposite sign, so only the negative
+                            // pivots show that it falls.
                             let falls = |_: &mut Unheld| matrix.solver.negative_eigenvalues() > cx.system.multipliers();
                             return self.unheld.take_if(falls).map_or(Ok(()), |unheld| Err(unheld.failure));
                         }
@@ -146,12 +147,12 @@ impl IterationMatrix {
         self.unheld.take().map(|unheld| unheld.failure)
     }
 
-    /// True where the matrix at hand is stabilized: its correction leads on, but says nothing of convergence.
+    /// True if the current matrix is stabilized: its correction is applied, but says nothing about convergence.
     pub fn is_stabilized(&self) -> bool {
         self.is_stabilized
     }
 
-    /// True where the tangent had a pivot that vanished since all that resists has yielded.
+    /// True if a pivot of the tangent vanished because all resisting parts have yielded.
     pub fn has_yielded(&self) -> bool {
         self.has_yielded
     }
@@ -159,7 +160,7 @@ impl IterationMatrix {
     /// Solves for the correction that answers the residual and the gaps of joints.
     ///
     /// # Errors
-    /// [`Failure::Singular`] where the matrix is stabilized and what nothing else holds would go far.
+    /// [`Failure::Singular`] if the matrix is stabilized and the correction moves unrestrained parts too far.
     pub fn solve(&mut self, cx: &Context, ws: &mut Workspace) -> Result<(), Failure> {
         let Workspace { matrix, forces, residual, correction, trial, .. } = ws;
         correction.values.copy_from_slice(&residual.values);
@@ -178,7 +179,7 @@ impl IterationMatrix {
         ws.solves += 1;
     }
 
-    /// Discards the matrix, which belongs to a motion that was not taken or to other loads.
+    /// Discards the matrix, which belongs to a rejected motion or to other loads.
     pub fn discard(&mut self) {
         self.refresh.rejected();
         if let Some(rotated) = &mut self.rotated {
@@ -186,7 +187,7 @@ impl IterationMatrix {
         }
     }
 
-    /// Notes that an iteration beside the steps, with a rule of its own, has formed the matrix for a step of `dt`.
+    /// Records that another iteration, with its own refresh rule, has formed the matrix for a step of length `dt`.
     pub fn note_formed(&mut self, scheme: &Coefficients, dt: f64) {
         self.refresh.done(key(scheme, dt));
     }
@@ -197,7 +198,7 @@ impl IterationMatrix {
     }
 }
 
-/// Solves in the configuration of the matrix at hand for right-hand sides in that of `nodes`.
+/// Solves in the configuration of the current matrix for right-hand sides in the configuration `nodes`.
 fn rotate(rotated: &mut Option<RotatedMatrix>, nodes: &[Node], r: &mut [f64], solve: impl FnOnce(&mut [f64])) {
     let Some(rotated) = rotated else { return solve(r) };
     let turns = rotated.take_back(nodes, r);
@@ -207,8 +208,7 @@ fn rotate(rotated: &mut Option<RotatedMatrix>, nodes: &[Node], r: &mut [f64], so
     }
 }
 
-/// The quantity on which the matrix of a step depends besides the motion: the length of the step, or the time over
-/// which its rates are taken.
+/// The length of the step, or the time over which its rates are formed: the matrix depends on it besides the motion.
 fn key(scheme: &Coefficients, dt: f64) -> f64 {
     if scheme.rate[0] > 0.0 { 1.0 / scheme.rate[0] } else { dt }
 }

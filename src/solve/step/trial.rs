@@ -12,10 +12,10 @@ use mechanics::state::{Configuration, Increment, Node, State};
 pub struct Stage<'s> {
     /// Coefficients of the scheme.
     pub scheme: &'s Coefficients,
-    /// Velocities and accelerations by node that stand in place of those at the start of the step, where a second stage
-    /// looks back beyond it.
+    /// Velocities and accelerations by node that replace the values at the start of the step; a second stage combines values of the whole
+    /// step in them.
     pub start_rates: Option<&'s [[Vec6; 2]]>,
-    /// What stands in place of accelerations of turning bodies there: of the angular momentum, and of the angular velocity in body axes.
+    /// Replacements for the accelerations of turning bodies there: rate of angular momentum, and angular acceleration in body axes.
     pub turning: Option<&'s [[Vec3; 2]]>,
     /// Predicted increments by node that stand in place of those of the scheme.
     pub prediction: Option<&'s [Vec6]>,
@@ -43,7 +43,7 @@ impl Stage<'_> {
     }
 }
 
-/// A step, or one of its stages: where it starts, by which relation, and when it ends.
+/// A step, or one of its stages: its start, its scheme and its end.
 #[derive(Clone, Copy)]
 pub struct Step<'s> {
     /// The state at its start.
@@ -86,7 +86,7 @@ pub struct TrialMotion {
     pub nodes: Vec<Node>,
     /// Increments of the nodes from the start of the step, with their rates.
     pub increments: Vec<Increment>,
-    /// What the rotations of bodies start from in the stage at hand, in the order of the system's.
+    /// Start values of the rotations of bodies in the current stage, in the order of the system's turning bodies.
     turning: Vec<TurningStart>,
 }
 
@@ -125,7 +125,7 @@ impl TrialMotion {
         }
     }
 
-    /// Writes what the rotations of bodies start from in a stage, as the scheme uses it.
+    /// Writes the start values of the rotations of bodies in a stage, in the form used by the scheme.
     fn start_turning(&mut self, cx: &Context, state: &State, stage: &Stage) {
         self.turning.clear();
         self.turning.extend(cx.system.turning_bodies().iter().enumerate().map(|(index, body)| {
@@ -197,7 +197,7 @@ pub fn prescribe(increment: &mut Increment, dof: usize, given: &Prescribed) {
     increment.dd[dof] = given.a;
 }
 
-/// The largest coordinate of a node, by which rounding is measured.
+/// The largest coordinate of a node, the reference for rounding errors.
 pub fn reach(cx: &Context, state: &State) -> f64 {
     let farthest = |reach: f64, &node: &usize| reach.max((state.nodes[node].x - cx.origin).amax());
     let placed = cx.independent_nodes.iter().filter(|node| !cx.numbers.contains(node));

@@ -29,7 +29,7 @@ impl Power {
         Power { external, damping: damping_power(cx, &state.configuration()) }
     }
 
-    /// The power of the trial motion, `ahead` of the start of the step. With `driven`, the forces at hand are in equilibrium, and their
+    /// The power of the trial motion, `ahead` of the start of the step. With `driven`, the current forces are in equilibrium, and their
     /// power on prescribed motion is included. They are lost.
     pub fn of_trial(cx: &Context, ws: &mut Workspace, state: &State, ahead: f64, driven: bool) -> Power {
         let mut external = 0.0;
@@ -94,7 +94,7 @@ impl WorkQuadrature {
     }
 }
 
-/// Power of the forces at hand at the velocities of the nodes.
+/// Power of the current forces at the velocities of the nodes.
 fn external_power(forces: &Forces, nodes: &[Node]) -> f64 {
     let power = |(F, node): (&[f64; 6], &Node)| -> f64 {
         F.iter().zip(node.v.iter().chain(&node.omega)).map(|(f, v)| f * v).sum()
