@@ -1,4 +1,4 @@
-//! Energy that does not come back as motion, and where it went.
+//! Dissipated energy by cause, and the plastic energy stored.
 
 use base::snapshot::keep;
 use std::ops::{AddAssign, Mul};
@@ -16,7 +16,7 @@ pub struct Dissipation {
     pub friction: f64,
     /// Dissipated in impacts.
     pub impact: f64,
-    /// Stored by what has failed, and lost with it.
+    /// Energy stored in failed points and removed with them.
     pub eroded: f64,
 }
 

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! and the point fails where D reaches 1 (Johnson & Cook 1985). σ_m is a third of the sum of the normal stresses: η is 1/3 in tension, 0 in
-//! shear, −1/3 in compression and 2/3 in even biaxial tension. η is that of the stress at the end of a step, the rate that of the step.
+//! shear, −1/3 in compression, 2/3 in equibiaxial tension. D uses η at the end of the step and the mean rate over the step.
 
 /// The failure of a material.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,7 +27,7 @@ impl FailureCriterion {
         FailureCriterion { strain, triaxiality: None, rate: None }
     }
 
-    /// True where damage is a number of its own in the history.
+    /// True where the history holds damage as a separate number.
     #[inline(always)]
     pub fn sums_damage(&self) -> bool {
         self.triaxiality.is_some() || self.rate.is_some()
@@ -50,7 +50,7 @@ impl FactorTable {
     /// A table of points (argument, factor).
     ///
     /// # Errors
-    /// There are no points, arguments that do not rise, or factors that are not above zero, in words.
+    /// A message where the table is empty, an argument does not rise, or a factor is not above zero.
     pub fn new(points: Vec<[f64; 2]>) -> Result<FactorTable, String> {
         if points.is_empty() {
             return Err("the table is empty".to_owned());

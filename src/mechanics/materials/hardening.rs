@@ -20,8 +20,8 @@ pub enum Hardening {
 }
 
 impl Hardening {
-    /// Errors: no points, a first plastic strain other than 0, plastic strains that do not rise, yield stresses that fall
-    /// or are not positive and finite.
+    /// Errors: an empty table, a first plastic strain other than 0, plastic strains not rising, yield stresses falling, not positive or not
+    /// finite.
     pub fn table(points: Vec<[f64; 2]>) -> Result<Hardening, String> {
         let Some(first) = points.first() else {
             return Err("the hardening table is empty".into());

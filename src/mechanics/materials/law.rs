@@ -1,4 +1,4 @@
-//! Stress from strain at a point, and what a point remembers: the law that serves all stress states.
+//! The material law: stress and history variables from the strain at a point, for all stress states.
 //!
 //! Backward Euler over the step, with the tangent of exactly that (13)-(18); any increment converges.
 
@@ -22,8 +22,8 @@ pub struct MaterialLaw {
     failure: Option<FailureCriterion>,
 }
 
-/// Part of the elastic stiffness that the tangent keeps where a material has failed. Its stress is zero; a node that nothing else holds
-/// then still has a place in the equations, and the matrix of a structure that stands without it is not felt to change.
+/// Ratio of the tangent of a failed point to its elastic stiffness. The stress of a failed point is zero. The trace of stiffness keeps the
+/// matrix regular at nodes without other elements, and is too small to change other results.
 pub const FAILED_STIFFNESS: f64 = 1e-8;
 
 /// Stress at the end of a step by modes: the trial, and the return if it yields.
@@ -53,8 +53,8 @@ impl<T: Number, const N: usize> Answer<T, N> {
 }
 
 impl MaterialLaw {
-    /// The caller has checked that E > 0, −1 < ν ≤ ½, 0 ≤ kinematic share ≤ 1, yield stress, exponent > 0 and modulus,
-    /// fluidity ≥ 0. ν counts in plane stress and shear only.
+    /// The caller has checked that E > 0, −1 < ν ≤ ½, 0 ≤ kinematic share ≤ 1, yield stress and exponent > 0, modulus and fluidity ≥ 0.
+    /// Only plane stress and shear depend on ν.
     pub fn new(
         E: f64,
         nu: f64,
@@ -69,7 +69,7 @@ impl MaterialLaw {
         }
     }
 
-    /// The same material, which fails.
+    /// Adds a failure criterion to the material.
     pub fn failing_at(self, failure: FailureCriterion) -> MaterialLaw {
         MaterialLaw { failure: Some(failure), ..self }
     }
@@ -90,8 +90,8 @@ impl MaterialLaw {
         &self.elastic
     }
 
-    /// Numbers of history per point: plastic strains, accumulated plastic strain, back stresses if there is a kinematic
-    /// share, damage if failure depends on stress or rate, overstress of the last state if viscous.
+    /// Number of history variables per point: plastic strains, accumulated plastic strain, back stresses (kinematic share), damage (failure
+    /// by stress or rate), last overstress (viscosity).
     pub fn history<const N: usize, S: StressState<N>>(&self, _: S) -> usize {
         self.damage_place::<N>() + usize::from(self.sums_damage()) + usize::from(self.yielding.viscosity.is_some())
     }
@@ -154,8 +154,8 @@ impl MaterialLaw {
         }
     }
 
-    /// What the material answers at `strain`, `dt` after the state in `old`: at one point, or at eight, each with the bits that it has by
-    /// itself. Not finite where the strain or its elastic stress is not.
+    /// Stress, and on demand tangent or history, at `strain`, a time `dt` after the state `old`. A point has bitwise the same result alone
+    /// and among eight. Not finite where the strain or its elastic stress is not.
     #[inline(always)]
     pub fn respond<T: Number, const N: usize, S: StressState<N>>(
         &self,
@@ -185,7 +185,8 @@ impl MaterialLaw {
         out
     }
 
-    /// The answer at one point, whose history variables are `old`. It is inlined, so that each caller pays only for what it asks.
+    /// The answer at one point, whose history variables are `old`. The function is inlined, so that callers compute only the parts of the
+    /// response they need.
     #[inline(always)]
     pub fn at_point<const N: usize, S: StressState<N>>(
         &self,
@@ -205,8 +206,7 @@ impl MaterialLaw {
         answer: &Answer<T, N>,
     ) -> Option<[[T; N]; N]> {
         let end = answer.end.as_ref()?;
-        // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition keeps Σ bᵢ dεᵢ = slope ∂, and
-        // dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
+        // With bᵢ = pᵢ eᵢ ξᵢ*/Tᵢ² the yield condition gives Σ bᵢ dεᵢ = slope ∂ and dσᵢ = eᵢ S/Tᵢ dεᵢ − bᵢ (S ∂Δλ − Δλ ∂S).
         let e = S::moduli(&self.elastic).map(T::splat);
         let ratio: [T; N] = from_fn(|i| end.S / end.T(i));
         let Sb: [T; N] = from_fn(|i| T::splat(S::P[i]) * e[i] * (answer.relative[i] / end.T(i)) * ratio[i]);
@@ -223,8 +223,8 @@ impl MaterialLaw {
         Some(from_fn(|i| from_fn(|j| T::select(answer.yields, C[i][j], T::splat(elastic[i][j])))))
     }
 
-    /// The history variables after `part` of the time `dt` since the old ones, at whose end `strain` is, and what became of the plastic
-    /// work in the part. A scheme that writes equilibrium beyond the end of its step keeps that part of what equilibrium asked for.
+    /// Computes history variables and dissipation after the fraction `part` of the time `dt`; `strain` is the strain after all of `dt`.
+    /// Schemes with equilibrium beyond the end of the step accept only the fraction of the increment within the step.
     #[inline(always)]
     fn advance<T: Number, const N: usize, S: StressState<N>>(
         &self,
@@ -282,8 +282,7 @@ impl MaterialLaw {
         out.dissipation = Some(spent);
     }
 
-    /// Books what points that fail have stored: their elastic energy, and what kinematic hardening has kept, ½ X·εᵖ, which is exact where
-    /// that is linear.
+    /// Adds the energy of failing points to the eroded energy: elastic energy and ½ X·εᵖ of kinematic hardening (exact if linear).
     #[inline(always)]
     fn give_up<T: Number, const N: usize, S: StressState<N>>(
         &self,
@@ -307,8 +306,8 @@ impl MaterialLaw {
         from_modes::<f64, N, S>(from_fn(|i| from_fn(|j| if i == j { e[i] } else { 0.0 })))
     }
 
-    /// Energy of kinematic hardening in a point that is lost, per volume; zero for a failed point, whose energy [`MaterialLaw::respond`] has
-    /// booked.
+    /// Energy per volume stored by kinematic hardening in a point of a lost element; zero for a failed point, whose energy
+    /// [`MaterialLaw::respond`] has counted.
     pub fn lost<const N: usize, S: StressState<N>>(&self, state: S, history: &[f64]) -> f64 {
         if !self.is_kinematic() || self.has_failed(state, history) {
             return 0.0;
@@ -433,8 +432,8 @@ fn squares<T: Number, const N: usize, S: StressState<N>>(relative: &[T; N]) -> (
     (first, sum)
 }
 
-/// ρ and the share of ρ² in the first mode where squares of stresses are out of range; where the stresses are too, the trial is the answer
-/// and the point does not yield.
+/// ρ and the share of ρ² in the first mode where squared stresses overflow. Where ρ overflows too, the point keeps the trial stress and
+/// does not yield.
 #[cold]
 fn far_out<T: Number, const N: usize, S: StressState<N>>(
     relative: &[T; N],

@@ -1,8 +1,8 @@
 //! Stress from strain at a point: J2 plasticity with isotropic and kinematic hardening, rate-independent or viscous.
 //!
-//! One law serves three stress states; it answers and does not remember. Backward Euler over the step, with the tangent of
-//! exactly that (13)-(18); any increment converges. History is numbers that the caller owns, zeros at the start, and
-//! always that of the last accepted state. Strains are small or co-rotated; thickness change is left out.
+//! One law serves three stress states; it answers and does not remember. Backward Euler over the step, with the tangent of exactly that
+//! (13)-(18); any increment converges. The caller owns the history variables: zeros at the start, then the values of the last accepted
+//! state. Strains are small or co-rotated; thickness change is left out.
 
 mod constants;
 mod dissipation;

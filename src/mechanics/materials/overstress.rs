@@ -3,7 +3,7 @@
 use base::math::number::Number;
 use base::words::kinds::{Form, Given, Key, Kind};
 
-/// A law of the overstress that the deck can name, and what its keys give; `None` where one is wrong.
+/// An overstress law of the deck; its keys make an [`Overstress`], or `None` where one is wrong.
 pub type OverstressKind = Kind<fn(&mut Given) -> Option<Overstress>>;
 
 /// All laws of the overstress.
@@ -73,7 +73,7 @@ impl Overstress {
     pub fn phi<T: Number>(&self, v: T) -> (T, T) {
         v.map_two(|v| match self {
             Overstress::Power { exponent } => {
-                // Whole exponents are usual, and multiplication takes a sixth of the time.
+                // Most exponents are integers, and `powi` costs a sixth of the time of `powf`.
                 let whole = *exponent as i32;
                 let phi = if f64::from(whole) == *exponent { v.powi(whole) } else { v.powf(*exponent) };
                 (phi, exponent * phi)
@@ -86,7 +86,7 @@ impl Overstress {
         })
     }
 
-    /// The overstress at which φ has a value.
+    /// The relative overstress v with φ(v) = `phi`.
     #[inline]
     pub fn inverse<T: Number>(&self, phi: T) -> T {
         phi.map(|phi| match self {

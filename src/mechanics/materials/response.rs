@@ -1,17 +1,17 @@
-//! What a material is asked at a point and what it answers: for one point, or for eight side by side.
+//! Request to a material point and its response, for one point or for eight side by side.
 
 use super::dissipation::Dissipation;
 use base::math::number::Number;
 use std::array::from_fn;
 
-/// What a material is asked besides the stress.
+/// The results of a material beyond the stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ask {
     /// Nothing more.
     Stress,
     /// The derivative of the stress.
     Tangent,
-    /// The history variables after this part of the step, and what is dissipated until then.
+    /// The history variables after this fraction of the step, and the dissipation until then.
     History(f64),
 }
 
@@ -39,11 +39,11 @@ pub struct PointResponse<T, const N: usize> {
     pub tangent: Option<[[T; N]; N]>,
     /// History variables, the old ones unless asked for.
     pub new: MaterialHistory<T, N>,
-    /// What the step dissipates, per volume, if the history is asked for; `None` where nothing yields.
+    /// Energy per volume dissipated in the step, if the history is asked for; `None` where nothing yields.
     pub dissipation: Option<Spent<T>>,
 }
 
-/// Energy dissipated and stored by plastic flow, as [`Dissipation`] has it, of one point or of eight; `None` for what the law does not do.
+/// Plastic parts of [`Dissipation`] for one point or for eight; `None` for parts that the law does not have.
 #[derive(Debug, Clone, Copy)]
 pub struct Spent<T> {
     /// Dissipated by yielding.
@@ -52,7 +52,7 @@ pub struct Spent<T> {
     pub viscous: Option<T>,
     /// Kept by kinematic hardening.
     pub stored: Option<T>,
-    /// Stored by what has failed, and lost with it.
+    /// Energy stored in failed points and removed with them.
     pub eroded: Option<T>,
 }
 

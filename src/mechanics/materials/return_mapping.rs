@@ -6,10 +6,9 @@
 //!  ξᵢ = ξᵢ* R/Tᵢ,   Tᵢ = R + k + cᵢ Δλ,   Σ pᵢ (ξᵢ*/Tᵢ)² = 1,
 //! ```
 //!
-//! ξ* the trial, R = i (1 + v) the radius to return to, i its part without overstress, k the growth of the back stress
-//! (Xᵢ += k ξᵢ/R). R, k and T follow from the multiplier Δλ, and viscosity ties Δλ to v: Δλ = γΔt φ(v). Without it v = 0.
-//! One equation is solved for one point or for eight side by side, each with the bits that it has by itself.
-//! After Simo & Hughes, Computational Inelasticity (1998), 3.3 and 3.4.
+//! ξ* is the trial, R = i (1 + v) the radius of the return, i its part without overstress and k the growth of the back stress (Xᵢ += k
+//! ξᵢ/R). R, k and T follow from the multiplier Δλ, and viscosity ties Δλ to v: Δλ = γΔt φ(v). Without it v = 0. One equation is solved per
+//! point. A point has bitwise the same result alone and among eight. After Simo & Hughes, Computational Inelasticity (1998), 3.3 and 3.4.
 
 use super::hardening::Hardening;
 use super::overstress::Viscosity;
@@ -28,7 +27,7 @@ pub(super) struct Yielding {
 
 /// The numbers of a trial stress on which the multiplier depends.
 pub(super) struct Trial<T: Number> {
-    /// The points that yield; the others have numbers that do no harm.
+    /// The points that yield; results for the others are discarded.
     pub yields: T::Mask,
     /// ρ*.
     pub rho: T,
@@ -57,8 +56,7 @@ pub(super) struct ReturnPoint<T> {
     pub S: T,
     /// Σ pᵢ (ξᵢ*/Tᵢ)².
     pub sum: T,
-    /// Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ, where ∂ is the change per relative change of the unknown, which stays in range where Δλ, v and γ are
-    /// hundreds of decades apart.
+    /// Σ pᵢ (ξᵢ*/Tᵢ)² ∂Tᵢ/Tᵢ; ∂ is the change per relative change of the unknown, finite even if Δλ, v and γ differ by hundreds of decades.
     pub slope: T,
     /// ∂Δλ and ∂S.
     change: [T; 2],
@@ -123,9 +121,8 @@ impl Yielding {
         let flows = fluidity * dt > 0.0;
         let rate = T::splat((fluidity * dt).min(1e300));
         let elastic = (trial.rho / trial.radius - T::ONE).max(T::ZERO);
-        // Where it flows on as before, the last overstress is near. Otherwise the search starts from the larger side, where
-        // the equation is steep: φ grows no further than the rate-independent return and v no further than the elastic
-        // stress.
+        // Where it flows on as before, the last overstress is near. Otherwise the search starts from the upper bound, where the equation is
+        // steep: the rate-independent return bounds φ, the elastic stress bounds v.
         let bound = (trial.rho - trial.radius).max(T::ZERO) / T::splat(trial.c[0].min(trial.c[1]));
         let flow = rate * overstress.phi(last).0;
         let near = last.lt(elastic) & (T::splat(1e-3) * bound).lt(flow) & flow.lt(bound);
@@ -138,7 +135,7 @@ impl Yielding {
         }
         root(start, trial.yields, |v| {
             let (phi, change) = overstress.phi(v);
-            // The bounds cost rounding where φ is in range and answer where it is not.
+            // The bounds add only rounding where φ is finite, and keep the result finite elsewhere.
             let bounded = [(rate * phi).min(most), (rate * change).min(T::splat(f64::MAX))];
             self.point(trial, if flows { bounded } else { [T::ZERO; 2] }, Some([v, v]))
         })
@@ -186,19 +183,19 @@ impl Yielding {
     }
 }
 
-/// Residual of the yield condition that ends the iteration, relative to the stress; rounding leaves some 1e-15.
+/// Residual of the yield condition, relative to the stress, at convergence; its rounding error is about 1e-15.
 const TOLERANCE: f64 = 1e-14;
 
-/// Residual that rounding of the unknown may leave instead, where the stress follows it steeply.
+/// Residual accepted where the unknown changes by rounding only and the stress is steep in it.
 const STEEP: f64 = 1e-6;
 
-/// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection takes over
-/// where a step leaves the bracket or has not halved the misfit. `active`: the points to be found.
+/// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection replaces a step outside the
+/// bracket and a step that has not halved the misfit. `active`: the points to be found.
 #[inline(always)]
 fn root<T: Number>(mut x: T, mut active: T::Mask, at: impl Fn(T) -> ReturnPoint<T>) -> ReturnPoint<T> {
     let (half, infinity) = (T::splat(0.5), T::splat(f64::INFINITY));
     let (mut low, mut high, mut last) = (T::ZERO, infinity, infinity);
-    // Bisection from the greatest number to the least takes 2100 steps; Newton takes 3 to 7.
+    // Bisection from the largest to the least number needs 2100 iterations; Newton's method needs 3 to 7.
     let mut left = 2100;
     loop {
         let point = at(x);

@@ -1,8 +1,8 @@
 //! Stress states: which components a point has, the others being zero stress.
 //!
-//! Each state has modes, combinations of its components in which the elastic stiffness is diagonal, σᵢ = eᵢ εᵢ, and the
-//! equivalent stress is ρ² = Σ pᵢ ξᵢ². The plastic strain grows by pᵢ ξᵢ/ρ per multiplier, so a return takes
-//! cᵢ = eᵢ pᵢ off the equivalent stress per multiplier: 3G in every mode but the first.
+//! Each state has modes: combinations of components with diagonal elastic stiffness, σᵢ = eᵢ εᵢ, and equivalent stress ρ² = Σ pᵢ ξᵢ². Per
+//! unit of the multiplier the plastic strain grows by pᵢ ξᵢ/ρ and the equivalent stress drops by cᵢ = eᵢ pᵢ: 3G in every mode but the
+//! first.
 
 use super::constants::ElasticConstants;
 use base::math::number::Number;

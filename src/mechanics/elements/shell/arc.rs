@@ -1,9 +1,9 @@
 //! Bending measured by the angle between directors instead of the chord.
 //!
-//! Interpolated directors lie on the chord: over an angle φ they differ by 2 sin ½φ, an error of φ²/24 in curvature and of
-//! φ²/6 in the moment of a given rotation. Slopes w of the director are therefore lengthened, w′ = w (1 + S wᵀw), where S wᵀw
-//! is the squared angle over the element in the direction in which it bends, over 24: the remaining error is of order φ⁴. Where
-//! the positions too stand on chords of arcs, see [`super::camber`], it is that over 12.
+//! Interpolated directors lie on the chord: over an angle φ they differ by 2 sin ½φ. The error is φ²/24 in curvature and φ²/6 in the moment
+//! of a given rotation. Slopes w of the director are therefore lengthened: w′ = w (1 + S wᵀw). S wᵀw is the squared angle over the element
+//! in the bending direction, divided by 24; the remaining error is of order φ⁴. Where positions also lie on chords of arcs (see
+//! [`super::camber`]), the divisor is 12.
 
 use base::math::lanes::Lanes;
 use base::math::number::LaneVec3;

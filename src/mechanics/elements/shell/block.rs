@@ -54,7 +54,7 @@ where
         }
     }
 
-    /// As [`Shells::tangents_of`], with no more than a trace of what has failed.
+    /// Like [`Shells::tangents_of`], but scaled by [`FAILED_STIFFNESS`] for failed elements.
     fn own_tangents(
         &self,
         of: (&ShellPack<N, V, P, E, S>, usize),
@@ -72,8 +72,8 @@ where
         }
     }
 
-    /// What the elements of a pack dissipate: in their layers, and what is left in an element that fails as a whole; what its layers had
-    /// stored is booked by then.
+    /// Adds the dissipation of the layers of a pack, and the remaining energy of elements that fail as a whole; the layers have counted
+    /// their own.
     fn dissipated(
         &self,
         pack: &ShellPack<N, V, P, E, S>,
@@ -243,7 +243,7 @@ where
 
     fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
         let (pack, lane) = self.place(e);
-        // What has failed carries nothing, however far it is stretched.
+        // A failed element has no strain to report.
         if self.history == 0 || pack.sections.has_failed(lane, now.history) {
             return (0.0, false);
         }

@@ -1,19 +1,18 @@
 //! Stretch of the membrane of triangles measured along arcs instead of chords.
 //!
-//! Between its nodes a surface that is bent has curvature, which the chords between them do not see: they shorten when it bends
-//! without stretching, by b²/24 of a side with b the turn of the directors along it. Facets whose sides keep their lengths are all
-//! but rigid, and with chords a coarse mesh of a curved surface cannot bend unless it stretches. The lengths are those of arcs
-//! therefore: a square of a side is e·e + b²/12, the same for both triangles of the side. Membrane forces then have a moment, N b/12, and
-//! a side under pressure buckles between its nodes at 12 D/ℓ², the arc's π² D/ℓ². A tension along one direction is pressure to some sides of
-//! irregular triangles; so that thin sheets keep their stability under it, arcs are for surfaces that are curved at t = 0, and
-//! elements that are not very slender. Quadrilaterals have other means, see [`super::hybrid`].
+//! A bent surface is curved between its nodes: in bending without stretching, chords shorten by b²/24 of a side, with b the turn of the
+//! directors along it. Facets whose sides keep their lengths are all but rigid, and with chords a coarse mesh of a curved surface cannot
+//! bend unless it stretches. The lengths are those of arcs therefore: a square of a side is e·e + b²/12, the same for both triangles of the
+//! side. Membrane forces then have a moment, N b/12. A compressed side buckles between its nodes at 12 D/ℓ²; the exact value is π² D/ℓ².
+//! Uniaxial tension compresses some sides of irregular triangles. To keep thin sheets stable, only elements curved at t = 0 and not very
+//! slender use arcs. Quadrilaterals have other means, see [`super::hybrid`].
 
 use super::interpolation::Interpolation;
 use std::array::from_fn;
 use std::ops::{Add, Mul};
 
-/// ½ bᵀ Q_m b is added to the first three products of slopes, with b the first three numbers of bending: those along two axes and
-/// twice the mixed one. `T` is a number, or eight of them side by side.
+/// ½ bᵀ Q_m b is added to the first three products of slopes; b holds the first three numbers of bending (two axes and twice the mixed
+/// one). `T` is a number, or eight of them side by side.
 #[derive(Clone, Copy)]
 pub struct Camber<T>(pub [[[T; 3]; 3]; 3]);
 
@@ -60,7 +59,7 @@ impl<T: Copy + Add<Output = T> + Mul<Output = T>> Camber<T> {
         self.slopes(b).map(|row| half * (row[0] * b[0] + row[1] * b[1] + row[2] * b[2]))
     }
 
-    /// What the membrane stress N adds to the stress of bending, Σ N_m Q_m b.
+    /// The part Σ N_m Q_m b of the bending stress, from the membrane stress N.
     #[inline(always)]
     pub fn moments(&self, N: &[T], b: &[T; 3]) -> [T; 3] {
         let slopes = self.slopes(b);

@@ -1,5 +1,5 @@
-//! The triangle: constant strain with edges that bulge, and strains that vary linearly with drilling, optimal in bending
-//! (Felippa, Comput. Methods Appl. Mech. Engrg 192, 2003: template OPT, its basic part with α = 3/2).
+//! The triangle: constant strain with edges bulging, and strains linear in position from drilling, optimal in bending (Felippa, Comput.
+//! Methods Appl. Mech. Engrg 192, 2003: template OPT, its basic part with α = 3/2).
 
 use super::interpolation::{Interpolation, Triangle};
 use super::plane_strains::{PlaneStrains, PointStrains};
@@ -14,7 +14,7 @@ const E: usize = 7;
 /// Natural strains of a corner and drilling.
 const BETA: [f64; 9] = [1.0, 2.0, 1.0, 0.0, 1.0, -1.0, -1.0, -1.0, -2.0];
 
-/// Length over height from which the varying strains are made less stiff than the template has them.
+/// Length over height above which the varying strains get less stiffness than in the template.
 const SLENDER: f64 = 10.0;
 
 /// Mean strain by the bulges of the edges: −α Σ n⊗n L²/12 (θ_a − θ_b)/A.
@@ -29,7 +29,7 @@ fn bulges(surface: &ElementSurface<3, 2>, x: &[Vector2<f64>; 3], part: &[f64; 3]
 
 /// Drilling of the nodes against the triangle of straight edges, by the bulges of the edges and mean drilling.
 fn drilling() -> SMatrix<f64, 3, 4> {
-    // Edges 0 → 1, 1 → 2 and 0 → 2: θ₀ − θ₁, θ₁ − θ₂, θ₀ − θ₂, of which one follows from the others as far as they are small.
+    // Edges 0 → 1, 1 → 2 and 0 → 2: θ₀ − θ₁, θ₁ − θ₂, θ₀ − θ₂; for small rotations the last is the sum of the others.
     let third = 1.0 / 3.0;
     SMatrix::<f64, 3, 4>::new(third, 0.0, third, 1.0, -third, third, 0.0, 1.0, 0.0, -third, -third, 1.0)
 }
@@ -55,7 +55,8 @@ fn varying(surface: &ElementSurface<3, 2>, x: &[Vector2<f64>; 3], nu: f64) -> [M
         Q([[9, 7, 8], [3, 1, 2], [6, 4, 5]]),
         Q([[5, 6, 4], [8, 9, 7], [2, 3, 1]]),
     ];
-    // Length over height. What resists drilling grows with its cube, and in slivers would leave no digits to the strain.
+    // Length over height. The drilling stiffness grows with its cube; in slivers its rounding error would exceed the stiffness against
+    // strain.
     let slender = 0.5 * squared.into_iter().fold(0.0, f64::max) / area;
     let beta0 = (0.5 * (1.0 - 4.0 * nu * nu)).max(0.01) * (SLENDER / slender).powi(2).min(1.0);
     // ¾ β₀ A of the template is a third of the area times (3/2)² β₀.

@@ -1,12 +1,12 @@
 //! Edges that bulge with the drilling rotations of their ends (Allman 1984), at any rotation.
 //!
-//! Every end has a unit vector τ that turns with its node, normal to the edge and to the director there at t = 0. The edge
-//! e = x_b − x_a of length L bulges by ½ r (1 − r) L (θ_a − θ_b) across itself, r from 0 to 1, where
+//! Every end has a unit vector τ that turns with its node, normal to the edge and to the director there at t = 0. The edge e = x_b − x_a of
+//! length L bulges by ½ r (1 − r) L (θ_a − θ_b) across itself, with r from 0 to 1 and
 //!   θ_a − θ_b = −(e·τ_a/c_a − e·τ_b/c_b),    c_a = e·(τ_a × d_a) at t = 0.
-//! It is measured by the nodes alone: both elements of an edge have the same bulge, and a membrane force that passes through does no
-//! work on it, whatever the angle between the elements. Measured about the normals of the elements it would bend and buckle a
-//! sheet under tension. Where membrane forces differ from one element to the next, or end at an edge that is free, what is left
-//! acts on directors that are tilted along and across the edge at once; against it stands the bending stiffness.
+//! Only the nodes determine it: both elements of an edge have the same bulge. A membrane force passing through does no work on it, at any
+//! angle between the elements. Measured about the normals of the elements it would bend and buckle a sheet under tension. Where membrane
+//! forces jump between elements or end at a free edge, the difference acts on directors tilted both along and across the edge. Bending
+//! stiffness resists it.
 
 use base::math::Vec3;
 use std::array::from_fn;

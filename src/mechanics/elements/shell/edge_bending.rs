@@ -18,7 +18,7 @@ impl<T: Copy + Add<Output = T> + AddAssign + Mul<Output = T>, const N: usize> Ed
         })
     }
 
-    /// What the stress of bending does on the shear of the edges.
+    /// The stress of the edge shears from the bending stress: the transpose of [`Self::curvature`].
     #[inline(always)]
     pub fn stress(&self, bending: &[T]) -> [T; N] {
         let [a, b, c] = &self.0;

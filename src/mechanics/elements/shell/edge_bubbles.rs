@@ -1,18 +1,18 @@
 //! Edges of triangles that bend between their nodes: the element of I. Katili (Int. J. Numer. Meth. Engrg. 36, 1993), with the shear
 //! of Lee & Bathe.
 //!
-//! Directors are linear between the nodes but for a part of second degree along each edge, 4 r (1 − r) Δ. An edge is a beam: with g
-//! the strain of shear at it times its length ℓ, Δ = −3/2 (g/ℓ)/(1 + φ), and φ/(1 + φ) of g is left as shear, φ = 12 D/(k G h ℓ²). Thin
-//! edges bend without shear then, thick ones shear without bending. What Δ adds to the curvature has
-//! - a mean, from twisting alone: −(t nᵀ + n tᵀ)/(2 A (1 + φ)) g, t along the edge and n out of the element. With it strips in torsion
-//!   are right whatever the shape of the elements; without it narrow ones have half of their stiffness. Next to a free
-//!   edge twisting turns into shear over a third of the thickness, which elements wider than that cannot follow: the mean
-//!   fades sooner than an edge does, with 6 φ for φ. It goes by the edge alone, the same in both elements, whose twisting moments cancel there.
-//! - a rest, elastic, that is felt by the shear numbers alone and takes the place of shear stiffness in thin elements.
+//! Directors are linear between the nodes, plus a part of second degree along each edge, 4 r (1 − r) Δ. An edge is a beam; g is its shear
+//! strain times its length ℓ. Then Δ = −3/2 (g/ℓ)/(1 + φ), and the fraction φ/(1 + φ) of g remains as shear, φ = 12 D/(k G h ℓ²). Thin
+//! edges bend without shear then, thick ones shear without bending. The curvature from Δ has
+//! - a mean, from twisting alone: −(t nᵀ + n tᵀ)/(2 A (1 + φ)) g, t along the edge and n out of the element. With it strips in torsion are
+//!   right whatever the shape of the elements; without it narrow ones have half of their stiffness. Next to a free edge twisting turns into
+//!   shear over a third of the thickness, too narrow for wider elements: the mean uses 6 φ in place of φ. Only the edge determines it; both
+//!   elements have the same and their twisting moments there cancel.
+//! - an elastic rest: it depends on the shear numbers alone and replaces shear stiffness in thin elements.
 //!
-//! A beam has no width. In an element the bubble of an edge also twists over the height w of the element above it, so that what is
-//! thick against its width shears rather than bends, however long it is: shear and the rest have φ + φ_w/10 for φ, φ_w = 12 D/(k G h w²).
-//! Slivers do not lock by it: a tenth of the edge is the least w.
+//! A beam has no width. In an element the bubble of an edge also twists over the height w of the element above it. An element thick against
+//! its width thus shears rather than bends at any length. Shear and the rest use φ + φ_w/10 in place of φ, φ_w = 12 D/(k G h w²). Slivers
+//! do not lock by it: a tenth of the edge is the least w.
 
 use super::edge_bending::EdgeBending;
 use super::interpolation::Interpolation;
@@ -20,18 +20,18 @@ use super::surface::ElementSurface;
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::array::from_fn;
 
-/// What stands for φ in the mean curvature, over φ: strips of 5 : 1 in torsion, four triangles over the width, err by 7 % with four times φ, by 5 % with six, by 4 %
-/// with eight; cylinders under forces at points become soft with more.
+/// Factor on φ in the mean curvature. The error of strips of 5 : 1 in torsion, four triangles wide, is 7 % with 4, 5 % with 6 and 4 % with
+/// 8; cylinders under point forces become softer with larger factors.
 const FADING: f64 = 6.0;
 
-/// The part of φ_w that counts for an edge: clamped plates of 1 : 5, as thick as a seventh of their width, 8 x 8, are soft by 13 and 7 % without it (diagonals
-/// one way and the other), by 7 and 1.5 % with it; with a quarter they are right, but strips in torsion are stiff by a twelfth.
+/// Factor on φ_w for an edge. Clamped plates of 1 : 5 with a thickness of 1/7 of the width, 8 x 8, are too soft by 13 and 7 % with 0 (the
+/// two directions of diagonals), by 7 and 1.5 % with 0.1. With ¼ they are exact, but strips in torsion are 8 % too stiff.
 const WIDTH: f64 = 0.1;
 
 /// The least height over an edge, by its length.
 const LEAST_HEIGHT: f64 = 0.1;
 
-/// The mean curvature by the numbers of shear, what is left as shear of the shear of each edge, and the stiffness of the rest of the
+/// The mean curvature by the numbers of shear, the fraction of each edge's shear remaining as shear, and the stiffness of the rest of the
 /// curvature. For linear interpolation. `C`: moments by curvatures; `squared`: 12 D/(k G h).
 pub fn edge_bubbles<K: Interpolation<N, V, P>, const N: usize, const V: usize, const P: usize>(
     surface: &ElementSurface<N, V>,

@@ -1,4 +1,4 @@
-//! Shells as the model describes them, and what is computed once from the undeformed geometry.
+//! Shells as the model describes them, and the quantities computed once from the undeformed geometry.
 
 use super::camber::Camber;
 use super::edge::EdgeTangents;
@@ -20,15 +20,15 @@ use std::marker::PhantomData;
 /// Shear correction factor: shear stress is not constant through the thickness.
 pub(super) const SHEAR_FACTOR: f64 = 5.0 / 6.0;
 
-/// Part of the drilling stiffness that resists different drilling of the ends of a straight edge: where a surface is curved, bending
-/// alone makes some.
+/// Stiffness against different drilling at the ends of a straight edge, relative to the drilling stiffness; small, because bending of a
+/// curved surface causes such drilling.
 const UNEVEN: f64 = 1e-2;
 
-/// Part of the thickness up to which the turn of a surface along an edge times its length is taken as that of a flat one: edges
-/// bulge there, and stretch is that of chords; beyond it edges are straight, and stretch is that of arcs.
+/// Turn of a surface along an edge times its length, relative to the thickness, up to which an element counts as flat. Flat elements have
+/// bulging edges and stretch along chords; others have straight edges and stretch along arcs.
 pub const FLAT: f64 = 0.5;
 
-/// Length over thickness beyond which stretch is that of chords on any surface. A side that is under pressure from a strain ε across
+/// Length over thickness above which stretch is measured along chords on any surface. A side that is under pressure from a strain ε across
 /// buckles from ε (ℓ/h)² of some 5 on, and metals strain by 2e-3 before they yield.
 pub const SLENDER: f64 = 50.0;
 
@@ -64,8 +64,8 @@ pub struct ShellGeometry<'a> {
     pub nodes: &'a [usize],
     /// Unit normals at the nodes at t = 0, which are the directors there.
     pub normals: &'a [Vec3],
-    /// The part of the bulge of each edge, from each node to the next, that stress works on: [`Interpolation::BULGE`], the same
-    /// for all elements of an edge, or zero where the edge is held straight.
+    /// The fraction of the bulge of each edge (from each node to the next) with stress: [`Interpolation::BULGE`], equal in all elements of
+    /// an edge, or zero for a straight edge.
     pub bulge: [f64; 4],
 }
 
@@ -182,8 +182,8 @@ where
     }
 }
 
-/// True for an element along an edge of which the surface turns, over the length of it, by more than half the thickness, and that is
-/// not so slender that tension bends it between its nodes, see [`super::camber`].
+/// True for an element with an edge along which turn times length exceeds half the thickness. Slender elements are excepted, because
+/// tension would bend them between their nodes, see [`super::camber`].
 fn is_curved<const N: usize>(X: &[Vec3; N], D: &[Vec3; N], edges: [[usize; 2]; N], thickness: f64) -> bool {
     let mut lengths = edges.into_iter().map(|[a, b]| (X[b] - X[a]).norm());
     most_turn(X, D, edges) > FLAT * thickness && lengths.all(|L| L <= SLENDER * thickness)
@@ -222,7 +222,7 @@ where
         squared(&point.bending, &C, h.powi(3) / 12.0 * point.weight, &mut elastic.M);
     }
     let stiff = plate.drilling * plate.shear_modulus() * h * surface.area;
-    // What constant stress does not feel in straight edges is felt here, so that their nodes do not drill freely.
+    // Constant stress does not resist the drilling of straight edges; this stiffness keeps their nodes from drilling freely.
     let edges = from_fn(|i| if (P..P + N).contains(&i) && bulge[i - P] == 0.0 { stiff * UNEVEN } else { 0.0 });
     let drilling = Drilling { stiffness: stiff, rows: K::drilling(surface, bulge), edges };
     drilling.add_to(&mut elastic.N);

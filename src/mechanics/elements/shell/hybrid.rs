@@ -1,10 +1,10 @@
-//! The quadrilateral by assumed stresses: in the membrane the seven linear modes that are in equilibrium, with edges that
-//! bulge; in bending, and in the membrane of an element whose edges do not, the five of Pian & Sumihara (1984).
+//! The quadrilateral by assumed stresses. A membrane with bulging edges has the seven linear modes in equilibrium; bending, and a membrane
+//! with straight edges, have the five modes of Pian & Sumihara (1984).
 //!
-//! Stress S β, strain C⁻¹ S β with β = M⁻¹ γ, M = ∫ Sᵀ C⁻¹ S, γ = ∫ Sᵀ ε: by the principle of Hellinger & Reissner. Modes S of the
-//! membrane follow from Airy's functions, all of second and third degree. The bulge b of an edge of length L does the work
-//! −∫ (n·S n) ½ r (1 − r) L² dr b. Two modes of deformation are left without stress, mean drilling and drilling of the nodes by turns;
-//! the quartic x⁴ − y⁴ that would resist the latter resists tapering elements in bending too.
+//! By the principle of Hellinger & Reissner, stress is S β and strain C⁻¹ S β, with β = M⁻¹ γ, M = ∫ Sᵀ C⁻¹ S, γ = ∫ Sᵀ ε. Modes S of the
+//! membrane follow from Airy's functions, all of second and third degree. The bulge b of an edge of length L does the work −∫ (n·S n) ½ r
+//! (1 − r) L² dr b. Two deformation modes have no stress: mean drilling, and drilling of the nodes with alternating sign. The quartic x⁴ −
+//! y⁴ would resist the latter, but also stiffens tapering elements in bending.
 
 use super::interpolation::{Interpolation, Quadrilateral};
 use super::nodal_vectors::NodalVectors;
@@ -83,12 +83,11 @@ fn work_of_bulge(coordinates: &Coordinates, [a, b]: [Vector2<f64>; 2], squared: 
     at.map(|(r, w)| -0.5 * w * r * (1.0 - r) * squared * coordinates.modes(&(a + r * (b - a))).tr_mul(&n)).sum()
 }
 
-/// Strain at an integration point from the products of slopes, where warping stretches edges alone. v₂ is split into
-/// d₁ v₀ + d₂ v₁ and a part along the normal of the centre, which stands normal to v₀ and v₁ at any time; so
-/// ½ |v₂|² = m + ½ (v₂·n)² with m = d₁ v₀·v₂ + d₂ v₁·v₂ − ½ |d₁ v₀ + d₂ v₁|². Strain along ξ is ½ |v₀ + η v₂|²; for the normal
-/// part η² is taken as one, its value at the edges, and for strain along η ξ². The membrane then asks no more of a surface that
-/// is bent than that its edges keep their lengths, which neighbours share (compare Y. Ko, P. S. Lee & K. J. Bathe 2017); with
-/// the values inside, coarse meshes that are not drawn along the lines of curvature lock. Flat elements have no normal part.
+/// Strain at an integration point from the products of slopes; warping stretches the edges only. v₂ is split into d₁ v₀ + d₂ v₁ and a part
+/// along the normal of the centre, perpendicular to v₀ and v₁ at any time. So ½ |v₂|² = m + ½ (v₂·n)² with m = d₁ v₀·v₂ + d₂ v₁·v₂ − ½ |d₁
+/// v₀ + d₂ v₁|². Strain along ξ is ½ |v₀ + η v₂|². In the normal part η² is set to one, its value at the edges; in strain along η so is ξ².
+/// In a bent surface the membrane then only keeps the lengths of the edges, shared with the neighbours (compare Y. Ko, P. S. Lee & K. J.
+/// Bathe 2017). With the values inside, coarse meshes lock unless their lines follow the curvature. Flat elements have no normal part.
 fn of_products(surface: &ElementSurface<4, 3>, point: &SurfacePoint<3>) -> SMatrix<f64, 3, P> {
     let [v0, v1, v2] = NodalVectors::slopes(&surface.slopes, &surface.X).map(|v| surface.flat(&v));
     let mut strain = Quadrilateral::of_products(&point.slopes);
@@ -142,7 +141,7 @@ fn bending(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>) -> [SMatrix<f64, 3,
     five_modes(surface, C, |point| Quadrilateral::of_products(&point.slopes))
 }
 
-/// Strain of the membrane of an element all of whose edges are straight.
+/// Membrane strain of an element with straight edges only.
 fn straight(surface: &ElementSurface<4, 3>, C: &Matrix3<f64>) -> [SMatrix<f64, 3, P>; 4] {
     five_modes(surface, C, |point| of_products(surface, point))
 }
@@ -193,13 +192,14 @@ impl PlaneStrains<4, 3, P, E> for Quadrilateral {
         if bulge == &[0.0; 4] {
             return rows;
         }
-        // Drilling by turns less what is linear in the plane, as in-plane bending is (Flanagan & Belytschko 1981): Σ γ_a θ_a.
+        // Drilling with alternating sign, less its part linear in the plane, as in in-plane bending (Flanagan & Belytschko 1981): Σ γ_a
+        // θ_a.
         let turns = [1.0, -1.0, 1.0, -1.0];
         let corners = surface.X.map(|x| surface.flat(&x));
         let slopes: Vector2<f64> = (0..4).map(|a| turns[a] * corners[a]).sum();
         let gamma: [f64; 4] =
             from_fn(|a| 0.25 * (turns[a] - slopes.x * surface.slopes[0][a] - slopes.y * surface.slopes[1][a]));
-        // The same by differences along the edges, Σ α_e (θ_e − θ_e+1).
+        // It is written by differences along the edges, Σ α_e (θ_e − θ_e+1).
         let mut alpha = [0.0; 4];
         (1..4).for_each(|a| alpha[a] = alpha[a - 1] + gamma[a]);
         let mean = 0.25 * alpha.iter().sum::<f64>();

@@ -1,13 +1,12 @@
 //! Shape functions, edges and integration points of the two shapes of shell elements.
 
-/// The interpolation of an element with N nodes and V vectors that make up the slopes of the surface, of which P pairs are
-/// multiplied.
+/// The interpolation of an element with N nodes, V vectors for the slopes of the surface and P products of two of them.
 pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + Sync + Sized {
     /// The vectors v_i = Σ SLOPES[i][a] x_a.
     const SLOPES: [[f64; N]; V];
     /// Which slopes are multiplied.
     const PAIRS: [[usize; 2]; P];
-    /// The ends of the edges at whose middles shear is taken, in the direction of the coordinate along them.
+    /// The ends of the edges with shear sampled at their middles, in the direction of the coordinate along them.
     const EDGES: [[usize; 2]; N];
     /// Integration points (ξ, η): as many as nodes, of equal weight.
     const POINTS: [[f64; 2]; N];
@@ -15,16 +14,15 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const VALUES: [[f64; N]; N];
     /// Area of the domain of (ξ, η).
     const AREA: f64;
-    /// The factor α by which bending within an element of a curved surface adds to its shear flexibility: of the strain at an edge the
-    /// part h/√(h² + α ℓ²) counts, ℓ the length of this edge, but at most the width of the element across it (Lyly, Stenberg & Vihinen
-    /// 1993; MacNeal 1978 for beams). Without it thin quadrilaterals lock where they are distorted and coarse; on flat surfaces, where
-    /// they do not, there is none of it, and constant shear is exact: it goes with x²/(1 + x²), x the turn of the surface
-    /// along an edge times its length over the thickness.
+    /// The factor α by which bending within an element of a curved surface adds to its shear flexibility. The factor on the strain of an
+    /// edge is h/√(h² + α ℓ²), with ℓ its length, at most the width of the element across it (Lyly, Stenberg & Vihinen 1993; MacNeal 1978
+    /// for beams). Without it distorted coarse meshes of thin quadrilaterals lock. Flat surfaces need none, and constant shear stays exact
+    /// there. The factor scales with x²/(1 + x²), x the turn of the surface along an edge times its length over the thickness.
     const FLEXIBILITY: f64;
     /// Edges bend between their nodes instead, see [`super::edge_bubbles`].
     const EDGES_BEND: bool;
-    /// The part of the bulge of an edge that stress works on: all of it, or what a triangle that bends is best with. Elements that
-    /// share an edge take the same.
+    /// The fraction of the bulge of an edge with stress: 1, or the optimum of the triangle in bending. Elements that share an edge take the
+    /// same.
     const BULGE: f64;
     /// The point (ξ, η) whose tangents give the axes of the plane.
     const CENTRE: [f64; 2];
@@ -32,8 +30,8 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const ARC: [[f64; 2]; 2];
     /// Where the surface is curved, stretch of the membrane is measured along arcs, see [`super::camber`].
     const CAMBERED: bool;
-    /// What ½ x,ξ·x,ξ, ½ x,η·x,η and ½ x,ξ·x,η lack to the metric of the surface, by its curvatures b_ξξ, b_ηη and b_ξη (x,α·d,β);
-    /// nothing unless `CAMBERED`.
+    /// The difference between the metric of the surface and ½ x,ξ·x,ξ, ½ x,η·x,η and ½ x,ξ·x,η, by the curvatures b_ξξ, b_ηη and b_ξη
+    /// (x,α·d,β). Zero unless `CAMBERED`.
     fn camber(_: [f64; 3]) -> [f64; 3] {
         [0.0; 3]
     }

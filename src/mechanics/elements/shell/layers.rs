@@ -1,4 +1,4 @@
-//! Shells of layers in plane stress, each with history variables of its own, that yield. Strain of the reference surface is Green's, or
+//! Shells of layers in plane stress; the layers yield and have separate history variables. Strain of the reference surface is Green's, or
 //! logarithmic, see [`super::stretch`], and curvature adds to it. Transverse shear stays elastic until all layers have failed.
 
 use super::in_plane::{InPlane, LinearisedPlane, product, subtract};
@@ -106,7 +106,7 @@ struct Resultants<T> {
     yields: bool,
 }
 
-/// What the layers are asked besides the stress.
+/// The results of the layers beyond the stress.
 enum LayersAsk<'a, const P: usize, const E: usize, T> {
     Stress,
     Tangent(&'a mut LinearisedPlane<P, E, T>),
@@ -156,7 +156,7 @@ impl<const P: usize, const E: usize, T: Number> PointPack<P, E, T> {
         (0..P).for_each(|m| stress.bending[m] += product(&from_fn(|i| self.bending[i][m]), &M));
     }
 
-    /// Takes off the stiffness what the point has lost.
+    /// Subtracts the stiffness lost by yielding at the point.
     #[inline(always)]
     fn subtract(&self, Resultants { loss, yields, .. }: &Resultants<T>, out: &mut LinearisedPlane<P, E, T>) {
         let loss = loss.map(|loss| loss.map(|row| row.map(|lost| self.weight * lost)));
@@ -181,7 +181,7 @@ impl<T: Number> Resultants<T> {
         }
     }
 
-    /// Adds what a layer with the stiffness C loses against the `elastic` one.
+    /// Adds the difference between the `elastic` stiffness and the stiffness C of a layer.
     #[inline(always)]
     fn lose(&mut self, [z, w]: [f64; 2], C: &[[T; 3]; 3], elastic: &[[f64; 3]; 3]) {
         self.yields = true;
@@ -209,8 +209,7 @@ impl<T: Number> Resultants<T> {
 }
 
 impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
-    /// Those of one element or of up to eight, each with the start of its range in the history of the group; lanes beyond the last repeat
-    /// it.
+    /// Packs one element or up to eight, each with the start of its range in the history of the group; lanes beyond the last repeat it.
     pub(super) fn new(layers: &Arc<Layers>, of: &[(&InPlaneSection<P, E>, usize)]) -> Self {
         let at = |lane: usize| of[lane.min(of.len() - 1)];
         let counts: [usize; LANES] = from_fn(|lane| at(lane).0.points.len());
@@ -237,8 +236,8 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
         self.first[lane]..self.first[lane] + self.layers.history(self.counts[lane])
     }
 
-    /// The stress at a strain, and what is asked besides. The derivative is the elastic one less what yielding layers lose, and what
-    /// stretching takes or gives.
+    /// The stress at a strain, and the further results in `ask`. The derivative is the elastic one, less the loss of yielding layers,
+    /// corrected for stretching.
     #[inline(always)]
     fn respond(&self, strain: &InPlane<P, E, T>, now: &Configuration, mut ask: LayersAsk<P, E, T>) -> InPlane<P, E, T> {
         let Layers { stiffness, thickness, logarithmic, .. } = &*self.layers;

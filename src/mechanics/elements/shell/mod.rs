@@ -3,24 +3,22 @@
 //! A point of the reference surface has a position x and a director d, both interpolated from the nodes, where
 //! d_a = R_a D_a. Strains are Green's, linear through the thickness, less their values at t = 0:
 //!   membrane ½ x,α·x,β    bending ½ (x,α·d,β + x,β·d,α)    shear x,α·d    drilling ½ (t₁·x,₂ − t₂·x,₁),
-//! with t₁, t₂ tangents that turn with the nodes: the difference between their rotation about the normal and that of the
-//! surface (Hughes & Brezzi 1989), which vanishes in rigid motions and wherever the surface stretches without it. All are
-//! polynomials in positions and directors, so they are objective, and no frame goes along: of second degree but for bending,
-//! which [`arc`] takes by angles instead of chords, and for the bulge of [`edge`]s.
+//! with t₁, t₂ tangents turning with the nodes. Drilling is the difference between their rotation about the normal and the rotation of the
+//! surface (Hughes & Brezzi 1989); it vanishes in rigid motion and pure stretch. All are polynomials in positions and directors, hence
+//! objective without a co-rotated frame. They are of second degree, except bending, measured by angles ([`arc`]), and the bulge of
+//! [`edge`]s.
 //!
-//! An element that bends in its plane has curved sides. Nodes that drill curve the adjacent edges, and constant stress feels it:
-//! with straight edges tapering quadrilaterals and triangles are twenty times too stiff. That is for flat surfaces: where they
-//! are curved, drilling by bending alone would lock thin shells, and edges stay straight. The strain of an element is
-//! described by a few numbers, [`plane_strains`]: in the plane products of slopes and the bulges of edges, from which the strain at
-//! its integration points follows linearly, by the stress modes of a [`hybrid`] for the quadrilateral and by Felippa's
-//! template for the triangle, [`deviatoric`]. Transverse shear is taken at the middles of the edges (Dvorkin & Bathe 1984; Lee &
-//! Bathe 2004). With ε these numbers, energy is U(ε), the gradient Bᵀσ, the Hessian BᵀCB + σ·∂²ε. A spatial rotation δθ changes a
-//! director by δθ × d.
+//! An element that bends in its plane has curved sides. Nodes that drill curve the adjacent edges, and constant stress feels it: with
+//! straight edges tapering quadrilaterals and triangles are twenty times too stiff. Only flat surfaces have such edges: on curved ones,
+//! drilling by bending alone would lock thin shells, so edges stay straight. A few numbers describe the strain of an element,
+//! [`plane_strains`]; in the plane they are products of slopes and the bulges of edges. The strain at an integration point is linear in
+//! them: by stress modes for the quadrilateral ([`hybrid`]) and by Felippa's template for the triangle ([`deviatoric`]). Transverse shear
+//! is taken at the middles of the edges (Dvorkin & Bathe 1984; Lee & Bathe 2004). With ε these numbers, energy is U(ε), the gradient Bᵀσ,
+//! the Hessian BᵀCB + σ·∂²ε. A spatial rotation δθ changes a director by δθ × d.
 //!
-//! Where the material yields, the strain at a point of the element follows from the same numbers as in the elastic element, so that
-//! only the layers themselves need iteration and history variables.
-//! Elements of six and nine nodes, with sides of second degree, stand in [`curved`].
-//! Left out: change of thickness, curvature in the volume element (h/R against 1), initial stress.
+//! Where the material yields, the strain at a point follows from the same numbers as in the elastic element; only the layers need iteration
+//! and history variables. Elements of six and nine nodes, with sides of second degree, stand in [`curved`]. Left out: change of thickness,
+//! curvature in the volume element (h/R against 1), initial stress.
 
 mod arc;
 mod block;

@@ -1,5 +1,5 @@
 //! Kinematics and forces of eight shell elements side by side: from the motion of their nodes to strains, their rates and the gradient of
-//! energy. A single element is one of eight: each has the bits that it has by itself.
+//! energy. An element has bitwise the same result in any of the eight places.
 
 use super::arc::Slopes;
 use super::camber::Camber;
@@ -323,8 +323,8 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         })
     }
 
-    /// The derivative of energy by the numbers that are polynomials of positions and directors: the stress, and what [`super::camber`] and
-    /// [`super::rolled_edges`] make of it.
+    /// The derivative of energy by the polynomial numbers of positions and directors: the stress, corrected for [`super::camber`] and
+    /// [`super::rolled_edges`].
     #[inline(always)]
     pub fn pulled_back<K: Interpolation<N, V, P>>(
         &self,

@@ -1,7 +1,7 @@
 //! The strains in the plane of an element, by what describes its motion: numbers of the membrane and of bending.
 //!
-//! Numbers of the membrane are the products ½ v_i·v_i and v_i·v_j of the slopes, less their values at t = 0, the bulges θ_a − θ_b
-//! of the edges, and drilling; numbers of bending the products v_i·w_i and v_i·w_j + v_j·w_i, with w the slopes of the directors.
+//! Numbers of the membrane are the products ½ v_i·v_i and v_i·v_j of the slopes less their values at t = 0, the bulges θ_a − θ_b of the
+//! edges, and drilling. Numbers of bending are the products v_i·w_i and v_i·w_j + v_j·w_i, with w the slopes of the directors.
 
 use super::interpolation::Interpolation;
 use super::surface::ElementSurface;
@@ -21,8 +21,8 @@ pub struct PointStrains<const P: usize, const E: usize> {
 pub trait PlaneStrains<const N: usize, const V: usize, const P: usize, const E: usize>: Interpolation<N, V, P> {
     /// Strains at the integration points; `bulge`: the part of the bulge of each edge that stress works on.
     fn strains(surface: &ElementSurface<N, V>, nu: f64, bulge: &[f64; N]) -> Vec<PointStrains<P, E>>;
-    /// Rows by the numbers of the membrane that strains do not feel: mean drilling, and of the quadrilateral that of its nodes by
-    /// turns.
+    /// Rows of drilling stiffness by the numbers of the membrane: mean drilling and, in the quadrilateral, drilling with alternating sign.
+    /// Strains do not depend on them.
     fn drilling(surface: &ElementSurface<N, V>, bulge: &[f64; N]) -> [[f64; E]; 2];
 
     /// Strains at a point from the products, with the coefficients `s` of the slopes in x,₁ and x,₂ there.

@@ -1,9 +1,8 @@
 //! Stress resultants of shell elements for output: means over an element, and the mean stress in each layer.
 //!
-//! A resultant is work-conjugate to a strain that is constant over the element: N to that of x = X + E X, M to that of
-//! d = D + K X with x = X − ½ (X·K X) n, which leaves no shear, and Q to that of a constant inclination of the directors. Strains
-//! are of first and second degree in positions and directors, so half the difference of those ahead and behind is exact,
-//! whatever strains describe the element.
+//! A resultant is work-conjugate to a strain constant over the element. N is conjugate to x = X + E X. M is conjugate to d = D + K X with x
+//! = X − ½ (X·K X) n, a state without shear. Q is conjugate to a constant inclination of the directors. Strains are of first and second
+//! degree in positions and directors, so half the difference of those ahead and behind is exact, whatever strains describe the element.
 
 use super::interpolation::Interpolation;
 use super::nodal_vectors::{NodalVectors, sum};
@@ -20,8 +19,8 @@ use std::array::from_fn;
 /// An axis whose part in the plane is smaller than this, some 1° from the normal, gives no direction there.
 const STEEP: f64 = 0.02;
 
-/// The direction of `axis` projected on the plane normal to `normal`; where it is normal to the plane, that of the global axis
-/// farthest from it.
+/// The direction of `axis` projected on the plane normal to `normal`; if `axis` is normal to the plane, the global axis farthest from it is
+/// projected.
 fn project(axis: &Vec3, normal: &Vec3) -> Vec3 {
     let across = |a: &Vec3| a - a.dot(normal) * normal;
     let laid = across(axis);
@@ -60,7 +59,7 @@ where
         let all = |v: [Vec3; N]| v.map(|v| LaneVec3::gather(|_| v));
         let motion = Motion { x: all(x), turning: turning.map(all) };
         let mut strains = pack.measure::<K>(&motion, &pack.chords(&motion));
-        // Twisting moments on edges that bend cancel between elements, and are no shear forces; Q is told by all elements at a node.
+        // Twisting moments on bent edges cancel between elements and are no shear forces.
         let bent = pack.bent.curvature(&strains.shear);
         (0..3).for_each(|n| strains.plane.bending[n] -= bent[n]);
         stress.dot(&strains, lane)
@@ -73,7 +72,7 @@ where
     mean.resultants(&at, |layers| pack.sections.layers(lane, &strains.plane.lane(lane), now, layers))
 }
 
-/// What the mean stress of an element is told in.
+/// The geometry for the mean stress of an element.
 pub(super) struct MeanStress<'a, const N: usize> {
     /// Positions of the nodes at t = 0, from that of the first.
     pub X: &'a [Vec3; N],
@@ -86,8 +85,8 @@ pub(super) struct MeanStress<'a, const N: usize> {
 }
 
 impl<const N: usize> MeanStress<'_, N> {
-    /// The resultants, by the work of the stress at strains from zero with the nodes so far on a way from t = 0, and by what writes
-    /// the layers, see [`ShellSections::layers`].
+    /// The resultants; `work` is the work of the stress on the strains of a motion scaled from t = 0, `write_layers` as
+    /// [`ShellSections::layers`].
     pub fn resultants(
         &self,
         work: &dyn Fn(&NodalVectors<N>, f64) -> f64,
@@ -121,7 +120,7 @@ impl<const N: usize> MeanStress<'_, N> {
     }
 }
 
-/// σ₁₁, σ₂₂, σ₁₂ by axes of which the first is (c, s).
+/// σ₁₁, σ₂₂, σ₁₂ in axes turned so that the first is (c, s).
 fn rotate(stress: &[f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
     let (c, s) = (c / c.hypot(s), s / c.hypot(s));
     let [a, b, ab] = *stress;

@@ -1,12 +1,12 @@
-//! Edges that bulge in an element that is bent.
+//! Coupling of bulging edges with bending.
 //!
-//! The bulge of an edge is a difference of the drilling of its ends. A node that drills carries its director along the surface, and where the
-//! surface is curved the director turns: curvature is that of an element whose edges bulge. So the strain t that the bulges make in the
-//! plane takes part in the curvature K, as K + sym(t K). Without it bending moments work on drilling: a moment at the end nodes of a strip
-//! turns them by turns, and the more the finer the mesh is.
+//! The bulge of an edge is a difference of the drilling of its ends. Drilling of a node turns its director along the surface. Where the
+//! surface is curved, this changes the curvature like the bulges of the edges do. So the in-plane strain t of the bulges enters the
+//! curvature K as K + sym(t K). Without it bending moments work on drilling: a moment at the end nodes of a strip turns them by turns, and
+//! the more the finer the mesh is.
 //!
-//! With b_e the bulges t = Σ b_e G_e, G_e the mean of the strain that each makes. The moments M act on the curvature as M + sym(t M), and on
-//! a bulge as G_e : sym(K M). Where bending is measured by chords this is left out, so that strains stay of second degree.
+//! With b_e the bulges t = Σ b_e G_e, G_e the mean of the strain that each makes. The moments M act on the curvature as M + sym(t M), and
+//! on a bulge as G_e : sym(K M). With bending measured by chords this is left out, so that strains stay of second degree.
 
 use super::in_plane::product;
 use base::math::lanes::{LANES, Lanes, lanes};
@@ -23,7 +23,7 @@ fn symmetric_product(A: &[Lanes; 3], B: &[Lanes; 3]) -> [Lanes; 3] {
     [A[0] * B[0] + mixed, A[1] * B[1] + mixed, Lanes::splat(0.5) * across]
 }
 
-/// Numbers of bending, of which the third is twice the mixed curvature, as a tensor.
+/// The numbers of bending as a tensor; the third number is twice the mixed curvature.
 #[inline(always)]
 fn tensor([a, b, twice]: [Lanes; 3]) -> [Lanes; 3] {
     [a, b, Lanes::splat(0.5) * twice]
@@ -48,13 +48,13 @@ impl<const N: usize> RolledEdges<N> {
         from_fn(|i| product(&from_fn(|e| self.0[e][i]), bulges))
     }
 
-    /// What the strain `t` adds to the first numbers of bending.
+    /// The change of the first numbers of bending by the strain `t`.
     #[inline(always)]
     pub fn curvature(&self, t: &[Lanes; 3], bending: [Lanes; 3]) -> [Lanes; 3] {
         numbers(symmetric_product(t, &tensor(bending)))
     }
 
-    /// What the stress M of the first numbers of bending does on them besides.
+    /// The change of the stress of the first numbers of bending, from their stress M and the strain `t`.
     #[inline(always)]
     pub fn moments(&self, t: &[Lanes; 3], M: &[Lanes; 3]) -> [Lanes; 3] {
         symmetric_product(t, M)
@@ -67,7 +67,7 @@ impl<const N: usize> RolledEdges<N> {
         self.0.map(|G| G[0] * a + G[1] * b + G[2] * (mixed + mixed))
     }
 
-    /// What each bulge adds to the first numbers of bending.
+    /// The change of the first numbers of bending per bulge of each edge.
     #[inline(always)]
     pub fn by_bulges(&self, bending: [Lanes; 3]) -> [[Lanes; 3]; N] {
         self.0.map(|G| numbers(symmetric_product(&G, &tensor(bending))))

@@ -1,4 +1,4 @@
-//! What shells ask of their sections; sections that stay elastic. Those that yield stand in [`super::layers`].
+//! Request of shells to their sections, and elastic sections. Sections that yield are in [`super::layers`].
 
 use super::in_plane::{InPlane, LinearisedPlane, product};
 use super::plane_strains::PointStrains;
@@ -17,11 +17,11 @@ pub struct NewHistory<'a, T> {
     pub count: usize,
     /// The history of the group.
     pub new: &'a mut [f64],
-    /// What each element dissipates in the part.
+    /// Energy dissipated by each element in this part of the step.
     pub spent: &'a mut Spent<T>,
 }
 
-/// The sections of one element, or of eight side by side, each with the bits that it has by itself.
+/// The sections of one element or of eight side by side; an element has bitwise the same result alone and among eight.
 pub trait ShellSections<const P: usize, const E: usize, T: Number>: Send + Sync {
     /// The stiffness before the material yields.
     fn elastic(&self) -> &StiffnessPack<P, E, T>;
@@ -56,10 +56,10 @@ pub trait ShellSections<const P: usize, const E: usize, T: Number>: Send + Sync 
     }
 }
 
-/// The stiffness of drilling that strains do not feel, which stays elastic.
+/// Stiffness against drilling, which causes no strain; it stays elastic.
 #[derive(Debug, Clone)]
 pub struct Drilling<const E: usize, T = f64> {
-    /// What the rows are multiplied by.
+    /// The factor on r rᵀ.
     pub stiffness: T,
     /// Rows r of r rᵀ by the numbers of the membrane.
     pub rows: [[T; E]; 2],
@@ -115,7 +115,7 @@ impl<const P: usize, const E: usize> ShellStiffness<P, E> {
     pub const ZERO: Self = ShellStiffness { N: [[0.0; E]; E], M: [[0.0; P]; P] };
 }
 
-/// The section of an element in its plane, and what it is made of.
+/// The section of an element in its plane: stiffness and strains.
 pub struct InPlaneSection<const P: usize, const E: usize> {
     /// The stiffness before the material yields.
     pub elastic: ShellStiffness<P, E>,

@@ -1,15 +1,14 @@
-//! Logarithmic strain of the reference surface of a shell that yields, so that stress is that per area and thickness as they are.
+//! Logarithmic strain of the reference surface of a shell that yields: its stress is force per current area.
 //!
 //! With E the strain of Green, H = ½ ln(I + 2E) is taken as
 //!   H = Y + ⅓ Y³,    Y = E (I + E)⁻¹,
-//! the first terms of the series of the inverse hyperbolic tangent, whose error is ⅕ Y⁵: 1e-5 of the strain where it is stretched by 10 %, 1e-3
-//! by 35 %. The law of the material is that of small strains between H and the stress T conjugate to it (Miehe, Apel & Lambrecht, Comput.
-//! Methods Appl. Mech. Engrg 191, 2002), which is Kirchhoff's, in axes that turn with the surface: stress by area as it is times the change of
-//! volume, which plastic flow leaves at one. A sheet that is stretched carries less by as much as it becomes thinner and narrower.
-//! What acts on E is S = T : ∂H/∂E; as T·dH = S·dE, energy and dissipation are those of small strains. H is a function of E alone:
-//! rigid motion changes nothing.
+//! the first terms of the series of the inverse hyperbolic tangent. The error ⅕ Y⁵ is 1e-5 of the strain at 10 % stretch and 1e-3 at 35 %.
+//! The small-strain material law relates H to its conjugate stress T (Miehe, Apel & Lambrecht, Comput. Methods Appl. Mech. Engrg 191,
+//! 2002). T is Kirchhoff's stress in axes turning with the surface: force per current area times the volume ratio, which is 1 in plastic
+//! flow. A sheet that is stretched carries less by as much as it becomes thinner and narrower. The stress conjugate to E is S = T : ∂H/∂E;
+//! as T·dH = S·dE, energy and dissipation equal those of small strains. H is a function of E alone: rigid motion changes nothing.
 //!
-//! Left out: the heights of layers stay as they are, so that a stretched sheet bends with the thickness that it had.
+//! Limit: the heights of layers are constant, so a stretched sheet bends with its initial thickness.
 
 use base::math::number::Number;
 use std::array::from_fn;
@@ -64,7 +63,7 @@ impl<T: Number> Stretch<T> {
         ]
     }
 
-    /// What is conjugate to E, from what is conjugate to H.
+    /// The stress conjugate to E, from the stress N conjugate to H.
     #[inline(always)]
     pub fn conjugate(&self, N: &[T; 3]) -> [T; 3] {
         sandwich(&self.G, &self.along(N))
@@ -130,7 +129,7 @@ mod tests {
     fn strain_is_logarithmic() {
         for stretch in [0.7_f64, 0.9, 0.99, 1.01, 1.1, 1.3] {
             let (E, H) = (0.5 * (stretch * stretch - 1.0), stretch.ln());
-            // The same along an axis and at 45 degrees to the axes.
+            // One strain along an axis and at 45 degrees to the axes.
             let along = Stretch::new(&[E, 0.0, 0.0]).strain;
             let across = Stretch::new(&[0.5 * E, 0.5 * E, E]).strain;
             let bound = 0.3 * (H.abs()).powi(5) + 1e-15;

@@ -27,8 +27,8 @@ pub struct ElementSurface<const N: usize, const V: usize> {
     pub X: [Vec3; N],
     /// Axes at the centre: two in the tangent plane, and the normal.
     pub axes: [Vec3; 3],
-    /// The slopes v_i = Σ slopes[i][a] x_a: x,₁ and x,₂ at the centre and, of the quadrilateral, what is not linear, divided by
-    /// `size`. They are of the order of one whatever the shape of the element, and so are products of them.
+    /// The slopes v_i = Σ slopes[i][a] x_a: x,₁ and x,₂ at the centre and, in the quadrilateral, the bilinear part, divided by `size`. They
+    /// are of the order of one whatever the shape of the element, and so are products of them.
     pub slopes: [[f64; N]; V],
     /// S of [`super::arc`] by those slopes.
     pub arc: [[f64; 2]; 2],

@@ -1,7 +1,7 @@
 //! Tangents of eight shell elements side by side: BᵀCB of their strains and σ·∂²ε.
 //!
-//! The half of the matrix that belongs to the motion against the first node is computed: the rest follows by symmetry, and because a
-//! translation of all nodes does nothing. Only a node's own rotations have a part that is not symmetric, and damping.
+//! Only half of the matrix is computed, for the motion relative to the first node. The rest follows by symmetry, and because a translation
+//! of all nodes causes no force. Only a node's own rotations have a part that is not symmetric, and damping.
 
 use super::arc::Slopes;
 use super::in_plane::{InPlane, LinearisedPlane};
@@ -89,7 +89,7 @@ impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
         self.membrane.iter_mut().chain(&mut self.bending).chain(&mut self.shear)
     }
 
-    /// Adds to a row of C B what the membrane does by the stiffnesses `C`.
+    /// Adds the rows of the membrane, times the stiffnesses `C`, to a row of C B.
     #[inline(always)]
     fn add_membrane<K: Interpolation<N, V, P>, const V: usize>(&self, C: impl Fn(usize) -> Lanes, row: &mut Row<N>) {
         for m in 0..P {
@@ -130,8 +130,8 @@ impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
         of(entry(&self.membrane[E - 1]), &X.membrane[E - 1]);
     }
 
-    /// The upper half of BᵀX, without the position of the first node: rows of positions by positions, rows of rotations by positions,
-    /// which stand in the upper half too, and by rotations.
+    /// The upper half of BᵀX, without the position of the first node: positions by positions, positions by rotations (from rows of
+    /// rotations), rotations by rotations.
     #[inline(always)]
     fn transpose_times<K: Interpolation<N, V, P>, const V: usize>(&self, X: &Self, H: &mut LaneMatrix<N>) {
         for a in 0..N {
@@ -211,7 +211,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         }
     }
 
-    /// C B, with what the stress of the membrane does to the camber.
+    /// C B, with the change of the camber under the membrane stress.
     #[inline(always)]
     fn times<K: Interpolation<N, V, P>>(
         &self,
@@ -279,7 +279,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         self.add_bilinear::<K>(stress, motion, H);
     }
 
-    /// σ·∂²ε of what is bilinear: of products of slopes, bulges, drilling and shear.
+    /// σ·∂²ε of the bilinear terms: products of slopes, bulges, drilling and shear.
     #[inline(always)]
     fn add_bilinear<K: Interpolation<N, V, P>>(
         &self,
@@ -316,8 +316,8 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         }
     }
 
-    /// σ·∂²ε of bending measured by angles. All of it is made of products of vectors: with s the slopes by a node,
-    /// (skew d) u vᵀ (−skew d) = (d × u) (d × v)ᵀ.
+    /// σ·∂²ε of bending measured by angles. All its terms are products of vectors: with s the slopes by a node, (skew d) u vᵀ (−skew d) =
+    /// (d × u) (d × v)ᵀ.
     #[inline(always)]
     fn add_bending<K: Interpolation<N, V, P>>(
         &self,
@@ -435,7 +435,7 @@ where
             rows
         };
         *B = rows(motion);
-        // ∂ε̇/∂(x, θ): ε̇ = B (v, ω), where θ adds a rotation to those that ω makes.
+        // ∂ε̇/∂(x, θ) from ε̇ = B (v, ω); θ adds a rotation to the rotation by ω.
         let (mut D, behind) = (rows(&motion.plus(1.0, &rates)), rows(&motion.plus(-1.0, &rates)));
         let (half, weight, factor_) = (Lanes::splat(0.5), Lanes::splat(rate_weight), Lanes::splat(factor));
         let omega = self.omega(nodes);
@@ -461,11 +461,11 @@ where
     }
 }
 
-/// What the rows of bending need of [`super::rolled_edges`].
+/// The data of [`super::rolled_edges`] for the rows of bending.
 struct Rolled<const N: usize> {
     /// Strain by the bulges.
     t: [Lanes; 3],
-    /// What each bulge adds to the first numbers of bending.
+    /// The change of the first numbers of bending per bulge of each edge.
     by_bulges: [[Lanes; 3]; N],
     /// The second derivatives by each bulge and those numbers.
     mixed: [[Lanes; 3]; N],
@@ -525,7 +525,7 @@ impl<const N: usize> Rolled<N> {
 pub(super) struct RateTerms {
     /// The factor of the stress by strain rates.
     pub factor: f64,
-    /// What derivatives by rates are multiplied by.
+    /// The factor on derivatives by rates.
     pub rate_weight: f64,
 }
 

@@ -1,4 +1,4 @@
-//! What a model of material says of itself, and what several models share.
+//! The registry entry of a material model, and the keys shared by several models.
 
 use crate::materials::failure::{FactorTable, FailureCriterion};
 use crate::materials::hardening::Hardening;

@@ -1,4 +1,4 @@
-//! The models of material that the deck can name. One more is a file of its own and an entry of [`MATERIALS`].
+//! The models of material that the deck can name. A further model is one file and one entry of [`MATERIALS`].
 
 pub mod elastic;
 pub mod elastic_plastic;

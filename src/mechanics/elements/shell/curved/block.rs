@@ -112,7 +112,7 @@ where
             element.section.advance(&strains.plane, now, to);
             dissipation += spent.lane(0);
             if element.section.has_failed(0, new) && !element.section.has_failed(0, now.history) {
-                // What the layers had stored is booked by then.
+                // The layers have counted their own energy already.
                 dissipation.eroded += stored(element, &strains, &Configuration { history: new, ..*now });
             }
         }
@@ -148,7 +148,7 @@ where
         let X: [Vec3; N] = from_fn(|a| start[a] - start[0]);
         let motion = element.gather(now.nodes);
         let strains = element.strains(&motion);
-        // What has failed has no stress.
+        // A failed element has no stress.
         let part = if element.section.has_failed(0, now.history) { 0.0 } else { 1.0 };
         let stress = stress(element, &strains, now);
         let at_start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
@@ -167,7 +167,7 @@ where
 
     fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
         let element = &self.elements[e];
-        // What has failed carries nothing, however far it is stretched.
+        // A failed element has no strain to report.
         if element.section.has_failed(0, now.history) {
             return (0.0, false);
         }

@@ -1,4 +1,4 @@
-//! What is computed once from the undeformed geometry of curved elements.
+//! Quantities computed once from the undeformed geometry of curved elements.
 
 use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
 use super::sampling::CurvedStrains;
@@ -14,8 +14,8 @@ use std::array::from_fn;
 use std::marker::PhantomData;
 use std::sync::LazyLock;
 
-/// Part of the drilling stiffness that resists that of each node, by its share of the area: so much that a node on which a moment acts
-/// does not turn about its normal in the iteration. Ten times more stiffens coarse meshes of very thin twisted surfaces.
+/// Drilling stiffness of each node, relative to the drilling stiffness of the element over its number of nodes: it keeps a node under a
+/// moment from turning about its normal during iteration. Ten times more stiffens coarse meshes of very thin twisted surfaces.
 const OF_NODES: f64 = 0.1;
 
 static OF_SIX: LazyLock<[[[f64; 6]; 2]; 6]> = LazyLock::new(|| SixNodes::NODES.map(SixNodes::slopes));

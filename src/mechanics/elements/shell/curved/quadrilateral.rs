@@ -1,6 +1,6 @@
 //! The quadrilateral of nine nodes: 16 places, by Gauss's points of second and third degree.
 //!
-//! ε_rr and γ_r are taken at 2 × 3 points, ε_ss and γ_s at 3 × 2, all strains at 2 × 2, where the mean is taken too: that rule is
+//! ε_rr and γ_r are sampled at 2 × 3 points, ε_ss and γ_s at 3 × 2, and all strains at 2 × 2. The mean uses the 2 × 2 rule too, which is
 //! exact for the displacements of flat elements.
 
 use super::sampling::{CurvedStrains, Sampling};
@@ -73,7 +73,7 @@ static SAMPLING: LazyLock<Sampling<9, V, P, Q>> = LazyLock::new(|| {
     sampling
 });
 
-/// The factors on what is taken at a place, along coordinate `row`, less the mean strain there.
+/// The factors on strain `number` of coordinate `row` sampled at `at`, less the mean strain there.
 fn less_mean(
     surface: &CurvedSurface<9>,
     mean: &SMatrix<f64, 3, P>,
@@ -116,7 +116,7 @@ impl CurvedStrains<9, V, P, Q> for NineNodes {
             let rest: SMatrix<f64, 3, P> = to_axes * SMatrix::from_rows(&rows);
             points.push(PointStrains { membrane: rest, bending: rest, weight: w * area });
         }
-        // What is interpolated has no mean.
+        // The interpolated part has zero mean.
         let whole: f64 = points.iter().map(|p| p.weight).sum();
         let of_rest: SMatrix<f64, 3, P> = points.iter().map(|p| p.weight / whole * p.membrane).sum();
         for point in &mut points {

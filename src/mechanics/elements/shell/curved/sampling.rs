@@ -17,7 +17,7 @@ pub struct Sampling<const N: usize, const V: usize, const P: usize, const Q: usi
 
 /// How strains follow from those that are taken: P in the plane, Q transverse shears.
 pub trait CurvedStrains<const N: usize, const V: usize, const P: usize, const Q: usize>: CurvedFace<N> {
-    /// Where strains are taken in an element, which depends on its shape.
+    /// The sampling places of an element, chosen by its shape.
     fn sampling(surface: &CurvedSurface<N>, thickness: f64) -> &'static Sampling<N, V, P, Q>;
     /// Strains at the integration points, of the membrane from products of slopes, and of bending likewise.
     fn strains(surface: &CurvedSurface<N>, plate: &Plate) -> Vec<PointStrains<P, P>>;

@@ -79,7 +79,7 @@ impl<const N: usize, const P: usize, const Q: usize> CurvedRows<N, P, Q> {
 }
 
 impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedShell<N, V, P, Q, S> {
-    /// ∂ε/∂(x, θ), where `moment(k, a, g)` turns the derivative g by d (k = 0), p or q of node a into that by its rotation.
+    /// ∂ε/∂(x, θ); `moment(k, a, g)` converts the derivative g by d (k = 0), p or q of node a to the derivative by its rotation.
     #[inline(always)]
     fn rows(
         &self,
@@ -152,7 +152,7 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
     }
 }
 
-/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses at the nodes `stressed` in place of its own.
+/// Tangent of element `e`, see [`crate::elements::ElementBlock::tangent`], with the stresses at `stressed` if given.
 pub(super) fn tangent<
     T,
     const N: usize,

@@ -1,14 +1,13 @@
 //! The triangle of six nodes: strains along a side are taken at three places, two on that side and one inside, transverse shear there too.
 //!
-//! At these places a displacement of third degree that is interpolated from the nodes has the right slope along the side: of its
-//! error, spanned by f(r), f(s), f(t) with f(r) = r(r − ½)(r − 1), and r s t, t = 1 − r − s, the slopes vanish. In-plane strains are
-//! interpolated to first degree. The space of the shears is that of Bathe, Brezzi, Cho & Fortin (1989),
+//! At these places an interpolated displacement of third degree has the exact slope along the side. Its error is spanned by f(r), f(s),
+//! f(t) and r s t, with f(r) = r(r − ½)(r − 1) and t = 1 − r − s, whose slopes vanish there. In-plane strains are interpolated to first
+//! degree. The space of the shears is that of Bathe, Brezzi, Cho & Fortin (1989),
 //!   γ_r = a₁ + b₁ r + c₁ s + s (d r + e s),    γ_s = a₂ + b₂ r + c₂ s − r (d r + e s),
-//! met on the sides and, by least squares, inside. With a seventh and an eighth shear at the centre instead, as Lee & Bathe take them,
-//! thin cylinders and plates are stiffer by some per cent in coarse meshes.
+//! met on the sides and, by least squares, inside. Lee & Bathe add a seventh and an eighth shear at the centre; then thin cylinders and
+//! plates are some per cent stiffer in coarse meshes.
 //!
-//! With nodes off the middles of straight sides the strains of a flat element are not of first degree in r and s: they are taken at
-//! the integration points, as they are.
+//! If side nodes of a flat element lie off the middles, strains are not linear in r and s: they are sampled at the integration points.
 
 use super::bubble::soften;
 use super::sampling::{CurvedStrains, Sampling};
@@ -36,9 +35,9 @@ const POINTS: [[f64; 2]; 3] = [[1.0 / 6.0, 1.0 / 6.0], [2.0 / 3.0, 1.0 / 6.0], [
 const PLACES: [[[f64; 2]; 3]; 3] =
     [[[R1, 0.0], [R2, 0.0], [R1, R3]], [[0.0, R1], [0.0, R2], [R3, R1]], [[R2, R1], [R1, R2], [R1, R1]]];
 
-/// Part of the thickness by which an element may rise and count as flat.
+/// Largest rise of an element counted as flat, relative to the thickness.
 const FLAT: f64 = 0.05;
-/// Part of a side by which its node may miss the middle and count as there.
+/// Largest distance of a side node from the middle of its side, relative to the side, to count as in the middle.
 const AT_MIDDLE: f64 = 1e-6;
 
 /// The slopes along r, s and q at a place.
@@ -93,7 +92,7 @@ fn space([r, s]: [f64; 2]) -> [[f64; 6]; 3] {
     [[1.0, r, s, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0, r, s], [-1.0, -r, -s, 1.0, r, s]]
 }
 
-/// The same by d and e: what vanishes along the sides.
+/// The terms of γ_r, γ_s and γ_q with d and e, which vanish along the sides.
 fn inner([r, s]: [f64; 2]) -> [[f64; 2]; 3] {
     let (along_r, along_s) = ([s * r, s * (s - 1.0)], [r * (1.0 - r), -r * s]);
     [along_r, along_s, [along_s[0] - along_r[0], along_s[1] - along_r[1]]]
@@ -104,7 +103,7 @@ static SPACE: LazyLock<(SMatrix<f64, 6, Q>, SMatrix<f64, 2, Q>)> = LazyLock::new
     let sides = SMatrix::<f64, 6, 6>::from_fn(|k, c| space(place(k).0)[place(k).1][c]);
     let mut outer = SMatrix::<f64, 6, Q>::zeros();
     outer.fixed_columns_mut::<6>(0).copy_from(&sides.try_inverse().unwrap_or_default());
-    // What is left inside, by least squares.
+    // The remaining inner shears are fitted by least squares.
     let rest = SMatrix::<f64, 3, Q>::from_fn(|i, q| {
         let (at, along) = place(6 + i);
         f64::from(u8::from(q == 6 + i)) - (0..6).map(|c| space(at)[along][c] * outer[(c, q)]).sum::<f64>()
