@@ -1,6 +1,5 @@
-//! Accelerations from the residual with the mass alone, for all explicit schemes. Where every moving node is a rigid
-//! body of its own, nothing is factorized but the small system of the joints; a coupled mass matrix is formed and
-//! factorized at every evaluation.
+//! Accelerations from the residual with the mass alone, for all explicit schemes. If every independent node is a separate rigid body, only
+//! the small system of the joints is factorized. A coupled mass matrix is formed and factorized at every evaluation.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -20,7 +19,7 @@ use mechanics::state::{Configuration, Increment, State};
 
 /// The masses of a scene and the accelerations that forces cause. It is allocated once.
 pub struct Accelerations {
-    /// The block-diagonal masses, where each moving node is a rigid body of its own.
+    /// The block-diagonal masses, if every independent node is a separate rigid body.
     pub masses: Option<Masses>,
     /// The constraint equations of joints between such bodies.
     pub schur: Option<ConstraintSchur>,
@@ -62,7 +61,7 @@ impl Accelerations {
         self.masses.is_none()
     }
 
-    /// The masses of nodes that move each by itself, without joints, and the differences of their accelerations; `None` in other scenes.
+    /// The masses of separate rigid bodies without joints, and the differences of their accelerations; `None` in other models.
     pub fn free(&mut self) -> Option<(&Masses, &mut [Vec6])> {
         match self {
             Accelerations { masses: Some(masses), schur: None, missing, .. } => Some((masses, missing)),
@@ -93,9 +92,9 @@ impl Accelerations {
             .map_or(Ok(()), |projection| projection.project(cx, (&mut ws.trial, ws.reach), state, (scheme, dt)))
     }
 
-    /// Solves for the accelerations with the forces on the trial motion at hand, which includes some accelerations, and
-    /// writes the difference. With `joints`, these are the accelerations that the joints allow, and their multipliers;
-    /// without, the part that does not open them.
+    /// Solves for the accelerations under the current forces of the trial motion, and writes their difference to the accelerations that it
+    /// already has. With `joints`, accelerations satisfy the constraints and the multipliers are written; without, only the part that opens
+    /// no joint is found.
     ///
     /// # Errors
     /// [`Failure::Singular`] or [`Failure::ConstraintsViolated`] where masses or joints leave no answer.

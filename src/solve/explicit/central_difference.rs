@@ -27,7 +27,7 @@ use mechanics::integrators::Coefficients;
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State, Work};
 
-/// Central differences, with what they need besides the workspace. It is allocated once.
+/// Central differences, with their data besides the workspace. It is allocated once.
 pub struct CentralDifferenceStepper {
     accelerations: Accelerations,
     /// Guards of explicit steps.
@@ -117,7 +117,7 @@ impl CentralDifferenceStepper {
         let (mut aMa, suspicious) = self.check_stiffening(cx, ws, state, (sums.as_ref(), dt));
         if suspicious {
             self.measure_critical_step(cx, ws, state, dt)?;
-            // The scene has not stiffened after all; measuring has overwritten what was found.
+            // The model has not stiffened, and the measurement has overwritten the accelerations.
             evaluations += self.find_accelerations(cx, ws, state, to, &scheme)?.0;
             aMa = aMa_of_trial(cx, ws, &mut self.accelerations);
         }
@@ -139,7 +139,7 @@ impl CentralDifferenceStepper {
     }
 
     /// # Errors
-    /// [`Failure::Unstable`] where a step of `dt` is too long for the limit as it is known.
+    /// [`Failure::Unstable`] if a step of `dt` exceeds the last measured limit.
     fn check_stability(&self, dt: f64) -> Result<(), Failure> {
         match self.critical.longest {
             Some(longest) if dt > longest => Err(Failure::Unstable { dt, longest, automatic: self.automatic }),
@@ -147,8 +147,8 @@ impl CentralDifferenceStepper {
         }
     }
 
-    /// Finds the trial motion at the end of the step, with predicted velocities, and the difference of its
-    /// accelerations. Returns the number of residuals evaluated, and the sums over nodes that move by themselves.
+    /// Finds the trial motion at the end of the step, with predicted velocities, and the difference of its accelerations. Returns the
+    /// number of residuals evaluated, and the sums over separate rigid bodies.
     fn find_accelerations(
         &mut self,
         cx: &Context,
@@ -167,7 +167,7 @@ impl CentralDifferenceStepper {
         let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
         loop {
             let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
-            // What is evaluated last is the motion that the step ends with, unless it is refused.
+            // The last evaluation belongs to the motion at the end of the step, unless the step is refused.
             self.dissipated = cx.system.advance(&now, &ws.loads.instant, &mut ws.forces, &mut ws.history);
             evaluations += 1;
             if let Some(free) = self.accelerations.free() {
@@ -306,15 +306,15 @@ impl CentralDifferenceStepper {
     }
 }
 
-/// Adds what a step resists, −Δaᵀ M q, and qᵀ M q to sums over all steps, by the square of the velocity.
+/// Adds the resistance of a step, −Δaᵀ M q, and qᵀ M q to sums over all steps, divided by the square of the step.
 fn note_resistance(ws: &mut Workspace, [force, size]: [f64; 2], dt: f64) {
     let sums = &mut ws.warnings.resisted;
     sums[0] += force;
     sums[1] += size / (dt * dt);
 }
 
-/// Updates the offset of the energy. Central differences conserve energies that are ⅛ Δt² aᵀMa less than those at
-/// steps, each with the step before it: what a change of the step generates or dissipates is no offset.
+/// Updates the offset of the energy. Central differences conserve an energy that is ⅛ Δt² aᵀMa below the energy at the steps, with Δt of
+/// the step before. A change of the step generates or dissipates energy, which the offset excludes.
 fn offset_energy(work: &mut Work, aMa: f64, dt: f64) {
     let Work { verlet_energy_offset, accelerations: before, step, .. } = work;
     let last = if *step > 0.0 { *step } else { dt };

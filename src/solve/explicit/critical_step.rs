@@ -21,23 +21,23 @@ use model::{FEWEST_STEPS, Model};
 /// Number of steps between two measurements: they cost a hundredth of the whole.
 const STEPS: usize = 400;
 
-/// The critical time step as it is known. It is allocated once.
+/// The critical time step of the last measurement. It is allocated once.
 pub struct CriticalStep {
     /// The longest stable step at the last measurement.
     pub longest: Option<f64>,
     /// The fastest mode so far, by node.
     mode: Vec<Vec6>,
     next: Vec<Vec6>,
-    /// Motions by node from which the search starts, where the scene has stiffened.
+    /// Motions by node that the search starts with after the model has stiffened.
     pub hints: Vec<Vec6>,
-    /// The configuration in which it is measured, by node.
+    /// The configuration of the measurement, by node.
     place: Vec<Node>,
     /// Forces in this configuration, by node.
     base: Vec<[f64; 6]>,
     /// Steps since the last measurement.
     steps: usize,
-    /// Steps since the last cutback of the limit, and the number after which it may rise again: it doubles from cutback
-    /// to cutback, since each change of the step generates or dissipates energy.
+    /// Steps since the last cutback of the limit, and the number after which it may rise again. The number doubles with each cutback, since
+    /// each change of the step generates or dissipates energy.
     steps_since_cutback: usize,
     holdoff: usize,
     /// True where the scene may stiffen suddenly, as by contact; and the largest aᵀMa since the last measurement.
@@ -87,8 +87,8 @@ impl CriticalStep {
         }
     }
 
-    /// True where aᵀMa has quadrupled at once, that is accelerations have doubled: an impact may have begun that the
-    /// gross motion hides.
+    /// True if aᵀMa has quadrupled since the last measurement, so accelerations have doubled: an impact may have begun, hidden by the gross
+    /// motion.
     pub fn is_struck(&self, aMa: f64) -> bool {
         self.stiffens && aMa > 4.0 * self.max_aMa
     }
@@ -114,7 +114,7 @@ impl CriticalStep {
         BELOW * self.longest.map_or(0.0, |longest| (2.0 / longest).powi(2))
     }
 
-    /// Counts a step of `dt`, and measures the limit in the state where that is due.
+    /// Counts a step of `dt`, and measures the limit in the state when due.
     ///
     /// # Errors
     /// As for [`Accelerations::solve`].
@@ -134,8 +134,8 @@ impl CriticalStep {
         Ok(())
     }
 
-    /// The length of the next step: a safe `fraction` of the longest stable one, no body turning by more than [`TURN`],
-    /// and no longer than a fiftieth of the run. `left` is the time to the next event.
+    /// The length of the next step: at most `fraction` of the critical step, a turn of [`TURN`] of any body, and a fiftieth of the run.
+    /// `left` is the time to the next event.
     ///
     /// # Errors
     /// As for [`Accelerations::solve`].
@@ -153,8 +153,7 @@ impl CriticalStep {
             self.measure_here(cx, ws, accelerations, state, 0.0)?;
             if cx.system.is_damped() {
                 let first = self.longest.unwrap_or(left).min(left);
-                // The fastest mode without dampers may not contain that of the dampers; the mode that the search began
-                // with does.
+                // The fastest mode without dampers may not contain the mode of the dampers; the start vector of the search does.
                 self.mode.iter_mut().zip(&self.hints).for_each(|(mode, first)| *mode += *first);
                 self.measure_here(cx, ws, accelerations, state, first)?;
             }
@@ -164,8 +163,8 @@ impl CriticalStep {
         Ok((fraction * self.longest.unwrap_or(left)).min(most).min(turning))
     }
 
-    /// The step in which no body turns by more than [`TURN`], at the largest angular velocity of the run, since each
-    /// change of the step generates or dissipates energy, and at the present angular accelerations.
+    /// The step length that limits the turn of every body to [`TURN`]. It uses the largest angular velocity of the run, since each change
+    /// of the step generates or dissipates energy, and the current angular accelerations.
     fn turning_step(&mut self, model: &Model, state: &State) -> f64 {
         let nodes = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.max_spin = nodes().map(|node| node.omega.norm()).fold(self.max_spin, f64::max);
@@ -200,7 +199,7 @@ impl CriticalStep {
         dt: f64,
     ) -> Result<(), Failure> {
         self.place.copy_from_slice(&ws.trial.nodes);
-        // The motion that has just met more resistance shows where it is.
+        // The motion of the last step contains the mode that has stiffened.
         let [of_mode, of_hints] = [&self.mode, &self.hints].map(|motion| largest(cx, motion));
         if of_mode > 0.0 && of_hints > 0.0 && of_hints.is_finite() {
             // The two must not cancel.
@@ -296,7 +295,7 @@ impl CriticalStep {
         Ok(longest)
     }
 
-    /// Adds the residual of velocities along the mode at hand to the next mode and to the limit.
+    /// Adds the residual due to velocities along the current mode to the next mode and to the limit.
     fn add_damping(
         &mut self,
         cx: &Context,

@@ -13,8 +13,8 @@ use base::math::rotation::{exp, inverse_tangent, renormalise};
 use base::math::{Vec6, angular, linear, stack};
 use mechanics::state::{Node, State};
 
-/// Projects positions and velocities of the trial motion onto the constraints by the least change in the norm of the masses; the
-/// increments follow, their q̇ as rates of the rotation vector.
+/// Projects positions and velocities of the trial motion onto the constraints by the least change in the norm of the masses. Increments and
+/// their rates q̇ are updated too.
 ///
 /// # Errors
 /// [`Failure::ConstraintsViolated`] where the joints cannot be closed from there.
@@ -100,7 +100,7 @@ fn project_velocities(
     }
 }
 
-/// Writes the least change of motion that closes the gaps at hand, by node.
+/// Writes the least change of motion that closes the current gaps, by node.
 fn least_change(schur: &mut ConstraintSchur, masses: &Masses, change: &mut [Vec6]) {
     schur.solve();
     masses.blocks.iter().for_each(|block| change[block.node] = Vec6::zeros());

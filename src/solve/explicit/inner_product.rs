@@ -1,4 +1,4 @@
-//! Products of motions in the norm of the masses, by which explicit schemes judge their steps.
+//! Products of motions in the norm of the masses, used by the stability checks of explicit schemes.
 
 use super::accelerations::Accelerations;
 use crate::context::Context;
@@ -8,8 +8,7 @@ use crate::workspace::Workspace;
 use base::math::{Vec6, stack};
 use mechanics::state::Node;
 
-/// Writes M times small motions of the independent nodes into the forces on nodes, for unknown degrees of freedom of a
-/// coupled mass matrix; the forces at hand are lost.
+/// Writes M times small motions of the independent nodes over the forces on nodes, for unknown degrees of freedom of a coupled mass matrix.
 pub fn apply_mass(
     cx: &Context,
     nodes: &[Node],
@@ -29,8 +28,8 @@ pub fn times_applied(cx: &Context, forces: &Forces, motion: impl Fn(usize) -> Ve
     cx.independent_nodes.iter().map(times).sum()
 }
 
-/// The product aᵀ M a of the accelerations found for the trial motion, over the unknowns, without those that bodies which turn
-/// freely have by themselves.
+/// The product aᵀ M a of the accelerations of the trial motion over the unknowns, without the gyroscopic accelerations of freely turning
+/// bodies.
 pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> f64 {
     let Accelerations { masses, operand, missing, .. } = accelerations;
     let trial = &ws.trial.nodes;
@@ -43,7 +42,7 @@ pub fn aMa_of_trial(cx: &Context, ws: &mut Workspace, accelerations: &mut Accele
     masses.blocks.iter().map(product).sum()
 }
 
-/// The same of the accelerations of nodes.
+/// The product aᵀ M a of the accelerations of `nodes`.
 pub fn aMa_of_nodes(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, nodes: &[Node]) -> f64 {
     let a = |node: usize| stack(&nodes[node].a, &nodes[node].alpha);
     let Some(masses) = &accelerations.masses else {

@@ -1,5 +1,5 @@
-//! The loops over nodes of a step by central differences: to the end of the step, and, where each node is a body of its own that no
-//! joint holds, its acceleration with what is judged by it, and its rates there.
+//! The loops over nodes in a step by central differences. They move all nodes to the end of the step; for separate bodies without joints
+//! they also compute accelerations, stability sums and end rates.
 
 use super::node_sums::StepSums;
 use crate::context::Context;
@@ -47,10 +47,10 @@ pub fn move_ahead(
     ws.trial.update_dependent_nodes(cx, &state.nodes);
 }
 
-/// The motion of the nodes of a chunk: where they are, and what they have moved by.
+/// Positions and increments of the nodes of a chunk.
 type Moving<'a> = (&'a mut [Node], &'a mut [Increment]);
 
-/// Writes the differences of the accelerations of nodes that move by themselves, and returns what the step is judged by.
+/// Writes the differences of the accelerations of separate bodies, and returns the sums for the stability checks.
 pub fn accelerate(
     cx: &Context,
     ws: &mut Workspace,
@@ -75,8 +75,8 @@ pub fn accelerate(
     })
 }
 
-/// Writes the motion of such nodes at the end of the step, with its rates by the increments, and the residual on prescribed degrees of
-/// freedom where forces are wanted.
+/// Writes the motion of separate bodies at the end of the step, with the rates of the increments. If forces are wanted, it also writes the
+/// residual on prescribed degrees of freedom.
 pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State, dt: f64) {
     let given = &ws.prescribed.moved;
     let restraints = &cx.model.constraints.restraints;

@@ -1,14 +1,14 @@
-//! What a step by central differences is judged by, summed over nodes that move by themselves in one pass.
+//! The sums for the stability checks of a central-difference step, over separate bodies in one pass.
 
 use crate::system::masses::MassBlock;
 use base::math::{Vec6, angular, linear, stack};
 use mechanics::state::Node;
 use std::ops::AddAssign;
 
-/// Sums over the nodes by which a step is judged, M taken as mass and mean moment of inertia but for `aMa`.
+/// Sums over nodes for the stability checks; M is mass and mean moment of inertia, except in `aMa`.
 #[derive(Default)]
 pub struct StepSums {
-    /// The sum of all that was found, which is a number only where everything is.
+    /// The sum of all accelerations and positions, which is finite only if all of them are.
     pub all: f64,
     /// −Δaᵀ M q and qᵀ M q of the step's motion.
     pub resistance: [f64; 2],
@@ -29,8 +29,8 @@ impl AddAssign for StepSums {
 }
 
 impl StepSums {
-    /// Adds a node that goes from `start` to the trial motion `now` by `q`, whose accelerations lack those of `missing`; `jerk_dt` is their change
-    /// over a step as long as this one at the rate of the last.
+    /// Adds a node that moves by `q` from `start` to the trial motion `now`. Its accelerations are those of `now` plus `missing`; `jerk_dt`
+    /// is the change of acceleration expected from the last step.
     #[inline]
     pub fn add(&mut self, block: &MassBlock, [start, now]: [&Node; 2], q: &Vec6, missing: &Vec6, jerk_dt: &Vec6) {
         let [mass, inertia] = block.mean_mass();

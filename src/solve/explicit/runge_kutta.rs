@@ -26,11 +26,11 @@ use mechanics::integrators::tableau::{StageWeights, Tableau};
 use mechanics::state::{Configuration, Increment, Node, State};
 use model::Restraint;
 
-/// A Runge-Kutta scheme, with what it needs besides the workspace. It is allocated once.
+/// A Runge-Kutta scheme, with its data besides the workspace. It is allocated once.
 pub struct RungeKuttaStepper {
     tableau: &'static Tableau,
     accelerations: Accelerations,
-    /// What is noted at the ends of steps.
+    /// The guards that run at the ends of steps.
     guards: Guards,
     /// Rates of (q, v) of each independent node, by stage.
     stages: Vec<[Vec6; 2]>,
@@ -74,7 +74,7 @@ impl RungeKuttaStepper {
         })
     }
 
-    /// The order of the error estimate in the time step, by which steps find their length.
+    /// The order of the error estimate in the time step, used to choose the length of steps.
     pub fn error_order(&self) -> f64 {
         self.tableau.error_order
     }
@@ -183,7 +183,7 @@ impl RungeKuttaStepper {
     pub fn error(&self, cx: &Context, dt: f64) -> Size {
         let (tableau, nodes) = (self.tableau, cx.independent_nodes.len());
         let mut largest = [Size::default(); 2];
-        // Coordinates of joints are no lengths: the motion that errors are compared with leaves them out, and bodies have them.
+        // Coordinates of joints are no lengths, so errors skip them; the bodies show the same motion.
         for k in (0..nodes).filter(|&k| !cx.numbers.contains(&cx.independent_nodes[k])) {
             for (largest, weights) in largest.iter_mut().zip(tableau.errors) {
                 let sum = |sum: Vec6, &(of, weight): &(usize, f64)| sum + self.stages[of * nodes + k][0] * weight;
@@ -269,7 +269,7 @@ impl RungeKuttaStepper {
 
 /// Writes the prescribed motion at a time within the step.
 fn prescribe(cx: &Context, ws: &mut Workspace, time: f64, c: f64) {
-    // The prescribed motion at the end of the step is at hand.
+    // The prescribed motion at the end of the step is already known.
     if c < 1.0 {
         let side = if c == 0.0 { Side::After } else { Side::Before };
         cx.excitation.prescribed(time, side, &mut ws.prescribed.instant);

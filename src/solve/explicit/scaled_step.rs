@@ -1,4 +1,4 @@
-//! What asks for shorter steps than those for which mass scaling has raised the masses of elements.
+//! Warns if parts other than the scaled elements limit the time step more than mass scaling assumed.
 
 use super::accelerations::Accelerations;
 use crate::context::Context;
@@ -9,8 +9,8 @@ use base::math::Vec6;
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, State};
 
-/// Warns, once, where the critical time step `longest` is below that of scaled elements; `mode` is the fastest motion by node, in the trial
-/// motion.
+/// Warns once if the critical time step `longest` is below the critical step of scaled elements; `mode` is the fastest motion by node, in
+/// the trial motion.
 pub fn check_scaled_step(
     cx: &Context,
     ws: &mut Workspace,
@@ -38,7 +38,7 @@ pub fn check_scaled_step(
     ws.warnings.add(Warning::ScaledStep { wanted, longest, label, cause });
 }
 
-/// The link or contact that has most of the stiffness of a mode; empty where none has.
+/// The link or contact with most of the stiffness of a mode; empty if there is none.
 fn cause(cx: &Context, ws: &Workspace, state: &State, (mode, stiffness): (&[Vec6], f64)) -> String {
     let mut motions = mode.to_vec();
     cx.system.project(&ws.trial.nodes, &mut motions);

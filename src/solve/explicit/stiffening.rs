@@ -47,7 +47,7 @@ pub fn resistance(
     (if is_slow { 0.0 } else { quotient(ws, (masses, missing), state) }, [force, size])
 }
 
-/// The same of nodes that move by themselves, of which the sums are at hand.
+/// Like [`resistance`], for separate bodies whose sums are known.
 pub fn resistance_of_nodes(
     ws: &Workspace,
     of_nodes: (&Masses, &[Vec6]),
@@ -58,7 +58,7 @@ pub fn resistance_of_nodes(
     if force <= QUICK * 4.0 / (dt * dt) * size { 0.0 } else { quotient(ws, of_nodes, state) }
 }
 
-/// The quotient with the masses as they are.
+/// The Rayleigh quotient with the exact inertias.
 fn quotient(ws: &Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State) -> f64 {
     let (mut force, mut size) = (0.0, 0.0);
     for block in &masses.blocks {
@@ -70,8 +70,8 @@ fn quotient(ws: &Workspace, (masses, missing): (&Masses, &[Vec6]), state: &State
     force / size
 }
 
-/// A quick check whether a mode grows. Without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is a mean of (ω Δt)²
-/// over the modes, in which the gross motion does not hide the fast ones; decaying modes do no harm.
+/// A quick check whether a mode grows. Without loads and dampers, −(a₁ − 2 a₀ + a₋₁)ᵀM a₀/a₀ᵀM a₀ is a mean of (ω Δt)² over the modes.
+/// Weighting by accelerations shows fast modes despite the gross motion, and decaying modes do not disturb it.
 pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations, state: &State, dt: f64) -> bool {
     let Accelerations { masses, missing, operand, .. } = accelerations;
     let trial = &ws.trial.nodes;
@@ -102,7 +102,7 @@ pub fn is_growing(cx: &Context, ws: &mut Workspace, accelerations: &mut Accelera
     increase > LIMIT * size && next > size
 }
 
-/// The same of nodes that move by themselves, by their sums.
+/// Like [`is_growing`], for separate bodies whose sums are known.
 pub fn is_growing_by(sums: &StepSums) -> bool {
     let [increase, size, next] = sums.growth;
     increase > LIMIT * size && next > size

@@ -1,4 +1,4 @@
-//! What breaks in a run: elements and links that carry nothing any more, from one step to the next.
+//! Elements and links that fail in a run and carry no force from then on.
 
 use crate::context::Context;
 use crate::system::System;
@@ -11,7 +11,7 @@ use mechanics::state::State;
 /// An element or a link that has failed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Broken {
-    /// What it is: an element of a part, or a link.
+    /// The failed element of a part, or the failed link.
     pub what: String,
     /// Why it failed.
     pub reason: String,
@@ -19,14 +19,14 @@ pub struct Broken {
     pub place: Vec3,
 }
 
-/// What has failed so far. Nothing is looked at where nothing can fail.
+/// All elements and links that have failed so far. Nothing is looked at where nothing can fail.
 #[derive(Default)]
 pub struct Breakage {
     /// Indices of the groups whose elements may fail.
     groups: Vec<usize>,
     /// Whether each of their elements has failed.
     failed: Vec<bool>,
-    /// What failed in the last step.
+    /// Elements and links that failed in the last step.
     new: Vec<Broken>,
 }
 
@@ -43,7 +43,7 @@ fn reason(cause: FailureCause) -> String {
 }
 
 impl Breakage {
-    /// Takes what has failed before the run, or the stage.
+    /// Records the failures from before the run or the stage.
     pub fn begin(&mut self, system: &System, state: &State) {
         self.groups = (0..system.groups.len()).filter(|&group| system.groups[group].block.can_fail()).collect();
         self.failed.clear();
@@ -53,7 +53,7 @@ impl Breakage {
         }
     }
 
-    /// Finds what has failed in an accepted step.
+    /// Finds the failures of an accepted step.
     pub fn look(&mut self, cx: &Context, state: &State) {
         self.new.clear();
         let mut failed = self.failed.iter_mut();
@@ -76,12 +76,12 @@ impl Breakage {
         }
     }
 
-    /// What failed in the last step.
+    /// The elements and links that failed in the last step.
     pub fn new_ones(&self) -> &[Broken] {
         &self.new
     }
 
-    /// The number of elements and links that have failed; `None` where none can.
+    /// The number of failed elements and links; `None` if none can fail.
     pub fn count(&self) -> Option<usize> {
         (!self.groups.is_empty()).then(|| self.failed.iter().filter(|failed| **failed).count())
     }

@@ -12,7 +12,7 @@ use mechanics::state::{Configuration, Node, State};
 use model::{Contact, Model, PartType};
 use std::ops::Range;
 
-/// Refuses steps that are too long for the contacts that they meet, and notes how deep these are.
+/// Refuses steps too long for their contacts, and records penetrations.
 pub struct ContactGuard;
 
 impl Guard for ContactGuard {
@@ -43,7 +43,7 @@ impl Guard for ContactGuard {
     }
 }
 
-/// Checks a step that reaches `ahead` before any work is done on it: an impact must go on in steps that resolve it.
+/// Checks a step that reaches `ahead` before it is computed: steps during an impact must resolve it.
 ///
 /// # Errors
 /// [`Failure::ContactNotResolved`] where the step is too long for a contact.
@@ -66,7 +66,7 @@ pub fn check_passage(cx: &Context, nodes: &[Node], state: &State, ahead: f64) ->
     cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
 }
 
-/// Notes how deep contacts are pressed in at the end of a step, and warns where that is seen.
+/// Records the penetration of contacts at the end of a step, and warns if it is visible.
 fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
     let name = |part: usize| cx.model.parts[part].name().to_owned();
     if !warnings.knows(|known| matches!(known, Warning::SideBySide { .. }))
@@ -95,8 +95,8 @@ fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
     }
 }
 
-/// Warns of contacts that a dynamic stage begins with, `fresh` being the ranges of history of what was not there before, where something
-/// lies inside the surface already: it is thrown out by energy that nothing has brought.
+/// Warns if a new contact of a dynamic stage begins with a penetration, which throws the body out with unphysical energy. `fresh` are the
+/// ranges of the history that earlier stages did not have.
 pub fn warn_of_closed(cx: &Context, ws: &mut Workspace, state: &State, fresh: &[Range<usize>]) {
     if !cx.is_dynamic() || !cx.system.has_contacts() {
         return;
@@ -110,8 +110,8 @@ pub fn warn_of_closed(cx: &Context, ws: &mut Workspace, state: &State, fresh: &[
     }
 }
 
-/// An energy that no one sees where bodies come to rest on each other: it lifts them by a thousandth of their size, the depth by
-/// which stiffnesses are chosen. Zero without contacts or weight.
+/// A negligible energy for bodies at rest on each other: their weight times a thousandth of their size, the penetration used to choose
+/// stiffnesses. Zero without contacts or weight.
 pub fn settling_energy(model: &Model) -> f64 {
     let acting = model.each::<Contact>().filter(|contact| contact.law.is_some());
     let size = acting.map(|contact| contact.size).fold(f64::INFINITY, f64::min);

@@ -1,5 +1,5 @@
-//! Watches rotations that supports fix alone: such a one is a component of each step's rotation vector, and its total drifts where the node
-//! turns about other axes too.
+//! Checks rotations fixed only by supports. A fixed rotation is a component of each step's rotation vector, so the total rotation drifts if
+//! the node also turns about other axes.
 
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};

@@ -1,4 +1,4 @@
-//! A guard, and the named points of a step at which it is asked.
+//! A guard, and the points of a step where it acts.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -8,7 +8,7 @@ use base::snapshot::Snapshot;
 use mechanics::materials::Dissipation;
 use mechanics::state::State;
 
-/// Refuses steps, or warns of them. A scene carries the guards that its plan asks for and no others.
+/// Refuses steps, or warns of them. A model has only the guards listed in its plan.
 pub trait Guard {
     /// Before anything of a step is computed.
     ///

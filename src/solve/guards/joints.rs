@@ -27,7 +27,7 @@ impl Guard for JointGuard {
     }
 }
 
-/// As [`check`] for the trial motion, of which the workspace keeps the largest gap.
+/// Like [`check`], for the trial motion; the workspace keeps the largest gap.
 ///
 /// # Errors
 /// As for [`check`].
@@ -53,7 +53,7 @@ pub fn check(cx: &Context, nodes: &[Node], reach: f64, gaps: &mut [f64]) -> Resu
     Ok(gap)
 }
 
-/// The failure of joints that cannot be closed; the gaps say where.
+/// The failure of joints that cannot be closed, with their largest gaps.
 pub fn constraints_violated(cx: &Context, gaps: &[f64]) -> Failure {
     Failure::ConstraintsViolated { largest: failure::gaps(cx.model, cx.system, gaps), inertias: unlike_inertias(cx) }
 }

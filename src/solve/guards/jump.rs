@@ -1,6 +1,6 @@
-//! Load steps that do not end on the path of equilibria that they began on. Newton's method finds an equilibrium, not the one that the
-//! loads lead to: a long step may end with a structure turned inside out, and where a path ends at a limit point the next equilibrium is
-//! far away. Such steps are cut, or end the run.
+//! Detects load steps that leave the path of equilibria. Newton's method finds any equilibrium, not necessarily the one on the loading
+//! path. A long step may turn a structure inside out, and beyond a limit point the next equilibrium is far away. Such steps are cut, or end
+//! the run.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -14,7 +14,7 @@ use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, State};
 use model::DIRECTIONS;
 
-/// Refuses a load step that leaves the path of equilibria, or turns nodes too far.
+/// Refuses load steps off the path of equilibria and load steps with too large rotations.
 pub struct JumpGuard;
 
 impl Guard for JumpGuard {
@@ -64,8 +64,8 @@ fn check_turns(cx: &Context, trial: &TrialMotion, step: &Step) -> Result<(), Fai
     Ok(())
 }
 
-/// Refuses a step in which a node of a shell turns too far against the others of its element. Drilling has next to no inertia and is resisted
-/// little, the less the farther it has gone: an iteration may end where a node has turned about the normal by a right angle.
+/// Refuses a step that turns a node of a shell too far against the mean of its element. Drilling rotations have almost no inertia, and
+/// their resistance falls with the angle. An iteration may therefore converge with a node turned about the normal by a right angle.
 fn check_shells(cx: &Context, trial: &TrialMotion) -> Result<(), Failure> {
     let shells = || cx.system.groups.iter().filter(|group| group.kind.is_surface());
     let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&trial.increments[node].q));
@@ -136,8 +136,8 @@ fn check_work(
     Ok(())
 }
 
-/// The works of loads and of supports in a step by the mean of their forces at its ends, the sum of their terms without signs, and
-/// ½ Σ |Δf| |Δq|; from those of the loads alone.
+/// The works of loads and supports in a step by the mean forces of its ends, the sum of their terms without signs, and `½ Σ |Δf| |Δq|`. The
+/// array holds these values for the loads.
 fn work_of_step(
     cx: &Context,
     ws: &Workspace,
@@ -168,8 +168,8 @@ fn unbalanced_work(cx: &Context, ws: &mut Workspace, state: &State) -> f64 {
     cx.independent_nodes.iter().map(work).sum()
 }
 
-/// The largest motion of the step, rotations over a thousandth of the model's length, with its node and degree of freedom: rotations tell
-/// where hardly anything moves, for at the end of a lever they move more than that.
+/// The largest motion of the step, with its node and degree of freedom. Rotations count times a thousandth of the model's length, so they
+/// decide only if translations are negligible.
 fn largest_motion(cx: &Context, ws: &Workspace) -> (f64, (usize, usize)) {
     let (mut largest, mut place) = (0.0, (0, 0));
     for &node in &cx.independent_nodes {

@@ -11,7 +11,7 @@ use mechanics::materials::Dissipation;
 use mechanics::state::{Node, State};
 use model::Link;
 
-/// Refuses a step at whose end bushings or supports have lost count of turns.
+/// Refuses a step that loses the turn count of a bushing or support.
 pub struct LinkGuard;
 
 impl Guard for LinkGuard {
@@ -29,9 +29,8 @@ impl Guard for LinkGuard {
 /// Checks the motion from a state to these nodes, at the end of a step of length `dt`.
 ///
 /// # Errors
-/// [`Failure::BushingTurnedOver`] where the ends of a bushing have turned against each other by half a turn,
-/// [`Failure::BushingTurnsTooFar`] where they turn by so much in the step that it cannot be told from less,
-/// [`Failure::GivenRotationLost`] where a rotation beside a free one is no longer known.
+/// [`Failure::BushingTurnedOver`] if the ends of a bushing have turned against each other by half a turn. [`Failure::BushingTurnsTooFar`]
+/// if the turn of one step is ambiguous. [`Failure::GivenRotationLost`] if a prescribed rotation beside a free one is no longer known.
 pub fn check(cx: &Context, nodes: &[Node], state: &State, dt: f64) -> Result<(), Failure> {
     let name = |place: usize| cx.model.each::<Link>().nth(place).map(|link| link.name.clone());
     // The longer step is the cause where both hold.

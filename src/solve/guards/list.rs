@@ -1,4 +1,4 @@
-//! The guards of a scene, as its plan asks for them.
+//! The guards of a model, as listed in its plan.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -15,11 +15,11 @@ use crate::plan::GuardKind;
 use base::snapshot::{Keep, Snapshot};
 use linear::TooLarge;
 
-/// The guards of a scene, in the order in which they are asked.
+/// The guards of a model, in the order of their checks.
 pub struct Guards(Vec<Box<dyn Guard>>);
 
 impl Guards {
-    /// The guards that the plan asks for.
+    /// Creates the guards listed in the plan.
     ///
     /// # Errors
     /// There is no memory for the matrices of the guard of stability.

@@ -1,6 +1,6 @@
-//! Directions without mass in a dynamic analysis: what acts on them must hold them at every instant, for nothing else does. A node
-//! without mass at the end of a spring moves across it as rounding pleases, and one in the middle of a compressed chain buckles at
-//! once. Neither has a motion to compute. Directions are those of the tangent, whatever axes they lie oblique to.
+//! Directions without mass in a dynamic analysis: the forces on them must restrain them at every instant, since inertia does not. A node
+//! without mass at the end of a spring moves across it as rounding pleases, and one in the middle of a compressed chain buckles at once.
+//! Neither has a motion to compute. Directions are those of the tangent, whatever axes they lie oblique to.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -38,7 +38,7 @@ struct Cluster {
 struct Element {
     group: usize,
     e: usize,
-    /// Pairs of a row of its own matrix and one of the cluster's.
+    /// Pairs of a row of the element matrix and a row of the cluster matrix.
     rows: Vec<(usize, usize)>,
 }
 
@@ -55,7 +55,7 @@ impl MasslessNodes {
         MasslessNodes { K: vec![0.0; if has_any { largest.max().unwrap_or(0) } else { 0 }], clusters, started: false }
     }
 
-    /// Refuses a configuration in which a direction without mass is not held.
+    /// Refuses a configuration with an unrestrained massless direction.
     fn check(&mut self, cx: &Context, now: &Configuration, stage: &Stage) -> Result<(), Failure> {
         let (rate, _) = stage.scheme.weights();
         for cluster in &mut self.clusters {
@@ -70,8 +70,8 @@ impl MasslessNodes {
 }
 
 impl Guard for MasslessNodes {
-    /// Refuses a scene in which a direction without mass is not held before anything moves: dampers hold along their lines alone, for
-    /// their forces follow from velocities that nodes without mass have not at t = 0.
+    /// Refuses a model with a massless direction that is unrestrained before anything moves. Dampers restrain only along their lines: their
+    /// forces depend on velocities, which massless nodes do not have at t = 0.
     fn before_step(&mut self, cx: &Context, step: &Step) -> Result<(), Failure> {
         if self.clusters.is_empty() || self.started {
             return Ok(());
@@ -83,7 +83,7 @@ impl Guard for MasslessNodes {
         Ok(())
     }
 
-    /// Refuses an equilibrium in which a direction without mass is not held.
+    /// Refuses an equilibrium with an unrestrained massless direction.
     fn before_end(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) -> Result<(), Failure> {
         self.check(cx, &step.at_instant(&ws.trial.nodes), &step.stage)
     }
@@ -97,7 +97,7 @@ impl Guard for MasslessNodes {
     }
 }
 
-/// For each node the unknown degrees of freedom without mass, on which nothing acts that bends.
+/// For each node the unknown degrees of freedom that have no mass and no element with bending stiffness.
 fn light_dofs(cx: &Context) -> Vec<[bool; 6]> {
     let has_mass = cx.system.has_mass(cx.model.nodes.len());
     let mut light: Vec<[bool; 6]> = (0..cx.model.nodes.len())
@@ -108,7 +108,7 @@ fn light_dofs(cx: &Context) -> Vec<[bool; 6]> {
             light[node] = [false; 6];
         }
     }
-    // Joints hold nodes by multipliers, and what acts on a node acts on its master through an arm.
+    // Joints restrain nodes by multipliers, and forces on a dependent node act on its master through an arm.
     let joined = cx.system.joints.iter().flat_map(|joint| joint.matrix_nodes());
     let leading = cx.system.rigid_links.iter().map(|dependent| dependent.master);
     joined.chain(leading).for_each(|node| light[node] = [false; 6]);
@@ -201,14 +201,14 @@ impl Cluster {
         }
     }
 
-    /// Whether all pivots of a Cholesky factorization, which takes the place of the matrix, are above rounding.
+    /// True if all pivots of a Cholesky factorization are above rounding; the factor overwrites the matrix.
     fn is_held(&mut self) -> bool {
         let (size, K) = (self.dofs.len(), &mut self.matrix);
         for k in 0..size {
             let diagonal = K[k * size + k];
             let sum: f64 = (0..k).map(|j| K[k * size + j] * K[k * size + j]).sum();
             let pivot = diagonal - sum;
-            // What is not a number is not held either.
+            // A NaN counts as unrestrained.
             if pivot <= ROUNDING * diagonal || pivot.is_nan() {
                 return false;
             }
@@ -222,7 +222,7 @@ impl Cluster {
         true
     }
 
-    /// The node that is held least, and the direction in which it is.
+    /// The node with the softest direction, and this direction.
     fn failure(&self, cx: &Context, now: &Configuration) -> Failure {
         let size = self.dofs.len();
         // Forces and moments are compared by their diagonals.

@@ -1,5 +1,5 @@
-//! Mechanisms: motions that nothing resists. Rounding may leave a pivot of any size where an exact one would be zero, so the matrix is
-//! not asked but the elements: a motion is a mechanism where it strains none of them.
+//! Mechanisms: motions that nothing resists. Rounding may change a zero pivot to any value, so the elements decide instead of the matrix: a
+//! mechanism is a motion that strains no element.
 
 use crate::guards::mode::Mode;
 use crate::strategy::stabilization::HeldByForces;
@@ -12,8 +12,8 @@ use mechanics::elements::Moduli;
 use mechanics::state::Configuration;
 use model::Model;
 
-/// The node and degree of freedom that a mechanism moves most; `None` where elements resist every motion.
-/// The matrix that `solver` has factored is that of `now`. Forces count where they are given as `held`.
+/// The node and degree of freedom with the largest motion in a mechanism; `None` if elements resist every motion. `solver` holds the
+/// factorized matrix of the configuration `now`. Forces count where they are given as `held`.
 pub fn find(
     system: &System,
     dofs: &DofMap,
@@ -31,7 +31,7 @@ pub fn find(
     if resisted { None } else { mode.largest(dofs) }
 }
 
-/// True where a joint resists the motion, which it does where its constraint equations would be violated.
+/// True if a joint resists the motion because the motion violates its constraint equations.
 fn opens_joints(system: &System, now: &Configuration, motions: &[Vec6], length: f64) -> bool {
     let size = |motion: &Vec6| linear(motion).amax().max(length * angular(motion).amax());
     system.joints.iter().any(|joint| {
@@ -106,8 +106,8 @@ impl Strains<'_> {
     }
 }
 
-/// True where the forces of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes, do not change as all
-/// nodes move alike in a direction.
+/// True if an equal displacement of all nodes in this direction changes no force of an element. `K` is its tangent, row-major with `d`
+/// degrees of freedom for each node.
 fn is_free(K: &[f64], d: usize, direction: usize) -> bool {
     let width = K.len().isqrt();
     K.chunks(width.max(1)).all(|row| {
@@ -116,7 +116,7 @@ fn is_free(K: &[f64], d: usize, direction: usize) -> bool {
     })
 }
 
-/// Calls with the element, the nodes and the tangent of each pair that touches, of a group whose elements wander.
+/// Calls `act` with the element, the nodes and the tangent of each contact pair of a group with changing pairs.
 fn each_pair(group: &Group, now: &Configuration, rate: f64, mut act: impl FnMut(usize, &[usize], &[f64])) {
     let Some(wandering) = group.wandering() else { return };
     let partners = wandering.partners(now.nodes);
@@ -126,8 +126,8 @@ fn each_pair(group: &Group, now: &Configuration, rate: f64, mut act: impl FnMut(
     });
 }
 
-/// The number of elements that neither push nor pull as they lie: links and tension-only bars that are open or slack, contacts that do
-/// not touch. Those whose elements wander are left out: they have no tangent of their own, touching or not.
+/// The number of elements that currently exert no force: open or slack links and tension-only bars, and contacts with a gap. Groups with
+/// changing contact pairs are omitted: their elements have no separate tangent.
 pub fn open_elements(system: &System, now: &Configuration) -> usize {
     let open = |group: &Group| {
         let now = &group.configuration(now);
@@ -136,7 +136,7 @@ pub fn open_elements(system: &System, now: &Configuration) -> usize {
     system.groups.iter().filter(|group| group.wandering().is_none()).map(open).sum()
 }
 
-/// The name, in quotes, of a part that is open or slack `now`, and was not `before`, where that is given.
+/// The name, in quotes, of a part that is open or slack `now` and was not in `before`, if given.
 pub fn opened_part(
     model: &Model,
     system: &System,
@@ -152,8 +152,8 @@ pub fn opened_part(
     })
 }
 
-/// The name, in quotes, of a part at a node, or at a node that follows it, with the gap of a contact, which neither pushes nor pulls as it lies: a link whose gap is open, a rope
-/// that is slack, a contact that does not touch.
+/// The name, in quotes, of an open or slack part at a node or at its dependent nodes, with the gap of a contact. Such a part currently
+/// exerts no force: an open link, a slack rope or a contact with a gap.
 pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usize) -> Option<String> {
     let follows = |of: usize| system.rigid_links.iter().any(|link| link.node == of && link.master == node);
     let mut K = Vec::new();
@@ -163,7 +163,7 @@ pub fn open_part(model: &Model, system: &System, now: &Configuration, node: usiz
         each_pair(group, now, 0.0, |e, _, _| touching.push(e));
         let mut is_open = |&e: &usize| {
             let nodes = block.nodes(e);
-            // What counts the turns of a joint never pushes, open or not.
+            // The unlisted part that counts the turns of a joint never exerts a force.
             if !group.part_of(e, model).is_listed() || !nodes.iter().any(|&of| of == node || follows(of)) {
                 return false;
             }

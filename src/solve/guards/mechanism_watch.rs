@@ -1,4 +1,4 @@
-//! The watch for mechanisms in statics: the first matrix of a run is searched, and each that follows something that has opened.
+//! The watch for mechanisms in statics: it searches the first matrix of a run, and each matrix after an element has opened.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -9,7 +9,7 @@ use base::snapshot::keep;
 use linear::Solver;
 use mechanics::state::{Configuration, State};
 
-/// What is known of open parts.
+/// The known state of open parts.
 pub struct MechanismWatch {
     /// False in dynamics, where masses resist every motion.
     is_due: bool,
@@ -21,14 +21,14 @@ pub struct MechanismWatch {
 
 keep!(MechanismWatch { searched, opened } without { is_due });
 
-/// What is open where a matrix is formed.
+/// The open elements when a matrix is formed.
 #[derive(Clone, Copy)]
 pub struct Openings {
     /// The number of elements that neither push nor pull.
     count: usize,
-    /// True where that may have left a mechanism.
+    /// True if the openings may have created a mechanism.
     suspect: bool,
-    /// True where nothing has moved yet: shorter steps do not change what holds the scene.
+    /// True before the first motion: shorter steps then do not change the restraints.
     at_start: bool,
 }
 
@@ -45,9 +45,9 @@ impl MechanismWatch {
         MechanismWatch { is_due: !cx.is_dynamic(), searched: None, opened: None }
     }
 
-    /// Looks at what is open `now`, in a step from `state`.
+    /// Counts the open elements `now`, in a step from `state`.
     pub fn look(&mut self, cx: &Context, state: &State, prescribed: &[Prescribed], now: &Configuration) -> Openings {
-        // What lifts off, or goes slack, may leave a mechanism behind.
+        // An element that lifts off or goes slack may create a mechanism.
         let count = if self.is_due { mechanism::open_elements(cx.system, now) } else { 0 };
         match self.searched {
             Some(known) if count > known => {
@@ -65,7 +65,7 @@ impl MechanismWatch {
         }
     }
 
-    /// Searches a factored matrix with these weights for mechanisms, where that is due. Forces of joints count where they are given.
+    /// Searches a factorized matrix with these weights for mechanisms, when due. Forces of joints count where they are given.
     ///
     /// # Errors
     /// [`Failure::Singular`] where there is one.

@@ -11,7 +11,7 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// The mode of the matrix factored last whose stiffness is nearest to zero; `None` where numbers do not hold it. `length` weighs
+    /// The mode of the last factorized matrix whose stiffness is nearest to zero; `None` if the iteration overflows. `length` weighs
     /// rotations against translations.
     pub fn softest(solver: &mut Solver, dofs: &DofMap, length: f64) -> Option<Mode> {
         let weight = |dof: usize| if dof < 3 { 1.0 } else { length };

@@ -1,4 +1,4 @@
-//! The stability of plane equilibria against motion out of their plane, which a plane analysis leaves out.
+//! The stability of plane equilibria against motion out of their plane, which a plane analysis omits.
 
 use crate::context::Context;
 use crate::guards::mechanism;
@@ -23,8 +23,8 @@ pub struct OutOfPlane {
     matrix: LinearSystem,
     forces: Forces,
     criterion: Criterion,
-    /// Springs that hold parts which are free to turn about their own axes, by their place on the diagonal. Such a turn strains nothing,
-    /// so that all other motions keep the energy that they had.
+    /// Springs on parts that are free to turn about their own axes: the slot on the diagonal and the stiffness. Such a turn strains
+    /// nothing, so the springs do not change the energy of other motions.
     springs: Vec<(usize, f64)>,
     /// True once the tangent at t = 0 has been searched for such motions.
     searched: bool,
@@ -56,8 +56,7 @@ impl OutOfPlane {
         }))
     }
 
-    /// Judges an equilibrium that an accepted step from the time `from` has reached; returns false where there is nothing to be watched any
-    /// more.
+    /// Judges the equilibrium after an accepted step from the time `from`; returns false if the check ends with it.
     pub fn check(&mut self, cx: &Context, ws: &mut Workspace, state: &State, from: f64) -> bool {
         let Workspace { loads, end: TrialMotion { nodes: start, .. }, warnings, .. } = ws;
         if !std::mem::replace(&mut self.searched, true) {
@@ -95,7 +94,7 @@ impl OutOfPlane {
     /// Holds by springs what nothing holds out of the plane at t = 0. Returns where.
     ///
     /// # Errors
-    /// A place that is free to leave the plane: what is not held in it is meant to be plane.
+    /// A node that is free to leave the plane: a structure without restraint out of its plane is meant to be plane.
     fn hold(
         &mut self,
         cx: &Context,
@@ -142,7 +141,7 @@ fn largest_rotational_stiffness(dofs: &DofMap, matrix: &mut LinearSystem) -> f64
     largest
 }
 
-/// A node that moves where all nodes leave the plane by the same way, as far as supports let them; `None` where that strains something.
+/// A node that moves if all nodes leave the plane by the same distance, as far as supports allow; `None` if this strains an element.
 fn free_translation(system: &System, dofs: &DofMap, now: &Configuration, length: f64) -> Option<(usize, usize)> {
     let &place = dofs.nodal_dofs().iter().find(|(_, dof)| *dof < 3)?;
     let mut motions = vec![Vec6::zeros(); now.nodes.len()];

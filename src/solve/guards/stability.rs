@@ -1,14 +1,14 @@
 //! The stability of equilibria in statics: an equilibrium is stable where the tangent has no negative eigenvalue. Load control finds
-//! equilibria beyond a buckling load as easily as before it, so they are counted at the end of each step. Where the first appears, the
-//! tangents at the ends of the step are combined, K(θ) = K₀ + θ (K₁ − K₀): the smallest θ at which one eigenvalue is negative gives the
-//! load, exactly where stresses grow with it (linear buckling), and the softest mode there is the mode of buckling.
+//! equilibria beyond a buckling load as easily as before it, so they are counted at the end of each step. At the first negative eigenvalue,
+//! the tangents at both ends of the step are combined, K(θ) = K₀ + θ (K₁ − K₀). The smallest θ with a negative eigenvalue gives the load,
+//! exactly if stresses are proportional to it (linear buckling), and the softest mode there is the buckling mode.
 //!
-//! A load step that ends on an unstable branch is cut, for the path that the loads lead to may bend away from it within the step. Where a short
-//! step ends there too the path itself is unstable, and the run ends. Material that softens and what cannot be judged are warned of.
+//! A load step that ends on an unstable branch is cut, because the stable path may bend away from it within the step. Where a short step
+//! ends there too the path itself is unstable, and the run ends. Softening material and cases that cannot be judged cause warnings.
 //!
-//! The tangent of what slips is not symmetric: a point that is pressed deeper by δ is held back by μ k δ more, and nothing pushes it out for
-//! that. Its symmetric part may then have negative eigenvalues where nothing grows; where it has none, nothing does. So these only raise the
-//! suspicion, which the determinant of the whole tangent settles.
+//! The tangent of slipping contacts is not symmetric: a penetration larger by δ increases the friction by μ k δ, but a slip causes no
+//! normal force. Its symmetric part may have negative eigenvalues although no motion grows; without negative eigenvalues no motion grows.
+//! So these only raise the suspicion, which the determinant of the whole tangent settles.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -35,15 +35,15 @@ pub struct Stability {
     criterion: Criterion,
     /// A path of given arc length, which passes limit points.
     path: Option<Path>,
-    /// A matrix of its own where that of the iteration is kept over steps, or is elastic.
+    /// A separate matrix, if the matrix of the iteration is kept over steps or is elastic.
     own: Option<Box<LinearSystem>>,
-    /// Negative eigenvalues at the last equilibrium, by which tangents that are not symmetric are known to be looked at.
+    /// Number of negative eigenvalues at the last equilibrium; an increase triggers the check of unsymmetric tangents.
     seen: usize,
-    /// What was found of the equilibrium at the end of a load step, until that is accepted.
+    /// Findings at the end of a load step, until the step is accepted.
     found: Found,
-    /// The motion out of the plane, where a plane motion leaves it out, until it has buckled.
+    /// The motion out of the plane, if the analysis omits it, until it has buckled.
     sideways: Option<Box<OutOfPlane>>,
-    /// What has led to the last equilibrium of a load step.
+    /// The iteration to the last equilibrium of a load step.
     way: Way,
 }
 
@@ -58,8 +58,8 @@ struct Way {
 }
 
 impl Way {
-    /// True where the equilibrium lies beyond an unstable branch, on the other side of the state than the loads push it: it may be the mirror
-    /// image of the one that they lead to.
+    /// True if the equilibrium lies beyond an unstable branch, against the direction of the loads: it may be the mirror image of the
+    /// correct one.
     fn has_turned_back(&self, cx: &Context, trial: &TrialMotion) -> bool {
         let way = self.first.iter().zip(&trial.increments).map(|(first, increment)| {
             let turns = angular(first).dot(&angular(&increment.q));
@@ -69,7 +69,7 @@ impl Way {
     }
 }
 
-/// What was found of an equilibrium.
+/// The findings at an equilibrium.
 #[derive(Default)]
 struct Found {
     /// The number of negative eigenvalues, where they were counted.
@@ -77,11 +77,11 @@ struct Found {
     instability: Option<Instability>,
     /// True where it is unstable only because material softens.
     softens: bool,
-    /// True where something slips along a path of given arc length, where nothing is judged.
+    /// True if a contact slips under arc-length control, which is not judged.
     slips: bool,
 }
 
-/// What was seen of a path.
+/// The record of a path under arc-length control.
 struct Path {
     /// True where loads grow along it.
     grows: bool,
@@ -93,7 +93,7 @@ impl Stability {
     /// The watch of a static analysis whose tangent changes.
     ///
     /// # Errors
-    /// There is no memory for a matrix of its own, or for the motion out of the plane.
+    /// There is no memory for a separate matrix, or for the motion out of the plane.
     pub fn new(cx: &Context) -> Result<Stability, TooLarge> {
         let along = cx.model.analysis.step_length.is_arc_length();
         let criterion = match cx.plan.kind {
@@ -120,8 +120,8 @@ impl Stability {
         })
     }
 
-    /// Looks at the equilibrium at the end of a step. Along a path of given arc length `grows` tells whether loads grow; of a step that `cuts`
-    /// where it is unstable, the time is not looked for.
+    /// Looks at the equilibrium at the end of a step. Under arc-length control `grows` is true if loads grow. With `cuts`, an unstable step
+    /// is cut anyway, so its buckling time is not searched.
     fn look(
         &mut self,
         cx: &Context,
@@ -139,7 +139,7 @@ impl Stability {
         matrix.make_room(cx, end);
         let mut tangent =
             Tangent { system: cx.system, dofs: &cx.plan.dofs, matrix, forces, springs: &[], criterion: self.criterion };
-        // The matrix at hand is that of the last correction but one, whose motion differs by the square of the tolerance.
+        // The current matrix belongs to the last correction but one, whose motion differs by the square of the tolerance.
         if is_own {
             tangent.form(end, ends.loads[1]);
             // A plastic plateau has no stiffness, which is no buckling.
@@ -172,7 +172,7 @@ impl Stability {
             Err(NotJudged) => found.slips = true,
         }
         if path.is_some() && !is_own {
-            // The negative pivots of the equilibrium are told of each step.
+            // Reports of each step contain the negative pivots of the equilibrium.
             tangent.form(end, ends.loads[1]);
             tangent.matrix.overwritten = tangent.matrix.solver.factor().is_err();
         }
@@ -303,8 +303,8 @@ fn locate_in_doubt(
     Ok(tangent.locate(cx, ends))
 }
 
-/// A matrix that is stored in full, for one look at the determinant of a scene that is solved by the symmetric part; `None` where there is
-/// no memory for it.
+/// A matrix stored in full, for one evaluation of the determinant of a model that is solved with the symmetric part; `None` if memory is
+/// short.
 fn whole_matrix(cx: &Context, now: &Configuration) -> Option<LinearSystem> {
     let built = cx.plan.build_unsymmetric(cx.system, &cx.system.partners(now.nodes));
     built.ok().map(|(solver, assembly)| LinearSystem::new(solver, assembly))

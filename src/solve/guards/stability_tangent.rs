@@ -1,4 +1,4 @@
-//! The tangent at an equilibrium, and what its eigenvalues tell of stability between two of them.
+//! The tangent at an equilibrium, and the detection of instability between two equilibria by its eigenvalues.
 
 use crate::context::Context;
 use crate::guards::mode::Mode;
@@ -16,14 +16,14 @@ use model::DIRECTIONS;
 pub const WEIGHTS: TangentWeights =
     TangentWeights { stiffness: true, rate: 0.0, acceleration: 0.0, turning: None, moduli: Moduli::Algorithmic };
 
-/// What of a tangent tells of stability.
+/// The property of a tangent that shows instability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Criterion {
     /// Loads have a potential: the tangent is symmetric, and its negative eigenvalues count.
     Eigenvalues,
-    /// Follower loads, moments about axes fixed in space, and friction that slips: a negative determinant shows a motion that grows.
+    /// For follower loads, moments about axes fixed in space, and slipping friction: a negative determinant shows a growing motion.
     Determinant,
-    /// The same where only the symmetric part can be stored: a negative eigenvalue may show one.
+    /// As for `Determinant`, but only the symmetric part can be stored: a negative eigenvalue may show a growing motion.
     SymmetricPart,
 }
 
@@ -69,12 +69,12 @@ impl Tangent<'_> {
         }
     }
 
-    /// The number of unstable modes that the matrix shows; `None` where it is singular.
+    /// The number of unstable modes in the matrix; `None` if it is singular.
     pub fn unstable_modes(&mut self) -> Option<usize> {
         self.matrix.solver.factor().ok().map(|()| self.count())
     }
 
-    /// The same for the matrix factored last. Each multiplier has a negative eigenvalue of its own.
+    /// The number of unstable modes in the matrix factorized last. Each multiplier adds one negative eigenvalue.
     pub fn count(&self) -> usize {
         let (solver, multipliers) = (&self.matrix.solver, self.system.multipliers());
         match self.criterion {
@@ -83,7 +83,7 @@ impl Tangent<'_> {
         }
     }
 
-    /// What tells of stability between the ends of a step, where the tangent need not be symmetric.
+    /// The criterion of stability between the ends of a step with a possibly unsymmetric tangent.
     pub fn criterion_between(&mut self, ends: &Ends) -> Criterion {
         if self.matrix.solver.is_symmetric() {
             return Criterion::SymmetricPart;

@@ -1,4 +1,4 @@
-//! Watches shells that yield: where they are stretched beyond what their measure of strain is for, their forces are wrong.
+//! Checks the strain of yielding shells: beyond the range of their strain measure their forces are wrong.
 
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
