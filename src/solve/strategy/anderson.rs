@@ -1,6 +1,6 @@
-//! Anderson acceleration of an iteration whose matrix is not the derivative: the correction is combined with earlier
-//! ones so that the remaining residual is least. For a linear problem it is GMRES on the preconditioned residual. D. G.
-//! Anderson, J. ACM 12 (1965); H. F. Walker & P. Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
+//! Anderson acceleration of an iteration whose matrix is not the derivative: it combines the correction with earlier ones for the least
+//! remaining residual. For a linear problem it is GMRES on the preconditioned residual. D. G. Anderson, J. ACM 12 (1965); H. F. Walker & P.
+//! Ni, SIAM J. Numer. Anal. 49 (2011), the form used here.
 
 use crate::tolerances::anderson::{DEPTH, NEW};
 use base::snapshot::keep;
@@ -65,8 +65,8 @@ impl Anderson {
         self.seen = true;
     }
 
-    /// Subtracts Σ γ_j (Δx_j + Δf_j) from f, with γ the least squares solution of f ≈ Σ γ_j Δf_j. Gram-Schmidt
-    /// orthogonalization takes the newest difference first, so that an old one counts for what it adds.
+    /// Subtracts Σ γ_j (Δx_j + Δf_j) from f, with γ the least squares solution of f ≈ Σ γ_j Δf_j. Gram-Schmidt orthogonalization starts
+    /// with the newest difference, so an older one contributes only its independent part.
     fn subtract_explained(&mut self, correction: &mut [f64]) {
         let Anderson { differences, basis, used, weights, .. } = self;
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).zip(&*weights).map(|((a, b), w)| w * a * b).sum::<f64>();

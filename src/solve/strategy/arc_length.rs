@@ -1,9 +1,9 @@
 //! A step whose load is unknown: equilibrium r(q, t) = 0 and one equation more. With K = −∂r/∂q each correction is
 //!   δq = a + δt b,   K a = r,   K b = ∂r/∂t,
-//! two substitutions with one factorisation, and δt follows from the equation that was added, solved exactly: the length of
-//! the motion |Δq + δq| = ℓ, load left out (M. A. Crisfield, Comput. Struct. 13 (1981); E. Ramm, 1981), or a displacement
-//! that is given. Of the two roots of the first the one that goes on: along the last step at the start of a step (Y. T. Feng
-//! et al., Eng. Comput. 12 (1995)), whatever the sign of det K, along the motion so far afterwards.
+//! two substitutions with one factorization. The added equation gives δt exactly: the length of the motion |Δq + δq| = ℓ, without the load
+//! (M. A. Crisfield, Comput. Struct. 13 (1981); E. Ramm, 1981), or a displacement that is given. Of the two roots of the first the one that
+//! goes on: along the last step at the start of a step (Y. T. Feng et al., Eng. Comput. 12 (1995)), whatever the sign of det K, along the
+//! motion so far afterwards.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -41,7 +41,7 @@ impl PathCondition<'_> {
     /// Adds to the correction what meets the condition, and moves the end of the step.
     ///
     /// # Errors
-    /// As for an arc that no line of corrections meets, and where nothing changes with the time.
+    /// [`Failure::NoEquilibriumOnArc`] and [`Failure::NoLoadIncrement`], as for [`ArcLengthConstraint::close`].
     pub fn close(
         &mut self,
         cx: &Context,
@@ -55,7 +55,7 @@ impl PathCondition<'_> {
     }
 }
 
-/// The equation that is added where the time is unknown, with its data. It is allocated once.
+/// The equation that determines the unknown time, with its data. It is allocated once.
 pub struct ArcLengthConstraint {
     /// ∂r/∂t, then b, by unknown.
     rate: Vec<f64>,
@@ -113,10 +113,11 @@ impl ArcLengthConstraint {
         }
     }
 
-    /// Adds δt b to the correction, which is a, and evaluates loads and prescribed motion at the new time, which it returns.
+    /// Adds δt b to the correction a, evaluates loads and prescribed motion at the new time, and returns this time.
     ///
     /// # Errors
-    /// [`Failure::NoEquilibriumOnArc`] where the line of corrections misses the arc, [`Failure::NoLoadIncrement`] where nothing changes with the time.
+    /// [`Failure::NoEquilibriumOnArc`] if the line of corrections misses the arc. [`Failure::NoLoadIncrement`] if loads and supports do not
+    /// change with time.
     fn close(&mut self, cx: &Context, ws: &mut Workspace, step: &Step, condition: Condition) -> Result<f64, Failure> {
         self.differentiate_residual(cx, ws, step);
         ws.matrix.solve_augmented(&self.forces.multipliers, &mut self.rate);
@@ -143,8 +144,8 @@ impl ArcLengthConstraint {
         }
     }
 
-    /// Writes ∂r/∂t at fixed unknowns, and the derivative of the gaps. For loads it is exact; where prescribed degrees
-    /// of freedom move it is a difference quotient, whose error only slows the iteration.
+    /// Writes ∂r/∂t at fixed unknowns, and the derivative of the gaps. It is exact for loads. For prescribed motion it is a difference
+    /// quotient, whose error only slows the iteration.
     fn differentiate_residual(&mut self, cx: &Context, ws: &mut Workspace, step: &Step) {
         if self.driven {
             return self.difference_residual(cx, ws, step);
@@ -188,7 +189,7 @@ impl ArcLengthConstraint {
         // Both roots are computed without cancellation: their product is rest/bb.
         let far = -(half + discriminant.sqrt().copysign(half));
         let roots = if far == 0.0 { [0.0, 0.0] } else { [far / bb, rest / far] };
-        // The motion ahead is the larger the further δt goes with the sign of ahead·b.
+        // Of the two roots, the one farther along the sign of ahead·b moves farther ahead.
         let [low, high] = [roots[0].min(roots[1]), roots[0].max(roots[1])];
         Some(if ahead_b >= 0.0 { high } else { low })
     }
@@ -222,7 +223,7 @@ impl ArcLengthConstraint {
         linear(x).dot(&linear(y)) + self.weight * angular(x).dot(&angular(y))
     }
 
-    /// True where loads grow along the path at the end of the step that was found.
+    /// True if loads grow along the path at the end of the step.
     pub fn loads_grow(&self, cx: &Context, trial: &TrialMotion) -> bool {
         let mut along = 0.0;
         for &node in &cx.independent_nodes {

@@ -1,5 +1,5 @@
-//! Load steps with contacts that end without depth: the equilibrium is found again and again, each time with the contact forces of the
-//! last as multipliers, until nothing is pressed in by more than its tolerance.
+//! Load steps with contacts that end without penetration: the equilibrium is found repeatedly, each time with the last contact forces as
+//! multipliers, until no penetration exceeds its tolerance.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -7,9 +7,9 @@ use crate::tolerances::augmentation::MOST;
 use crate::workspace::Workspace;
 use mechanics::state::{Configuration, State};
 
-/// What changes the multipliers of contacts.
+/// The update of the multipliers of contacts.
 pub struct Augmentation {
-    /// The history at the start of the step, which a step that fails leaves as it was.
+    /// The history at the start of the step, restored if the step fails.
     start: Vec<f64>,
     /// The history to be, while it is written.
     next: Vec<f64>,
@@ -32,11 +32,11 @@ impl Augmentation {
         state.history.copy_from_slice(&self.start);
     }
 
-    /// Gives the history of `state` multipliers by the contact forces of the equilibrium `count` at the time `to`; false where nothing was out by
-    /// more than its tolerance, and nothing is changed.
+    /// Writes the contact forces of the equilibrium number `count` at the time `to` as multipliers to the history of `state`. Returns
+    /// false, without changes, if no penetration exceeds its tolerance.
     ///
     /// # Errors
-    /// [`Failure::ContactNotClosed`] where that was the last one.
+    /// [`Failure::ContactNotClosed`] if the limit of equilibria is reached.
     pub fn augment(
         &mut self,
         cx: &Context,

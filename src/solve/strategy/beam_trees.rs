@@ -1,4 +1,4 @@
-//! The trees among the beams of a scene and what is rigidly attached to them.
+//! The trees formed by the beams of a model and by parts rigidly attached to them.
 
 use crate::context::{Context, at_rest};
 use crate::system::Group;
@@ -93,13 +93,13 @@ fn stretching_to_bending(group: &Group, e: usize, now: &Configuration, line: &Ve
 struct Graph {
     branches: Vec<Branch>,
     at: Vec<Vec<usize>>,
-    /// Nodes on which something else acts that deforms, or a joint, or that are attached in part.
+    /// Nodes with joints or with deformable parts other than beams, and partly attached nodes.
     foreign: Vec<bool>,
     dependent: Vec<bool>,
 }
 
 impl BeamTrees {
-    /// The trees on which nothing else acts that deforms, and no joint; `None` where there are none.
+    /// The trees without joints and without deformable parts other than beams; `None` if there are none.
     pub fn find(cx: &Context) -> Option<BeamTrees> {
         let graph = Graph::new(cx);
         let mut trees = BeamTrees { free: Vec::new(), slenderness: 0.0, branches: Vec::new(), nodes: Vec::new() };
@@ -173,7 +173,7 @@ impl Graph {
         Graph { branches, at, foreign, dependent }
     }
 
-    /// All nodes that are connected to `start`, and the branches from there outwards; no branches where they close a loop.
+    /// All nodes connected to `start`, and the branches from there outwards; `None` in place of branches that close a loop.
     fn grow(&self, start: usize, seen: &mut [bool]) -> (Vec<usize>, Option<Vec<Branch>>) {
         let (mut nodes, mut outwards, mut is_tree) = (vec![start], Vec::new(), true);
         let mut used = vec![false; self.branches.len()];

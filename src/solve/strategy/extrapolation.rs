@@ -1,4 +1,4 @@
-//! The iterate from which stresses are extrapolated to the one at hand, see [`Configuration::lead`](mechanics::state::Configuration).
+//! The iterate whose stresses are extrapolated to the current one, see [`Configuration::lead`](mechanics::state::Configuration).
 
 use crate::context::Context;
 use crate::step::correct::Correction;
@@ -8,8 +8,7 @@ use base::snapshot::keep;
 use mechanics::state::Node;
 use model::StepLength;
 
-/// The iterate before, and the one that led to the last equilibrium, from which predictions start. It is allocated once, where elements
-/// turn.
+/// The previous iterate, and the iterate before the last equilibrium, used for predictions. It is allocated once, where elements turn.
 pub struct StressExtrapolation {
     last: Iterate,
     of_equilibrium: Iterate,
@@ -30,9 +29,9 @@ struct Iterate {
 keep!(Iterate { nodes, known });
 
 impl StressExtrapolation {
-    /// Room for the iterates of a scene, where steps are automatic: equilibria are found from farther away, and some of these are not those
-    /// of the motion at hand. The error of the step tells that; with load steps, and with steps of given length, nothing would. There is none
-    /// where the tangent is constant, nor for shells, whose matrices are kept.
+    /// Room for the iterates of a model with error-controlled steps. Extrapolation converges from farther away, but may find an equilibrium
+    /// off the current motion. Only the error estimate of the step detects this, so load steps and steps of given length do without. Models
+    /// with a constant tangent need no extrapolation, nor do shells, whose matrices are reused.
     pub fn new(cx: &Context) -> StressExtrapolation {
         let judged = cx.is_dynamic() && matches!(cx.model.analysis.step_length, StepLength::ErrorControlled { .. });
         let used = judged && !cx.plan.linear && !cx.model.has_surfaces();
@@ -57,8 +56,8 @@ impl StressExtrapolation {
         self.last.known = false;
     }
 
-    /// Gives up extrapolation until the next equilibrium; returns false where there was none. Near limit points what is extrapolated grows
-    /// from correction to correction.
+    /// Gives up extrapolation until the next equilibrium; returns false where there was none. Near limit points the extrapolated stresses
+    /// grow from correction to correction.
     pub fn mistrust(&mut self) -> bool {
         self.nodes().is_some() && std::mem::replace(&mut self.trusted, false)
     }
@@ -78,7 +77,7 @@ impl StressExtrapolation {
         known.filter(|_| self.trusted).map(|iterate| &iterate.nodes[..])
     }
 
-    /// Keeps the trial motion and the correction at hand, before it is added.
+    /// Keeps the trial motion and the current correction before it is added.
     pub fn keep(&mut self, cx: &Context, trial: &TrialMotion, correction: &Correction) {
         if self.corrections.is_empty() {
             return;

@@ -1,7 +1,6 @@
-//! Line search: takes back part of a correction that went too far. Where material begins or ceases to yield, the
-//! tangent of one side leads too far on the other, and Newton's method may alternate for ever; the work of the residual
-//! along a correction shows it. Matthies & Strang, Int. J. Numer. Meth. Eng. 14 (1979), 1613-1626: a correction that
-//! leaves more than four fifths of |s| is shortened.
+//! Line search: shortens a correction that went too far. If material begins or ceases to yield, the tangent of one side is wrong on the
+//! other, and Newton's method may alternate forever. The work of the residual along the correction shows this. Matthies & Strang, Int. J.
+//! Numer. Meth. Eng. 14 (1979), 1613-1626: a correction is shortened if more than four fifths of |s| remain after it.
 
 use crate::tolerances::line_search::{LEFT, SECANT, TRIES};
 use base::math::Vec6;
@@ -48,7 +47,7 @@ impl LineSearch {
         self.tries = TRIES;
     }
 
-    /// Keeps the residual and the gaps of joints for which a system is about to be solved; `size` is the relative size of the residual.
+    /// Keeps the residual and the gaps of joints before the system is solved; `size` is the relative size of the residual.
     #[inline(never)]
     pub fn keep_residual(&mut self, residual: &[f64], gaps: &[f64], size: f64) {
         self.residual.copy_from_slice(residual);
@@ -75,7 +74,7 @@ impl LineSearch {
         increments: &mut [Increment],
         multipliers: &mut [f64],
     ) -> bool {
-        // A correction that was no descent, or that reduced the residual, stands.
+        // A correction stands if it was no descent direction or reduced the residual.
         if self.tries >= TRIES || self.at_start <= 0.0 || size <= self.size {
             return false;
         }
@@ -83,8 +82,8 @@ impl LineSearch {
         if work.abs() <= LEFT * self.at_start {
             return false;
         }
-        // Joints that were open did work as they closed, such as a drive that lifts a weight: what the residual does beside that tells
-        // nothing of how far to go.
+        // Open joints do work as they close, for example if a drive lifts a weight. The work of the residual then does not show the right
+        // length.
         if self.at_start <= self.work_of_joints(multipliers) {
             return false;
         }

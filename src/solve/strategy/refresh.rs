@@ -7,26 +7,25 @@ use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use model::{Iteration, Method, Update};
 
-/// The rule by which the matrix is renewed. It uses counts and contraction alone, never the clock, so that a deck
-/// always takes the same path.
+/// The rule for renewing the matrix. It uses only counts and contraction, never the clock, so a deck always gives the same path.
 #[derive(Debug, Clone)]
 pub struct Refresh {
     method: Method,
     update: Update,
     /// Cost of a fresh matrix in iterations.
     cost: f64,
-    /// Step length of the matrix at hand; `None` where there is none, or it has proved useless.
+    /// Step length of the current matrix; `None` if there is none, or it has proved useless.
     dt: Option<f64>,
     wanted: bool,
-    /// Iterations of the step for which the matrix was formed, and the iterations beyond that number since.
+    /// Iterations of the step that formed the matrix, and the iterations beyond this number since.
     baseline: Option<usize>,
     excess: usize,
     /// Number of steps still to start with a fresh matrix, and the number to ask for when an old one misleads next.
     eager: usize,
     next_eager: usize,
-    /// Size of a correction beyond which the matrix that gave it is of no more use, as far as was seen.
+    /// Size of a correction beyond which its matrix is useless afterwards, as observed so far.
     stale_beyond: f64,
-    /// Size of the first correction of the iteration at hand, where its matrix was formed for it.
+    /// Size of the first correction of the current iteration, if its matrix was formed for it.
     first: Option<f64>,
     /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
     fresh_matrix_required: bool,
@@ -46,7 +45,7 @@ pub enum Advice {
 }
 
 impl Refresh {
-    /// Method and update of a run, where the deck leaves them open or the analysis decides.
+    /// Method and update of a run; the analysis decides if the deck does not.
     pub fn rule(cx: &Context) -> (Method, Update) {
         let Context { model, system, .. } = *cx;
         let Iteration { method, update, .. } = model.solution.iteration;
@@ -102,7 +101,7 @@ impl Refresh {
         }
     }
 
-    /// The rule inside a step that was taken: the matrix at hand leads, whatever the deck asks for.
+    /// The rule inside a completed step: the current matrix is reused, whatever the deck requires.
     pub fn inside(&self) -> Refresh {
         let update = if self.update == Update::Never { Update::Never } else { Update::Auto };
         Refresh { update, eager: 0, wanted: false, ..self.clone() }
@@ -117,7 +116,7 @@ impl Refresh {
     }
 
     /// Takes account of a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the
-    /// matrix before it contracts no more: how far is learnt from those that did not.
+    /// earlier matrix no longer contracts; observed contractions set the limit of this size.
     pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
         if self.update != Update::Auto || self.method == Method::InitialLoad {
             return;
@@ -168,14 +167,13 @@ impl Refresh {
         }
     }
 
-    /// Discards the matrix after a step that was given up: it belongs to a motion that was not taken.
+    /// Discards the matrix after a failed step, because it belongs to a rejected motion.
     pub fn rejected(&mut self) {
         self.dt = None;
         self.fresh_matrix_required = false;
     }
 
-    /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false where it had that
-    /// already.
+    /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if this was already required.
     pub fn require_fresh_matrix(&mut self) -> bool {
         let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
         self.fresh_matrix_required |= more;

@@ -1,5 +1,5 @@
-//! Relaxation of corrections where material has a history: one that went too far is shortened, and where the matrix is not the derivative
-//! each is combined with earlier ones.
+//! Relaxation of corrections for material with history: a too long correction is shortened, and if the matrix is not the derivative,
+//! corrections are combined with earlier ones.
 
 use crate::context::Context;
 use crate::step::correct::Correction;
@@ -54,7 +54,7 @@ impl Relaxation {
         }
     }
 
-    /// Shortens the last correction where the residual of this relative `size` after it shows that it went too far; returns whether it did.
+    /// Shortens the last correction if the residual after it, of relative `size`, shows that it went too far; returns whether it did.
     pub fn shorten(
         &mut self,
         cx: &Context,
@@ -66,13 +66,13 @@ impl Relaxation {
         let values = &mut multipliers.values;
         let shortened = self.line_search.shorten(residual.of_nodes(cx), size, &mut trial.increments, values);
         if shortened {
-            // The correction that was combined is no longer the one that was applied.
+            // The shortened correction is no longer the one that was combined.
             self.forget_combined();
         }
         shortened
     }
 
-    /// Keeps the residual, of this relative `size`, for which a system is about to be solved.
+    /// Keeps the residual, of this relative `size`, before the system is solved.
     pub fn keep_residual(&mut self, cx: &Context, residual: &Residual, size: f64, multipliers: &Multipliers) {
         self.line_search.keep_residual(residual.of_nodes(cx), &multipliers.gaps, size);
     }

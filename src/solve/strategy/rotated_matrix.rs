@@ -1,12 +1,11 @@
-//! A matrix that turns with the scene: the one of some steps ago answers for the configuration at hand.
+//! A matrix that rotates with the model: the matrix of an earlier step serves the current configuration.
 //!
-//! Beams in a tree, with the bodies on them, are strained by differences of displacements along their lengths, in axes that turn
-//! with them. A motion x of the configuration of the matrix becomes one x′ = 𝒯 x of the configuration at hand that strains them
-//! alike: rotations turn with their nodes; at each Gauss point u′ − θ×r′ turns with the section; displacements are summed from
-//! where the tree is held, or about its centre of mass, so that sums of forces and momenta stay what they are in every iteration.
-//! With K the old matrix, 𝒯 K⁻¹ 𝒯ᵀ answers a residual. What stretching and shear resist is then up to
-//! date, however far the tree has turned and bent, and bending nearly so. Masses that the shape moves stay behind, which the
-//! contraction of the iteration shows as ever.
+//! Beams in a tree, with the bodies on them, are strained by differences of displacements along their lengths, in axes that turn with them.
+//! A motion x in the configuration of the matrix becomes the motion x′ = 𝒯 x of the current configuration with the same strains. Rotations
+//! turn with their nodes, and at each Gauss point u′ − θ×r′ turns with the section. Displacements are summed from the restrained node, or
+//! about the centre of mass, so every iteration keeps resultant forces and momenta. With K the old matrix, 𝒯 K⁻¹ 𝒯ᵀ answers a residual. The
+//! stiffness of stretching and shear is then exact, however far the tree has turned and bent, and the stiffness of bending nearly so.
+//! Masses do not follow the change of shape; as always, the contraction of the iteration shows this error.
 
 use crate::context::Context;
 use crate::strategy::beam_trees::{BeamTrees, MOST_NODES};
@@ -19,7 +18,7 @@ use base::snapshot::keep;
 use mechanics::state::Node;
 use nalgebra::Quaternion;
 
-/// The trees of a scene, in the configuration of the matrix and in the one at hand. It is allocated once.
+/// The trees of a model, in the configuration of the matrix and in the current one. It is allocated once.
 pub struct RotatedMatrix {
     trees: BeamTrees,
     /// The shapes of beams by number of nodes.
@@ -32,14 +31,14 @@ pub struct RotatedMatrix {
     members: Vec<(usize, NodeRows)>,
     /// For each node its part of the mass of its tree.
     mass: Vec<f64>,
-    /// Rotations of all nodes when the matrix was formed, and what they have turned since.
+    /// Rotations of all nodes when the matrix was formed, and the turns since then.
     formed: Vec<Quaternion<f64>>,
     turns: Vec<Quaternion<f64>>,
     turned: Vec<Mat3>,
     before: MotionAt,
     now: MotionAt,
     points_turned: Vec<Mat3>,
-    /// True where the matrix is that of the configuration at hand.
+    /// True if the matrix was formed for the current configuration.
     fresh: bool,
     /// Number of matrices so far.
     matrices: usize,
@@ -70,7 +69,7 @@ impl MotionAt {
 }
 
 impl RotatedMatrix {
-    /// The trees of a dynamic scene; `None` where there are none, or where the matrix never changes.
+    /// The trees of a dynamic model; `None` if there are none, or if the matrix never changes.
     pub fn new(cx: &Context) -> Option<RotatedMatrix> {
         if !cx.is_dynamic() || cx.plan.linear {
             return None;
@@ -107,7 +106,7 @@ impl RotatedMatrix {
         })
     }
 
-    /// Notes the configuration for which the matrix has been formed.
+    /// Records the configuration of a new matrix.
     pub fn note(&mut self, nodes: &[Node]) {
         for &node in &self.trees.nodes {
             self.formed[node] = nodes[node].rotation;
@@ -163,7 +162,7 @@ impl RotatedMatrix {
         true
     }
 
-    /// Takes a correction for the configuration of the matrix to the one at hand, 𝒯 x, after [`RotatedMatrix::take_back`].
+    /// Transforms a correction from the configuration of the matrix to the current one, 𝒯 x, after [`RotatedMatrix::take_back`].
     pub fn carry_along(&mut self, nodes: &[Node], x: &mut [f64]) {
         self.before.clear(&self.trees.nodes);
         self.now.clear(&self.trees.nodes);
@@ -222,7 +221,7 @@ impl RotatedMatrix {
         of.iter().zip(outer).for_each(|(&node, u)| now.u[node] = u);
     }
 
-    /// The same for forces, from the outer nodes to the inner one.
+    /// The transpose of [`RotatedMatrix::carry_branch_along`] for forces, from the outer nodes to the inner one.
     fn take_branch_back(&mut self, k: usize) {
         let branch = self.trees.branches[k];
         let (of, parent) = (branch.nodes(), branch.parent);
@@ -259,7 +258,7 @@ impl RotatedMatrix {
         }
     }
 
-    /// Writes what has turned since the matrix was formed. Returns false where that is too little to matter.
+    /// Writes the turns of nodes and points since the matrix was formed. Returns false if the turns are negligible.
     fn measure(&mut self, nodes: &[Node]) -> bool {
         let mut largest = 0.0f64;
         for &node in &self.trees.nodes {
@@ -288,7 +287,7 @@ impl RotatedMatrix {
     }
 }
 
-/// The mass at each node. Displacements of a tree are counted about its centre, to which dependent nodes give their part.
+/// The mass at each node. Displacements of a tree refer to its centre of mass, and dependent nodes contribute to it.
 fn mass(cx: &Context) -> Vec<f64> {
     let mut mass = vec![0.0; cx.model.nodes.len()];
     cx.system.inertias.iter().for_each(|inertia| mass[inertia.node] += inertia.mass);
@@ -298,7 +297,7 @@ fn mass(cx: &Context) -> Vec<f64> {
     mass
 }
 
-/// The part that each node has of the mass of its free tree, or of its number of nodes where these have none.
+/// The fraction of each node in the mass of its free tree, or in the number of its nodes if the tree has no mass.
 fn parts_of_mass(cx: &Context, trees: &BeamTrees) -> Vec<f64> {
     let mut mass = mass(cx);
     for free in &trees.free {
@@ -321,7 +320,7 @@ fn measure_points(trees: &BeamTrees, shapes: &[LineShape], first: &[usize], node
     }
 }
 
-/// The turn of the spins of a node: one about a single axis leaves them as they are.
+/// The rotation of the spins of a node; identity if the node does not have all three rotations.
 fn turn_of(rows: &NodeRows, turned: &Mat3) -> Mat3 {
     if (3..6).all(|dof| rows.has(dof)) { *turned } else { Mat3::identity() }
 }

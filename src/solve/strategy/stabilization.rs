@@ -1,7 +1,7 @@
-//! Stabilization of the first matrix of a load step. A body that hangs from a joint is held upright by the force of that joint alone, which
-//! is not known before the first correction: until then nothing resists its swing. Springs between all nodes and the ground take part in
-//! that one correction. The next matrix has the forces of joints in it, and has to do without. Links that are being pretensioned hold what hangs
-//! on them likewise.
+//! Stabilization of the first matrix of a load step. A hanging body is kept upright only by the force of its joint, which is unknown before
+//! the first correction. The first matrix therefore has no stiffness against its swing. Springs between all nodes and the ground take part
+//! in that one correction. The next matrix has the forces of joints in it, and has to do without. Links under pretension restrain hanging
+//! parts in the same way.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -9,14 +9,14 @@ use crate::guards::mode::Mode;
 use crate::tolerances::stabilization::{HELD, IN_PLACE, ROUNDING};
 use linear::{Solver, Sparse};
 
-/// True where forces of joints or of pretensioned links may hold what elements do not.
+/// True if forces of joints or of pretensioned links may restrain motions that elements do not resist.
 pub fn may_help(cx: &Context) -> bool {
-    // The length that pretension takes up is a number.
+    // A number holds the length taken up by pretension.
     let may_hold = !cx.system.joints.is_empty() || !cx.numbers.is_empty();
     !cx.is_dynamic() && may_hold && !cx.model.analysis.step_length.is_arc_length()
 }
 
-/// What held nothing by itself.
+/// A matrix of the first iteration that is singular without springs.
 pub struct Unheld {
     /// The failure of the matrix.
     pub failure: Failure,
@@ -41,26 +41,26 @@ impl Unheld {
     }
 }
 
-/// True where a first correction leaves everything in its place.
+/// True if a first correction moves all nodes only a little.
 pub fn stays_in_place(cx: &Context, correction: &[f64]) -> bool {
     let dofs = cx.plan.dofs.nodal_dofs();
     correction.iter().zip(dofs).all(|(by, &(_, dof))| by.abs() * lever(cx, dof) <= IN_PLACE * cx.length)
 }
 
-/// The displacement that a unit of this degree of freedom stands for.
+/// The displacement for a unit of this degree of freedom.
 fn lever(cx: &Context, dof: usize) -> f64 {
     if dof < 3 { 1.0 } else { cx.length }
 }
 
-/// What forces of joints hold where elements hold nothing: the matrix as it was assembled with them, and the stiffness of the springs that
-/// were there before.
+/// The stiffness from forces of joints where elements have none: the matrix assembled with these forces, and the stiffness of the earlier
+/// springs.
 pub struct HeldByForces {
     pub assembled: Sparse,
     pub springs: f64,
 }
 
 impl HeldByForces {
-    /// True where forces resist a mode. What they push on, as the weight of a mast that stands on a ball joint, they do not hold.
+    /// True where forces resist a mode. They do not restrain a compressed part, such as a mast that stands on a ball joint.
     pub fn resist(&self, mode: &Mode) -> bool {
         let [energy, terms] = mode.energy(&self.assembled);
         energy > HELD * self.springs + ROUNDING * terms

@@ -1,4 +1,4 @@
-//! A beam between its nodes: what strains it at its Gauss points, and displacements that follow from given strains.
+//! A beam between its nodes: its strains at the Gauss points, and displacements from given strains.
 
 use crate::strategy::beam_trees::MOST_NODES;
 use base::math::{Vec3, quadrature};

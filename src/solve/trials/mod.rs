@@ -1,9 +1,9 @@
-//! The error that steps leave at the end of a run, where they follow a tolerance.
+//! The global error at the end of a run whose steps follow a tolerance.
 //!
-//! The error of one step can be estimated from the step; what becomes of it cannot: tops and mechanisms magnify it, errors of velocity
-//! grow to errors of position, vibrations that are out of phase err by no more than their amplitude. So a second run is made with
-//! longer steps, a trial: the difference of two runs is the error of the worse one, and a known multiple of that of the better
-//! (L. F. Richardson, 1911). Where the error is more than was asked for, the run is made again with a tolerance that follows from it.
+//! The local error of a step can be estimated, but its effect on the end cannot. Tops and mechanisms magnify it, and errors of velocity
+//! grow into errors of position. A vibration out of phase errs at most by its amplitude. The difference to a trial run with longer steps is
+//! the error of the worse run, and a known multiple of the error of the better one (L. F. Richardson, 1911). If the error exceeds the
+//! requested one, the run is repeated with a tolerance computed from it.
 
 mod trace;
 
@@ -16,22 +16,22 @@ use super::outcome::Counts;
 use super::warning::Warning;
 use base::snapshot::keep;
 
-/// The error of the steps of a run, relative to its largest motion, and what it took to know it.
+/// The global error of a run relative to its largest motion, and the effort of its estimate.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct StepError {
-    /// The error that the deck asks for.
+    /// The error requested in the deck.
     pub asked: f64,
     /// The tolerance that the steps followed.
     pub tolerance: f64,
-    /// The longest step that was allowed; `None` where that was the controller's.
+    /// The longest step allowed; `None` if only the controller limits it.
     pub longest: Option<f64>,
     /// Both of the run before.
     pub before: (f64, Option<f64>),
     /// The estimated error of the run; `None` where no other run came to its end, or shorter steps bring runs with events no nearer to each other.
     pub estimate: Option<f64>,
-    /// The difference to the run by which it was judged, relative to the largest motion; `None` where that run tells nothing.
+    /// The difference to the run used for the estimate, relative to the largest motion; `None` if that run is no measure.
     pub difference: Option<f64>,
-    /// The factor by which the error of that run is larger.
+    /// The ratio of the error of that run to the error of this one.
     pub apart: f64,
     /// Number of runs besides the last.
     pub others: usize,
@@ -42,7 +42,7 @@ pub struct StepError {
 keep!(StepError: Default { asked, tolerance, longest, before, estimate, difference, apart, others, effort });
 
 impl StepError {
-    /// The error of a run by this tolerance, of which nothing is known yet.
+    /// The record of a run with this tolerance, without an estimate yet.
     pub fn new(asked: f64) -> StepError {
         StepError {
             asked,
@@ -86,7 +86,7 @@ impl StepError {
         if !told {
             return Some(self.without_trial());
         }
-        // Runs that have nothing in common tell little of how much shorter steps must be, and a few of them that there is no such length.
+        // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
         let lost = difference > SATURATED;
         let hopeless = lost && self.others > 2 && before.is_some_and(|before| estimate > 0.5 * before);
         let [least, most] = CHANGE;
@@ -100,7 +100,7 @@ impl StepError {
         self.tolerance * LOST
     }
 
-    /// What the run has to say where its error is not what was asked for.
+    /// The warning of a run whose error exceeds the requested one.
     pub fn doubt(&self) -> Option<Warning> {
         let StepError { asked, estimate, difference, .. } = *self;
         if let (None, Some(difference)) = (estimate, difference) {

@@ -1,4 +1,4 @@
-//! The motion of a run at a few times, by which runs with different steps are compared.
+//! The motion of a run at a few times, for the comparison of runs with different steps.
 
 use crate::control::{COMPARISONS, comparison_time};
 use crate::frame::{Frame, Observer};
@@ -15,20 +15,20 @@ pub struct Trace<'o> {
     kept: Kept,
 }
 
-/// What a trace keeps; the ends of steps grow with it.
+/// The data of a trace; the list of step ends grows with the run.
 #[derive(Debug, Clone, Default)]
 pub struct Kept {
     /// Displacements of the compared nodes, one time after the other.
     pub displacements: Vec<Vec3>,
     /// Rotations of the bodies, likewise.
     pub rotations: Vec<Quaternion<f64>>,
-    /// Velocities and angular velocities of the bodies, likewise, where bodies are all that moves.
+    /// Velocities and angular velocities of the bodies, likewise, in models of rigid bodies only.
     pub velocities: Vec<[Vec3; 2]>,
     /// Number of times so far.
     pub times: usize,
     /// The ends of all steps, the first at t = 0.
     pub ends: Vec<f64>,
-    /// The error of a step goes with this power of its length.
+    /// The error of a step is proportional to this power of its length.
     pub power: i32,
     /// The longest step.
     pub longest: f64,
@@ -41,8 +41,8 @@ pub struct Kept {
 keep!(Kept: Default { displacements, rotations, velocities, times, ends, power, longest, between, met_events });
 
 impl<'o> Trace<'o> {
-    /// An empty trace in front of another observer, to be compared between these times; the error of a step goes with this power of its
-    /// length.
+    /// An empty trace in front of another observer, for a comparison between these times; the error of a step is proportional to this power
+    /// of its length.
     pub fn new(observer: &'o mut dyn Observer, power: usize, between: [f64; 2]) -> Self {
         Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() } }
     }
@@ -53,7 +53,7 @@ impl<'o> Trace<'o> {
     }
 }
 
-/// Shows another observer the frames of a trial run at which it is compared.
+/// Passes only the compared frames of a trial run to another observer.
 pub struct Unseen<'o>(pub &'o mut dyn Observer);
 
 impl Observer for Unseen<'_> {
@@ -113,14 +113,14 @@ impl Kept {
         if self.times == COMPARISONS || state.time < comparison_time(self.times + 1, ends) - 1e-9 * ends[1] {
             return;
         }
-        // What drives joints has displacements that may be angles, and no error.
+        // Drives of joints may have angles in place of displacements, and have no error.
         let numbers: Vec<usize> = model.number_nodes().collect();
         let compared = state.nodes.iter().zip(&model.nodes).enumerate().step_by(stride);
         let compared = compared.filter(|(node, _)| !numbers.contains(node));
         self.displacements.extend(compared.map(|(_, (node, start))| node.moved(&start.x)));
         let bodies = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.rotations.extend(bodies().map(|node| node.rotation));
-        // What is elastic vibrates, and what touches stops at once: velocities are then far less certain than positions, and matter less.
+        // Elastic parts vibrate and contacts stop bodies at once. Velocities are then far less certain than positions, and matter less.
         if !model.parts.iter().any(|part| part.mass_kind().is_some() || part.kind().is_unilateral()) {
             self.velocities.extend(bodies().map(|node| [node.v, node.omega]));
         }
@@ -132,8 +132,8 @@ impl Kept {
         Kept { met_events, ..self }
     }
 
-    /// The factor by which the error of another run is larger, as those of its steps tell that this one has not gone too. That of a step in
-    /// which an event falls goes with its length at best.
+    /// The ratio of the error of another run to the error of this one, from the steps that the runs do not share. The error of a step with
+    /// an event is at best proportional to its length.
     pub fn apart(&self, other: &Kept) -> f64 {
         let apart = self.steps_apart(other);
         if self.meets_events(other) { apart.min(EVENTFUL) } else { apart }
@@ -144,7 +144,7 @@ impl Kept {
         self.met_events || other.met_events
     }
 
-    /// The same where no run meets an event.
+    /// Like [`Kept::apart`], for runs without events.
     fn steps_apart(&self, other: &Kept) -> f64 {
         let [own, theirs] = [(self, other), (other, self)].map(|(run, than)| run.own_steps(than));
         if own.left > 0.0 { (theirs.left / own.left).powf(SLOPE) } else { 1.0 }
@@ -155,7 +155,7 @@ impl Kept {
         !self.has_steps_of(other) && self.steps_apart(other) > TELLING
     }
 
-    /// True where most steps are those of the other run, which something else than their tolerance dictates.
+    /// True if most steps equal those of the other run, because something other than the tolerance limits them.
     pub fn has_steps_of(&self, other: &Kept) -> bool {
         2 * self.own_steps(other).count < self.ends.len().saturating_sub(1)
     }
@@ -188,10 +188,9 @@ impl Kept {
         self.longest
     }
 
-    /// The difference of two runs, relative to the largest motion of both: the root mean square over the times of the largest over
-    /// nodes and bodies, displacements over the largest displacement, rotations of bodies over the largest rotation, their velocities
-    /// over the largest velocity; `extent` is the length of the scene, by which translations and rotations are compared. Infinite where a stage
-    /// has stopped before there was enough to compare.
+    /// The difference of two runs relative to their largest motion: the root mean square over the times of the largest value over nodes and
+    /// bodies. Displacements, rotations and velocities of bodies each refer to their largest value; `extent` is the length of the model,
+    /// which relates translations and rotations. Infinite where a stage has stopped before there was enough to compare.
     pub fn difference(&self, other: &Kept, extent: f64) -> f64 {
         let times = self.times.min(other.times);
         if times < FEWEST {
@@ -246,7 +245,7 @@ impl Kept {
     }
 }
 
-/// Steps that another run has not gone: their number, and the sum of the power of their length with which their errors go.
+/// Steps that the other run does not share: their number, and the sum of this power of their lengths.
 struct OwnSteps {
     count: usize,
     left: f64,
