@@ -1,8 +1,8 @@
 //! Corners of a solid and the nodes of a mesh under it: which of them press.
 //!
-//! A solid that lies on a mesh is met by its corners, which touch faces, and by the nodes of these, which touch its surface. Where it lies
-//! flat all are equally deep, and nodes lie under it as the mesh happens to be: if they pressed too, they would turn it. A node therefore
-//! presses once it is deeper than any corner that is pushed back in its own direction, and then by what it is deeper from there on.
+//! A solid on a mesh has two kinds of contact: its corners on faces, and the nodes of these faces on its surface. Where it lies flat all
+//! are equally deep, and nodes lie under it as the mesh happens to be: if they pressed too, they would turn it. A node therefore presses
+//! only once it is deeper than all corners pushed in its own direction; from then on its additional depth counts.
 
 use super::history::{PairMemory, PairMemoryMut};
 use super::kinematics::{ContactKinematics, Contacts};
@@ -10,13 +10,13 @@ use super::nearest_corner::NearestCorner;
 use super::normal_motion::safe_time;
 use crate::state::{Configuration, Node};
 
-/// Cosine of the angle between the directions of a corner and a node up to which they press as one.
+/// Least cosine of the angle between the directions of a corner and a node to count as one.
 const ONE_DIRECTION: f64 = 0.7;
-/// The part of a facet by which rounding may tell depths apart.
+/// Least difference between two depths, relative to a facet, that is not rounding.
 const ROUNDING: f64 = 1e-9;
 
 impl Contacts {
-    /// The depth at which the spring of a point begins.
+    /// The starting depth of the spring of a point.
     #[inline]
     pub(super) fn inset(&self, old: PairMemory) -> f64 {
         old.inset(&self.law).max(0.0)
@@ -28,7 +28,8 @@ impl Contacts {
         self.corners.is_some() && (!old.is_known() || old.inset(&self.law) < 0.0)
     }
 
-    /// Writes the depth at which the spring of a point begins, `inset` by its own motion; the gap of one that is idle is that to the surface.
+    /// Writes the starting depth of the spring of a point, `inset` by its own motion; for an idle point it writes the gap to the
+    /// surface.
     pub(super) fn remember_inset(
         &self,
         at: &ContactKinematics,
@@ -43,20 +44,20 @@ impl Contacts {
             return new.set_inset(&self.law, inset);
         }
         let gap = at.gap - self.inset(old);
-        // What cannot come to touch in the next steps is not asked for.
+        // Points that cannot touch in the next steps are skipped.
         let is_far = self.law.dynamic && gap > 4.0 * now.dt * at.w.norm() && gap > 0.0;
         if is_far || !self.leads(&**corners, at, gap, now.nodes) {
             new.set_inset(&self.law, -1.0);
             self.set_gap(gap, at, new);
             return;
         }
-        // What is inside as the motion begins is pushed out; later nothing jumps.
+        // Initial overlaps are pushed out; later the force starts from zero.
         let inset = if !was_idle || now.dt <= 0.0 { inset.min(-gap).max(0.0) } else { (-gap).max(0.0) };
         new.set_inset(&self.law, inset);
         self.set_gap(gap + inset, at, new);
     }
 
-    /// Writes the gap to where the spring begins from now on, and the time in which that cannot close.
+    /// Writes the gap to the start of the spring, and a time too short for it to close.
     fn set_gap(&self, gap: f64, at: &ContactKinematics, new: &mut PairMemoryMut) {
         new.set_gap(gap);
         new.set_safe_time(safe_time(&self.law, gap, at.w.norm()));

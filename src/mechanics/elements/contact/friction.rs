@@ -1,10 +1,9 @@
 //! Coulomb friction by a spring that slips.
 //!
-//! A tangential spring from an anchor to the point bears up to μN; beyond that the anchor is dragged along (return mapping).
-//! So what sticks stays for ever: its anchor does not move, and nothing creeps as it would where friction grows with the
-//! speed of slip. The anchor is kept in the frame of the surface and turns with it. A ball of radius r rolls: what counts is
-//! the way of its material at the contact, p − r φ × n, where φ is the rotation relative to the surface since the rotation
-//! that the history keeps.
+//! A tangential spring from an anchor to the point resists up to μN; beyond that the anchor slips (return mapping). A sticking contact
+//! therefore never creeps, in contrast to laws with friction proportional to the slip speed. The anchor is kept in the frame of the surface
+//! and turns with it. For a rolling ball of radius r the displacement of its material at the contact counts, p − r φ × n; φ is the rotation
+//! relative to the surface since the stored one.
 
 use super::surfaces::kind::ClosestPoint;
 use base::math::{Mat3, Vec3, skew};

@@ -1,4 +1,4 @@
-//! The least gap of what may touch a surface that one node carries.
+//! The least gap between points or solids and a surface carried by one node.
 
 use super::convex::{CarriedConvex, ConvexBody, ConvexPose};
 use super::point::ContactPoint;
@@ -24,7 +24,7 @@ pub fn pair_gap(surface: &Surface, carrier: usize, touching: &[ConvexBody], node
     touching.iter().fold(f64::INFINITY, |least, one| least.min(distance(one, &other, least, nodes)))
 }
 
-/// The distance of two convex solids, negative by their least overlap; where it is beyond a `limit`, a lower bound that is beyond it too.
+/// The distance of two convex solids, negative by their least overlap; beyond a `limit`, a lower bound that exceeds the limit too.
 pub(super) fn distance(one: &ConvexBody, other: &CarriedConvex, limit: f64, nodes: &[Node]) -> f64 {
     let (carrier, R) = (&nodes[other.node], nodes[other.node].R());
     let y = other.axes.tr_mul(&(R.tr_mul(&nodes[one.node].relative_position(carrier)) - other.center));

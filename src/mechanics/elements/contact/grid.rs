@@ -1,4 +1,4 @@
-//! A uniform grid of boxes in plain arrays: which boxes lie near a box, in a time that grows with their number alone.
+//! A uniform grid of boxes in plain arrays: it finds the boxes near a box in a time proportional to their number.
 
 use base::math::Vec3;
 
@@ -105,7 +105,7 @@ impl BoxGrid {
     }
 }
 
-/// The cells that a box meets; `None` where they are too many.
+/// The cells that a box meets; `None` above [`MOST_CELLS`].
 fn cells(size: f64, extent: &GridBox) -> Option<impl Iterator<Item = [i64; 3]>> {
     let low = extent.low.map(|x| (x / size).floor());
     let high = extent.high.map(|x| (x / size).floor());

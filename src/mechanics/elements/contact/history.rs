@@ -1,5 +1,5 @@
-//! What a pair remembers: a typed view of its numbers in [`crate::state::State::history`]. All pairs of a block have the same count of
-//! them: those of the motion along the normal, then those of friction where there is any, of which the last are each kind's own.
+//! The memory of a pair: a typed view of its numbers in [`crate::state::State::history`]. All pairs of a block have equally many: the
+//! normal motion, then friction if any, with the numbers specific to the kind of pair last.
 
 use super::law::ContactLaw;
 use base::math::Vec3;
@@ -23,7 +23,7 @@ pub(super) const OWN: usize = 11;
 /// Of points the anchor, and then the rotations of nodes, four numbers each.
 const ROTATIONS: usize = OWN + 3;
 
-/// Number of history variables of a pair, of whose friction so many are its kind's own.
+/// Number of history variables of a pair; `own` of them are specific to its kind.
 pub(super) fn width(law: &ContactLaw, own: usize) -> usize {
     if law.friction > 0.0 { OWN + own } else { FRICTION_FORCE }
 }
@@ -60,13 +60,13 @@ numbers! {
     GAP: gap, set_gap;
     /// Approach speed δ̇.
     RATE: rate, set_rate;
-    /// Approach speed at which the impact began; 0 again some time after separation.
+    /// Approach speed at the start of the impact; 0 again some time after separation.
     IMPACT_SPEED: impact_speed, set_impact_speed;
     /// Time since the two came into contact or separated.
     AGE: age, set_age;
-    /// Power that the damping of the impact takes.
+    /// Power dissipated by the damping of the impact.
     DAMPING_POWER: damping_power, set_damping_power;
-    /// What the one is found by again that is touched, where that changes.
+    /// Key of the touched body or facet, where it changes.
     KEY: key, set_key;
     /// |T|. With friction alone.
     FRICTION_FORCE: friction_force, set_friction_force;
@@ -75,7 +75,7 @@ numbers! {
 }
 
 impl PairMemory<'_> {
-    /// That of a pair of which nothing is known.
+    /// The memory of an unknown pair.
     pub(super) const NOTHING: PairMemory<'static> = PairMemory(&[0.0; 64]);
 
     /// False where the last state did not look at the pair: then only the safe time means anything.
@@ -84,19 +84,19 @@ impl PairMemory<'_> {
         self.0[IS_KNOWN] > 0.0
     }
 
-    /// Depth by which the spring of the normal force is pressed in at zero gap: its multiplier over the stiffness. 0 under springs alone.
+    /// Depth of the normal spring at zero gap: the multiplier over the stiffness. 0 without multipliers.
     #[inline]
     pub fn lift(self, law: &ContactLaw) -> f64 {
         if law.tolerance.is_some() { self.0[SHIFT] } else { 0.0 }
     }
 
-    /// The depth at which the spring of the normal force begins; negative where nothing presses whatever the depth.
+    /// The starting depth of the normal spring; negative for a pair without force at any depth.
     #[inline]
     pub fn inset(self, law: &ContactLaw) -> f64 {
         if law.tolerance.is_some() { 0.0 } else { self.0[SHIFT] }
     }
 
-    /// Position of the anchor of the friction spring of a point, in the frame in which it is kept.
+    /// Position of the anchor of a point's friction spring, in its storage frame.
     #[inline]
     pub fn anchor(self) -> Vec3 {
         Vec3::from_column_slice(&self.0[OWN..ROTATIONS])
@@ -111,7 +111,7 @@ impl PairMemory<'_> {
 }
 
 impl PairMemoryMut<'_> {
-    /// The same numbers, to be read.
+    /// A read-only view.
     pub fn read(&self) -> PairMemory<'_> {
         PairMemory(self.0)
     }
@@ -130,14 +130,14 @@ impl PairMemoryMut<'_> {
         self.set_safe_time(safe_time);
     }
 
-    /// Sets the depth by which the spring of the normal force is pressed in at zero gap, where there are multipliers.
+    /// Sets the depth of the normal spring at zero gap, if there are multipliers.
     pub fn set_lift(&mut self, law: &ContactLaw, lift: f64) {
         if law.tolerance.is_some() {
             self.0[SHIFT] = lift;
         }
     }
 
-    /// Sets the depth at which the spring of the normal force begins, where there are no multipliers.
+    /// Sets the starting depth of the normal spring, without multipliers.
     pub fn set_inset(&mut self, law: &ContactLaw, inset: f64) {
         if law.tolerance.is_none() {
             self.0[SHIFT] = inset;

@@ -28,7 +28,7 @@ pub struct Contacts {
     pub(super) count: usize,
     /// Friction turns nodes: their rotations belong to the history.
     pub(super) rolls: bool,
-    /// The corners of the carrier that touch what the points are nodes of.
+    /// The corners of the carrier that touch the faces of the points' nodes.
     pub(super) corners: Option<Arc<dyn NearestCorner>>,
 }
 
@@ -71,7 +71,7 @@ impl Contacts {
         Contacts { law, surface, carrier, points, nodes, count, rolls, corners: None }
     }
 
-    /// The same of nodes that press only where they are deeper in the carrier than its corners are in the faces of those nodes.
+    /// Makes the points press only where they are deeper in the carrier than its corners are in the faces of these points.
     pub fn beside(self, corners: Arc<dyn NearestCorner>) -> Self {
         Contacts { corners: Some(corners), ..self }
     }

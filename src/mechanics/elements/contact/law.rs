@@ -14,22 +14,22 @@ pub struct ContactLaw {
     pub friction: f64,
     /// Coulomb's coefficient at a high slip speed.
     pub kinetic: f64,
-    /// Time per length, the rate at which the coefficient falls with the slip speed; infinite where it falls at once.
+    /// Rate at which the coefficient falls with the slip speed, time per length; infinite for an immediate drop.
     pub decay: f64,
-    /// Approach speed from which a landing counts as an impact that the steps resolve.
+    /// Approach speed above which the steps resolve a landing as an impact.
     pub floor: f64,
-    /// Longest time ahead at which equilibrium may be written in an impact.
+    /// Longest time from the last state to the instant of equilibrium in an impact.
     pub resolution: f64,
     /// Longest time that an impact may last.
     pub duration: f64,
     /// Distance below which points are looked at in every iteration.
     pub near: f64,
-    /// Gap up to which what lies still counts as touching: in statics what rounding leaves between parts drawn face to face, else 0.
+    /// Gap up to which bodies count as touching: in statics the rounding between parts drawn face to face, else 0.
     pub touching: f64,
-    /// How deep, and how far along the surface while it sticks, a point may be at the end of a load step where multipliers take the
-    /// place of springs; `None`: springs alone.
+    /// Largest depth, and largest displacement while sticking, of a point at the end of a load step with multipliers. `None`: springs
+    /// alone.
     pub tolerance: Option<f64>,
-    /// True where the analysis has velocities, so that a far point stays far for a while.
+    /// True for analyses with velocities: a distant point then stays distant for some time.
     pub dynamic: bool,
 }
 
@@ -43,8 +43,8 @@ impl ContactLaw {
         self.kinetic + (self.friction - self.kinetic) * (-self.decay * slip_speed).exp()
     }
 
-    /// The friction with which a pair begins of which nothing is known, under a normal force, and its slip speed: what slides at t = 0 has been
-    /// sliding, and its spring is stretched. Not what slides no faster than its weight makes it.
+    /// The initial friction and slip speed of an unknown pair under a normal force: a body sliding at t = 0 has been sliding, so its spring
+    /// is stretched. Not what slides no faster than its weight makes it.
     pub(super) fn begun(&self, force: f64, slip: &Vec3) -> (Vec3, f64) {
         let speed = slip.norm();
         match speed > self.floor {
@@ -53,7 +53,7 @@ impl ContactLaw {
         }
     }
 
-    /// True where the spring of the normal force may begin at a depth of its own, which is remembered.
+    /// True where the start of the normal spring may move; its depth is then stored.
     pub fn keeps_inset(&self) -> bool {
         self.dynamic && matches!(self.loss, Loss::Whole { .. })
     }

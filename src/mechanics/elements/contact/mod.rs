@@ -1,9 +1,8 @@
 //! Unilateral contact: points, with a radius or without, that touch a surface carried by a node.
 //!
-//! A penalty spring pushes out what is inside, f = k δ (1 + d δ̇) n, δ from the exact distance ([`surfaces`]), d from what an
-//! impact gives back ([`restitution`]); friction is a spring that slips ([`friction`]). All of it is written in the frame of
-//! the surface, in p = Rᵀ(x − x_s) and in the rotation φ of what touches relative to that frame, and so is objective. With
-//! F and M the force and moment on the point,
+//! A penalty spring pushes points out, f = k δ (1 + d δ̇) n, with δ from the exact distance ([`surfaces`]) and d from the restitution
+//! ([`restitution`]). Friction is a spring that slips ([`friction`]). The equations use p = Rᵀ(x − x_s) and the relative rotation φ in the
+//! frame of the surface, and are therefore objective. With F and M the force and moment on the point,
 //!
 //! ```text
 //!  F = N n − T,   M = r n × T,   virtual work F·δp + M·δφ,   δp = Rᵀ(δx − δx_s + (x − x_s) × δθ_s),   δφ = Rᵀ(δθ − δθ_s)
@@ -13,14 +12,17 @@
 //! its force and moment go to them by the same weights. Closed forms do for these surfaces: normals and curvature are
 //! exact, nothing is iterated, and a general collision library would bring neither.
 //!
-//! `surfaces` find the closest point, each in a file of its own, `kinematics` where a point lies against the surface and how it moves, `force`
-//! what acts on it, `tangent` the derivatives of that; `block` shows it to the equations, and `steps` bounds the steps. `corners` says
-//! which nodes of a mesh press a solid that lies on it; `multipliers` put numbers of their own in the place of springs where a load step
-//! asks for no depth. `convex` is what boxes, hulls and capsules do to each other, `facets` what shells and balls do to all that touches them.
+//! Points against a surface:
+//! - `surfaces` find the closest point, one file per shape; `kinematics` computes position and motion of a point against it.
+//! - `force` computes the force on a point, `tangent` its derivatives.
+//! - `block` is the element block, `steps` limits the step length.
+//! - `corners` selects the nodes of a mesh that press on a solid; `multipliers` replaces springs in load steps without penetration.
 //!
-//! These files serve all three: `pair_block` is what the equations see of any block of pairs; `law` and `restitution` are the normal force,
-//! `friction` the force along the surface; `history` is the memory of a pair, and `normal_motion` writes it; `near_lists` and `grid` find
-//! what is near, `segments` the nearest points of two lines; `gap` is the distance of what does not touch.
+//! `convex` holds contact between boxes, hulls, cylinders and capsules; `facets` contact with shells, beams and balls. All three share
+//! - `pair_block`, the interface of a block of pairs;
+//! - `law` and `restitution`, the normal force, and `friction`, the tangential force;
+//! - `history`, the memory of a pair, written by `normal_motion`;
+//! - `near_lists` and `grid`, the search, `segments`, the nearest points of two lines, and `gap`, the distance.
 
 mod block;
 pub mod convex;

@@ -1,10 +1,10 @@
 //! Multipliers in the place of springs, for load steps: an augmented Lagrangian.
 //!
-//! A spring under a force is pressed in. The normal force is therefore N = max(0, λ + k δ), with a number λ of the point's own, and
-//! after each equilibrium λ becomes N and a new equilibrium is looked for: δ falls by the ratio of the compliance of the spring to that
-//! of all that is pressed, and vanishes in the limit, whatever k is (Uzawa's method; J. C. Simo, T. A. Laursen, Computers & Structures
-//! 42 (1992) 97-116). Friction likewise: its spring is anchored where the force T found so far holds the point where the step began,
-//! p₀ − T/k, and the next equilibrium slips as far as μN demands, or not at all.
+//! A spring under a force is pressed in. The normal force is therefore N = max(0, λ + k δ), with a multiplier λ per point. After each
+//! equilibrium λ becomes N, and a new equilibrium is computed. δ falls by the compliance of the spring over that of the bodies, and
+//! vanishes in the limit for any k (Uzawa's method; J. C. Simo, T. A. Laursen, Computers & Structures 42 (1992) 97-116). Friction is
+//! treated alike: its anchor p₀ − T/k holds the point at the start of the step with the force T so far; the next equilibrium slips by μN or
+//! not at all.
 
 use super::force::touch;
 use super::history::PairMemoryMut;
@@ -12,8 +12,8 @@ use super::kinematics::Contacts;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
-/// Writes into `new`, a copy of the block's history at the start of a step, multipliers by the forces in the equilibrium `now`; `start`
-/// are the nodes at the start of the step. Returns the largest length by which one was out, over the tolerance.
+/// Writes the multipliers from the equilibrium `now` into `new`, a copy of the block's history at the start of a step; `start` are the
+/// nodes there. Returns the largest error of a depth or displacement over the tolerance.
 pub(super) fn augment(contacts: &Contacts, start: &[Node], now: &Configuration, new: &mut [f64]) -> f64 {
     let law = &contacts.law;
     let Some(tolerance) = law.tolerance else { return 0.0 };

@@ -1,11 +1,11 @@
-//! Lists of what is near each that touches. They hold while nothing has moved by more than their slack, which is looked at each time; what
-//! they leave out is farther than anything that is asked for, so results do not depend on when they were made.
+//! Lists of the neighbours of each touching body. They hold while no node has moved by more than their slack, tested at each use. Omitted
+//! bodies are beyond any query, so results do not depend on the time of listing.
 
 use super::grid::{BoxGrid, GridBox};
 use crate::state::Node;
 use base::math::Vec3;
 
-/// What is near each that touches, by number.
+/// The neighbours of each touching body, by number.
 #[derive(Default)]
 pub(super) struct NearLists {
     /// Places of all nodes that take part when the lists were made; empty before.
@@ -16,7 +16,7 @@ pub(super) struct NearLists {
     starts: Vec<usize>,
     lists: Vec<u32>,
     grid: BoxGrid,
-    /// Those on the way of one: room for them.
+    /// Working memory for the boxes on the way of one body.
     wide: Vec<u32>,
 }
 
@@ -35,7 +35,7 @@ impl NearLists {
         true
     }
 
-    /// Lists for each box those of the boxes `touched` that meet it and that it may touch.
+    /// Lists for each `touching` box the `touched` boxes that meet it and pass `may_touch`.
     pub fn rebuild(
         &mut self,
         cell: f64,
@@ -62,12 +62,12 @@ impl NearLists {
         }
     }
 
-    /// Those near one, in ascending order.
+    /// The neighbours of one body, in ascending order.
     pub fn of(&self, e: usize) -> &[u32] {
         &self.lists[self.starts[e]..self.starts[e + 1]]
     }
 
-    /// Those that met a box when the lists were made, and may be touched.
+    /// The numbers that met a box at the time of listing and pass `may_touch`.
     pub fn around(&mut self, extent: &GridBox, may_touch: impl Fn(u32) -> bool) -> &[u32] {
         self.wide.clear();
         self.grid.query(extent, &mut self.wide);

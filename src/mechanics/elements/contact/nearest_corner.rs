@@ -5,8 +5,9 @@ use base::math::Vec3;
 
 /// Corners of a solid that touch faces.
 pub trait NearestCorner: Send + Sync {
-    /// The least gap of the corners from faces that push them in a direction, within a cosine; infinite where none is near.
+    /// The least gap between the corners and faces that push them in about the given direction (angle by its cosine); infinite without near
+    /// faces.
     fn least_gap_toward(&self, direction: &Vec3, cosine: f64, nodes: &[Node]) -> f64;
-    /// A part of the size of a face, by which gaps are told that are next to each other.
+    /// A length proportional to the faces, the scale for rounding of gaps.
     fn margin(&self) -> f64;
 }

@@ -19,7 +19,8 @@ impl ContactLaw {
         normal_force(self.stiffness, &self.loss, depth, inset, rate, speed)
     }
 
-    /// True where a pair that was apart lands in a step of length `dt`, which does not resolve the impact: see [`ContactLaw::resolution`].
+    /// True where a pair apart at the last state lands in a step of length `dt` that is too long for the impact: see
+    /// [`ContactLaw::resolution`].
     pub(super) fn lands_unresolved(&self, old: PairMemory, depth: f64, dt: f64) -> bool {
         let fast = 3.0 * self.floor;
         dt > self.resolution && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * self.resolution)
@@ -30,7 +31,7 @@ impl ContactLaw {
 pub(super) struct NormalMotion {
     /// The gap, negative where the spring is pressed in.
     pub gap: f64,
-    /// The depth at which the spring begins.
+    /// The starting depth of the spring.
     pub inset: f64,
     /// The approach speed δ̇.
     pub rate: f64,
@@ -45,13 +46,13 @@ pub(super) fn damping_power(law: &ContactLaw, gap: f64, rate: f64, force: f64) -
     if gap < 0.0 { (force + law.stiffness * gap) * rate } else { 0.0 }
 }
 
-/// A time in which a gap cannot close at twice the speed; 0 where it is not looked for, or the gap is small.
+/// A time too short for the gap to close at twice the speed; 0 in statics and for small gaps.
 pub(super) fn safe_time(law: &ContactLaw, gap: f64, speed: f64) -> f64 {
     if law.dynamic && gap > law.near { 0.5 * gap / speed } else { 0.0 }
 }
 
-/// Passes over what cannot touch for some steps, `distance` being a lower bound of the gap: it is forgotten except for the time
-/// until it is to be looked at again. Returns what is dissipated; `None` where it has to be looked at.
+/// Skips a pair that cannot touch for some steps; `distance` is a lower bound of its gap. Its memory then holds only the time until the
+/// next test. Returns the dissipation; `None` if the pair must be computed.
 pub(super) fn pass_over(
     law: &ContactLaw,
     (distance, speed): (f64, f64),
@@ -76,14 +77,14 @@ pub(super) fn let_go(law: &ContactLaw, old: PairMemory) -> f64 {
     0.5 * pull * (pull / law.stiffness)
 }
 
-/// What a pair loses that is forgotten: the spring of friction lets go, and damping ends.
+/// Energy lost by a forgotten pair: the friction spring is released, and damping ends.
 pub(super) fn lost(law: &ContactLaw, old: PairMemory, way: f64) -> Dissipation {
     let impact = 0.5 * way * old.damping_power();
     Dissipation { friction: let_go(law, old), impact, ..Dissipation::default() }
 }
 
-/// Writes the friction force and the slip speed after `part` of the way from the last state to that where it is `pull` and has slipped by
-/// `slip` in the time `dt`; returns what slip dissipates, where it began under the force `begin`.
+/// Writes the friction force and the slip speed after `part` of the way from the last state to the one with the force `pull` and the slip
+/// `slip`, a time `dt` later. Returns the dissipation of slip that began under the force `begin`.
 pub(super) fn update_slip(
     [pull, slip, begin]: [f64; 3],
     (dt, part): (f64, f64),
@@ -96,17 +97,16 @@ pub(super) fn update_slip(
     0.5 * part * slip * (begin + end)
 }
 
-/// The part of the way from the last state to the instant of equilibrium at which the step ends, `part`. What is not known has no
-/// last state to come from, and stays where it is.
+/// The fraction of the way from the last state to the instant of equilibrium at the end of the step. An unknown pair has no last state: its
+/// fraction is 1.
 pub(super) fn way(old: PairMemory, part: f64) -> f64 {
     if old.is_known() { part } else { 1.0 }
 }
 
-/// The friction force under which a pair has begun to slip: that at which it would have slipped at the last state, if it was not pulled by
-/// more.
+/// The friction force at the start of slip: the limit at the last state, or the force there if that was larger.
 pub(super) fn slip_begin(law: &ContactLaw, old: PairMemory) -> f64 {
     let depth = old.lift(law) - old.gap();
-    // Damping alone would press what is still apart.
+    // A pair apart has no normal force, though its damping alone would give one.
     if depth <= 0.0 {
         return old.friction_force();
     }
@@ -115,8 +115,8 @@ pub(super) fn slip_begin(law: &ContactLaw, old: PairMemory) -> f64 {
     old.friction_force().max(law.friction_at(old.slip_speed()) * pressed)
 }
 
-/// Writes the motion along the normal, the impact and the power of its damping after `part` of the way from the last state to
-/// `now`; returns what the impact has dissipated, and the depth at which the spring begins from then on.
+/// Writes the normal motion, the impact and its damping power after `part` of the way from the last state to `now`. Returns the dissipation
+/// of the impact and the new starting depth of the spring.
 pub(super) fn update_normal(
     law: &ContactLaw,
     at: &NormalMotion,
@@ -143,14 +143,14 @@ pub(super) fn update_normal(
     let before = if old.is_known() { -old.gap() } else { 0.0 };
     let depth = -new.read().gap();
     if depth <= 0.0 {
-        // What comes out is met where it turns round: the way to there is shorter than that to where the spring began.
+        // A point on its way out can turn round and touch before the old start of the spring, so the gap is to the turning point.
         let left = (inset + depth).max(0.0);
         new.set_safe_time(safe_time(law, end_gap - (inset - left), speed));
         return (damped, left);
     }
     let kept = taken_over(&law.loss, (before, depth), inset, new.read().impact_speed(), dt);
     new.set_gap(-kept);
-    // The acceleration found with the whole spring works on in the next step: what the spring leaves is the power of a damper.
+    // The acceleration found with the whole spring acts on in the next step: the reduction of the spring force counts as damping power.
     let left = law.stiffness * (depth - kept) * new.read().rate();
     new.set_damping_power(new.read().damping_power() + left);
     (damped + 0.5 * dt * left, inset + depth - kept)
@@ -163,7 +163,7 @@ fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PairMemory, new:
     let touches = new.gap() <= 0.0;
     let touched = known && old.gap() <= 0.0;
     match (touches, touched) {
-        // The speed is that of the approach where the gap closed, on a straight line.
+        // The impact speed is the approach speed at zero gap, interpolated linearly.
         (true, false) if known => {
             let closed = old.gap() / (old.gap() - gap);
             ((old.rate() + closed * (rate - old.rate())).max(0.0), 0.0)
@@ -174,7 +174,7 @@ fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PairMemory, new:
         (false, true) => (old.impact_speed(), 0.0),
         // The point touched at the instant of equilibrium: the acceleration of that is carried on.
         (false, false) if gap <= 0.0 => (old.rate().max(rate).max(0.0), 0.0),
-        // The impact is over for good once the acceleration it leaves to the scheme is gone.
+        // The impact ends once its acceleration no longer affects the integration scheme.
         (false, false) if old.age() + dt < duration => (old.impact_speed(), old.age() + dt),
         (false, false) => (0.0, 0.0),
     }
@@ -186,8 +186,8 @@ mod tests {
     use crate::elements::contact::history::FRICTION_FORCE;
     use crate::elements::contact::restitution::Loss;
 
-    /// What leaves a surface that gives nothing back touches again where its spring begins from then on. At twice its speed it comes no
-    /// farther than there within the time in which it is not looked at.
+    /// A point leaving a surface with restitution 0 touches again at the new start of its spring. At twice its speed it stays short of that
+    /// point within the safe time.
     #[test]
     fn what_comes_out_is_safe_no_longer_than_on_the_way_to_where_it_turns_round() {
         let loss = Loss::Whole { floor: 1e-3 };

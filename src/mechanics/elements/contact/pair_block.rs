@@ -1,4 +1,4 @@
-//! The interface of a block of pairs that may touch, whatever finds them: forces, energy, gaps and results follow from what acts in each.
+//! The interface of a block of pairs, for any method of search: forces, energy, gaps and results follow from the action in each pair.
 
 use super::history::PairMemory;
 use super::law::ContactLaw;
@@ -25,29 +25,29 @@ impl<'a> PairSide<'a> {
     }
 }
 
-/// What acts where two things touch; global components.
+/// The forces of a pair in contact; global components.
 pub struct PairAction<'a> {
-    /// What touches, and what is touched.
+    /// The touching and the touched side.
     pub(super) sides: [PairSide<'a>; 2],
-    /// Force on what touches; that on the other is opposite.
+    /// Force on the touching side; the force on the other is opposite.
     pub(super) F: Vec3,
     /// Moments on the two.
     pub(super) M: [Vec3; 2],
-    /// To where the force on what is touched acts with the moment on that: from [`PairBlock::carrier`], or else from the origin.
+    /// Point of action of the force on the touched side and its moment, from [`PairBlock::carrier`] or else from the origin.
     pub(super) arm: Vec3,
-    /// Signed shares of the nodes of both in a force that is taken off again, that force, and the arm of it.
+    /// A force to subtract: signed shares of the nodes of both sides, the force, and its arm.
     pub(super) less: Option<([PairSide<'a>; 2], Vec3, Vec3)>,
     /// Energy of the springs.
     pub(super) stored: f64,
 }
 
 impl PairAction<'_> {
-    /// A node of what is touched and one of what touches.
+    /// A node of the touched side and one of the touching side.
     pub fn nodes(&self) -> [usize; 2] {
         [self.sides[1].nodes[0], self.sides[0].nodes[0]]
     }
 
-    /// Force on what is touched, and its moment: about [`PairBlock::carrier`], or else about the origin.
+    /// Force on the touched side and its moment about [`PairBlock::carrier`], or else about the origin.
     pub fn on_touched(&self) -> [Vec3; 2] {
         let [f, m] = [-self.F, self.M[1] - self.arm.cross(&self.F)];
         self.less.as_ref().map_or([f, m], |(_, less, arm)| [f + less, m + arm.cross(less)])
@@ -70,27 +70,27 @@ pub trait PairBlock: ElementBlock {
     /// The law between the two of a pair.
     fn law(&self) -> &ContactLaw;
 
-    /// Calls with what acts in each pair that touches.
+    /// Calls `act` with the action in each touching pair.
     fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction));
 
-    /// True where this is so of what a pair remembers that was near at the end of the last step, by the history of the block.
+    /// True where `is` holds for the memory of a pair near at the end of the last step; `history` is that of the block.
     fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool;
 
-    /// True where a step from `start` to `now` must be shorter: something would pass through what it touches, or come into an impact that the
-    /// step does not resolve (see [`ContactLaw::resolution`]).
+    /// True where a step from `start` to `now` must be shorter: a body passes through another, or an impact is not resolved (see
+    /// [`ContactLaw::resolution`]).
     fn misses(&self, start: &[Node], now: &Configuration) -> bool;
 
-    /// The node that carries all that is touched; `None` where facets or others of the same kind are touched.
+    /// The node carrying the touched surface; `None` if facets or bodies of the same kind are touched.
     fn carrier(&self) -> Option<usize> {
         None
     }
 
-    /// The pairs for the matrix, where they change; `None` where each element is a pair of its own.
+    /// The pairs for the matrix, where they change; `None` where each element is one fixed pair.
     fn wandering(&self) -> Option<&dyn Wandering> {
         None
     }
 
-    /// Least gap of all that may touch where the nodes lie thus; infinite where that is told without the block.
+    /// Least gap of all pairs at these positions; infinite if it is computed without the block.
     fn least_gap(&self, _nodes: &[Node]) -> f64 {
         f64::INFINITY
     }
@@ -100,19 +100,19 @@ pub trait PairBlock: ElementBlock {
         false
     }
 
-    /// Writes into `new`, a copy of the block's history at the start of a step, multipliers by the forces in the equilibrium `now`; `start`
-    /// are the nodes at the start of the step. Returns the largest length by which one was out, over the tolerance.
+    /// Writes the multipliers from the equilibrium `now` into `new`, a copy of the block's history at the start of a step; `start` are the
+    /// nodes there. Returns the largest error of a depth or displacement over the tolerance.
     fn augment(&self, _start: &[Node], _now: &Configuration, _new: &mut [f64]) -> f64 {
         0.0
     }
 
-    /// True where two lines touch that are parallel within some degrees, and not end to end.
+    /// True where two lines touch side by side: parallel within six degrees, and not end to end.
     fn is_side_by_side(&self, _now: &Configuration) -> bool {
         false
     }
 
-    /// True where one touches more others at least as large than it remembers: those that it forgets press without friction, and give back
-    /// by the speed of the moment.
+    /// True where a body touches more others at least as large than it remembers. The forgotten ones press without friction, with
+    /// restitution by the current speed.
     fn is_crowded(&self, _now: &Configuration) -> bool {
         false
     }
@@ -132,12 +132,12 @@ pub trait PairBlock: ElementBlock {
         least
     }
 
-    /// True where a multiplier pushes at the end of the last step: the gap may then be positive by what is left of it.
+    /// True where a multiplier pushes at the end of the last step; the gap may then be positive by the remaining error.
     fn pushes(&self, history: &[f64]) -> bool {
         self.has_multipliers() && self.any_memory(history, &mut |old| old.lift(self.law()) > 0.0)
     }
 
-    /// Longest time ahead at which equilibrium may be written next, given the history of the block.
+    /// Longest time from the last state to the next instant of equilibrium, by the history of the block.
     fn longest_step(&self, history: &[f64]) -> f64 {
         let law = self.law();
         let mut in_impact = |old: PairMemory| old.impact_speed() > 3.0 * law.floor && old.age() < law.duration;
@@ -148,7 +148,7 @@ pub trait PairBlock: ElementBlock {
 
 /// Subtracts the internal forces of all pairs from `F`, which is indexed by node.
 pub(super) fn subtract_forces(block: &impl PairBlock, now: &Configuration, F: &mut [Force]) {
-    // Internal forces are opposite to what acts.
+    // Internal forces are opposite to the acting forces.
     let mut subtract = |node: usize, f: Vec3, m: Vec3| {
         subtract(&mut F[node], 0, &-f);
         subtract(&mut F[node], 3, &-m);

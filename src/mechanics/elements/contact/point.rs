@@ -7,19 +7,19 @@ use base::math::Vec3;
 /// Largest number of nodes that a point may lie between.
 pub const MOST_NODES: usize = 9;
 
-/// What of its nodes touches.
+/// The part of a contact point that touches.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TouchKind {
     /// A point: a weighted sum of them.
     Point,
     /// The line between two of them, by the point of it that is nearest.
     Line,
-    /// Such a line, whose ends touch as points of their own, as the ends of the lines that it meets do too: it presses by what is deeper
-    /// where it crosses these than the ends are.
+    /// A line with separate contact points at its ends and at the ends of the lines it meets. It presses by the depth of the crossing
+    /// beyond that of the ends.
     Edge,
 }
 
-/// A point that may touch: a weighted sum of nodes; or a line between two nodes, of which the point that is nearest touches.
+/// A contact point: a weighted sum of nodes, or a line between two nodes that touches at its nearest point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactPoint {
     /// The first `count` of them carry it.
@@ -30,7 +30,7 @@ pub struct ContactPoint {
     pub count: usize,
     /// Radius of the ball around the point that touches.
     pub radius: f64,
-    /// The radius at which friction turns the nodes; 0 where they have no rotation.
+    /// Radius for the moment of friction on the nodes; 0 for nodes without rotation.
     pub rolling_radius: f64,
     /// A point, or the whole line between its two nodes, whose own weights are those of the middle.
     pub extent: TouchKind,
@@ -47,7 +47,7 @@ impl ContactPoint {
         self.extent != TouchKind::Point
     }
 
-    /// The point of a line at which its second end has this share.
+    /// The point of a line with this share of its second end.
     pub(super) fn at(&self, share: f64) -> ContactPoint {
         let mut point = self.clone();
         (point.weights[0], point.weights[1]) = (1.0 - share, share);

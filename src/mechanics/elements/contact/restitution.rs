@@ -1,15 +1,15 @@
-//! The normal force: a spring that only pushes, with damping that gives back a set part of the speed.
+//! The normal force: a spring that only pushes, with damping for a given coefficient of restitution.
 //!
-//! Hunt & Crossley, J. Appl. Mech. 42 (1975) 440-445: f = k δ (1 + d δ̇). For a free impact at speed v₀ the motion δ̈ = −f/m
-//! has the integral ∫ w/(1 + d w) dw = 0 from v₀ to −e v₀, whatever m and k are, so D = d v₀ follows from the coefficient of
-//! restitution e alone: D (1 + e) = ln((1 + D)/(1 − e D)). The force begins and ends at zero and never pulls.
+//! Hunt & Crossley, J. Appl. Mech. 42 (1975) 440-445: f = k δ (1 + d δ̇). For a free impact at speed v₀ the motion δ̈ = −f/m has the
+//! integral ∫ w/(1 + d w) dw = 0 from v₀ to −e v₀, for any m and k. D = d v₀ thus follows from the coefficient of restitution e alone: D (1
+//! + e) = ln((1 + D)/(1 − e D)). The force begins and ends at zero and never pulls.
 
 /// The least coefficient of restitution: below it D grows as 1/e, and steps would have to resolve ever shorter impacts.
 pub const LEAST: f64 = 0.01;
 
-/// D of an impact that gives nothing back: what comes to rest on the spring that then takes over is damped critically.
+/// D of an impact with restitution 0: at rest on the spring, the motion is critically damped.
 const WHOLE: f64 = 2.0;
-/// Part of the rate at which an impact dies out, at which the spring takes over from its damper.
+/// Rate of replacing the damper by the spring, relative to the decay rate of the impact.
 const TAKES_OVER: f64 = 0.5;
 
 /// The energy loss in an impact.
@@ -21,12 +21,12 @@ pub enum Loss {
     Restitution {
         /// D of the coefficient of restitution.
         number: f64,
-        /// The approach speed below which an impact counts as one at that speed.
+        /// Least approach speed for d: slower impacts use this speed.
         floor: f64,
     },
     /// An impact gives back nothing.
     Whole {
-        /// The approach speed up to which the spring takes the way at once, as a weight that sinks in asks for.
+        /// Below this approach speed the spring follows at once, as for a sinking weight.
         floor: f64,
     },
     /// Viscous damping, force per velocity.
@@ -58,8 +58,7 @@ pub fn number(e: f64) -> f64 {
         return 0.0;
     }
     let excess = |D: f64| D * (1.0 + e) - D.ln_1p() + (-e * D).ln_1p();
-    // The function is positive from 0 on and falls to −∞ at 1/e, so it has one root. Near e = 1 rounding leaves the
-    // series.
+    // The function is positive from 0 on and falls to −∞ at 1/e, so it has one root. Near e = 1 only the series avoids cancellation.
     let series = 1.5 * (1.0 - e * e) / (1.0 + e * e * e);
     if series < 1e-4 {
         return series;
@@ -75,7 +74,8 @@ pub fn number(e: f64) -> f64 {
     0.5 * (low + high)
 }
 
-/// The normal force at depth δ > 0 and rate δ̇, after an approach at `speed`. `depth` is that of the spring, which begins at a depth `inset`.
+/// The normal force at depth δ > 0 and rate δ̇, after an approach at `speed`. `depth` is the depth of the spring, which starts at a depth
+/// `inset`.
 #[inline]
 pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, inset: f64, rate: f64, speed: f64) -> NormalForce {
     let spring = stiffness * depth;
@@ -101,9 +101,9 @@ pub fn normal_force(stiffness: f64, loss: &Loss, depth: f64, inset: f64, rate: f
     if force.force > 0.0 || force.force == 0.0 && force.by_depth > 0.0 { force } else { NormalForce::default() }
 }
 
-/// The part of the way from a depth of the spring to another, in the time `dt`, that the spring takes over from the damper of an impact
-/// that gives nothing back; the rest does not push any more. The spring is left out while the impact lasts, so that there is nothing that
-/// could drive apart what has met. A force that goes on presses it in nevertheless: it takes over at a rate that grows with its own depth.
+/// The depth of the spring at the end of the time `dt`, in an impact with restitution 0; the rest of the way to `to` no longer pushes.
+/// During the impact the spring is left out, so that nothing drives the bodies apart. A lasting force compresses the spring nevertheless:
+/// the spring grows at a rate proportional to its own depth.
 pub fn taken_over(loss: &Loss, (from, to): (f64, f64), inset: f64, speed: f64, dt: f64) -> f64 {
     let Loss::Whole { floor } = *loss else { return to };
     let from = from.max(0.0);

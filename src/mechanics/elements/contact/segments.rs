@@ -5,8 +5,8 @@ use base::math::Vec3;
 /// Two lines count as parallel below this square of the sine of their angle.
 pub(super) const PARALLEL: f64 = 1e-12;
 
-/// The shares of the second ends in the nearest points of the lines from `a` to `a + u` and from `b` to `b + v`, with `r` = a − b; of lines
-/// that are parallel the middle of what lies side by side (after C. Ericson, Real-Time Collision Detection, 2005, 5.1.9).
+/// The shares of the second ends in the nearest points of the lines from `a` to `a + u` and from `b` to `b + v`, with `r` = a − b. For
+/// parallel lines, the middle of the common part (after C. Ericson, Real-Time Collision Detection, 2005, 5.1.9).
 pub(super) fn nearest(r: &Vec3, u: &Vec3, v: &Vec3) -> [f64; 2] {
     let (uu, vv, uv) = (u.norm_squared(), v.norm_squared(), u.dot(v));
     let (c, f) = (u.dot(r), v.dot(r));

@@ -34,7 +34,7 @@ impl Sliding for ConvexPairs {
     }
 }
 
-/// The slip in a step between two histories, by its way where the two touch and by their motion `moved` where they are apart.
+/// The slip in a step between two histories: `way` in contact, the motion `moved` without.
 fn slip([old, new]: [PairMemory; 2], stiffness: f64, [way, moved]: [Vec3; 2]) -> Slip {
     let rate = |at: PairMemory| if at.is_known() { at.rate() } else { f64::INFINITY };
     let approach = [rate(old), rate(new)];

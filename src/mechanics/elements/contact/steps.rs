@@ -1,4 +1,4 @@
-//! Limits on the step length: no step takes a point through the surface, and impacts are resolved.
+//! Limits on the step length: no point passes through the surface in a step, and impacts are resolved.
 
 use super::kinematics::Contacts;
 use crate::state::{Configuration, Node};
@@ -33,8 +33,7 @@ pub(super) fn first_reached(length: f64, gap: impl Fn(f64) -> f64) -> Option<f64
     None
 }
 
-/// True where a step from `start` to `now` takes a point through the surface, or into an impact that the step does not
-/// resolve.
+/// True where a point passes through the surface in a step from `start` to `now`, or lands in an unresolved impact.
 fn is_missed(contacts: &Contacts, e: usize, start: &[Node], now: &Configuration, frames: &Frames) -> bool {
     let point = &contacts.points[e];
     let old = || contacts.memory(e, now.history);

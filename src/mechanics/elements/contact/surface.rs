@@ -45,7 +45,7 @@ impl Surface {
         self.shape.least()
     }
 
-    /// The surface of a solid about the node that carries it, and what is no farther from it than a distance; boxes and cylinders become larger by that.
+    /// The surface at the distance `rounding` outside a solid, about its node; boxes and cylinders are enlarged instead of rounded.
     pub fn of_convex(shape: &ConvexShape, rounding: f64) -> Self {
         let (axes, shape) = match shape {
             ConvexShape::Polyhedron(shape) => (Mat3::identity(), SurfaceShape::of_polyhedron(shape.clone(), rounding)),
@@ -65,7 +65,7 @@ impl Surface {
         Surface { center: Vec3::zeros(), axes, shape }
     }
 
-    /// The convex shape in the axes of the surface, where it is one that convex solids touch in full.
+    /// The convex shape in the axes of the surface, if convex solids touch it by volume.
     pub fn as_convex(&self) -> Option<ConvexShape> {
         self.shape.as_convex()
     }

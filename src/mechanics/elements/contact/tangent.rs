@@ -100,7 +100,7 @@ struct Tangent<'a> {
 }
 
 impl Tangent<'_> {
-    /// Three columns: the force goes to the nodes of the point by their weights, to the carrier as it is. `extra`: what else
+    /// Adds three columns: the force goes to the nodes of the point by their weights, and in full to the carrier. `extra`: what else
     /// changes of the moment on the carrier.
     fn put(&mut self, column: usize, (A, B): &Derivative, extra: &Mat3) {
         for k in 0..self.count {

@@ -1,4 +1,4 @@
-//! The history of a point at the end of a step, and what was dissipated on the way.
+//! The history of a point at the end of a step, and the energy dissipated in it.
 
 use super::force::{ContactForce, contact_force};
 use super::history::{PairMemory, PairMemoryMut};
@@ -12,7 +12,7 @@ use crate::state::Configuration;
 use base::math::Vec3;
 use base::math::rotation::{self, renormalise};
 
-/// Writes the history of point `e` after `part` of the way from the last state to `now`; returns what was dissipated.
+/// Writes the history of point `e` after `part` of the way from the last state to `now`; returns the dissipation.
 pub(super) fn update_point(
     contacts: &Contacts,
     e: usize,
@@ -36,7 +36,7 @@ pub(super) fn update_point(
     let (impact, inset) = update_normal(law, &motion, now, part, old, new);
     let mut spent = Dissipation { impact, ..Dissipation::default() };
     contacts.remember_inset(&at, inset, now, old, new);
-    // The multiplier stays that of the equilibrium, under which the gap at hand gives its force; the next step begins from there.
+    // The multiplier stays that of the equilibrium, in which it gives the force at the present gap; the next step starts from it.
     new.set_lift(law, old.lift(law));
     if law.friction > 0.0 {
         spent.friction = update_friction(contacts, point, (&at, acting.as_ref()), now, way(old, part), old, new);
@@ -44,7 +44,7 @@ pub(super) fn update_point(
     spent
 }
 
-/// Writes the anchor, the force on it and the rotations from which the nodes roll; returns what slip dissipated.
+/// Writes the anchor, its force and the reference rotations for rolling; returns the dissipation of slip.
 fn update_friction(
     contacts: &Contacts,
     point: &ContactPoint,
@@ -64,7 +64,7 @@ fn update_friction(
             let slipped = [friction.T.norm(), friction.slip.norm(), slip_begin(law, old)];
             update_slip(slipped, (now.dt, part), old, new)
         }
-        // The point is free: the anchor goes along, and what was stretched lets go.
+        // The point is free: the anchor moves with it, and the friction spring is released.
         None => {
             let force = acting.map_or(0.0, |acting| acting.normal.force);
             let starts = !old.is_known() && now.dt <= 0.0 && force != 0.0;
@@ -84,8 +84,8 @@ fn update_friction(
     spent
 }
 
-/// Writes the rotations from which the nodes roll. Where friction acts, the way rolled so far moves from the rotations to the
-/// anchor: `rolled` are the normal and the anchor.
+/// Writes the reference rotations for rolling. Where friction acts, the way rolled so far moves from the rotations to the anchor: `rolled`
+/// are the normal and the anchor.
 fn update_rotations(
     contacts: &Contacts,
     point: &ContactPoint,

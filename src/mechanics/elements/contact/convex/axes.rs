@@ -1,4 +1,4 @@
-//! The axis that separates two convex solids, or along which they overlap least.
+//! The separating axis of two convex solids, or their axis of least overlap.
 
 use super::cylinder::CylinderPose;
 use super::pose::{ConvexPose, LeastAxis, PolyhedronPose};
@@ -23,8 +23,8 @@ impl AxisSearch {
 }
 
 impl ConvexPose<'_> {
-    /// The axis of the largest gap. Of polyhedra that is one of the normals of faces and the products of edges: two of them overlap where
-    /// none of these separates them (S. Gottschalk, 1996).
+    /// The axis of the largest gap. For polyhedra it is a face normal or a product of two edges: they overlap if none of these separates
+    /// them (S. Gottschalk, 1996).
     pub fn least_axis(&self) -> LeastAxis {
         if let ConvexShape::HalfSpace(_) = self.other {
             return LeastAxis { axis: Vec3::z(), gap: self.deepest(&Vec3::z()).z };
@@ -66,8 +66,8 @@ impl PolyhedronPose<'_> {
         }
     }
 
-    /// Of others the normals of all faces, and of each pair of edges the axis across both, where they are a pair that may meet first: where
-    /// the arcs between the normals of their faces cross on the sphere (D. Gregorius, 2013).
+    /// Other polyhedra: the normals of all faces, and the axes across pairs of edges. A pair counts if the arcs between the normals of its
+    /// faces cross on the sphere (D. Gregorius, 2013).
     fn look_along_polyhedra(&self, search: &mut AxisSearch) {
         for face in self.other.faces() {
             let nearest = self.own.farthest(&-self.Q.tr_mul(&face.normal));

@@ -1,8 +1,8 @@
 //! The part of a plane face that lies in a circular cylinder, by points of a quadrature rule.
 //!
-//! Lines and arcs of an ellipse bound it. Cones from one apex over short pieces of these make it up: along a piece by the rule of Gauss, and
-//! from the apex outward by that for the weight r, so that polynomials of the third degree are exact over straight pieces, and exact
-//! to rounding over arcs of a quarter of a turn.
+//! Lines and arcs of an ellipse bound it. Cones from one apex over short pieces of these fill it: Gauss' rule along a piece, and the rule
+//! for the weight r from the apex outward. Polynomials of third degree are exact over straight pieces, and exact to rounding over quarter
+//! arcs.
 
 use super::overlap::ClippedFace;
 use base::math::Vec3;
@@ -57,7 +57,7 @@ impl Bore {
         (from < to).then_some([from, to])
     }
 
-    /// Calls with points about what of a face lies inside: where its boundary begins to be of another kind, and the centre of a whole ellipse.
+    /// Calls `act` with points around the part of a face inside: the ends of its straight pieces, or the centre of a whole ellipse.
     pub fn each_corner<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3)) {
         let (corners, mut is_cut) = (face.corners(), false);
         for (from, to) in corners.iter().zip(corners.iter().cycle().skip(1)) {
@@ -71,13 +71,13 @@ impl Bore {
         }
     }
 
-    /// Calls with the points of the rule, and the area that each stands for, of what of a face lies inside.
+    /// Calls `act` with the points of the rule and their areas, over the part of a face inside.
     pub fn each_point<const CORNERS: usize>(&self, face: &ClippedFace<CORNERS>, mut act: impl FnMut(Vec3, f64)) {
         let (mut turned, normal) = ([Vec3::zeros(); CORNERS], face.normal);
         let corners = &mut turned[..face.corners().len()];
         corners.copy_from_slice(face.corners());
         let area = twice_area(corners, &normal);
-        // What closes a torn face may go round the other way, and counts against the rest.
+        // A triangle that closes a torn face may be clockwise; its area then is negative.
         if area < 0.0 {
             corners.reverse();
         }
@@ -109,12 +109,12 @@ impl Bore {
         }
     }
 
-    /// The centre of the ellipse, where all of that lies in the face, which no edge then cuts.
+    /// The centre of the ellipse, if all of the ellipse lies in the face.
     fn center_of_whole(&self, corners: &[Vec3], normal: &Vec3) -> Option<Vec3> {
         let corner = corners.first().filter(|_| normal.z.abs() > STRAIGHT)?;
         let mut center = Vec3::new(-self.origin.x, -self.origin.y, corner.z);
         center.z += normal.dot(&(corner - center)) / normal.z;
-        // What rounding has left of a face, a line or a point, has no inside.
+        // A face that rounding reduced to a line or a point has no inside.
         let doubled = twice_area(corners, normal).abs();
         if doubled * normal.z.abs() < TAU * self.radius * self.radius {
             return None;

@@ -1,9 +1,9 @@
-//! A cylinder against a polyhedron, and against what stands for one: a half space, or a prism where another cylinder is.
+//! A cylinder against a polyhedron or its equivalent: a half space, or the prism of another cylinder.
 //!
-//! The depth is that of two polyhedra ([`super::volume`]), of what the two have in common, which plane faces and the round side bound. By
-//! Gauss' theorem for vectors along the axis, to which the round side adds nothing, its moments are sums over the plane faces alone; and
-//! so is ∂D, by a motion of the polyhedron. The prism of another cylinder ([`super::two_cylinders`]) goes along with the contact, and nothing
-//! acts about its axis.
+//! The depth is defined as for two polyhedra ([`super::volume`]), by the common solid, bounded by plane faces and the round side. By Gauss'
+//! theorem for vectors along the axis the round side adds nothing. The moments, and ∂D by a motion of the polyhedron, are therefore sums
+//! over the plane faces alone. The prism of another cylinder ([`super::two_cylinders`]) goes along with the contact, and nothing acts about
+//! its axis.
 
 use super::bore::Bore;
 use super::depth::Depth;
@@ -18,7 +18,7 @@ use base::math::cylinder::RoundCylinder;
 use base::math::polyhedron::{Polyhedron, SolidMoments};
 use base::math::{Mat3, Vec3, angular, linear, stack};
 
-/// Corners of faces, and faces, of what a cylinder has in common with a box, with most hulls, or with the side of another cylinder.
+/// Most corners of a face, and most faces, of the solid common to a cylinder and a box, most hulls, or the side of another cylinder.
 const FEW: (usize, usize) = (24, 28);
 /// The same of others.
 const MANY: (usize, usize) = (40, 128);
@@ -29,7 +29,7 @@ pub(super) struct CylinderPose<'a> {
     against: Against<'a>,
     /// Centre of that.
     y: Vec3,
-    /// Columns: axes of that; of a cylinder, which lies along the third.
+    /// Columns: axes of the other; a cylinder lies along the third.
     Q: Mat3,
     /// Columns: the axes of the cylinder in those of the pose.
     axes: Mat3,
@@ -49,7 +49,7 @@ enum Against<'a> {
 }
 
 impl<'a> CylinderPose<'a> {
-    /// `None` where neither is a cylinder, or where one of the two is round about a segment.
+    /// `None` without a cylinder, or where one of the two is round about a segment.
     pub fn of(pose: &ConvexPose<'a>) -> Option<Self> {
         let zero = Vec3::zeros();
         match (pose.own, pose.other) {
@@ -61,7 +61,7 @@ impl<'a> CylinderPose<'a> {
                 let below = Vec3::new(pose.y.x, pose.y.y, -depth);
                 Some(Self::of_own(pose, own, (Against::Polyhedron(cube), below, Mat3::identity())))
             }
-            // The prism stands for the thinner one, whose round side is as curved as what the two have in common is narrow.
+            // The prism replaces the thinner cylinder: its side curves as much as the common solid is narrow.
             (ConvexShape::Cylinder(own), ConvexShape::Cylinder(other)) if own.radius() < other.radius() => {
                 let axes = *other.axes();
                 let (y, Q) = (axes.tr_mul(&pose.y), axes.tr_mul(&(pose.Q * own.axes())));
@@ -106,8 +106,8 @@ impl<'a> CylinderPose<'a> {
         TwoCylinders { one: self.cylinder, other, y: self.y, Q: self.Q }
     }
 
-    /// Of a polyhedron: an axis normal to a face of that or to an end of the cylinder, or from the cylinder to the nearest point of an edge. In
-    /// the axes of the cylinder, and toward it.
+    /// Candidates against a polyhedron: normals of its faces and of the ends of the cylinder, and directions from the cylinder to the
+    /// nearest points of edges. In the axes of the cylinder, and toward it.
     fn least_axis_of(&self, polyhedron: &Polyhedron) -> LeastAxis {
         let size = self.cylinder.reach() + polyhedron.reach();
         let mut best = LeastAxis { axis: Vec3::z(), gap: f64::NEG_INFINITY };
@@ -151,7 +151,7 @@ impl<'a> CylinderPose<'a> {
         best
     }
 
-    /// The depth of two that overlap along an axis toward the one; `None` where rounding leaves nothing of what they have in common.
+    /// The depth of two overlapping solids along an axis toward the one; `None` where the common solid vanishes by rounding.
     pub fn depth(&self, axis: &Vec3) -> Option<Depth> {
         // Toward the cylinder, which is the one of two cylinders.
         let toward = self.axes.tr_mul(axis) * if self.is_own { 1.0 } else { -1.0 };
@@ -160,7 +160,7 @@ impl<'a> CylinderPose<'a> {
         few.or_else(|| self.by_moments::<{ MANY.0 }, { MANY.1 }>((&origin, &toward))).flatten()
     }
 
-    /// The same along this axis, in coordinates about an origin, with room for so many faces; `None` where that is too little.
+    /// The depth along this axis, in coordinates about an origin, with room for CORNERS and FACES; `None` if that is too small.
     fn by_moments<const CORNERS: usize, const FACES: usize>(
         &self,
         (origin, along): (&Vec3, &Vec3),
@@ -187,7 +187,7 @@ impl<'a> CylinderPose<'a> {
         Some(found)
     }
 
-    /// The depth by the faces of what is common but for the round side of the cylinder.
+    /// The depth by the plane faces of the common solid.
     fn of_faces<const CORNERS: usize, const FACES: usize>(
         &self,
         faces: &Faces<CORNERS, FACES>,
@@ -229,13 +229,12 @@ struct MomentSums {
 }
 
 impl MomentSums {
-    /// About a point near what they are of.
+    /// Starts the sums about a point near the solid.
     fn about(middle: Vec3) -> Self {
         MomentSums { middle, volume: 0.0, first: Vec3::zeros(), second: Mat3::zeros() }
     }
 
-    /// Adds a point that stands for an area across the axis, which is below zero where the face looks down: ∫ f dV is the sum of ∫ f dz over
-    /// these.
+    /// Adds a point with its area across the axis, negative where the face looks down: ∫ f dV is the sum of ∫ f dz over these.
     fn add(&mut self, x: &Vec3, area: f64) {
         let x = x - self.middle;
         let part = area * x.z;

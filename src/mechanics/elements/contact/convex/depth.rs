@@ -1,4 +1,4 @@
-//! How deep two convex solids are in each other: one number that depends smoothly on where they are.
+//! The depth of two overlapping convex solids: one number, a smooth function of their positions.
 
 use base::math::{Vec3, Vec6};
 
@@ -9,8 +9,8 @@ pub struct Depth {
     pub D: f64,
     /// Its derivative by a displacement of the one and a rotation about its centre, in the axes of the other.
     pub g: Vec6,
-    /// Centre of what they have in common.
+    /// Centre of the common solid.
     pub c: Vec3,
-    /// The radius at which friction about the normal acts: the mean distance from the centre under an even pressure.
+    /// The radius of friction about the normal: the mean distance from the centre under a uniform pressure.
     pub lever: f64,
 }

@@ -1,4 +1,4 @@
-//! Convex solids among themselves: who is near whom, and what they remember of each other.
+//! A heap of convex solids in mutual contact: neighbours and their pair histories.
 
 use super::pair::{CarriedConvex, ConvexBody, ConvexPair, law_of_faces, width};
 use crate::elements::contact::grid::GridBox;
@@ -8,16 +8,16 @@ use crate::elements::contact::near_lists::NearLists;
 use crate::state::Node;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Solids at least as large that one remembers at once: the 26 that surround a cube in a lattice, and what hangs over.
+/// Number of pairs that a solid remembers with others at least as large: the 26 around a cube in a lattice, and some overhang.
 pub(super) const SLOTS: usize = 32;
 
-/// Convex solids of which each may touch each.
+/// Convex solids, each able to touch every other.
 pub struct ConvexHeap {
-    /// The law, for the whole of a face; what is far is known to be far by the lists.
+    /// The law for a whole face; `near` is infinite, because the lists exclude distant pairs.
     pub(super) law: ContactLaw,
     /// All of them.
     pub(super) solids: Vec<ConvexBody>,
-    /// The same, as what is touched.
+    /// The solids in their role as the touched ones.
     others: Vec<CarriedConvex>,
     /// The pairs that do not touch, in ascending order.
     joined: Vec<[usize; 2]>,
@@ -25,7 +25,7 @@ pub struct ConvexHeap {
     pub(super) involved: Vec<usize>,
     /// No pair farther apart than this is remembered; lists hold while nothing has moved by more.
     pub(super) margin: f64,
-    /// The size of the cells in which neighbours are looked for.
+    /// The size of the cells for the search of neighbours.
     cell: f64,
     /// Number of history variables of a pair, whose key is the number of the other plus one, 0 for none.
     pub(super) width: usize,
@@ -57,7 +57,7 @@ impl ConvexHeap {
         &history[e * width..(e + 1) * width]
     }
 
-    /// Who stands in a slot of the history of one, and what is remembered of it.
+    /// The other solid in a slot of a solid's history, and the memory of the pair.
     pub(super) fn slot<'a>(&self, history: &'a [f64], slot: usize) -> (Option<usize>, PairMemory<'a>) {
         let memory = PairMemory(&history[slot * self.width..(slot + 1) * self.width]);
         ((memory.key() > 0.0).then(|| memory.key() as usize - 1), memory)
@@ -68,7 +68,7 @@ impl ConvexHeap {
         (0..SLOTS).find(|&slot| self.slot(history, slot).0 == Some(other))
     }
 
-    /// What a pair remembers; nothing where it has no slot.
+    /// The memory of a pair; empty if it has no slot.
     pub(super) fn memory<'a>(&self, history: &'a [f64], e: usize, other: usize) -> PairMemory<'a> {
         let own = self.of_solid(e, history);
         match self.slot_of(own, other) {
@@ -77,10 +77,11 @@ impl ConvexHeap {
         }
     }
 
-    /// Those near each, of which it is the smaller, where the nodes lie thus. Threads take turns: what is found does not depend on them.
+    /// For each solid the larger ones near it, at these positions of the nodes. Threads lock the lists in turn; the result does not depend
+    /// on their order.
     pub(super) fn nearby(&self, nodes: &[Node]) -> MutexGuard<'_, NearLists> {
         let mut nearby = self.nearby.lock().unwrap_or_else(PoisonError::into_inner);
-        // What is asked for lies within twice the margin of touching; both may have moved by the margin.
+        // Queries reach up to twice the margin from touching; both solids may have moved by the margin.
         if nearby.are_outdated(&self.involved, nodes, 2.0 * self.margin) {
             let extent = |one: &ConvexBody, more: f64| {
                 GridBox::around([nodes[one.node].x].into_iter()).wider(one.shape.reach() + more)
@@ -99,12 +100,12 @@ impl ConvexHeap {
         d.norm() - one.shape.reach() - other.shape.reach()
     }
 
-    /// The gap below which a pair is remembered, of which this is the smaller: however large the others, few are so near.
+    /// Gap limit for remembering a pair, by its smaller solid: at most a tenth of its reach, which few others are within.
     pub(super) fn memorable(&self, e: usize) -> f64 {
         self.margin.min(0.1 * self.solids[e].shape.reach())
     }
 
-    /// Calls with each pair whose balls are nearer than a limit, which is no larger than twice the margin.
+    /// Calls `act` with each pair whose bounding balls are nearer than `limit`, at most twice the margin.
     pub(super) fn each_near(&self, nodes: &[Node], limit: f64, mut act: impl FnMut(usize, usize)) {
         let nearby = self.nearby(nodes);
         for e in 0..self.solids.len() {
@@ -116,7 +117,7 @@ impl ConvexHeap {
         }
     }
 
-    /// True for any of the pairs of one that may meet in a step in which nothing moves farther than `way` against the mean.
+    /// True if `is` holds for a pair of solid `e` that may meet in a step with no motion beyond `way` relative to the mean.
     pub(super) fn on_the_way(
         &self,
         e: usize,
@@ -133,7 +134,7 @@ impl ConvexHeap {
         nearby.around(&extent, |other| self.is_of(e, other)).iter().any(|&other| is(other as usize))
     }
 
-    /// True for the smaller of a pair that may touch, which remembers it.
+    /// True where `e` is the smaller solid of a pair in possible contact; the smaller one holds the memory.
     fn is_of(&self, e: usize, other: u32) -> bool {
         let other = other as usize;
         let reach = |k: usize| self.solids[k].shape.reach();

@@ -15,7 +15,7 @@ use crate::elements::wandering::{Partners, Wandering};
 use crate::materials::Dissipation;
 use crate::state::{Configuration, Node};
 
-/// A pair that touches: the two by number, the pair, and what it remembers.
+/// A touching pair with the numbers of its solids and its memory.
 pub(super) struct HeapTouch<'a> {
     pub pair: ConvexPair<'a>,
     pub at: PairKinematics<'a>,
@@ -83,7 +83,7 @@ impl Mechanics for ConvexHeap {
                 (kept, last) = (0, e);
             }
             let own = &mut history[e * width..(e + 1) * width];
-            // Where there is no room, what touches takes that of what does not.
+            // With all slots taken, a touching pair replaces one that does not touch.
             let free = || (0..SLOTS).find(|&slot| self.slot(own, slot).1.gap() > 0.0).filter(|_| gap <= 0.0);
             let Some(slot) = Some(kept).filter(|&kept| kept < SLOTS).or_else(free) else { return };
             let new = &mut own[slot * self.width..(slot + 1) * self.width];
@@ -157,7 +157,7 @@ impl PairBlock for ConvexHeap {
 }
 
 impl ConvexHeap {
-    /// What pairs that are forgotten lose: the spring of friction lets go, and damping ends.
+    /// Energy lost by forgotten pairs: the friction spring is released, and damping ends.
     fn let_go(&self, now: &Configuration, part: f64, new: &[f64]) -> Dissipation {
         let mut spent = Dissipation::default();
         for e in 0..self.solids.len() {

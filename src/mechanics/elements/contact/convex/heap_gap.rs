@@ -4,8 +4,7 @@ use super::pair::{CarriedConvex, ConvexBody};
 use crate::elements::contact::gap::distance;
 use crate::state::Node;
 
-/// Least distance of solids among themselves, without the pairs that are `joined`, negative where they overlap; infinite where there are
-/// fewer than two.
+/// Least distance between solids, except the pairs `joined`; negative for overlap, infinite with fewer than two solids.
 pub fn heap_gap(solids: &[ConvexBody], joined: &[[usize; 2]], nodes: &[Node]) -> f64 {
     let mut least = f64::INFINITY;
     // In the order of a coordinate: what begins farther than the nearest so far ends the search.

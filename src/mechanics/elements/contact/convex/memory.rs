@@ -1,4 +1,4 @@
-//! What friction between convex solids remembers: the stretch of its spring and the place of the two that it was found at.
+//! The memory of friction between convex solids: the stretch of its spring and the pose at the last state.
 
 use crate::elements::contact::history::{OWN, PairMemory};
 use base::math::{Mat3, Vec3};

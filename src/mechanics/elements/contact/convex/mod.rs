@@ -1,11 +1,14 @@
 //! Convex solids against each other: boxes and hulls with corners, edges and faces, cylinders, capsules and spheres.
 //!
-//! The force follows from one number, how deep two are in each other ([`depth`]): N = k D (1 + d Ḋ) along −∂D by the motion of either
-//! body. So it is opposite on the two, and elastic contact stores ½ k D². `pose` says where two lie, and with `axes` how far they are
-//! apart; `touch` is the depth wherever they are, by the `volume` of the solid that two polyhedra have in common (`overlap`), or a `cylinder` and a
-//! polyhedron (by what of faces lies in its `bore`) or `two_cylinders`, or along the `segment` about which one of the two is round (`swept`). `pair` is what acts between two, `rubbing` their friction and `memory` what it remembers, `update` goes from step to step, `tangent` is what the matrix sees of it, `steps` bounds the
-//! steps. `block` are many against one, `heap` many among themselves, with `heap_block` and
-//! `heap_gap`.
+//! The force follows from the depth of overlap alone ([`depth`]): N = k D (1 + d Ḋ) along −∂D by the motion of either body. So it is
+//! opposite on the two, and elastic contact stores ½ k D².
+//!
+//! - `pose` holds the positions of two solids, `axes` computes their distance.
+//! - `touch` computes the depth: by the common `volume` of two polyhedra (`overlap`), by a `cylinder` and a polyhedron (`bore`), by
+//!   `two_cylinders`, or along the `segment` of a round solid (`swept`).
+//! - `pair` computes the force of a pair, `rubbing` its friction with its `memory`.
+//! - `update` advances the history, `tangent` linearizes the force, `steps` limits the step length.
+//! - `block` holds many solids against one, `heap` many among themselves, with `heap_block` and `heap_gap`.
 
 mod axes;
 mod block;

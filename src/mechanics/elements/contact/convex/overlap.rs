@@ -1,7 +1,7 @@
 //! The solid that two polyhedra have in common: its faces, volume and moments.
 //!
 //! The one is cut by the planes of the other, one after the other, and closed by a polygon where it was cut. Neighbouring faces share their
-//! corners to the last bit, so that the solid stays closed whatever rounding makes of faces that lie in one plane.
+//! corners to the last bit. The solid thus stays closed even where coplanar faces are rounded.
 
 use super::pose::PolyhedronPose;
 use super::two_cylinders::PrismOutline;
@@ -15,7 +15,7 @@ pub struct ClippedFace<const CORNERS: usize> {
     count: usize,
     /// Unit normal, outward.
     pub normal: Vec3,
-    /// True where it is a face of the one, which moves.
+    /// True for a face of the one solid, whose motion the derivative is for.
     pub moves: bool,
 }
 
@@ -25,7 +25,7 @@ pub struct Faces<const CORNERS: usize, const MOST: usize> {
     count: usize,
 }
 
-/// The faces in the frame whose axes are the columns of `T`, about `origin`; `None` where there is no room for them.
+/// The faces in the frame with axes in the columns of `T`, about `origin`; `None` if they exceed the room.
 pub fn faces<const CORNERS: usize, const MOST: usize>(
     pose: &PolyhedronPose,
     T: &Mat3,
@@ -81,7 +81,7 @@ impl<const CORNERS: usize, const MOST: usize> Faces<CORNERS, MOST> {
         Some(faces)
     }
 
-    /// Keeps what lies below the plane n · x = `at`, and closes it there; `None` where there is no room for what it takes.
+    /// Keeps the part below the plane n · x = `at`, and closes it there; `None` if the room is too small.
     pub fn cut(&mut self, n: &Vec3, at: f64) -> Option<()> {
         let mut edges = [[Vec3::zeros(); 2]; MOST];
         let (mut cuts, mut kept, mut has_room) = (0, 0, true);
@@ -105,8 +105,7 @@ impl<const CORNERS: usize, const MOST: usize> Faces<CORNERS, MOST> {
         self.close(edges, n)
     }
 
-    /// Closes the solid by the polygon that goes around these edges, or by triangles where rounding has torn that, or where there is no room
-    /// for its corners.
+    /// Closes the solid by the polygon of these edges, or by triangles if rounding has torn it or its corners exceed the room.
     fn close(&mut self, edges: &[[Vec3; 2]], n: &Vec3) -> Option<()> {
         let Some(first) = edges.iter().find(|[a, b]| a != b) else { return Some(()) };
         let face = self.list.get_mut(self.count)?;
@@ -143,7 +142,7 @@ impl<const CORNERS: usize> ClippedFace<CORNERS> {
         &self.corners[..self.count]
     }
 
-    /// Keeps what lies below the plane n · x = `at`; tells of each edge that the plane then needs, as it goes around there. False where
+    /// Keeps the part below the plane n · x = `at`; calls `edge` with each edge of the cut, in the sense of the closing face. False where
     /// there is no room for its corners.
     fn cut(&mut self, n: &Vec3, at: f64, edge: &mut dyn FnMut([Vec3; 2])) -> bool {
         let mut above = [0.0; CORNERS];

@@ -18,7 +18,7 @@ use base::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, stack};
 /// A face that lies on another acts as the four corners it has.
 const POINTS: f64 = 4.0;
 
-/// Depth, as a part of their size, at which those are taken to rest on each other that were drawn face to face.
+/// Assumed depth of solids resting on each other, relative to their size, where they are drawn face to face.
 const RESTING: f64 = 1e-6;
 
 /// A convex solid on a body, which touches others.
@@ -44,14 +44,14 @@ pub struct CarriedConvex {
 }
 
 impl CarriedConvex {
-    /// The convex solid that a surface is to what reaches so far; `None` where it is none.
+    /// The convex solid of a surface, for bodies within `reach`; `None` for a surface without one.
     pub fn of_surface(surface: &Surface, node: usize, reach: f64) -> Option<Self> {
         let half_space = || matches!(surface.shape, SurfaceShape::Plane(_)).then(|| ConvexShape::half_space(reach));
         let shape = surface.as_convex().or_else(half_space)?;
         Some(CarriedConvex { node, center: surface.center, axes: surface.axes, shape })
     }
 
-    /// The one that touches, where others touch it.
+    /// A touching solid in the role of the touched one.
     pub fn of_body(one: &ConvexBody) -> Self {
         CarriedConvex { node: one.node, center: Vec3::zeros(), axes: Mat3::identity(), shape: one.shape.clone() }
     }
@@ -83,7 +83,7 @@ pub(in crate::elements::contact) struct ConvexPair<'a> {
 }
 
 impl ConvexPair<'_> {
-    /// The stiffness along the faces: with a sphere that of a point, as it is against the normal.
+    /// The tangential stiffness: with a sphere the stiffness of a point, as in the normal direction.
     fn tangential_stiffness(&self) -> f64 {
         let is_point = self.one.shape.is_sphere() || self.other.shape.is_sphere();
         self.law.stiffness / if is_point { POINTS } else { 1.0 }
@@ -114,7 +114,7 @@ impl PairKinematics<'_> {
 pub(in crate::elements::contact) struct PairForce {
     /// The depth D with its derivatives.
     pub depth: Depth,
-    /// The depth at which the spring begins.
+    /// Starting depth of the spring.
     pub inset: f64,
     /// Ḋ, per time.
     pub rate: f64,
@@ -164,8 +164,8 @@ impl<'a> ConvexPair<'a> {
 
     /// Derivatives of the force W by the motion (u, ψ) at fixed rates, and by the rates.
     ///
-    /// The first are central differences: the solid that the two have in common has exact moments and first derivatives, and
-    /// differences over a small part of its thickness are exact to some 1e-8, which no formula in closed form would better by much.
+    /// The first are central differences. Moments and first derivatives of the common solid are exact, so differences over a small part of
+    /// its thickness are accurate to 1e-8.
     pub fn derivatives(&self, at: &PairKinematics, acting: &PairForce, old: PairMemory) -> [Mat6; 2] {
         let (g, normal) = (&acting.depth.g, &acting.normal);
         let mut by_rates = -normal.by_rate * g * g.transpose();
@@ -173,14 +173,14 @@ impl<'a> ConvexPair<'a> {
             by_rates += normal.by_rate * rubbing.by_N * g.transpose();
         }
         let size = at.pose.size();
-        // What only begins to touch, or is about to part, has the stiffness of the normal force alone.
+        // A pair that only begins to touch, or is about to part, has the stiffness of the normal force alone.
         let stiffness = || -normal.by_depth * g * g.transpose();
         let (mut at, mut D) = (*at, acting.depth.D);
         if D < 2.0 * SHALLOW * size {
             if self.law.dynamic {
                 return [stiffness(), by_rates];
             }
-            // In statics nothing else may hold what was put on another: it has the stiffness of one that rests there.
+            // In statics this contact may be the only support of a body, so it has the stiffness of a body at rest.
             at.pose = at.pose.pushed_in(&at.pose.least_axis(), RESTING * size);
             D = RESTING * size;
         }

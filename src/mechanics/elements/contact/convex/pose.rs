@@ -18,7 +18,7 @@ pub struct ConvexPose<'a> {
     pub other: &'a ConvexShape,
 }
 
-/// An axis that separates two convex solids, or along which they overlap least.
+/// The separating axis of two convex solids, or their axis of least overlap.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeastAxis {
     /// Unit vector toward the one.
@@ -41,7 +41,7 @@ pub(super) struct PolyhedronPose<'a> {
 }
 
 impl<'a> ConvexPose<'a> {
-    /// The length to which positions are rounded.
+    /// The length that scales rounding errors of positions.
     pub fn size(&self) -> f64 {
         self.own.reach() + self.other.reach()
     }
@@ -86,7 +86,7 @@ impl<'a> ConvexPose<'a> {
         self.distance_within(f64::INFINITY)
     }
 
-    /// The same; where it is beyond a limit, a lower bound that is beyond it too.
+    /// The distance; beyond a limit, a lower bound that exceeds the limit too.
     pub fn distance_within(&self, limit: f64) -> f64 {
         let apart = self.apart();
         if apart >= limit {
@@ -120,7 +120,7 @@ fn nearest_parts(pose: &PolyhedronPose) -> f64 {
     least
 }
 
-/// The distance of two segments whose nearest points lie within both; infinite otherwise, since corners cover that case.
+/// The distance of two segments with nearest points within both; infinite otherwise, since corners cover that case.
 fn between_segments([a, b]: [Vec3; 2], [c, d]: [Vec3; 2]) -> f64 {
     let (u, w, r) = (b - a, d - c, a - c);
     let (uu, uw, ww) = (u.dot(&u), u.dot(&w), w.dot(&w));

@@ -3,8 +3,8 @@
 use base::math::Vec3;
 use base::math::cylinder::RoundCylinder;
 
-/// The direction across an edge that goes `along` through a point within a cylinder, and across its rim, in which the way out is least; `None` where
-/// the edge leaves by the side or by an end. In the axes of the cylinder.
+/// The shortest direction out of a cylinder across both its rim and an edge, which runs `along` through the inner point `x`. `None` if the
+/// edge crosses the side or an end instead. In the axes of the cylinder.
 pub(super) fn out_of_rim(cylinder: &RoundCylinder, x: &Vec3, along: &Vec3) -> Option<Vec3> {
     let e = along.normalize();
     let out = Vec3::new(x.x, x.y, 0.0).try_normalize(0.0)?;

@@ -1,8 +1,8 @@
-//! Friction between two convex solids: a spring at the centre of what they have in common, along the faces and about their normal.
+//! Friction between two convex solids: a spring at the centre of the common solid, along the faces and about their normal.
 //!
-//! It bears up to μN in sliding, μN r in turning about the normal, r the mean lever of an even pressure, and what lies on the
-//! ellipsoid between the two where both happen (S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991)); beyond that it slips.
-//! The stretch grows by the way of the material at the centre since the last state, so that the centre may wander.
+//! The limit is μN in sliding and μN r in turning about the normal, with r the mean lever of a uniform pressure. Combined, it is the
+//! ellipsoid between the two (S. Goyal, A. Ruina, J. Papadopoulos, Wear 143 (1991)); beyond it slips. The stretch grows by the way of the
+//! material at the centre since the last state, so that the centre may wander.
 
 use super::depth::Depth;
 use super::memory::Memory;
@@ -25,8 +25,8 @@ pub struct Rubbing {
     pub slip: f64,
 }
 
-/// The friction of a pair that is `depth` deep under the normal force `N`, with a spring of stiffness `k` along the faces; `None` where the normal force has no direction along
-/// which anything could move.
+/// The friction of a pair at `depth` under the normal force `N`, with the spring stiffness `k` along the faces. `None` for a normal force
+/// without direction.
 pub fn rubbing(
     (k, friction): (f64, f64),
     pose: &ConvexPose,
@@ -44,13 +44,13 @@ pub fn rubbing(
     let twist = memory.twist + n.dot(&memory.turned(&pose.Q));
     let turned = depth.lever * twist;
     let length = (e.norm_squared() + turned * turned).sqrt();
-    // What presses is N |∂D|: on an edge less than N.
+    // The pressing force is N |∂D|, on an edge less than N.
     let limit = friction * N * normal.norm();
     let slips = k * length > limit;
     let factor = if slips { limit / length } else { k };
     let T = factor * e;
     let W = -stack(&T, &(arm.cross(&T) + factor * turned * depth.lever * n));
-    // What slips bears in proportion to N.
+    // The friction force in slip is proportional to N.
     let by_N = if slips && N > 0.0 { W / N } else { Vec6::zeros() };
     let (pull, part) = if slips { (limit, limit / (k * length)) } else { (k * length, 1.0) };
     Some(Rubbing { W, by_N, pull, stretch: part * e, twist: part * twist, slip: (1.0 - part) * length })

@@ -17,19 +17,19 @@ pub(super) struct SegmentPlace {
 }
 
 impl SegmentPlace {
-    /// The growth of the distance along a segment of which `half` is one half.
+    /// The slope of the distance along a segment of half vector `half`.
     pub fn slope(&self, half: &Vec3) -> f64 {
         self.n.dot(half)
     }
 }
 
-/// The place of a segment, of which `half` is one half, that is nearest to the core or lies deepest in it; `at` tells of each. The slope of
-/// a convex function grows, and is zero there.
+/// The place of a segment (half vector `half`) nearest to the core or deepest in it; `at` evaluates a place. The slope of a convex function
+/// grows, and is zero there.
 pub(super) fn nearest_place(half: &Vec3, at: impl Fn(f64) -> SegmentPlace) -> SegmentPlace {
     nearest_place_within(ITERATIONS, half, at)
 }
 
-/// The same after so many iterations, of which two halve the interval at least.
+/// Like [`nearest_place`], with a given number of iterations; every second one halves the interval.
 pub(super) fn nearest_place_within(iterations: usize, half: &Vec3, at: impl Fn(f64) -> SegmentPlace) -> SegmentPlace {
     let (mut low, mut high) = (at(-1.0), at(1.0));
     if low.slope(half) >= 0.0 {
@@ -41,7 +41,7 @@ pub(super) fn nearest_place_within(iterations: usize, half: &Vec3, at: impl Fn(f
     let size = half.norm();
     for k in 0..iterations {
         let (a, b) = (low.slope(half), high.slope(half));
-        // By turns the chord, which is exact where the slope grows evenly, and the middle.
+        // Alternates between the chord, exact for a linear slope, and the middle.
         let s = match k % 2 {
             0 => low.s - a * (high.s - low.s) / (b - a),
             _ => 0.5 * (low.s + high.s),

@@ -7,8 +7,8 @@ use crate::elements::contact::steps::first_reached;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
-/// True where a step from `start` to `now` must be shorter: one would pass through the other, or be more than half way through, or
-/// come into an impact that the step does not resolve.
+/// True where a step from `start` to `now` must be shorter: one solid is through the other, or more than half way, or an impact is not
+/// resolved.
 pub(super) fn is_missed(pair: &ConvexPair, old: PairMemory, start: &[Node], now: &Configuration) -> bool {
     let [from, to] = [start, now.nodes].map(|nodes| pair.kinematics(nodes).pose);
     let length = (to.y - from.y).norm() + (to.Q - from.Q).norm() * from.own.reach();
@@ -41,7 +41,7 @@ pub(super) fn is_missed(pair: &ConvexPair, old: PairMemory, start: &[Node], now:
     first.gap > 0.0 && pair.law.lands_unresolved(old, depth, now.dt)
 }
 
-/// True where the side on which the one lies has changed for the other: the axes of neighbouring sides are at right angles.
+/// True where the contact axis has turned to the opposite side; axes of neighbouring sides are at right angles.
 fn is_opposite(a: &Vec3, b: &Vec3) -> bool {
     a.dot(b) < -0.5
 }
@@ -65,7 +65,7 @@ impl Way<'_> {
     }
 }
 
-/// True where two that are apart before and after have met on the way.
+/// True where two solids are apart before and after the step but meet within it.
 fn passes(from: &ConvexPose, to: &ConvexPose, length: f64) -> bool {
     let (Some(t0), Some(back)) = (Way { from, to }.entry(length), Way { from: to, to: from }.entry(length)) else {
         return false;

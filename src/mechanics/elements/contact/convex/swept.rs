@@ -1,13 +1,13 @@
 //! A segment about which one of two solids is round, against the other: a capsule or a sphere against anything convex.
 //!
 //! At s on the segment the two overlap by p(s) = r − d(s), d the distance from the other's core. The depth is that of two polyhedra
-//! ([`super::volume`]) for the strip 0 ≤ z ≤ p(s): with V the variance of z left where its slope along s has been taken out, D = √(6 V). That is p/√2 where the
-//! segment lies along a face and p/2 where it stands on its end, so that, with four times the stiffness of a point, a capsule that lies is
-//! as stiff as two spheres at its ends and one that stands as one. A sphere has p/2.
+//! ([`super::volume`]) for the strip 0 ≤ z ≤ p(s): D = √(6 V), V the variance of z less its linear part. It is p/√2 for a segment along a
+//! face and p/2 for one standing on its end. With four times the stiffness of a point, a lying capsule is thus as stiff as two spheres at
+//! its ends, a standing one as one sphere. A sphere has p/2.
 //!
-//! What the strip gains where p grows changes V by ((z − z̄ − β(s − s̄))² − V)/A, β the slope and A its area, at z = p; so ∂D is a sum of
-//! that over the segment. d is convex in s and known in closed form, so that p > 0 in one interval, which is cut where another part of the
-//! core becomes the nearest.
+//! Growth of p at a point changes V by ((z − z̄ − β(s − s̄))² − V)/A at z = p, with β the slope and A the strip's area. ∂D is therefore a
+//! sum over the segment. d is convex in s and known in closed form: p > 0 in one interval, cut where another part of the core becomes the
+//! nearest.
 
 use super::depth::Depth;
 use super::pose::{ConvexPose, LeastAxis};
@@ -27,7 +27,7 @@ pub(super) struct Swept<'a> {
     core: &'a ConvexShape,
     middle: Vec3,
     half: Vec3,
-    /// The distance of the segment from the core at which the two touch.
+    /// The distance of the segment from the core at touching.
     radius: f64,
     /// Columns: the axes of the core, in those of the pose.
     axes: Mat3,
@@ -35,11 +35,11 @@ pub(super) struct Swept<'a> {
     origin: Vec3,
     /// The centre of the one.
     y: Vec3,
-    /// 1 where the segment is that of the one, −1 where it is that of the other.
+    /// 1 if the segment belongs to the one, −1 if to the other.
     side: f64,
 }
 
-/// A point of the rule: its weight, where it is on the strip, and what is there.
+/// A point of the rule: its weight, the height of the strip, and its place on the segment.
 #[derive(Clone, Copy)]
 struct Sample {
     weight: f64,
@@ -207,7 +207,8 @@ impl<'a> Swept<'a> {
             g += at.weight * q * self.way(&at.place);
             c += at.weight * at.p / area * self.middle_of_overlap(&at.place);
         }
-        // The mean distance from the middle of an even pressure along a line is half of its half length, and its variance a third of the square of that.
+        // Under a uniform pressure along a line, the mean distance from the middle is half of its half length; the variance is a third of
+        // its square.
         let lever = (0.75 * ss).sqrt() * self.half.norm();
         Some(Depth { D, g, c, lever })
     }

@@ -6,11 +6,10 @@ use crate::state::Configuration;
 use base::math::{Mat3, Mat6, Vec3, skew};
 use nalgebra::SMatrix;
 
-/// How the motion of a pair in the frame of the one that is touched follows from that of its two nodes: δx, δθ of the one, then of the
-/// other.
+/// The matrix from the motion of both nodes (δx, δθ of the one, then of the other) to the relative motion in the frame of the other.
 type FromNodes = SMatrix<f64, 6, 12>;
 
-/// Writes the tangent of a pair, 12 rows of 12 over the one and the other, into `K`, which is zero; false where the two are apart.
+/// Writes the tangent of a pair into `K`, initially zero: 12 × 12 over the one and the other. False where the two are apart.
 pub(super) fn tangent(
     pair: &ConvexPair,
     old: PairMemory,

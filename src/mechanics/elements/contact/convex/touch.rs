@@ -11,7 +11,7 @@ use base::math::{Vec3, stack};
 /// that rounding has eaten.
 pub const SHALLOW: f64 = 1e-8;
 
-/// The depth of convex solids that overlap or touch; `None` where they are further apart than `touching`.
+/// The depth of convex solids that overlap or touch; `None` for a gap above `touching`.
 pub fn depth(pose: &ConvexPose, touching: f64) -> Option<Depth> {
     let least = pose.least_axis();
     if least.gap > touching {
@@ -26,7 +26,7 @@ pub fn depth(pose: &ConvexPose, touching: f64) -> Option<Depth> {
     Some(found)
 }
 
-/// The depth of convex solids that are apart, negative, as it goes on from where they would first touch along the axis that separates them.
+/// The negative depth of convex solids apart, extrapolated from their first touch along the separating axis.
 pub(super) fn approaching(pose: &ConvexPose) -> Depth {
     let least = pose.least_axis();
     let mut found = first_touch(pose, &least);
@@ -41,7 +41,7 @@ fn first_touch(pose: &ConvexPose, least: &LeastAxis) -> Depth {
     within(&shifted, &least.axis).unwrap_or_else(|| slab(&shifted, &least.axis, shallow))
 }
 
-/// The depth by what the two have in common; `None` where rounding leaves nothing of that.
+/// The depth by the common solid; `None` where rounding leaves no volume.
 fn within(pose: &ConvexPose, axis: &Vec3) -> Option<Depth> {
     match pose.as_polyhedra() {
         Some(polyhedra) => depth_by_volume(&polyhedra, axis, &pose.deepest(axis)),
@@ -52,7 +52,7 @@ fn within(pose: &ConvexPose, axis: &Vec3) -> Option<Depth> {
     }
 }
 
-/// What is left where rounding has eaten the shape of the overlap: the axis, at the corner that is deepest.
+/// The depth along the axis at the deepest corner, used where the shape of the overlap is lost to rounding.
 fn slab(pose: &ConvexPose, axis: &Vec3, depth: f64) -> Depth {
     let c = pose.deepest(axis);
     Depth { D: depth, g: -stack(axis, &(c - pose.y).cross(axis)), c, lever: 0.0 }

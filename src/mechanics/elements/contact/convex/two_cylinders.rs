@@ -1,7 +1,7 @@
-//! Two cylinders: the axis that separates them, and the prism that stands for the one of them where the other touches it.
+//! Two cylinders: their separating axis, and the prism in place of one of them where the other touches it.
 //!
-//! Nineteen sides of the prism lie where the other one comes, as wide together as it can reach and narrow in the middle, where it always is, so that
-//! they bulge by a hundredth of the depth and less; behind them the prism is a box. Where the two meet over more than a part of the round, as end on end, it has 32 sides. All sides
+//! Nineteen sides of the prism cover the zone of contact, narrow in its middle; the arcs rise above them by at most a hundredth of the
+//! depth. Behind them the prism is a box. Where the two meet over more than a part of the round, as end on end, it has 32 sides. All sides
 //! lie as far out as the arcs do on average.
 
 use super::pose::LeastAxis;
@@ -14,9 +14,9 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 const SIDES: usize = 19;
 /// Sides all around.
 const AROUND: usize = 32;
-/// Half the angle that the other one reaches over, beyond which there are sides all around.
+/// Half the angle of the contact zone, in radians, above which the prism has sides all around.
 const WIDE: f64 = 0.8;
-/// Iterations of the search for the nearest place, of which two halve the interval at least.
+/// Iterations of the search for the nearest place; every second one halves the interval.
 const SEARCH: usize = 40;
 /// How much wider than that the sides are together.
 const BEYOND: f64 = 1.2;
@@ -25,7 +25,7 @@ const BEYOND: f64 = 1.2;
 pub(super) struct TwoCylinders<'a> {
     /// The one.
     pub one: &'a RoundCylinder,
-    /// The other, for which a prism stands.
+    /// The other, replaced by a prism.
     pub other: &'a RoundCylinder,
     /// Centre of the other.
     pub y: Vec3,
@@ -117,7 +117,7 @@ impl TwoCylinders<'_> {
         (gap, -reach)
     }
 
-    /// Of the axes in the plane of two unit vectors at right angles the one of the largest gap: the best of some, and from there by its slope.
+    /// The axis of the largest gap in the plane of two orthogonal unit vectors: the best of 16, refined by its slope.
     fn best_of_plane(&self, e: &Vec3, f: &Vec3) -> Vec3 {
         const SOME: usize = 16;
         let axis = |angle: f64| angle.cos() * e + angle.sin() * f;
@@ -151,7 +151,7 @@ impl TwoCylinders<'_> {
         if self.gap(&axis(low)).0 > self.gap(&axis(high)).0 { axis(low) } else { axis(high) }
     }
 
-    /// The axis out of the rims of both, from where a line of the other lies deepest in the one; `None` where there are no two rims to leave by.
+    /// The axis out of the rims of both, from the place where a line of the other is deepest in the one; `None` without two rims.
     fn out_of_rims(&self, line: &NearestLine) -> Option<Vec3> {
         let tangent = Vec3::new(-line.x.y, line.x.x, 0.0).try_normalize(0.0)?;
         let of_other = self.Q * Vec3::new(-line.angle.sin(), line.angle.cos(), 0.0);
@@ -159,7 +159,8 @@ impl TwoCylinders<'_> {
         if self.gap(&-axis).0 > self.gap(&axis).0 {
             axis = -axis;
         }
-        // Newton's method on the sphere. The gap grows in proportion to the length of the axis, so that on the sphere it is bent by itself besides.
+        // Newton's method on the sphere. The gap is homogeneous of degree one in the axis; its curvature on the sphere therefore includes
+        // the gap.
         for _ in 0..6 {
             let (gap, gradient) = self.gap(&axis);
             let T = frame_along(&axis);
@@ -184,8 +185,8 @@ impl TwoCylinders<'_> {
         Some(axis)
     }
 
-    /// The axes toward the one of which one may separate the two: along either, across the side of either, out of both rims, or between
-    /// nearest points; these last only where the sides do not meet within their lengths.
+    /// Candidate separating axes, toward the one: along either, across the side of either, out of both rims, or between nearest points. The
+    /// last two count only where the sides do not meet within their lengths.
     fn axes(&self) -> impl Iterator<Item = Vec3> {
         let [across, toward, along] = [0, 1, 2].map(|k| self.Q.column(k).into_owned());
         let sides = [self.best_of_plane(&across, &toward), self.best_of_plane(&Vec3::x(), &Vec3::y())];
@@ -204,7 +205,7 @@ impl TwoCylinders<'_> {
         self.Q.column(2).dot(axis).abs() < LEVEL
     }
 
-    /// True where an axis across the side of the other leads to a place within the length of that.
+    /// True where an axis across the side of the other meets it within its length.
     fn meets_within(&self, axis: &Vec3) -> bool {
         let place = self.one.farthest_in_axes(axis) + self.y;
         self.Q.column(2).dot(&place).abs() <= self.other.half()
@@ -229,21 +230,21 @@ impl TwoCylinders<'_> {
         let radius = self.other.radius();
         let (mut least, mut angle) = (f64::INFINITY, 0.0);
         let mut look = |axis: Vec3| {
-            // Beyond the plane normal to the axis at which the one begins there is nothing of it; the round side is on this side of
-            // that plane but for so much about the angle of the axis, where its deepest place is.
+            // The one solid lies beyond the plane normal to the axis. The round side crosses that plane only within this part of the angle
+            // around the axis.
             let out = self.Q.tr_mul(&axis);
             let part = -0.5 * self.gap(&axis).0 / (radius * out.x.hypot(out.y));
             if part < least {
                 (least, angle) = (part, out.y.atan2(out.x));
             }
         };
-        // Of sides that meet within their lengths no other axis tells more.
+        // For sides that meet within their lengths this axis suffices.
         match self.is_across(along) && self.meets_within(along) {
             true => look(*along),
             false => self.axes().for_each(look),
         }
         let half = 2.0 * least.clamp(0.0, 1.0).sqrt().asin();
-        // Over much of the round that does no more than bound what they have in common.
+        // In a wide zone the round side only bounds the common solid.
         if half > WIDE { PrismOutline::around(radius) } else { PrismOutline::of_zone(radius, angle, half) }
     }
 }

@@ -1,4 +1,4 @@
-//! The history of a pair at the end of a step, and what was dissipated on the way.
+//! The history of a pair at the end of a step, and the energy dissipated in it.
 
 use super::memory::Memory;
 use super::pair::{ConvexPair, PairForce, PairKinematics};
@@ -13,7 +13,7 @@ use crate::state::Configuration;
 use base::math::rotation::{exp, matrix};
 use base::math::{Vec3, angular, linear};
 
-/// Writes the history of a pair after `part` of the way from the last state to `now`; returns what was dissipated.
+/// Writes the history of a pair after `part` of the way from the last state to `now`; returns the dissipation.
 pub(super) fn update_pair(
     pair: &ConvexPair,
     old: PairMemory,
@@ -43,14 +43,14 @@ pub(super) fn update_pair(
     spent
 }
 
-/// Gap and approach speed of what is apart, in the measure of the depth that it will have: where an edge or a corner comes first, a depth is
-/// less than the way along the axis, and so is its rate, by which an impact is judged.
+/// Gap and approach speed of solids apart, on the scale of their depth. Where an edge or a corner touches first, the depth and its rate are
+/// less than the motion along the axis.
 fn approach(at: &PairKinematics) -> (f64, f64) {
     let ahead = approaching(&at.pose);
     (-ahead.D, ahead.g.dot(&at.rates))
 }
 
-/// Writes what friction remembers; returns what slip dissipated.
+/// Writes the memory of friction; returns the dissipation of slip.
 fn update_friction(
     (at, acting): (&PairKinematics, Option<&PairForce>),
     (law, dt): (&ContactLaw, f64),
@@ -65,7 +65,7 @@ fn update_friction(
             let slipped = [rubbing.pull, rubbing.slip, old.friction_force()];
             (rubbing.stretch, rubbing.twist, update_slip(slipped, (dt, part), old, new))
         }
-        // The two are apart: what was stretched lets go.
+        // The two are apart: the friction spring is released.
         None => {
             new.set_friction_force(0.0);
             new.set_slip_speed(0.0);

@@ -1,14 +1,14 @@
 //! The depth of two polyhedra, from the solid they have in common.
 //!
 //! With S the variance of the positions in that solid, V⁻¹∫(x − c)(x − c)ᵀ dV, the depth is D = √(12/tr S⁻¹). A plate of thickness δ,
-//! which two faces have in common, has S = diag(δ², a², b²)/12 and D = δ, as δ is small beside its edges a, b: neither the size of the
-//! plate nor where it lies on the faces matters, so that flush edges and hanging over are nothing special, and nothing pushes
-//! sideways. A prism, where an edge stands in a face or crosses one, or the tip of a corner gives a multiple of the penetration.
-//! Where one side is thicker D² grows by 3 θ² I/A, as for springs at the corners. D and its gradient are continuous wherever the
-//! two overlap, whichever faces and edges bound what they have in common, and no feature has to be chosen or remembered.
+//! common to two faces, has S = diag(δ², a², b²)/12 and D = δ, if δ is small beside its edges a, b. Neither the size of the plate nor its
+//! place on the faces matters: flush edges and overhangs are no special cases and cause no lateral force. A prism, where an edge stands in
+//! a face or crosses one, or the tip of a corner gives a multiple of the penetration. Where one side is thicker D² grows by 3 θ² I/A, as
+//! for springs at the corners. D and its gradient are continuous wherever the two overlap, for any bounding faces and edges; no feature has
+//! to be chosen or remembered.
 //!
-//! What the solid gains at x as a face of the one moves changes S by ((x − c)(x − c)ᵀ − S)/V, and D by
-//! q(x) = 6/(D V (tr S⁻¹)²) (|S⁻¹(x − c)|² − tr S⁻¹), so that ∂D is a sum of q over the faces that move.
+//! Growth at x by the motion of a face changes S by ((x − c)(x − c)ᵀ − S)/V and D by q(x) = 6/(D V (tr S⁻¹)²) (|S⁻¹(x − c)|² − tr S⁻¹). So
+//! ∂D is a sum of q over the moving faces.
 
 use super::depth::Depth;
 use super::overlap::{Faces, faces};
@@ -25,14 +25,14 @@ const MANY_CORNERS: usize = 32;
 /// Faces of others.
 const MANY_FACES: usize = 128;
 
-/// The depth of two, whose deepest point along an `axis` is `origin`; `None` where rounding leaves nothing of what they have in common.
+/// The depth of two polyhedra with the deepest point `origin` along an `axis`; `None` where the common solid vanishes by rounding.
 pub(super) fn depth_by_volume(pose: &PolyhedronPose, axis: &Vec3, origin: &Vec3) -> Option<Depth> {
     let T = frame_along(axis);
     let few = by_moments::<FEW_CORNERS, FEW_FACES>(pose, &T, origin);
     few.or_else(|| by_moments::<MANY_CORNERS, MANY_FACES>(pose, &T, origin)).flatten()
 }
 
-/// The same with room for so many faces; `None` where that is too little.
+/// The depth with room for CORNERS and FACES; `None` if that is too small.
 fn by_moments<const CORNERS: usize, const FACES: usize>(
     pose: &PolyhedronPose,
     T: &Mat3,
@@ -61,13 +61,13 @@ fn of_faces<const CORNERS: usize, const FACES: usize>(
     D.is_finite().then(|| Depth { D, g, c: origin + T * measure.mean, lever: measure.lever })
 }
 
-/// The depth of two by the moments of what they have in common.
+/// The depth of two by the moments of the common solid.
 pub(super) struct Measure {
     /// The depth.
     pub D: f64,
-    /// The centre of what they have in common.
+    /// The centre of the common solid.
     pub mean: Vec3,
-    /// The radius at which friction about the normal acts.
+    /// The radius of friction about the normal.
     pub lever: f64,
     /// The inverse of the variance, and its trace.
     inverse: Mat3,
@@ -76,7 +76,7 @@ pub(super) struct Measure {
 }
 
 impl Measure {
-    /// `None` where rounding leaves nothing of that.
+    /// `None` where the variance is singular by rounding.
     pub fn of(moments: &SolidMoments) -> Option<Self> {
         let S = moments.variance;
         let inverse = S.try_inverse()?;
@@ -86,8 +86,8 @@ impl Measure {
         }
         let D = (12.0 / trace).sqrt();
         let scale = 6.0 / (D * moments.volume * trace * trace);
-        // The mean distance from the middle: of a line L/4, with the variance L²/12, of a disc 2 R/3, with R²/4 twice, and of rectangles within a
-        // per cent. The second invariant is the product of the two large variances.
+        // The mean distance from the middle is L/4 for a line (variance L²/12) and 2 R/3 for a disc (variance R²/4 twice); rectangles agree
+        // within 1 %. The second invariant is the product of the two large variances.
         let minors = S.m11 * S.m22 - S.m12 * S.m21 + S.m22 * S.m33 - S.m23 * S.m32 + S.m33 * S.m11 - S.m31 * S.m13;
         let lever = (0.75 * S.trace() + 5.0 / 18.0 * minors.max(0.0).sqrt()).sqrt();
         Some(Measure { D, mean: moments.mean, lever, inverse, trace, scale })

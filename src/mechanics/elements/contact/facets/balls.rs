@@ -1,5 +1,5 @@
-//! Balls among themselves, of which a heap has many: their search is short, and what a ball remembers stands in its first slots without
-//! gaps, so that the others are neither read nor written.
+//! Pairs of balls, numerous in a heap: the search is short, and the memories of a ball fill its first slots without gaps. Unused slots are
+//! neither read nor written.
 
 use super::facing::Facing;
 use super::found::{FacetTouch, TouchQuery};
@@ -8,9 +8,9 @@ use crate::elements::contact::history::PairMemory;
 use crate::state::{Configuration, Node};
 use std::ops::Range;
 
-/// A gap, as a part of the radius of the smaller ball, at which a pair is remembered whatever it does.
+/// A gap, relative to the radius of the smaller ball, below which every pair is remembered.
 const NEAR: f64 = 0.1;
-/// Steps before a landing from which on a pair is remembered.
+/// A pair is remembered from this number of steps before its landing.
 const AHEAD: f64 = 8.0;
 
 /// All balls within the gap asked for.
@@ -51,14 +51,14 @@ pub(super) fn find_within(
     }
 }
 
-/// True where two balls may have gone through each other's middle in a step in which nothing moves farther than `way` against the mean.
+/// True where two balls may have passed each other's centre in a step with no motion beyond `way` relative to the mean.
 pub(super) fn may_have_passed(of: &FacetScene, e: usize, number: u32, way: f64, nodes: &[Node]) -> bool {
     let ball = &of.balls[number as usize];
     let apart = nodes[of.points[e].nodes[0]].relative_position(&nodes[ball.node]).norm();
     apart <= 0.5 * (ball.radius + of.points[e].radius) + 2.0 * way
 }
 
-/// True for a pair that is to be remembered: it is near, will land soon, or has an impact behind it that is not over.
+/// True for a pair to remember: it is near, lands soon, or has an impact in progress.
 pub(super) fn is_memorable(
     of: &FacetScene,
     e: usize,

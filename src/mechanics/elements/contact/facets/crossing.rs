@@ -1,14 +1,14 @@
-//! Edges that cross: two lines whose ends touch as points of their own, a corner of a box the beam or a node of the beam the box.
+//! Crossing edges: two lines with separate points at their ends, a corner of a box on a beam or a node of a beam on a box.
 //!
-//! With δ the depth where the lines are nearest to each other, and δ_e that of the deepest of their four ends against the other line, they
-//! press with the potential
+//! δ is the depth between the nearest points of the lines, δ_e the depth of the deepest of their four ends against the other line. The
+//! contact potential is
 //!
 //! ```text
 //!  U = ½ k (δ² − δ_e²)
 //! ```
 //!
-//! which is that of the crossing where no end is within reach, and fades to nothing as the crossing comes to an end: what slides off an edge
-//! over its corner, or along a beam over its nodes, is pressed once all the way. Lines side by side press by their ends alone.
+//! Without an end in reach it is the potential of the crossing; near an end it fades to zero. A body sliding off an edge over its corner,
+//! or along a beam over its nodes, is thus pressed once throughout. Lines side by side press by their ends alone.
 
 use super::facet::{FacetPoint, Region};
 use super::pair::{EndForce, FacetPair, PairPlace};
@@ -34,7 +34,7 @@ pub(super) fn deepest_end<'a>(pair: &FacetPair<'a>, nodes: &[Node]) -> Option<(F
     all.filter(|(_, place)| place.gap() < 0.0).min_by(|a, b| a.1.gap().total_cmp(&b.1.gap()))
 }
 
-/// What that end does, of a pair with this memory.
+/// The force of the deepest end, for a pair with the memory `old`.
 pub(super) fn end_force(pair: &FacetPair, old: PairMemory, nodes: &[Node]) -> Option<EndForce> {
     let (end, place) = deepest_end(pair, nodes)?;
     let (law, depth, rate) = (pair.law, -place.gap(), place.rate());

@@ -1,8 +1,7 @@
-//! One facet of a surface that is made of nodes: a triangle, a quadrilateral, a line with a tube around it, or a single node with a ball
-//! around it.
+//! One facet of a surface of nodes: a triangle, a quadrilateral, a line with a tube around it, or a single node with a ball around it.
 //!
-//! A quadrilateral is four triangles about the mean of its nodes, so that every point of it is a weighted sum of nodes, and
-//! facets of one plane have no seam whatever their shapes.
+//! A quadrilateral is four triangles about the mean of its nodes. Every point is thus a weighted sum of nodes, and coplanar facets of any
+//! shape join without a seam.
 
 use crate::state::Node;
 use base::math::{Mat3, Vec3};
@@ -17,19 +16,19 @@ pub struct Facet {
     pub nodes: [usize; MOST_CORNERS],
     /// Number of corners: 1, 2, 3 or 4.
     pub corners: usize,
-    /// Half the thickness; of a line or a single node, the radius of what is around it.
+    /// Half the thickness; for a line or a single node, the radius of the tube or ball around it.
     pub half: f64,
-    /// The radius at which friction turns the node of a ball; 0 for others.
+    /// Radius of a ball for the moment of friction on its node; 0 for other facets.
     pub rolling_radius: f64,
-    /// Edges, from each corner to the next, at which the surface ends.
+    /// True for a free edge of the surface, by edges from each corner to the next.
     pub(super) free_edges: [bool; MOST_CORNERS],
-    /// Corners at which it ends.
+    /// True for a corner on a free edge.
     pub(super) free_nodes: [bool; MOST_CORNERS],
     /// True where its nodes run against those of its neighbours.
     pub(super) is_turned: bool,
     /// Which of the four triangles of a quadrilateral it is; `None` for all of it, and for others.
     pub(super) piece: Option<usize>,
-    /// What its corners are called: nodes, and middles of quadrilaterals, which have names of their own.
+    /// Identifiers of its corners: nodes, or the middle of a quadrilateral with a number beyond those of nodes.
     pub(super) names: [usize; 3],
 }
 
@@ -75,7 +74,7 @@ impl Facet {
         }
     }
 
-    /// The triangles of which it is made; `middle` is the name of the middle of a quadrilateral.
+    /// Splits a quadrilateral into its four triangles; `middle` is the identifier of its middle. Other facets are returned whole.
     pub(super) fn pieces(&self, middle: usize) -> Vec<Facet> {
         if self.corners < 4 {
             return vec![self.clone()];
@@ -108,7 +107,7 @@ impl Facet {
         self.corners == 2
     }
 
-    /// True for what has two sides, and a normal.
+    /// True for triangles and quadrilaterals, which have two sides and a normal.
     pub(super) fn has_sides(&self) -> bool {
         self.corners > 2
     }
@@ -207,7 +206,7 @@ impl Facet {
         }
     }
 
-    /// The unit normal of a triangle, on the side of the surface that its first facet calls its own; zero for what has no sides.
+    /// The unit normal of a triangle, on the same side throughout a connected surface; zero for lines and balls.
     #[inline]
     pub(super) fn normal(&self, triangle: usize, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
         if !self.has_sides() {
@@ -218,7 +217,7 @@ impl Facet {
         if self.is_turned { -n } else { n }
     }
 
-    /// The unit vector in which it faces a point at `g` from its nearest point: its normal, or the way to the point where it has no sides.
+    /// The unit vector toward a point at `g` from its nearest point: the normal, or the direction of `g` for lines and balls.
     #[inline]
     pub(super) fn facing(&self, at: &FacetPoint, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
         match self.has_sides() {
@@ -227,14 +226,14 @@ impl Facet {
         }
     }
 
-    /// The unit vector of what of `g` leads across a line; zero where nothing does.
+    /// The unit vector of the part of `g` across a line; zero for a `g` along it.
     pub(super) fn across(&self, g: &Vec3, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
         let along = p[1] - p[0];
         let across = g - along * (g.dot(&along) / along.norm_squared());
         across.try_normalize(1e-9 * along.norm()).unwrap_or_else(Vec3::zeros)
     }
 
-    /// A unit vector that leads out of the middle of what has no sides.
+    /// A unit vector out of the middle of a line or a ball.
     pub(super) fn outward(&self, p: &[Vec3; MOST_CORNERS]) -> Vec3 {
         match self.is_line() {
             true => {
@@ -245,8 +244,8 @@ impl Facet {
         }
     }
 
-    /// Base vectors that stretch with the facet, from its first node: along two of its sides, and the normal. What has constant components in
-    /// them goes along with the material. Of a ball or a line they are the axes of its first node.
+    /// Base vectors that stretch with the facet, from its first node: along two of its sides, and the normal. A vector with constant
+    /// components in them moves with the material. Of a ball or a line they are the axes of its first node.
     pub(super) fn base(&self, nodes: &[Node]) -> Mat3 {
         let frame = self.frame(nodes);
         if !self.has_sides() {
@@ -290,7 +289,7 @@ pub(super) struct Ball {
 }
 
 impl Ball {
-    /// Those that facets are; `None` where one is no ball.
+    /// The balls of the facets; `None` if one is no ball.
     pub fn all(facets: &[Facet]) -> Option<Vec<Ball>> {
         let ball = |facet: &Facet| facet.is_ball().then_some(Ball { node: facet.nodes[0], radius: facet.half });
         facets.iter().map(ball).collect()
@@ -346,8 +345,8 @@ fn closest_on_triangle([a, b, c]: &[Vec3; 3]) -> ([f64; 3], Region) {
     ([1.0 - v - w, v, w], Region::Interior)
 }
 
-/// Two sides of a facet and its normal as base vectors, held apart where the facet has all but collapsed: what is kept in them must come
-/// out again where it was, however little the facet moves in between.
+/// Two sides of a facet and its normal as base vectors, kept apart in an almost collapsed facet: a stored vector must be recovered after
+/// small motions.
 fn spread_apart(u: &Vec3, v: &Vec3, frame: &Mat3) -> Mat3 {
     /// Least sine of the angle between the sides.
     const LEAST_SINE: f64 = 0.2;
@@ -375,8 +374,8 @@ mod tests {
     use rand::rngs::StdRng;
     use rand::{RngExt, SeedableRng};
 
-    /// What is kept in the base of a facet that is about to collapse, and over which its corners pass, stays where it was: friction would
-    /// otherwise pull at a point that has jumped away.
+    /// A vector stored in the base of a collapsing facet, with a corner crossing a side, does not jump; friction would otherwise pull
+    /// toward a distant anchor.
     #[test]
     fn what_a_collapsed_facet_keeps_does_not_jump() {
         let mut rng = StdRng::seed_from_u64(5);
@@ -395,7 +394,7 @@ mod tests {
             let back = facet.base(&before) * kept;
             // Sides at an angle of 0.2 and of lengths as 1 to 20 lose three digits.
             assert!((back - v).norm() < 1e-12, "{back} {v}");
-            // Seen from there its plane may turn about, and the vector with it, but it keeps its length within what the base stretches.
+            // Its plane may turn over, and the vector with it; its length changes only by the stretch of the base.
             let after = facet.base(&moved) * kept;
             assert!(after.norm() < 200.0 * v.norm(), "{} for {}", after.norm(), v.norm());
         }

@@ -1,15 +1,15 @@
-//! On which side of a facet a point is, where its nearest point lies on the rim.
+//! The side of a point on a facet, where its nearest point lies on the rim.
 
 use base::math::Vec3;
 
-/// What tells on which side of a facet a point is.
+/// The reference for the side of a facet on which a point is.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Facing {
     /// Its normal.
     Normal,
-    /// Where the nearest point lies on the rim, the sum of the normals of the facets that meet there: the point may be behind the plane of one
-    /// of them without having come through.
+    /// For a nearest point on the rim, the sum of the normals of the facets meeting there. A point behind the plane of one of them need not
+    /// have come through.
     Rim(Vec3),
-    /// Nothing: more than two facets meet there, and what is beside one of them is beyond another.
+    /// None: more than two facets meet there, so the sides are not defined.
     Nothing,
 }

@@ -1,4 +1,4 @@
-//! What a point and a facet do to each other where they touch: the normal force, and friction.
+//! The forces between a point and a facet in contact: normal force and friction.
 
 use super::crossing;
 use super::line_friction;
@@ -11,7 +11,7 @@ use base::math::rotation::matrix;
 use base::math::{Mat3, Vec3};
 
 impl FacetPair<'_> {
-    /// What acts where they touch.
+    /// The forces at the contact.
     pub fn force(&self, place: &PairPlace, nodes: &[Node]) -> PairForceOnPoint {
         let law = self.law;
         if place.inset > 0.0 && place.gap() > 0.0 {

@@ -16,23 +16,22 @@ pub(super) struct FacetTouch {
     pub rim: [Option<usize>; 2],
     /// The normal of the facet.
     pub normal: Vec3,
-    /// What tells on which side of the facet the point is.
+    /// The reference for the side of the facet.
     pub facing: Facing,
-    /// False for facets that only tell that others are not the nearest.
+    /// False for facets that only exclude others from being the nearest.
     pub counts: bool,
-    /// The depth that does not push, where the point lies in the facet already as it comes there along the surface, from facets that it cannot
-    /// touch.
+    /// Depth without force: the depth of the point in the facet on arrival along the surface, from facets that it cannot touch.
     pub inset: f64,
-    /// The place where what is remembered of it stands.
+    /// The slot of its memory.
     pub slot: Option<usize>,
     /// Of a line that touches, the share of its second end in its nearest point.
     pub share: Option<f64>,
-    /// The neighbour of a line, and its place, from which what is remembered comes where the place of the touch has just gone on.
+    /// For a line, the neighbouring line and the slot whose memory continues here after the contact has passed their common node.
     pub from: Option<(usize, usize)>,
 }
 
 impl FacetTouch {
-    /// Positive where the point is on the side of the normal, negative on the other, zero where there are none.
+    /// Positive for a point on the side of the normal, negative on the other, zero without sides.
     pub fn height(&self) -> f64 {
         match self.facing {
             Facing::Normal => self.toward.dot(&self.normal),
@@ -42,14 +41,14 @@ impl FacetTouch {
     }
 }
 
-/// What is to be found.
+/// A query for the facets near a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct TouchQuery {
     /// The point.
     pub e: usize,
     /// The largest gap.
     pub limit: f64,
-    /// True where a point stays with the facet that it remembers, as long as the nearest point of that is a minimum and about as deep:
-    /// within a step the force then has no kink where two facets of a hollow are equally near, and an iteration comes to an end.
+    /// True where a point stays with its remembered facet, as long as its nearest point there is a minimum with about the largest depth.
+    /// The force then has no kink within a step where two facets of a hollow are equally near, and the iteration converges.
     pub stays: bool,
 }

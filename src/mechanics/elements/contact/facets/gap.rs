@@ -9,8 +9,8 @@ use crate::elements::contact::grid::GridBox;
 use crate::elements::contact::point::ContactPoint;
 use crate::state::Node;
 
-/// Least gap of points from facets, those left out which `may_touch` excludes; infinite where there are none. Facets are looked at in the
-/// order of one coordinate, as long as that alone does not tell that they are farther than the nearest so far; `sorted` is room for them.
+/// Least gap of points from facets, for pairs allowed by `may_touch`; infinite without pairs. Facets are searched in the order of one
+/// coordinate, until that alone exceeds the least gap so far; `sorted` is working memory.
 pub fn facet_gap(
     facets: &[Facet],
     points: &[ContactPoint],
@@ -35,7 +35,7 @@ pub fn facet_gap(
         let origin = &nodes[point.nodes[0]];
         let x = point.relative_position(origin, nodes);
         let at = origin.x[axis] + x[axis];
-        // Half of what a line has along the coordinate.
+        // Half of the extent of a line along the coordinate.
         let spread = if point.is_line() { x[axis].abs() } else { 0.0 };
         let look = |&(low, high, number): &FacetSpan, least: &mut f64| {
             let facet = &facets[number];
@@ -64,12 +64,12 @@ pub fn facet_gap(
     least
 }
 
-/// Least gap of the points from the facets that they may touch; infinite where there are none.
+/// Least gap of the points from the facets that they may touch; infinite without pairs.
 pub(super) fn least_facet_gap(of: &FacetContacts, nodes: &[Node]) -> f64 {
     let may_touch = |e: usize, facet: usize| of.may_touch(e, facet as u32) && !of.is_near_along(e, facet as u32);
     let mut nearby = of.nearby(nodes);
     if of.is_inner {
-        // Of what touches itself only minima of the distance count, which the lists tell as far as they reach.
+        // In self-contact only minima of the distance count; the lists hold them within their reach.
         let mut found = std::mem::take(&mut nearby.touches);
         let least = (0..of.points.len()).map(|e| touch::least_minimum(of, nearby.of(e), e, nodes, &mut found));
         let least = least.fold(f64::INFINITY, f64::min);

@@ -1,17 +1,17 @@
-//! Friction between two lines: a spring at the place where they touch, which wanders along both.
+//! Friction between two lines: a spring at the contact, which may move along both.
 //!
-//! The nearest points slide along either line, which is no way of the material. So the stretch of the spring grows by the way of what is at
-//! that place now since the last state: with the shares c of the four ends in x − y, their ways δx and turns δφ since then, and arms a
-//! and b from the axes to the place, a + b = d,
+//! The nearest points slide along either line, which is no way of the material. The spring therefore stretches by the displacement since
+//! the last state of the material now in contact. The shares of the four ends in x − y are c, their displacements δx and rotations δφ since
+//! then. With the arms a and b from the axes to the contact, a + b = d,
 //!
 //! ```text
 //!  way = Σ c δx − a δφ_A × n − b δφ_B × n,   F = N n − T,   M_A = a n × T,   M_B = b n × T
 //! ```
 //!
-//! where F and M_A go to the ends of the line that touches by its shares, −F and M_B to those of the other, which keeps linear and angular
-//! momentum. Ways and turns are those relative to the first node of the line that is touched, so that nothing acts where both move as one
-//! body. The stretch is kept along that line and across it: what rolls takes it along. Where a line has no rotations to take a moment, a bar,
-//! its arm is zero: it rubs at its axis.
+//! F and M_A act on the ends of the touching line by its shares, −F and M_B on those of the other; this conserves linear and angular
+//! momentum. Displacements and rotations are relative to the first node of the touched line: a common rigid motion causes no force. The
+//! components of the stretch along and across the touched line are stored, so they rotate with it. Where a line has no rotations to take a
+//! moment, a bar, its arm is zero: it rubs at its axis.
 
 use super::lines;
 use super::memory::place_of;
@@ -22,13 +22,13 @@ use base::math::Vec3;
 use base::math::rotation::{exp, log, renormalise};
 use std::borrow::Cow;
 
-/// The four ends: of the line that touches, and of that which is touched.
+/// Number of ends: two of the touching line, two of the touched one.
 pub(super) const ENDS: usize = 4;
 
 /// The way and the turn of an end, global components.
 type Motion = (Vec3, Vec3);
 
-/// The arms from the axes of both lines to the place where they touch: of the one that touches, and of the other.
+/// The arms from the axes of both lines to the contact: touching line, touched line.
 pub(super) fn arms(pair: &FacetPair, place: &PairPlace) -> [f64; 2] {
     let own = pair.point.rolling_radius;
     let arm = if own > 0.0 { place.d * own / place.reach } else { 0.0 };
@@ -47,7 +47,7 @@ pub(super) fn rub(pair: &FacetPair, place: &PairPlace, memory: PairMemory, N: f6
     Rub { T: pair.law.stiffness * kept, slip: stretch - kept }
 }
 
-/// The way of the material at the place since the last state, less what is common to both.
+/// The displacement of the material at the contact since the last state, relative to the common motion.
 fn way(pair: &FacetPair, place: &PairPlace, ways: &[Motion; ENDS]) -> Vec3 {
     let [a, b] = arms(pair, place);
     let (own, other) = ([pair.point.weights[0], pair.point.weights[1]], [place.W[0], place.W[1]]);
@@ -74,8 +74,8 @@ fn ends(pair: &FacetPair) -> [usize; ENDS] {
     [pair.point.nodes[0], pair.point.nodes[1], pair.facet.nodes[0], pair.facet.nodes[1]]
 }
 
-/// Ways and turns of the four ends since the last state, relative to the first node of the line that is remembered. An end that was none of
-/// those remembered goes as the end of its line that was: the two have just come to the next element, and stand near that.
+/// Ways and turns of the four ends since the last state, relative to the first node of the line that is remembered. An end without a memory
+/// moves like the shared end of its line: the contact has just passed to the next element.
 fn ways(pair: &FacetPair, memory: PairMemory, nodes: &[Node]) -> [Motion; ENDS] {
     let old = [pair.kept_line[0], pair.kept_line[1], pair.kept.nodes[0], pair.kept.nodes[1]];
     let origin = &nodes[old[2]];
@@ -102,12 +102,12 @@ fn ways(pair: &FacetPair, memory: PairMemory, nodes: &[Node]) -> [Motion; ENDS] 
     })
 }
 
-/// Writes where the four ends stand after `part` of the way since the last state; without a memory, as the velocities tell.
+/// Writes the positions of the four ends after `part` of the way since the last state; without a memory, extrapolated by the velocities.
 pub(super) fn remember(pair: &FacetPair, now: &Configuration, part: f64, new: &mut PairMemoryMut) {
     let (nodes, ends) = (now.nodes, ends(pair));
     let origin = &nodes[ends[2]];
     let (R, q) = (origin.R(), origin.rotation.conjugate());
-    // What of the way to `now` is still to come at the end of the step.
+    // The part of the motion to `now` that remains after the end of the step.
     let left: [Motion; ENDS] = match pair.memory {
         Some(memory) => ways(pair, memory, nodes).map(|(x, phi)| ((1.0 - part) * x, (1.0 - part) * phi)),
         None => {

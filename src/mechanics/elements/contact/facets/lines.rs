@@ -1,13 +1,14 @@
 //! Where two lines are nearest to each other, and how their distance changes with their ends.
 //!
-//! With g = x(s) − y(t) between the nearest points, u and v the vectors along the lines, f = ½ g² and the shares c of the four ends in g,
+//! The nearest points have the difference g = x(s) − y(t), f = ½ g², with c the shares of the four ends in g. u and v are the vectors along
+//! the lines:
 //!
 //! ```text
 //!  ∂f_s/∂x = c u + σ g,   ∂f_t/∂x = −c v − τ g,   ∂²f/∂x² = c c I − A M⁻¹ Aᵀ,   M = [u·u −u·v; −u·v v·v]
 //! ```
 //!
-//! where A collects the first two for those of s and t that are not at an end, σ and τ are ∓1 at the ends of the line itself, and
-//! ∂²d = (∂²f − ∂d ∂d)/d.
+//! A holds the first two for each of s and t that is not at an end, σ and τ are ∓1 at the ends of their own line, and ∂²d = (∂²f − ∂d
+//! ∂d)/d.
 
 use super::facet::{Facet, Region};
 use super::pair::{FacetPair, PairPlace};
@@ -25,7 +26,7 @@ pub(super) fn share(point: &ContactPoint, facet: &Facet, nodes: &[Node]) -> Opti
     Some(nearest(&a.relative_position(c), &b.relative_position(a), &d.relative_position(c))[0])
 }
 
-/// True for lines whose nearest points are not told by where they cross.
+/// True for parallel lines: their nearest points are not unique.
 pub(super) fn are_parallel(point: &ContactPoint, facet: &Facet, nodes: &[Node]) -> bool {
     let along = |ends: &[usize]| nodes[ends[1]].relative_position(&nodes[ends[0]]);
     let (u, v) = (along(point.nodes()), along(facet.nodes()));

@@ -1,19 +1,18 @@
-//! What a pair of a point and a facet remembers besides what all pairs do: the facet and the side of it on which the point is, and, of two
-//! lines, where their ends stood.
+//! Memory of a point and a facet beyond that of all pairs: the facet and the side of the point, or the positions of the ends of two lines.
 
 use crate::elements::contact::history::{OWN, PairMemory, PairMemoryMut};
 use base::math::Vec3;
 use nalgebra::Quaternion;
 
-/// Of a pair of lines the stretch of friction stands where others have their anchor, then where their ends stood.
+/// A pair of lines stores the stretch of friction in place of the anchor, then the positions of its ends.
 const POSITIONS: usize = OWN + 2;
-/// Ends that are stored: all but the first of the line that is touched, from which they are seen.
+/// Number of stored ends: all but the first of the touched line, which is the origin of the others.
 const STORED: usize = 3;
 const TURNS: usize = POSITIONS + 3 * STORED;
 /// The numbers of friction that are a pair of lines' own.
 pub(super) const OF_LINES: usize = TURNS + 4 * STORED - OWN;
 
-/// Where the k-th end stands among those stored; `None` for the one from which the others are seen.
+/// The index of the k-th end among the stored ones; `None` for the origin.
 pub(super) fn place_of(end: usize) -> Option<usize> {
     [Some(0), Some(1), None, Some(2)][end]
 }
@@ -25,7 +24,7 @@ impl PairMemory<'_> {
         self.key().abs() as usize - 1
     }
 
-    /// 1 on the side to which the normal of the facet points, −1 on the other.
+    /// 1 on the side of the facet's normal, −1 on the other.
     #[inline]
     pub(super) fn side(self) -> f64 {
         self.key().signum()
@@ -36,7 +35,7 @@ impl PairMemory<'_> {
         [self.0[OWN], self.0[OWN + 1]]
     }
 
-    /// A stored end in the axes of the node from which it is seen.
+    /// Position of a stored end in the axes of the origin node.
     pub(super) fn end(self, stored: usize) -> Vec3 {
         Vec3::from_column_slice(&self.0[POSITIONS + 3 * stored..POSITIONS + 3 * stored + 3])
     }

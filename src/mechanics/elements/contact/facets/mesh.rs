@@ -1,10 +1,10 @@
-//! How the facets of a surface hang together: where it ends, which way its sides face, and what lies near along it.
+//! Connectivity of the facets of a surface: its free edges, the orientation of its sides, and the facets near along it.
 
 use super::facet::Facet;
 use base::math::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// By the nodes of each edge the facets that have it, and which of theirs it is.
+/// For the two nodes of each edge: its facets, with the edge's index in each.
 type FacetEdges = HashMap<[usize; 2], Vec<(usize, usize)>>;
 
 fn edges_of(facets: &[Facet]) -> FacetEdges {
@@ -17,7 +17,7 @@ fn edges_of(facets: &[Facet]) -> FacetEdges {
     edges
 }
 
-/// The edges at which a surface ends, those of one facet alone, by their nodes and in the order of the facets.
+/// The free edges of a surface (with one facet each), by their nodes and in the order of the facets.
 pub fn free_edges(facets: &[Facet]) -> Vec<[usize; 2]> {
     let edges = edges_of(facets);
     let of_facet = |facet: &Facet| (0..facet.corners).map(|k| edge(facet, k)).collect::<Vec<_>>();
@@ -67,8 +67,8 @@ fn edge(facet: &Facet, k: usize) -> [usize; 2] {
     ends
 }
 
-/// For each of some nodes, the facets that it cannot come to touch by folding: those nearer along the surface than a distance that is
-/// its own. `x` are the places at t = 0.
+/// For each of `nodes`, the facets excluded from contact by folding: those within `distance` along the surface. `x` are the places at t =
+/// 0.
 pub fn near_along(
     facets: &[Facet],
     nodes: &[usize],

@@ -1,17 +1,19 @@
 //! Contact with surfaces of facets: the faces of shells, beams by their radius, and balls among themselves.
 //!
-//! Two things touch where the distance d of a point from the middle of a facet is less than their reach, the radius of the point and
-//! half the thickness of the facet. The force has the potential ½ k δ², δ = reach − d, d from the nearest point of the surface as it
-//! is, and so gives back what was put in; it acts on the point and, by the shares of the nearest point, on the nodes of the facet, so
-//! that linear and angular momentum are kept to rounding. Facets of one plane are one plane: nothing that slides over them feels
-//! their edges. A point that has come through to the other side is still pushed back to its own.
+//! The distance d from a point to the middle surface of a facet is compared with their reach, the radius plus half the thickness. They
+//! touch for d below the reach. The force has the potential ½ k δ², δ = reach − d, with d from the nearest point of the deformed surface,
+//! and is thus conservative. It acts on the point and, by the shares of the nearest point, on the nodes of the facet; linear and angular
+//! momentum are conserved to rounding. Facets of one plane are one plane: nothing that slides over them feels their edges. A point that has
+//! come through to the other side is still pushed back to its own.
 //!
-//! Lines that touch lines do so where they are nearest to each other, wherever that is on both; edges of solids do where they cross, for their
-//! corners are points.
+//! Two lines touch between their nearest points, anywhere along both. Edges of solids touch only where they cross, because their corners
+//! are separate points.
 //!
-//! `facet` is the geometry, `lines` that of two lines, `line_friction` how they rub, `crossing` edges whose ends touch for themselves, `mesh` how facets hang together, `scene` who may touch whom, `nearby` finds what is near, `touch` says which facets count, `found` is such a one, `balls` what is simpler of balls,
-//! `facing` what tells on which side a point is, `pair` two of them, `force` what acts between them, `memory` and `update` what they remember, `tangent` the derivatives; `block` is what the equations
-//! see, `steps` bounds the steps, `gap` is what is shown.
+//! - Geometry: `facet`, `lines`, `mesh` (connectivity), `facing` (sides).
+//! - Search: `scene` (pairs that may touch), `nearby`, `touch` (facets that count), `found` (one of them), `balls`.
+//! - Forces: `pair`, `force`, `line_friction`, `crossing` (edges with separate ends), `tangent`.
+//! - History: `memory`, `update`.
+//! - Interfaces: `block` (element block), `steps` (limits on the step length), `gap` (output).
 
 mod balls;
 mod block;

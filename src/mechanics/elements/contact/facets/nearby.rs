@@ -15,7 +15,7 @@ pub(super) struct NearbyFacets {
     near: NearLists,
     /// For each point a lower bound of its gap when the lists were made, from the facets that it can come to touch.
     gaps: Vec<f64>,
-    /// What touches a point: room for one after the other.
+    /// Working memory for the touches of one point at a time.
     pub touches: Vec<FacetTouch>,
     /// Room for facets in the order of a coordinate.
     pub spans: Vec<FacetSpan>,
@@ -29,7 +29,7 @@ impl NearbyFacets {
         }
     }
 
-    /// True where a point is surely farther than this from all that it can come to touch.
+    /// True where the gap of a point surely exceeds `limit` for every facet it may touch.
     pub fn is_clear(&self, point: usize, limit: f64) -> bool {
         self.gaps[point] - self.near.closed > limit
     }
@@ -40,7 +40,7 @@ impl NearbyFacets {
     }
 
     fn rebuild(&mut self, of: &FacetScene, nodes: &[Node]) {
-        // What is asked for lies within the margin of touching; the slack is as much again.
+        // Queries reach up to the margin from touching; the slack is another margin.
         let apart = 2.0 * of.margin;
         let facets = of.facets.iter().map(|facet| extent(facet, nodes, apart));
         let points = (0..of.points.len()).map(|e| of.extent(e, |node| nodes[node].x).wider(of.points[e].radius));
@@ -56,7 +56,7 @@ impl NearbyFacets {
         self.touches = found;
     }
 
-    /// The facets that a point may meet in a step in which nothing moves farther than `way` against the mean.
+    /// The facets that a point may meet in a step with no motion beyond `way` relative to the mean.
     pub fn on_the_way(&mut self, of: &FacetScene, e: usize, way: f64) -> &[u32] {
         if 2.0 * way <= of.margin {
             return self.of(e);

@@ -1,4 +1,4 @@
-//! A point and a facet at an instant: where they are to each other, and what they do to each other.
+//! A point and a facet at an instant: their relative position and the forces between them.
 
 use super::facet::{Facet, FacetPoint, MOST_CORNERS, Region};
 use super::facing::Facing;
@@ -13,23 +13,23 @@ use base::math::{Mat3, Vec3};
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion};
 use std::borrow::Cow;
 
-/// A point and a facet: what acts between them depends on their nodes and what they remember alone.
+/// A point and a facet; the forces between them depend only on their nodes and their memory.
 #[derive(Clone)]
 pub(super) struct FacetPair<'a> {
     pub law: &'a ContactLaw,
-    /// The point; of a line that touches, the point of it that is nearest.
+    /// The point; for a line, its nearest point.
     pub point: Cow<'a, ContactPoint>,
     pub facet: &'a Facet,
-    /// What tells on which side the point is.
+    /// The reference for the side of the point.
     pub facing: Facing,
     pub memory: Option<PairMemory<'a>>,
-    /// The depth at which the point was found where it came along the surface itself: only what is deeper pushes.
+    /// Depth without force: the point had it on arrival along the surface; only greater depths push.
     pub inset: f64,
-    /// The facet in whose frame friction remembers: that on which the point was, its neighbour where it has gone on.
+    /// The facet whose frame holds the memory of friction: the last one, if the point has moved on to a neighbour.
     pub kept: &'a Facet,
-    /// Of a line, the nodes of the one that remembers: its neighbour where the place has gone on to it.
+    /// For a line, the nodes of the line with the memory: the neighbour, if the contact has passed on from it.
     pub kept_line: [usize; 2],
-    /// True where the spring of friction bears whatever pulls at it.
+    /// True where the friction spring sticks at any force.
     pub sticks: bool,
 }
 
@@ -43,11 +43,11 @@ pub(super) struct PairPlace {
     pub n: Vec3,
     /// The distance along it, negative where the point has come through to the other side.
     pub d: f64,
-    /// The distance at which they touch.
+    /// The distance d at first touch.
     pub reach: f64,
     /// The depth that does not push.
     pub inset: f64,
-    /// The side: 1 where `n` goes with the normal of the facet.
+    /// The side: 1 if `n` points along the facet's normal.
     pub side: f64,
     /// The point relative to its first node.
     pub x: Vec3,
@@ -80,17 +80,17 @@ pub(super) struct Rub {
     pub slip: Vec3,
 }
 
-/// What acts between a point and a facet.
+/// Forces between a point and a facet.
 pub(super) struct PairForceOnPoint {
     pub normal: NormalForce,
-    /// Of edges, what is taken off because an end of theirs presses already.
+    /// For edges, the force to subtract because one of their ends already presses.
     pub less: Option<EndForce>,
     pub friction: Option<Rub>,
     /// Force on the point.
     pub F: Vec3,
     /// Moment on the point.
     pub M: Vec3,
-    /// Moment on the facet, whose force is opposite to that on the point.
+    /// Moment on the facet; its force is opposite to `F`.
     pub C: Vec3,
 }
 
@@ -102,7 +102,7 @@ impl PairForceOnPoint {
     };
 }
 
-/// What an end of one of two edges does to the other.
+/// The force of an end of one of two edges on the other.
 pub(super) struct EndForce {
     pub normal: NormalForce,
     /// The depth.
@@ -129,7 +129,7 @@ impl<'a> FacetPair<'a> {
         self.point.parts().chain(of_facet)
     }
 
-    /// True for lines that press where they cross by what they are deeper than their ends.
+    /// True for crossing edges: they press by the difference between their depth and that of their ends.
     pub fn is_of_edges(&self) -> bool {
         self.point.extent == TouchKind::Edge
     }
@@ -155,7 +155,7 @@ impl<'a> FacetPair<'a> {
             Facing::Normal | Facing::Rim(_) | Facing::Nothing => (normal, true),
         };
         let actual = if at.g.dot(&facing) < 0.0 { -1.0 } else { 1.0 };
-        // A point that has come through still is on the side that it came from, but not beyond the rim, which has no sides.
+        // A point keeps its original side after coming through, except beyond a free rim, which has no sides.
         let known = self.memory.filter(|_| has_sides && self.facet.has_sides() && !self.facet.is_free(&at));
         let side = known.map_or(actual, |memory| memory.side());
         let sign = side * actual;
@@ -171,8 +171,7 @@ impl<'a> FacetPair<'a> {
         nodes[self.point.nodes[0]].relative_position(&nodes[facet.nodes[0]]) + x
     }
 
-    /// Rotation vector of the point's k-th node since the memory, relative to the facet that this is of, whose frame is given; global
-    /// components.
+    /// Rotation vector of the point's k-th node since the memory, relative to the facet with the frame (q, R); global components.
     pub fn turned(&self, k: usize, memory: PairMemory, (q, R): (&Quaternion<f64>, &Mat3), nodes: &[Node]) -> Vec3 {
         let now = q.conjugate() * nodes[self.point.nodes[k]].rotation;
         R * log(&renormalise(&(now * memory.rotation(k).conjugate())))

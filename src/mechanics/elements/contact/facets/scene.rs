@@ -1,4 +1,4 @@
-//! Points and facets that may touch, without what changes.
+//! The constant data of points and facets that may touch.
 
 use super::facet::{Ball, Facet};
 use super::lines;
@@ -17,9 +17,9 @@ use std::collections::HashMap;
 const AT_END: f64 = 1e-9;
 /// Facets that a point may touch at once: two walls and a floor.
 const MOST_FACES: usize = 3;
-/// Lines that a line may touch at once: what remembers them is bound to it, wherever it is.
+/// Number of lines that a line may touch at once; each memory stays with the line.
 const MOST_LINES: usize = 8;
-/// Balls at least as large that a ball may touch at once: twelve of its own size, and what rounding and penetration add.
+/// Number of balls at least as large that a ball may touch at once: twelve of its size, and two for rounding and penetration.
 const MOST_BALLS: usize = 14;
 
 /// Points with equally many nodes against a surface of facets.
@@ -30,7 +30,8 @@ pub struct FacetScene {
     pub(super) points: Vec<ContactPoint>,
     /// The facets.
     pub(super) facets: Vec<Facet>,
-    /// For each point, the facets that it cannot come to touch, in ascending order; empty where the surface does not touch itself.
+    /// For each point, the facets that it cannot touch because they are near along the surface, in ascending order; empty without
+    /// self-contact.
     near_along: Vec<Vec<u32>>,
     /// True where the facets are balls, and each pair of them counts once.
     pub(super) is_of_balls: bool,
@@ -40,9 +41,9 @@ pub struct FacetScene {
     is_among: bool,
     /// True where the points are lines between their two nodes, and the facets lines too.
     pub(super) is_of_lines: bool,
-    /// True where these lines touch but where they cross, and others see to their ends.
+    /// True for edges: these lines touch only where they cross, and their ends are separate points.
     pub(super) is_of_edges: bool,
-    /// Of lines that touch: by end, the other ends of the lines that meet there; and the same of the facets.
+    /// For touching lines and for line facets: by node, the lines meeting there with their other ends.
     line_ends: [LineEnds; 2],
     /// True where forces on the surface are forces of the surface, and have no resultant.
     pub(super) is_inner: bool,
@@ -50,11 +51,11 @@ pub struct FacetScene {
     pub(super) involved: Vec<usize>,
     /// Those that friction turns.
     pub(super) turned: Vec<usize>,
-    /// A part of the size of a facet: what is nearer is remembered, and lists hold while nothing moves by more.
+    /// Length as a fraction of the mean facet size: closer pairs are remembered, and lists hold while no node moves farther.
     pub(super) margin: f64,
-    /// The size of the cells in which facets are looked for.
+    /// The size of the cells for the search of facets.
     pub(super) cell: f64,
-    /// Facets of which a point remembers something.
+    /// Number of facets that a point remembers.
     pub(super) slots: usize,
     /// Number of history variables of a pair.
     pub(super) width: usize,
@@ -62,18 +63,18 @@ pub struct FacetScene {
     pub(super) rolls: bool,
 }
 
-/// What touches a surface of facets.
+/// The bodies that touch a surface of facets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FacetTouchers {
     /// Points of something else.
     Others,
     /// The nodes of the surface itself; of lines, these lines in the same order.
     Itself,
-    /// The balls, of which the facets are a list, among themselves.
+    /// The balls among themselves; the facets list the same balls.
     Among,
 }
 
-/// For each point the facets that are near it along the surface, where a part touches itself.
+/// For each point the facets near it along the surface, in self-contact.
 fn near_along(
     touchers: FacetTouchers,
     (points, facets): (&[ContactPoint], &[Facet]),
@@ -132,7 +133,7 @@ impl FacetScene {
             },
             margin: 0.25 * mean,
             cell: 2.0 * mean,
-            // What is far is known to be far by the lists.
+            // The lists exclude distant pairs already.
             law: ContactLaw { near: f64::INFINITY, ..law },
             is_inner: touchers != FacetTouchers::Others,
             is_among: touchers == FacetTouchers::Among,
@@ -150,7 +151,7 @@ impl FacetScene {
         }
     }
 
-    /// What of a point may touch, by the places of nodes: itself, or the ends of a line.
+    /// The box around a point, or around the ends of a line, at the node positions `x`.
     pub(super) fn extent(&self, e: usize, x: impl Fn(usize) -> Vec3) -> GridBox {
         if self.is_of_lines {
             return GridBox::around(self.points[e].nodes().iter().map(|&node| x(node)));
@@ -159,7 +160,7 @@ impl FacetScene {
         GridBox { low: at, high: at }
     }
 
-    /// A point, or that of a line at which the share of its second end is this; its middle where none is told.
+    /// A point; for a line its point with this share of the second end, or its middle.
     pub(super) fn point_at(&self, e: usize, share: Option<f64>) -> Cow<'_, ContactPoint> {
         let point = &self.points[e];
         match share {
@@ -173,8 +174,8 @@ impl FacetScene {
         lines::share(&self.points[e], facet, nodes)
     }
 
-    /// True where two lines are nearest to each other here, `g` from the facet to the line that touches: not where, beyond an end of one of
-    /// them, the line that goes on there is nearer, nor where that one counts. Edges count where they cross.
+    /// True where two lines have their minimal distance here, with `g` from the facet to the touching line. At an end, only the nearest of
+    /// the lines meeting there counts. Edges count where they cross.
     pub(super) fn is_nearest(
         &self,
         e: usize,
@@ -205,7 +206,7 @@ impl FacetScene {
         self.involved.partition_point(|&other| other < node)
     }
 
-    /// False for pairs that never act: of a point and its own facets, and of two balls of which the other is the smaller.
+    /// False for pairs without contact: a point with its own facets, and the reversed pair of two balls.
     pub(super) fn may_touch(&self, e: usize, facet: u32) -> bool {
         if self.is_of_lines {
             let shares = self.points[e].nodes().iter().any(|node| self.facets[facet as usize].nodes().contains(node));
@@ -259,7 +260,7 @@ impl FacetScene {
     }
 }
 
-/// The nodes that friction turns, of those that take part.
+/// The nodes with moments from friction.
 fn turned(law: &ContactLaw, points: &[ContactPoint], facets: &[Facet], involved: &[usize]) -> Vec<usize> {
     match law.friction > 0.0 {
         // A bar that touches as a line has no rotations.
@@ -272,8 +273,8 @@ fn turned(law: &ContactLaw, points: &[ContactPoint], facets: &[Facet], involved:
     }
 }
 
-/// The end at which a point of a line lies, by the share of its second end: where lines cross at a node, rounding does not decide on which of
-/// the lines that meet there they touch.
+/// The end of a line on which a point lies, by the share of the second end. The tolerance keeps rounding from choosing the line where
+/// several meet at a node.
 pub(super) fn end_at(share: f64) -> Option<usize> {
     match share {
         _ if share < AT_END => Some(0),
@@ -296,7 +297,7 @@ impl LineEnds {
         LineEnds(ends)
     }
 
-    /// True where no line that meets this one at a node leads against `g`, and this is the first of those that meet there.
+    /// True where no other line at the node leads against `g`, and this is the first of the lines meeting there.
     fn is_least(&self, line: usize, node: usize, g: &Vec3, nodes: &[Node]) -> bool {
         let leads_nearer = |&(_, other): &(usize, usize)| {
             let along = nodes[other].relative_position(&nodes[node]);

@@ -10,18 +10,18 @@ use crate::elements::contact::near_lists::farthest;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 
-/// Part of the reach by which a point that is known to be on one side of a facet may have come through its middle.
+/// Fraction of the reach that a point known to be on one side of a facet may have come through its middle.
 const THROUGH: f64 = 0.9;
 
-/// True where a step from `start` to `now` must be shorter: a point would pass a facet, would come into an impact that the step does not
-/// resolve, or would slide on so far that its friction is forgotten.
+/// True where a step from `start` to `now` must be shorter: a point passes a facet, an impact is not resolved, or sliding loses the memory
+/// of friction.
 pub(super) fn misses_facet(of: &FacetContacts, start: &[Node], now: &Configuration) -> bool {
     let way = farthest(&of.involved, now.nodes, |_, node| start[node].x);
     !way.is_finite() || passes_any(of, way, start, now) || 2.0 * way > of.margin && forgets(of, now)
 }
 
-/// True where a point would pass the middle of a facet on whose side it was not known to be, would come through it by nearly all of its
-/// reach, or come into an impact that the step does not resolve. Balls do not pass the middle of each other.
+/// True where a point passes the middle of a facet without a known side, comes through it by nearly all of its reach, or lands in an
+/// unresolved impact. Balls do not pass the middle of each other.
 fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration) -> bool {
     let mut nearby = of.nearby(now.nodes);
     let mut found = std::mem::take(&mut nearby.touches);
@@ -77,8 +77,7 @@ fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration)
     is_missed
 }
 
-/// True where what rubbed has slid on so far that nothing tells of it where it touches now, and friction would begin anew there: over more
-/// than a facet in one step.
+/// True where a contact slides over more than a facet in one step, so that its friction would restart from zero.
 fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
     if of.law.friction == 0.0 || of.is_of_balls {
         return false;
@@ -88,7 +87,7 @@ fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
         motion.is_known() && motion.gap() <= 0.0 && motion.friction_force() > 0.0
     };
     let all = |e: usize| (0..of.slots).filter(|&slot| rubs(e, slot)).count();
-    // By point: what rubbed there, what of that still touches, and what begins to. Lines hand on to each other.
+    // For each point: the contacts with friction, those among them that still touch, and new ones. Lines hand on to each other.
     let (mut e, mut known, mut begun) = (usize::MAX, 0, 0);
     let mut on_all = [0, 0];
     let mut is_lost = false;
@@ -110,7 +109,7 @@ fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
     }
 }
 
-/// True where a point has come through the facet that it remembers, by nearly all of its reach.
+/// True where a point has come through its remembered facet by nearly all of its reach.
 fn has_come_through(of: &FacetContacts, e: usize, slot: usize, now: &Configuration) -> bool {
     let old = of.of_point(e, now.history);
     let memory = of.memory(old, slot);
@@ -157,8 +156,8 @@ fn passes(of: &FacetContacts, e: usize, facet: &Facet, at: [&[Node]; 2]) -> Opti
     Some(a.dot(&n).abs() / n.norm())
 }
 
-/// True where two balls whose centres are at `from` and then at `to` from each other go through each other's middle, or a ball through that
-/// of a line, from whose nearest points it lies so.
+/// True where two balls, with the relative positions `from` and `to`, pass through each other's centre; likewise for a ball and a line
+/// between their nearest points.
 fn swaps_sides(from: Vec3, to: Vec3, reach: f64) -> bool {
     let way = to - from;
     let square = way.norm_squared();

@@ -1,4 +1,4 @@
-//! Points against a surface of facets, with the lists of what is near.
+//! Points against a surface of facets, with the lists of near facets.
 
 use super::facet::Facet;
 use super::facing::Facing;
@@ -42,14 +42,14 @@ impl FacetContacts {
         FacetContacts { scene: FacetScene::new(law, touchers, points, facets, x), nearby: Mutex::default() }
     }
 
-    /// The facets near the points, where the nodes lie thus. Threads take turns: what is found does not depend on them.
+    /// The facets near the points, where the nodes lie thus. Threads lock the lists in turn; the result does not depend on their order.
     pub(super) fn nearby(&self, nodes: &[Node]) -> MutexGuard<'_, NearbyFacets> {
         let mut nearby = self.nearby.lock().unwrap_or_else(PoisonError::into_inner);
         nearby.update(self, nodes);
         nearby
     }
 
-    /// A point and a facet with what they remember, `history` being that of the block.
+    /// A point and a facet with their memory; `history` is that of the block.
     pub(super) fn pair<'a>(&'a self, e: usize, touch: &FacetTouch, history: &'a [f64]) -> FacetPair<'a> {
         let place = touch.slot.map(|slot| (e, slot)).or(touch.from);
         let memory = place.map(|(e, slot)| self.memory(self.of_point(e, history), slot));
@@ -71,7 +71,7 @@ impl FacetContacts {
         FacetPair { memory: Some(memory), inset, ..self.new_pair(e, memory.facet(), None) }
     }
 
-    /// A point, or that of a line at this share, and a facet, which remember nothing.
+    /// A point (of a line, at this share) and a facet, without memory.
     fn new_pair(&self, e: usize, facet: usize, share: Option<f64>) -> FacetPair<'_> {
         let (point, ends, facet) = (self.point_at(e, share), &self.points[e].nodes, &self.facets[facet]);
         FacetPair {
@@ -87,7 +87,7 @@ impl FacetContacts {
         }
     }
 
-    /// Calls with each pair that touches, `history` being that of the block.
+    /// Calls `act` with each touching pair; `history` is that of the block.
     pub(super) fn each_touch<'a>(
         &'a self,
         nodes: &[Node],

@@ -1,7 +1,7 @@
 //! The tangent of a pair: the normal force in closed form, friction by differences.
 //!
-//! With g = x − y = d n from the nearest point y = Σ N X to the point x, P the projection on the triangle, edge or vertex on which y
-//! may move and Q that on what is normal to both n and P,
+//! The vector from the nearest point y = Σ N X to the point x is g = x − y = d n. P projects on the triangle, edge or vertex of y; Q
+//! projects normal to both n and P. Then
 //!
 //! ```text
 //!  δd = n·δg,   δg = δx − Σ N δX,   B = −Σ ∇N (n·δX),   δn = B + Q δg/d,   δ²d = 2 B·δg + δg·Q δg/d − d B·B
@@ -31,8 +31,8 @@ struct NearestMotion {
     by_d: f64,
 }
 
-/// Adds the tangent of the force on the nodes of a pair, internal forces: K ← K + ∂f/∂x + `rate_weight` ∂f/∂v, row-major over the point's
-/// nodes and those of the facet, six directions each.
+/// Adds the tangent of the internal forces of a pair, K ← K + ∂f/∂x + `rate_weight` ∂f/∂v, row-major over all nodes with six directions
+/// each.
 pub(super) fn add_tangent(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     match pair.is_of_lines() {
         true => {
@@ -78,7 +78,7 @@ fn add_normal(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: 
     }
 }
 
-/// The same for a normal force between two lines.
+/// Adds the tangent of a normal force between two lines.
 fn add_normal_of_lines(
     (pair, place): (&FacetPair, &PairPlace),
     normal: NormalForce,
@@ -128,7 +128,7 @@ fn motion(pair: &FacetPair, place: &PairPlace, nodes: &[Node]) -> NearestMotion 
     NearestMotion { c, b, P, Q, by_d }
 }
 
-/// The gradients of the shares of a triangle's corners within the part on which the nearest point may move, and the projection on that.
+/// The gradients of the shares of a triangle's corners along the triangle, edge or vertex of the nearest point, and the projection on it.
 fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3) {
     let zero = Vec3::zeros();
     let corners = facet.triangle(at.triangle, p);
@@ -152,9 +152,9 @@ fn gradients(facet: &Facet, at: &FacetPoint, p: &[Vec3; 4]) -> ([Vec3; 3], Mat3)
     }
 }
 
-/// Friction by central differences of its forces, each motion together with its rate. Forces are smooth over far longer ways than the
-/// step, a millionth of the size of the pair, and rounding leaves 1e-9 of them. What sticks does so a step away too: two that just touch
-/// would slip with the least of it.
+/// Friction by central differences of its forces, each motion together with its rate. The step is a millionth of the pair's size. Forces
+/// are smooth over far larger motions, and their rounding error is 1e-9. A sticking pair is kept sticking in the differences: a pair at
+/// first touch would otherwise slip at the smallest step.
 fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight: f64, K: &mut [f64]) {
     let count = pair.point.count + pair.facet.corners;
     let mut local = [Node::at_rest(Vec3::zeros()); MOST_OF_PAIR + MOST_CORNERS + 2];
@@ -166,7 +166,7 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     let first = pair.point.count;
     let own = |k: usize| first + if k < pair.facet.corners { k } else { 0 };
     let facet = Facet { nodes: std::array::from_fn(own), ..pair.facet.clone() };
-    // A facet that the point has just left stays where it is, and of a line what it does not share with the one that it has come to.
+    // The last facet of the point stays fixed, and so do the nodes of the last line that are not shared with the current one.
     let mut keep = |node: usize, at: usize| {
         let same = if pair.is_of_lines() { pair.parts(&place.W).position(|(own, _)| own == node) } else { None };
         local[at] = nodes[node];
@@ -203,7 +203,7 @@ fn add_friction(pair: &FacetPair, place: &PairPlace, nodes: &[Node], rate_weight
     }
 }
 
-/// What friction exerts on the nodes of a pair, six numbers each.
+/// Friction forces and moments on the nodes of a pair, six numbers each.
 fn friction_forces(pair: &FacetPair, nodes: &[Node]) -> [f64; 6 * MOST_OF_PAIR] {
     let mut f = [0.0; 6 * MOST_OF_PAIR];
     let moved;

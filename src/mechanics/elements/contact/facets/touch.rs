@@ -1,8 +1,8 @@
-//! The facets that a point touches: of each smooth part of the surface the nearest, which needs no more than the facets near the point.
+//! The facets that a point touches: the nearest facet of each smooth part of the surface, found from the facets near the point alone.
 //!
-//! A facet counts where the distance has a minimum on it: not where its nearest point lies on its rim and a neighbour is nearer. Of
-//! facets that lie in nearly one direction the nearest counts, so that a surface made of many pushes as one; those across a sharp fold,
-//! and layers on either side, count for themselves.
+//! A facet counts where the distance has a minimum on it. It does not count if its nearest point lies on its rim and a neighbour is nearer.
+//! Among facets in nearly one direction the nearest counts, so that a surface of many facets pushes as one. Facets across a sharp fold, and
+//! layers on either side, count separately.
 
 use super::balls;
 use super::facet::Facet;
@@ -14,10 +14,10 @@ use base::math::Vec3;
 
 /// Directions whose cosine is larger than this are one.
 const ONE_DIRECTION: f64 = 0.7;
-/// Normals whose cosine is larger than this may be those of neighbours on which a point goes on.
+/// Least cosine between the normals of neighbouring facets for a point to carry its memory from one to the other.
 const NEIGHBOURS: f64 = 0.5;
 
-/// Finds what lies near a point, the nearest first. `history` is that of the point.
+/// Finds the facets near a point, the nearest first. `history` is that of the point.
 pub(super) fn find(
     of: &FacetScene,
     near: &[u32],
@@ -52,14 +52,14 @@ pub(super) fn find(
     found.truncate(kept);
     match_memory(of, query.e, nodes, history, found);
     if found.iter().any(|touch| touch.inset > 0.0) {
-        // What goes on from one facet to the next in contact is pressed as deep as it was.
+        // A point moving between facets in contact keeps the depth of its force.
         let memories = (0..of.slots).map(|slot| of.memory(history, slot));
         let pressed = memories.filter(|motion| motion.is_known()).map(|motion| -motion.gap()).fold(0.0, f64::max);
         found.iter_mut().for_each(|touch| touch.inset = (touch.inset - pressed).max(0.0));
     }
 }
 
-/// The least gap of a point at which the distance from what is near has a minimum; infinite where it has none.
+/// The least gap of a point over the minima of its distance from near facets; infinite without a minimum.
 pub(super) fn least_minimum(
     of: &FacetScene,
     near: &[u32],
@@ -102,7 +102,7 @@ pub(super) fn find_within(
         let nearest = share.map(|_| of.point_at(e, share).relative_position(origin, nodes));
         let p = facet.seen_from(nearest.as_ref().unwrap_or(&x), origin, nodes);
         let reach = facet.half + radius;
-        // Most are too far: their corners alone tell.
+        // Most facets are excluded by the box of their corners.
         let least = (0..3).map(|i| {
             let side = p[..facet.corners].iter().map(|p| p[i]);
             let (low, high) = side.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
@@ -139,7 +139,7 @@ pub(super) fn find_within(
     }
 }
 
-/// Puts facets that are remembered before the others, where they count and are about as deep as the deepest in their direction.
+/// Puts remembered facets before the others, if they count and are at least half as deep as the deepest in their direction.
 fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
     /// The least part of the depth of the deepest.
     const AS_DEEP: f64 = 0.5;
@@ -160,8 +160,8 @@ fn prefer_known(of: &FacetScene, history: &[f64], found: &mut [FacetTouch]) {
     }
 }
 
-/// Marks facets in which the point lies, beside one that it cannot touch and in which it lies too: where the surface folds more sharply
-/// than its thickness allows.
+/// Marks facets with the point inside, beside a facet that it cannot touch and is inside too: the surface folds more sharply there than its
+/// thickness allows.
 fn mark_slides(facets: &[Facet], found: &mut [FacetTouch]) {
     for k in 0..found.len() {
         let touch = found[k];
@@ -174,9 +174,9 @@ fn mark_slides(facets: &[Facet], found: &mut [FacetTouch]) {
     }
 }
 
-/// Finds the facets that meet in the nearest point, where that lies on a rim, and the sum of their normals.
+/// For a nearest point on a rim, sums the normals of the facets that meet there.
 fn face_from_rims(facets: &[Facet], found: &mut [FacetTouch]) {
-    /// The cosine below which the sum tells nothing: normals that cancel where sheets are joined, but for what rounding leaves.
+    /// Cosine below which the sum of normals is rounding: the normals of joined sheets cancel.
     const TELLS: f64 = 1e-4;
     for k in 0..found.len() {
         let touch = found[k];
@@ -215,7 +215,7 @@ fn keep_minima(facets: &[Facet], found: &mut [FacetTouch]) {
     }
 }
 
-/// Gives each facet found the place of what is remembered of it, or of the neighbour from which the point came.
+/// Gives each facet found the slot of its memory, or of the neighbour with the point's last contact.
 fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
     for slot in 0..of.slots {
         let memory = of.memory(history, slot);
@@ -248,8 +248,8 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
             false => facet.facing(&at, &p),
         };
         let likeness = |touch: &FacetTouch| touch.normal.dot(&normal);
-        // It goes on to the same side alone, for of two layers that face alike it lies above the one and below the other; where it has come
-        // through nearly to the middle, it is on either side of the next as rounding will have it.
+        // Only the same side continues: a point between two parallel layers is above one and below the other. If the point has come through
+        // nearly to the middle, rounding decides the side on the next facet.
         let is_deep = memory.gap() < -0.5 * (facet.half + of.points[e].radius);
         let same_side = |touch: &FacetTouch| !facet.has_sides() || is_deep || memory.side() * touch.height() >= 0.0;
         let goes_on = |touch: &&mut FacetTouch| {
@@ -262,8 +262,8 @@ fn match_memory(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], foun
     }
 }
 
-/// Lets each touch of a line of which nothing is remembered take what its neighbour remembers, where the nearest point has gone on from that
-/// over the node that both have. `history` is that of the block.
+/// Gives each line contact without a memory the memory of a neighbouring line, if the nearest point has passed their common node. `history`
+/// is that of the block.
 pub(super) fn take_over(of: &FacetScene, e: usize, nodes: &[Node], history: &[f64], found: &mut [FacetTouch]) {
     // Where edges end nothing of them presses any more.
     if !of.is_of_lines || of.is_of_edges {
@@ -292,7 +292,7 @@ pub(super) fn take_over(of: &FacetScene, e: usize, nodes: &[Node], history: &[f6
     }
 }
 
-/// True where the facet from which a point came, `g` away from its middle, is no farther than a facet is large.
+/// True where the point, at `g` from the middle of its last facet, is within about one facet size of it.
 fn is_close(of: &FacetScene, e: usize, touch: &FacetTouch, g: &Vec3) -> bool {
     let reach = of.facets[touch.facet].half + of.points[e].radius;
     g.norm() < touch.gap.abs() + 2.0 * reach + 4.0 * of.margin

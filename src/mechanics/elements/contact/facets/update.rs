@@ -1,4 +1,4 @@
-//! What pairs remember at the end of a step, and what was dissipated on the way.
+//! The history of pairs at the end of a step, and the energy dissipated in it.
 
 use super::balls;
 use super::found::{FacetTouch, TouchQuery};
@@ -58,7 +58,7 @@ pub(super) fn update(of: &FacetContacts, now: &Configuration, part: f64, new: &m
     spent
 }
 
-/// The same of a ball among balls.
+/// Writes the history of a ball among balls.
 fn update_balls(
     of: &FacetContacts,
     e: usize,
@@ -79,7 +79,7 @@ fn update_balls(
     spent
 }
 
-/// What pairs that are forgotten lose.
+/// Energy lost by forgotten pairs.
 fn forget(of: &FacetContacts, way: f64, found: &[FacetTouch], old: &[f64]) -> Dissipation {
     let mut spent = Dissipation::default();
     for slot in 0..of.slots {
@@ -119,7 +119,7 @@ fn update_pair(
     spent
 }
 
-/// Writes the anchor, the force on it and the rotations from which nodes roll; returns what slip dissipated.
+/// Writes the anchor, its force and the reference rotations for rolling; returns the dissipation of slip.
 fn update_friction(
     of: &FacetContacts,
     pair: &FacetPair,
@@ -163,7 +163,7 @@ fn update_friction(
     spent
 }
 
-/// Writes the friction force and the slip speed; returns what slip dissipated. Where the two are apart what was stretched lets go.
+/// Writes the friction force and the slip speed; returns what slip dissipated. If the two are apart, the friction spring is released.
 fn rubbed(
     of: &FacetContacts,
     friction: Option<&Rub>,
@@ -176,7 +176,7 @@ fn rubbed(
     update_slip(slipped, step, memory, new)
 }
 
-/// The same for two lines.
+/// Writes the friction of two lines.
 fn update_friction_of_lines(
     of: &FacetContacts,
     pair: &FacetPair,
@@ -187,7 +187,7 @@ fn update_friction_of_lines(
 ) -> f64 {
     let friction = acting.and_then(|acting| acting.friction.as_ref());
     line_friction::remember(pair, now, part, new);
-    // Of two that are apart what was stretched lets go at once.
+    // The friction spring of two lines apart is released at once.
     let (pull, way, spent) = match (pair.memory, friction) {
         (None, _) => (begin(of, pair, place, acting, now, new), 1.0, 0.0),
         (Some(memory), friction) => {
@@ -199,7 +199,7 @@ fn update_friction_of_lines(
     spent
 }
 
-/// Writes the friction with which a pair begins of which nothing is known: see [`ContactLaw::begun`]. Returns its force.
+/// Writes the initial friction of a pair without memory: see [`ContactLaw::begun`]. Returns its force.
 fn begin(
     of: &FacetContacts,
     pair: &FacetPair,

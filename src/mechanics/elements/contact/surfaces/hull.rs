@@ -62,7 +62,7 @@ impl Touched for Hull {
         self.polyhedron.least() + 2.0 * self.rounding
     }
 
-    /// Outside, the nearest part of what is its own image lies in the plane; inside, faces that lie along it may be the nearest.
+    /// Outside, the nearest part of a symmetric hull lies in the plane; inside, faces parallel to the plane may be the nearest.
     fn keeps(&self, e: &Vec3) -> bool {
         let reach = self.polyhedron.reach();
         let beside = |face: &base::math::polyhedron::PolyhedronFace| face.normal.dot(e).abs() > 1e-12;

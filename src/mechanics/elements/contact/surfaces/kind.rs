@@ -1,12 +1,12 @@
-//! What a surface says of itself, and what several surfaces share.
+//! The registry entry of a surface, and the helpers shared by several surfaces.
 
 use base::math::{Mat3, Vec3};
 use base::words::kinds::{Form, Given, Key, Kind};
 
 /// The shape of a surface that others touch, around its origin and in its own axes.
 ///
-/// Inside, the distance is that to the nearest part of the surface, negative. Its gradient n has length one and its Hessian
-/// is that of the surface parallel to it through the point; both jump where two parts of the surface are equally near.
+/// Inside, the distance is that to the nearest part of the surface, negative. Its gradient n has length one, and its Hessian is the
+/// curvature of the parallel surface through the point. Both jump where two parts of the surface are equally near.
 pub trait Touched {
     /// The signed distance of a point, its gradient and its Hessian.
     fn closest_point(&self, y: &Vec3) -> ClosestPoint;
@@ -14,7 +14,7 @@ pub trait Touched {
     /// The distance alone.
     fn distance(&self, y: &Vec3) -> f64;
 
-    /// Radius of a ball about the origin that holds it; infinite where none does.
+    /// Radius of a ball about the origin that contains it; infinite for a plane.
     fn reach(&self) -> f64;
 
     /// The smallest dimension; infinite where there is none.
@@ -38,8 +38,7 @@ pub struct ClosestPoint {
 /// A shape that the deck can name.
 pub type SurfaceKind<S> = Kind<MakeSurface<S>>;
 
-/// Makes a shape from the keys and the centre of the body that carries it, which the ground has not; global components
-/// at t = 0. `None` where a key is wrong.
+/// Makes a shape from the keys and the centre of its body (`None` on the ground); global components at t = 0. `None` where a key is wrong.
 pub type MakeSurface<S> = fn(&mut Given, Option<Vec3>) -> Option<Placed<S>>;
 
 /// A shape with its origin and axes.
@@ -53,7 +52,7 @@ pub struct Placed<S> {
     pub shape: S,
 }
 
-/// The centre of shapes that lie at the centre of their body where the deck does not say otherwise.
+/// The key for the centre of a shape; the default is the centre of its body.
 pub const CENTER: Key =
     Key { name: "center", form: Form::Vector, about: "The centre. Default: the centre of the body." };
 

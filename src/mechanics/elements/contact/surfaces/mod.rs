@@ -1,5 +1,5 @@
-//! The surfaces that others touch: the signed distance of a point, its normal and its curvature, all in closed form. One more is a
-//! file of its own and an entry of the list.
+//! The surfaces that others touch: the signed distance of a point, its normal and its curvature, all in closed form. A further shape is one
+//! file and one entry of the list.
 
 pub mod capsule;
 pub mod cuboid;
@@ -17,7 +17,7 @@ use base::math::{Mat3, Vec3};
 use kind::{ClosestPoint, Placed, SurfaceKind, Touched};
 use std::sync::Arc;
 
-/// Makes the one type that holds any of the shapes, so that none is called through a pointer, and the list of words.
+/// Makes the enum of all shapes, without calls through pointers, and the list of words.
 macro_rules! surfaces {
     ($($file:ident :: $Shape:ident),+ $(,)?) => {
         $(pub use $file::$Shape;)+
@@ -38,7 +38,7 @@ macro_rules! surfaces {
         })),+];
 
         impl SurfaceShape {
-            /// The convex shape that it is, where solids that are such touch it in full; a hull without its rounding.
+            /// The convex shape for contact by volume; a hull without its rounding.
             pub fn as_convex(&self) -> Option<ConvexShape> {
                 let about = |half: f64, radius: f64| {
                     ConvexShape::Spherocylinder(Spherocylinder { half: Vec3::z() * half, radius })
@@ -59,7 +59,7 @@ macro_rules! surfaces {
                 }
             }
 
-            /// A polyhedron, and what is no farther from it than a distance; a box becomes larger by that.
+            /// The surface at the distance `rounding` outside a polyhedron; a box is enlarged instead of rounded.
             pub fn of_polyhedron(shape: Arc<Polyhedron>, rounding: f64) -> SurfaceShape {
                 match shape.half() {
                     Some(half) => SurfaceShape::Cuboid(Cuboid { half: half.add_scalar(rounding).into() }),

@@ -1,9 +1,9 @@
-//! What a pair of shapes does not see of each other: for whatever touches, against each surface. `check` says it of every contact.
+//! The parts of two shapes ignored in contact, for each kind of toucher against each surface. `check` says it of every contact.
 
 use super::SurfaceShape;
 use super::kind::Touched;
 
-/// What is not seen of a tube where all else is.
+/// The part of a tube that is always ignored.
 const HOLE: &str = "the hole of the tube, into which nothing goes";
 
 /// The shape of what touches.
@@ -37,7 +37,7 @@ impl Toucher {
         Toucher::Nodes,
     ];
 
-    /// What of the one and of the surface is not seen; `None` where they see each other in full. `by_points`: multipliers keep them apart,
+    /// The parts of the toucher and of the surface ignored in contact; `None` if there are none. `by_points`: multipliers keep them apart,
     /// at points alone on planes and cylinders.
     pub fn unseen(self, surface: &SurfaceShape, by_points: bool) -> Option<&'static str> {
         match (self, surface) {
@@ -88,7 +88,7 @@ impl Toucher {
         }
     }
 
-    /// What of the one and of the faces of a shell is not seen; `None` where they see each other in full.
+    /// The parts of the toucher and of the faces of a shell ignored in contact; `None` if there are none.
     pub fn unseen_by_faces(self) -> Option<&'static str> {
         match self {
             Toucher::Ball => None,
@@ -103,12 +103,12 @@ impl Toucher {
         }
     }
 
-    /// What of the one is not seen by bodies among which it is.
+    /// The parts of a toucher ignored in contact among bodies.
     pub fn unseen_among(self) -> Option<&'static str> {
         (self == Toucher::Tube).then_some(HOLE)
     }
 
-    /// What of the one and of beams by their radius is not seen; `None` where they see each other in full.
+    /// The parts of the toucher and of beams by their radius ignored in contact; `None` if there are none.
     pub fn unseen_by_lines(self) -> Option<&'static str> {
         match self {
             // The nodes of the lines see the faces of boxes and hulls.
