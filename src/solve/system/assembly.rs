@@ -45,12 +45,12 @@ pub struct Assembly {
     threads: bool,
     /// True where the gyroscopic matrix C(r) (37) is part of the tangent; it is in the residual always.
     gyroscopic: bool,
-    /// True where [`Configuration::lead`] holds the nodes whose stresses act: see [`Assembly::stressed`].
+    /// True if [`Configuration::lead`] holds the nodes whose stresses act, see [`Assembly::stressed`].
     of_stresses: bool,
     scratch: Scratch,
 }
 
-/// The pairs of a group for which the matrix has room.
+/// The pairs of a group that have room in the matrix.
 struct WanderingPairs {
     group: usize,
     partners: Partners,
@@ -68,7 +68,7 @@ struct Scratch {
     /// Matrices of the elements of a chunk.
     local: Vec<f64>,
     own: Vec<Mat6>,
-    /// For each node and each of its independent nodes, the matrix by which the motion of that moves the node.
+    /// For each node and each of its independent nodes, the matrix that maps the motion of the independent node to the motion of the node.
     projections: Vec<Vec<Mat6>>,
     /// A projected matrix, or one that is made of few numbers.
     projected: Vec<f64>,
@@ -79,7 +79,7 @@ impl Assembly {
         Self::with_room(system, dofs, solver, threads, &[])
     }
 
-    /// The same with room for pairs of elements that wander, by the groups of those.
+    /// Like [`Assembly::new`], with room for pairs of elements with changing partners, by the groups of these elements.
     pub fn with_room(
         system: &System,
         dofs: &DofMap,
@@ -150,8 +150,8 @@ impl Assembly {
         self.add_joints(system, now.nodes, forces, weights, solver.values());
     }
 
-    /// The same without the rows of multipliers and what penalties add, but with the derivative of the joints' forces: what acts on
-    /// motions that the joints allow.
+    /// Like [`Assembly::tangent`] without multipliers and penalties, but with the derivative of the joint forces: the stiffness of the
+    /// motions that joints allow.
     pub fn unconstrained(
         &mut self,
         system: &System,
@@ -172,8 +172,8 @@ impl Assembly {
         }
     }
 
-    /// As [`Assembly::unconstrained`] with K in a configuration `now`, but with the stresses that elements have at the nodes that stand as
-    /// [`Configuration::lead`] there.
+    /// Like [`Assembly::unconstrained`] with K in the configuration `now`, but with the stresses of elements at the nodes
+    /// [`Configuration::lead`].
     pub fn stressed(
         &mut self,
         system: &System,
@@ -268,7 +268,7 @@ impl Assembly {
         }
     }
 
-    /// True where the matrix has room for all pairs of wandering elements that act.
+    /// True if the matrix has room for all active pairs of elements with changing partners.
     pub fn has_room(&self, system: &System, now: &Configuration) -> bool {
         let mut wanderers = self.wanderers.iter();
         system.wandering_groups().all(|(number, group, block)| {
@@ -278,7 +278,7 @@ impl Assembly {
         })
     }
 
-    /// The pairs for which the matrix has room, by their groups.
+    /// The pairs that have room in the matrix, by their groups.
     pub fn partners(&self) -> Vec<(usize, Partners)> {
         self.wanderers.iter().map(|own| (own.group, own.partners.clone())).collect()
     }

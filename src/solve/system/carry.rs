@@ -1,4 +1,4 @@
-//! History variables from one system to another of the same scene, of which some parts have come or gone.
+//! Copies history variables between two systems of one model whose parts differ.
 
 use super::equations::System;
 use super::parts::links::{RememberingLink, is_shared, remembering_links};
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// A model and its system.
 type Scene<'a> = (&'a Model, &'a System);
 
-/// Copies the history variables of all that both scenes have from `old` to `new`, which holds zeros. Returns the ranges of what is new.
+/// Copies the history variables of all common parts from `old` to `new`, which holds zeros. Returns the ranges of the new parts.
 ///
 /// # Errors
 /// A part has other history variables than before.
@@ -34,7 +34,7 @@ pub fn carry_history(from: Scene, old: &[f64], to: Scene, new: &mut [f64]) -> Re
     for link in remembering(to) {
         let Some(of) = known.get(&link.name).filter(|of| of.slots.len() == link.slots.len()) else { continue };
         for (k, (&slot, &of)) in link.slots.iter().zip(&of.slots).enumerate() {
-            // A static stage has no rates, by which turns would be counted, and no impacts.
+            // A static stage has no impacts, and no rates to count turns with.
             let is_rate = link.is_joint && [RATE, IMPACT_SPEED, IMPACT_POWER].contains(&k);
             new[slot] = if rests && is_rate { 0.0 } else { old[of] };
         }

@@ -22,8 +22,8 @@ pub fn connectivity(system: &System, nodes: usize, partners: &[(usize, Partners)
     connectivity
 }
 
-/// The connectivity with multipliers in place of elimination: every dependent node moves by itself, tied to its master
-/// by one more node, which stands after all others.
+/// The connectivity with multipliers in place of elimination: every dependent node is independent, and an additional node after all others
+/// ties it to its master.
 pub fn connectivity_with_multipliers(system: &System, nodes: usize) -> Vec<Vec<usize>> {
     let alone: Vec<Vec<usize>> = (0..nodes).map(|node| vec![node]).collect();
     let mut connectivity = coupled(system, nodes, &alone);

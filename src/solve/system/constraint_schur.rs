@@ -1,6 +1,5 @@
-//! Joints between nodes that are rigid bodies of their own (see [`Masses`]), by the Schur complement of the constraint
-//! equations: (G M⁻¹ Gᵀ) λ = c. It gives accelerations that the joints allow, and closes gaps by
-//! the least change of positions in the norm of the masses.
+//! Joints between nodes that are separate rigid bodies (see [`Masses`]), by the Schur complement of the constraint equations: (G M⁻¹ Gᵀ) λ
+//! = c. It gives accelerations that the joints allow, and closes gaps by the least change of positions in the norm of the masses.
 
 use super::equations::System;
 use super::independent_rows::IndependentRows;
@@ -16,25 +15,24 @@ use std::ops::Range;
 
 /// The system of the constraint equations. It is allocated once, before the first step.
 pub struct ConstraintSchur {
-    /// For each constraint equation, the independent nodes that move the two ends of its joint; `None` where a node has
-    /// no unknown.
+    /// For each constraint equation, the independent nodes behind the two ends of its joint; `None` if a node has no unknown.
     rows: Vec<[Option<usize>; 2]>,
     /// True where constraint equations may be redundant.
     shares: bool,
-    /// The translations, and the rotations, of each joint. Loads that redundant equations share would depend on the axes in which these are
-    /// written, were the diagonal of each raised by a part of its own.
+    /// The translations, and the rotations, of each joint. Their diagonals are raised by a common value, so that the loads shared by
+    /// redundant equations do not depend on the axes of the equations.
     alike: Vec<Range<usize>>,
     /// How much loads of each equation weigh where redundant ones share them.
     weights: Vec<f64>,
     /// By how much the diagonal of a sparse system is raised.
     raised: Vec<f64>,
-    /// The equations of a dense system that are solved for, where some may be redundant.
+    /// The equations solved for in a dense system with possibly redundant equations.
     independent: Option<IndependentRows>,
-    /// ∂c/∂(x, θ) of the nodes that move the ends, and the accelerations that a unit multiplier causes at them.
+    /// ∂c/∂(x, θ) of the nodes behind the ends, and their accelerations under a unit multiplier.
     G: Vec<[Vec6; 2]>,
     W: Vec<[Vec6; 2]>,
-    /// Equations that act on restrained degrees of freedom only, such as those out of the plane of a plane motion: no
-    /// acceleration responds to them, and their multipliers stay zero.
+    /// Equations between restrained degrees of freedom only, such as those out of the plane of a plane motion. They cause no acceleration,
+    /// and their multipliers stay zero.
     inert: Vec<bool>,
     /// G M⁻¹ Gᵀ and its factor.
     factor: SchurFactor,
@@ -45,8 +43,8 @@ pub struct ConstraintSchur {
 
 keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, weights, raised, independent });
 
-/// What an equation moves by a unit force: of translations that of forces alone, without the turns that arms make, by which joints of one body that sit
-/// elsewhere would share otherwise.
+/// The response of an equation to a unit force. Rotations from arms are excluded for translations: joints at different places of one body
+/// would otherwise share loads unevenly.
 fn same_kind(G: &[Vec6; 2], W: &[Vec6; 2]) -> f64 {
     let of = |part: fn(&Vec6) -> Vec3| G.iter().zip(W).map(|(G, W)| part(G).dot(&part(W))).sum::<f64>();
     let translations = of(linear);
@@ -68,8 +66,7 @@ fn alike(system: &System) -> Vec<Range<usize>> {
 }
 
 impl ConstraintSchur {
-    /// Returns `None` where there is no memory, where an end depends on its master in some directions only, or where gears
-    /// share an unknown that has no mass.
+    /// Returns `None` if memory is short, if an end depends on its master in some directions only, or if gears share a massless unknown.
     pub fn new(system: &System, masses: &Masses, shares: bool) -> Option<ConstraintSchur> {
         let count = system.multipliers();
         if system.joints.iter().any(|joint| joint.shared().is_some()) {
@@ -192,7 +189,7 @@ impl ConstraintSchur {
         if let Some(independent) = &self.independent {
             self.x.iter_mut().zip(&independent.idle).filter(|(_, idle)| **idle).for_each(|(x, _)| *x = 0.0);
         }
-        // The regularization leaves the fraction ε of the right-hand side; one iterative refinement leaves ε².
+        // The regularization causes a relative error ε of the solution; one iterative refinement reduces it to ε².
         self.scratch.copy_from_slice(&self.x);
         self.factor.refine(&mut self.x, &mut self.scratch);
         if let Some(independent) = &self.independent {

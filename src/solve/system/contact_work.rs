@@ -1,13 +1,13 @@
-//! The work of contacts in a load step. The work of loads is that of the mean of their values at the ends of a step, which is exact where forces
-//! grow with displacements. A contact that closes on the way, or opens, does not: its force f is zero until it closes, and the mean of f over
-//! the whole of the motion Δq is too much. With f₁ and f₂ at the ends, the energy U that the contact stores and D that it dissipates, the mean
-//! counts
+//! The work of contacts in a load step. The work of loads uses the mean of their values at the ends of a step, which is exact for forces
+//! proportional to displacements. A contact that closes or opens within the step is an exception. Its force f is zero while it is open, so
+//! the mean of f over the motion Δq is too large. With f₁ and f₂ at the ends, the stored energy U and the dissipated energy D of the
+//! contact, the excess of the mean is
 //!
 //! ```text
 //!  e = −½ (f₁ + f₂)·Δq − ΔU − D
 //! ```
 //!
-//! too much. In equilibrium at both ends the work of loads counts the same e too much: of a gap g that closes under the force N it is ½ N g.
+//! too much. In equilibrium at both ends the work of loads has the same excess e: ½ N g for a gap g that closes under the force N.
 
 use super::equations::System;
 use base::math::Vec3;
@@ -16,9 +16,8 @@ use mechanics::elements::Force;
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node, State};
 
-/// What the mean of the forces of contacts at the ends of a load step counts too much, as above: from `state` to `trial`, the time `dt`
-/// later. `history` is that at the end, already written. Contacts with multipliers are left out,
-/// since those of the start of the step are no longer known.
+/// The excess e of the work of the mean contact forces in a load step from `state` to `trial`, a time `dt` later. `history` is that at the
+/// end, already written. Contacts with multipliers are left out, since those of the start of the step are no longer known.
 pub fn excess_of_mean(system: &System, state: &State, (trial, dt): (&[Node], f64), history: &mut [f64]) -> f64 {
     let mut taken = 0.0;
     let mut F: Vec<Force> = vec![[0.0; 6]; trial.len()];
@@ -30,7 +29,7 @@ pub fn excess_of_mean(system: &System, state: &State, (trial, dt): (&[Node], f64
         let found = Configuration { nodes: trial, history: &state.history, dt, lead: None };
         group.block.subtract_forces(&group.configuration(&start), &mut F);
         group.block.subtract_forces(&group.configuration(&found), &mut F);
-        // Written once more, with the same numbers: what this contact by itself has dissipated.
+        // Writing the same history again returns the dissipation of this contact alone.
         let own = &mut history[group.history.clone()];
         let Dissipation { plastic, viscous, stored, friction, impact, eroded } =
             group.block.update_history(&group.configuration(&found), 1.0, own);

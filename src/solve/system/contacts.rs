@@ -22,20 +22,20 @@ pub struct ContactState {
     pub m: Vec3,
 }
 
-/// What one touch does to the surface of its contact.
+/// The action of one touch on the surface of its contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactTouch {
     /// The number of the contact among all.
     pub contact: usize,
-    /// A node of what is touched and one of what touches.
+    /// A node of the touched part and a node of the touching part.
     pub nodes: [usize; 2],
-    /// Force on what is touched, global components.
+    /// Force on the touched part, global components.
     pub f: Vec3,
     /// Its moment about the origin.
     pub m: Vec3,
 }
 
-/// What all touches together do to the surface: their number, the force and the moment, as [`ContactState`] has them.
+/// The sum over all touches on the surface: their number, the force and the moment, in the conventions of [`ContactState`].
 fn resultant(block: &dyn PairBlock, contact: &Contact, now: &Configuration) -> (usize, [Vec3; 2]) {
     let has_sides = match &contact.surface {
         TouchedSurface::Shape(_) => true,
@@ -82,7 +82,7 @@ impl System {
         contacts.filter_map(|(number, group)| Some((number, group, group.wandering()?)))
     }
 
-    /// The pairs of elements that may act soon where the nodes lie thus, by their groups.
+    /// The pairs of elements that may soon act at these positions of the nodes, by their groups.
     pub fn partners(&self, nodes: &[Node]) -> Vec<(usize, Partners)> {
         self.wandering_groups().map(|(number, _, block)| (number, block.partners(nodes))).collect()
     }
@@ -101,21 +101,21 @@ impl System {
         self.groups[self.contacts..].iter().filter_map(|group| Some((group, group.block.pairs()?)))
     }
 
-    /// The first contact, by its index in [`Model::parts`], of which this is so.
+    /// The first contact that satisfies a condition, by its index in [`Model::parts`].
     fn contact_where(&self, mut is: impl FnMut(&Group, &dyn PairBlock) -> bool) -> Option<usize> {
         self.contact_groups().find(|(group, block)| is(group, *block)).map(|(group, _)| group.part)
     }
 
-    /// The contact, by its index in [`Model::parts`], with an impact after `state` that is not resolved by a step whose
-    /// equilibrium is written the time `ahead` later.
+    /// The contact, by its index in [`Model::parts`], with an impact after `state` that is too short for a step with equilibrium `ahead`
+    /// later.
     pub fn unresolved_impact(&self, state: &State, ahead: f64) -> Option<usize> {
         self.contact_where(|group, block| {
             ahead > block.longest_step(&state.history[group.history.clone()]) * (1.0 + 1e-9)
         })
     }
 
-    /// The contact, by its index in [`Model::parts`], whose surface a point would pass through in a step from `start`
-    /// to `now`, or whose impact the step would not resolve.
+    /// The contact, by its index in [`Model::parts`], with an unresolved impact or a point that passes through the surface in a step from
+    /// `start` to `now`.
     pub fn missed_contact(&self, start: &[Node], now: &Configuration) -> Option<usize> {
         self.contact_where(|group, block| block.misses(start, &group.configuration(now)))
     }
@@ -125,9 +125,8 @@ impl System {
         self.contact_groups().any(|(_, block)| block.has_multipliers())
     }
 
-    /// Writes into `history`, that of the start of a step, multipliers of contacts by the forces in the equilibrium `now`; `start` are the
-    /// nodes at the start of the step. Returns the largest length by which one was out, over its tolerance, and the contact by its index
-    /// in [`Model::parts`].
+    /// Writes the contact forces of the equilibrium `now` as multipliers into `history`, which belongs to the start of the step like the
+    /// nodes `start`. Returns the largest penetration or slip error over its tolerance, and its contact by the index in [`Model::parts`].
     pub fn augment_contacts(&self, start: &[Node], now: &Configuration, history: &mut [f64]) -> (f64, usize) {
         let mut worst = (0.0, 0);
         for (group, block) in self.contact_groups() {
@@ -139,17 +138,17 @@ impl System {
         worst
     }
 
-    /// Each block of contacts, with the least gap of all that is near; from the history alone, which costs next to nothing.
+    /// Each block of contacts with its least gap, which is read from the history at almost no cost.
     pub fn last_gaps<'a>(&'a self, state: &'a State) -> impl Iterator<Item = (&'a Group, f64)> + 'a {
         self.contact_groups().map(|(group, block)| (group, block.last_gap(&state.history[group.history.clone()])))
     }
 
-    /// The contact, by its index in [`Model::parts`], in which beams press each other side by side.
+    /// The contact, by its index in [`Model::parts`], with beams that press each other side by side.
     pub fn side_by_side(&self, state: &State) -> Option<usize> {
         self.contact_where(|group, block| block.is_side_by_side(&group.configuration(&state.configuration())))
     }
 
-    /// The contact, by its index in [`Model::parts`], in which a body touches more others than it remembers.
+    /// The contact, by its index in [`Model::parts`], with a body that touches more others than the history can hold.
     pub fn crowded(&self, state: &State) -> Option<usize> {
         self.contact_where(|group, block| block.is_crowded(&group.configuration(&state.configuration())))
     }
@@ -172,13 +171,13 @@ impl System {
         }
     }
 
-    /// Writes into `out` what each touch of each contact that acts does, contact by contact in deck order.
+    /// Writes the action of each touch into `out`, contact by contact in deck order.
     pub fn contact_touches(&self, model: &Model, now: &Configuration, out: &mut Vec<ContactTouch>) {
         out.clear();
         let contacts = model.parts.iter().enumerate().filter_map(|(place, part)| Some((place, Contact::of(part)?)));
         for (number, (place, contact)) in contacts.enumerate() {
             for (group, block) in self.contact_groups().filter(|(group, _)| group.part == place) {
-                // Nodes of facets touch a body, to which the facets are what touches.
+                // In these blocks nodes of facets touch a body, so the facets are the touching part.
                 let is_turned_round = block.carrier().is_some() && contact.has_facets();
                 block.each_action(&group.configuration(now), &mut |action| {
                     let (nodes, [f, mut m]) = (action.nodes(), action.on_touched());

@@ -1,8 +1,8 @@
-//! Dependent nodes in matrices: the projection 𝒯ᵀ K 𝒯 of a local matrix onto the nodes that move by themselves (58).
+//! Dependent nodes in matrices: the projection 𝒯ᵀ K 𝒯 of a local matrix onto the independent nodes (58).
 //!
-//! A degree of freedom of a dependent node either follows the same one of a master or is the node's own, whatever the chain
-//! of masters: its row is added to that one's. Beyond that, arms alone turn forces on translations into moments on rotations,
-//! u = … + G θ with a 3×3 matrix G, −S~ for an arm S. Only these blocks are multiplied.
+//! A degree of freedom of a dependent node is either unknown itself, or follows the same degree of freedom of a master, through any chain
+//! of masters. Its row is then added to the row of the master. In addition, arms turn forces on translations into moments on rotations: `u
+//! = … + G θ` with a 3×3 matrix G, −S~ for an arm S. Only these blocks need a product.
 
 use super::dofs::DofMap;
 use base::math::{Mat3, Mat6, skew};
@@ -10,8 +10,8 @@ use mechanics::constraints::rigid_link::RigidLink;
 use mechanics::state::Node;
 use std::ops::Range;
 
-/// The independent nodes that each node moves with: itself, or those at the end of its chain of masters (and itself for
-/// degrees of freedom of its own).
+/// The independent nodes that move each node: the node itself, or the ends of its chain of masters (and the node itself if it has
+/// unknowns).
 pub fn independent_nodes(links: &[RigidLink], nodes: usize) -> Vec<Vec<usize>> {
     let mut independent_nodes: Vec<Vec<usize>> = (0..nodes).map(|n| vec![n]).collect();
     for dependent in links {
@@ -24,8 +24,8 @@ pub fn independent_nodes(links: &[RigidLink], nodes: usize) -> Vec<Vec<usize>> {
     independent_nodes
 }
 
-/// The projection matrices: for each node and each of its independent nodes, the matrix by which the motion of that
-/// moves the node.
+/// The projection matrices: for each node and each of its independent nodes, the matrix that maps the motion of the independent node to the
+/// node.
 pub fn projections(links: &[RigidLink], nodes: &[Node], independent_nodes: &[Vec<usize>]) -> Vec<Vec<Mat6>> {
     let mut projections: Vec<_> = independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect();
     update_projections(links, nodes, &mut projections);
@@ -55,12 +55,12 @@ pub(super) fn update_projections(links: &[RigidLink], nodes: &[Node], projection
     }
 }
 
-/// The way in which each node follows others. It is constant over a run.
+/// The dependence of each node on others. It is constant over a run.
 pub struct Followers {
     /// For each node the independent nodes that it moves with.
     pub independent_nodes: Vec<Vec<usize>>,
-    /// For each node and degree of freedom the independent node whose same degree of freedom it follows: the node itself
-    /// where it is its own.
+    /// For each node and degree of freedom, the independent node with the same degree of freedom that it follows; the node itself for
+    /// unknowns.
     carriers: Vec<[usize; 6]>,
     /// For each node the numbers, among its independent nodes, of those whose rotations move it by an arm.
     armed: Vec<Vec<usize>>,
@@ -85,7 +85,7 @@ impl Followers {
         Followers { independent_nodes, carriers, armed }
     }
 
-    /// True for a node that moves by itself in all degrees of freedom.
+    /// True for a node that is independent in all degrees of freedom.
     pub fn is_independent(&self, node: usize) -> bool {
         self.independent_nodes[node] == [node]
     }

@@ -9,7 +9,7 @@ use linear::Solver;
 
 /// The destination of a local matrix.
 pub struct Destination {
-    /// The projection that comes first; none where no node is dependent.
+    /// The preceding projection; `None` if no node is dependent.
     pub projection: Option<Projection>,
     pub entries: Entries,
     /// A range of [`BlockScatter`] in place of entries, where the matrix is scattered by blocks.
@@ -86,7 +86,7 @@ impl<'a> Destinations<'a> {
         self.square(of, d, |k, size| (k / size, k % size))
     }
 
-    /// The destination of a matrix whose k-th entry, of so many rows, stands where `place` says.
+    /// The destination of a square matrix; `place(k, rows)` is the row and column of its k-th entry.
     fn square(&mut self, of: &[usize], d: usize, place: fn(usize, usize) -> (usize, usize)) -> Destination {
         let dofs = self.dofs;
         let (projection, rows) = if of.iter().all(|&n| self.followers.is_independent(n)) {
@@ -124,8 +124,8 @@ impl<'a> Destinations<'a> {
         self.blocks.push(self.solver, &firsts).then(|| [from, self.blocks.len() as u32])
     }
 
-    /// The destination of a consistent mass matrix: of its entries themselves, which count for each translation, or of the
-    /// matrix of translations that is made of them.
+    /// The destination of a consistent mass matrix: its scalar entries, used for each translation, or the matrix of translations built from
+    /// them.
     pub fn mass(&mut self, of: &[usize]) -> Destination {
         if of.iter().any(|&n| !self.followers.is_independent(n)) {
             return self.local(of, 3);

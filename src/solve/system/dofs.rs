@@ -1,5 +1,5 @@
-//! The numbering of the unknowns: which row of the matrix belongs to which degree of freedom. Rows of nodes come first,
-//! node by node; the multipliers of each joint follow, as if the joint were one more node.
+//! The numbering of the unknowns: the row in the matrix of each degree of freedom. Rows of nodes come first, node by node; the multipliers
+//! of each joint follow, as if the joint were one more node.
 
 use base::math::Vec6;
 use mechanics::constraints::joint::Joint;

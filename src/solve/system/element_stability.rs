@@ -1,24 +1,24 @@
-//! The step that an element bears by itself, and the mass with which it bears a longer one. The fastest mode of a scene is no faster
-//! than the fastest of its elements, each with its own lumped mass (B. M. Irons, G. Treharne, A bound theorem in eigenvalues and its
-//! practical applications, Proc. 3rd Conf. Matrix Methods Struct. Mech., 1971): for all φ, φᵀKφ = Σ φᵀKₑφ ≤ max κₑ Σ φᵀMₑφ.
+//! The critical time step of a single element, and the mass that raises it to a wanted value. The fastest mode of a model is no faster than
+//! the fastest mode of an element with its lumped mass (B. M. Irons, G. Treharne, A bound theorem in eigenvalues and its practical
+//! applications, Proc. 3rd Conf. Matrix Methods Struct. Mech., 1971): for all φ, φᵀKφ = Σ φᵀKₑφ ≤ max κₑ Σ φᵀMₑφ.
 //!
-//! Thin elements are fast because their sections have little rotary inertia, κ = k G A/ρI, however long they are. Rotary inertia is
-//! raised first, for it adds no mass: to a radius of gyration of at most h/√8, h the distance of neighbouring nodes across the axis of the
-//! turn, as T. J. R. Hughes, M. Cohen and M. Haroun have it for squares (Nucl. Engrg Des. 46 (1978), 203-222). Its error in a wave of length λ
-//! along h is like that of the mesh, of the order of (h/λ)². What is still too fast is given mass, and rotary inertia by the same factor.
+//! Thin elements are fast because their sections have little rotary inertia, κ = k G A/ρI, however long they are. Rotary inertia is raised
+//! first, because it adds no mass. The limit is a radius of gyration of h/√8, with h the distance of neighbouring nodes across the axis of the
+//! turn (T. J. R. Hughes, M. Cohen, M. Haroun, Nucl. Engrg Des. 46 (1978), 203-222). In a wave of length λ along h its error is of the order (h/λ)², like the
+//! error of the mesh. If the element is still too fast, mass and rotary inertia are multiplied by one factor.
 
 use super::parts::{LumpedElement, NodalShare};
 use crate::tolerances::element_stability::{BISECTIONS, GYRATION, NONE, OF_USE};
 use base::math::{Mat3, Vec3};
 use nalgebra::{DMatrix, Dyn, linalg::Cholesky};
 
-/// What is given to the masses of an element.
+/// The scaling of the masses of an element.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementScaling {
     /// The factor on mass and rotary inertia, 1 or more.
     pub factor: f64,
-    /// The squares of the radii of gyration that rotary inertia has at least, before that factor, as a tensor in global components: aᵀ g a
-    /// about the principal axis a.
+    /// The least squared radii of gyration of rotary inertia before that factor, as a tensor in global components: aᵀ g a about the
+    /// principal axis a.
     pub gyration: Mat3,
 }
 
@@ -27,7 +27,7 @@ impl ElementScaling {
     pub const KEPT: ElementScaling =
         ElementScaling { factor: 1.0, gyration: Mat3::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0) };
 
-    /// The share of an element at a node with what is given to it.
+    /// The scaled share of an element at a node.
     pub fn of(&self, share: &NodalShare) -> (f64, Mat3) {
         (self.factor * share.mass, self.factor * raised(&share.J0, &(self.gyration * share.mass)))
     }
@@ -61,8 +61,8 @@ fn principal(J0: &Mat3, S: &Mat3) -> (Mat3, Vec3) {
     (found.eigenvectors, found.eigenvalues.map(|moment| if moment > none { moment } else { 0.0 }))
 }
 
-/// What an element is given so that the squares of its frequencies are `limit` at most. `K` is its stiffness, row-major; `spacing` are the
-/// squares of the distances of its neighbouring nodes ([`super::parts::Assembled::spacing`]). Where it has no mass of its own it counts as held.
+/// The scaling that limits the squared frequencies of an element to `limit`. `K` is its stiffness, row-major; `spacing` are the squares of
+/// the distances of its neighbouring nodes ([`super::parts::Assembled::spacing`]). A direction without mass counts as restrained.
 pub fn scaling(K: &[f64], (element, spacing): (&LumpedElement, &Mat3), limit: f64) -> ElementScaling {
     let most = GYRATION * spacing;
     let modes = ElementModes::new(K, element, &most);
@@ -86,7 +86,7 @@ pub fn scaling(K: &[f64], (element, spacing): (&LumpedElement, &Mat3), limit: f6
     }
 }
 
-/// Stiffness and masses of an element in the directions in which it has mass: those of translations, and principal ones of rotations.
+/// Stiffness and masses of an element in the directions with mass: translations, and principal axes of rotation.
 struct ElementModes {
     K: DMatrix<f64>,
     /// Mass or moment of inertia in each direction, and for a rotation the largest moment that it may be raised to.
@@ -132,8 +132,8 @@ impl ElementModes {
         K.symmetric_eigenvalues().max()
     }
 
-    /// The stiffness of rotations where translations answer with κ = `limit`: K_rr + K_rt (κ M_t − K_tt)⁻¹ K_tr. `None` where translations
-    /// alone are faster than that.
+    /// The stiffness of rotations where translations answer with κ = `limit`: K_rr + K_rt (κ M_t − K_tt)⁻¹ K_tr. `None` if translations
+    /// alone exceed the limit.
     fn condensed(&self, limit: f64) -> Option<DMatrix<f64>> {
         let (turns, moves): (Vec<usize>, Vec<usize>) =
             (0..self.masses.len()).partition(|&i| self.masses[i].1.is_some());
@@ -143,13 +143,13 @@ impl ElementModes {
         Some(block(&turns, &turns) + across.tr_mul(&answer))
     }
 
-    /// True where no square of a frequency exceeds the limit: κ M − K is positive definite, and so is what `condensed` leaves of it.
+    /// True if no squared frequency exceeds the limit: κ M − K is positive definite, and so is its Schur complement from `condensed`.
     fn are_slow(&self, condensed: &DMatrix<f64>, part: f64, limit: f64) -> bool {
         let turns: Vec<usize> = (0..self.masses.len()).filter(|&i| self.masses[i].1.is_some()).collect();
         self.rest(condensed, &turns, part, limit).is_some()
     }
 
-    /// The factor of κ M − K in some of the directions; `None` where that is not positive definite.
+    /// The Cholesky factor of κ M − K in some of the directions; `None` if it is not positive definite.
     fn rest(&self, K: &DMatrix<f64>, of: &[usize], part: f64, limit: f64) -> Option<Cholesky<f64, Dyn>> {
         let mut rest = -K;
         of.iter().enumerate().for_each(|(i, &of)| rest[(i, i)] += limit * self.mass(of, part));

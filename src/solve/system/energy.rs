@@ -40,15 +40,14 @@ pub struct Energy {
     pub friction: f64,
     /// Energy dissipated so far in impacts.
     pub impact: f64,
-    /// Energy that what has failed had stored.
+    /// Energy that failed elements and links had stored.
     pub eroded: f64,
     /// Offset of the energies of velocity Verlet, [`mechanics::state::Work::verlet_energy_offset`]. It is not a column.
     pub verlet_energy_offset: f64,
 }
 
 impl Energy {
-    /// Energies and momenta of a state. `initial` is the mechanical energy at t = 0, from which the balance is drawn;
-    /// `None` at t = 0.
+    /// Energies and momenta of a state. `initial` is the mechanical energy at t = 0, the reference of the balance; `None` at t = 0.
     pub fn of(system: &System, state: &State, initial: Option<f64>, threads: usize) -> Energy {
         let (nodes, now, work) = (&state.nodes, state.configuration(), state.work);
         let stored = |column: Storage| -> f64 {
@@ -91,16 +90,16 @@ impl Energy {
         }
     }
 
-    /// Algorithmic dissipation without the oscillation that velocity Verlet has by itself. In linear motion it
-    /// conserves ½ vᵀMv + ½ uᵀKu − ⅛ Δt² aᵀMa, so the energy at a step oscillates by the last term: up to a factor 1/(1
-    /// − (ωΔt/2)²), nearly three at 0.8 of the stability limit.
+    /// Algorithmic dissipation without the inherent energy oscillation of velocity Verlet. In linear motion it conserves ½ vᵀMv + ½ uᵀKu −
+    /// ⅛ Δt² aᵀMa, so the energy at a step oscillates by the last term. The amplitude factor is 1/(1 − (ωΔt/2)²), nearly three at 0.8 of
+    /// the stability limit.
     pub fn numerical_dissipation(&self) -> f64 {
         self.numerical + self.verlet_energy_offset
     }
 }
 
-/// The energy of motions that positions do not hold: the work of weight and of all loads on nodes at their full size along a part of the largest
-/// coordinate, and the kinetic energy of velocities that come so far within the `duration`.
+/// The energy of motions below the resolution of positions. It sums the work of weight and full loads along a small part of the largest
+/// coordinate, and the kinetic energy of velocities that cover this distance.
 pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], duration: f64) -> f64 {
     let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let of_inertias = system.inertias.iter().map(|inertia| inertia.mass).sum::<f64>();
@@ -155,17 +154,17 @@ pub struct Balance {
     pub plastic: f64,
     /// Energy dissipated by dampers, nodal and Rayleigh damping.
     pub damping: f64,
-    /// Largest mechanical energy beyond what is available: this the time integration has added for sure.
+    /// Largest excess of mechanical energy over the available energy, which the time integration certainly has added.
     pub raised: f64,
-    /// The energy that rounding may make, see [`work_of_rounding`]: of less nothing is said.
+    /// The possible energy of rounding errors, see [`work_of_rounding`]; smaller departures cause no warning.
     pub rounding: f64,
-    /// What stages before have missed, and the work done in them.
+    /// Missing energy of earlier stages, and the work done in them.
     before: [f64; 2],
     start: Option<f64>,
     external: f64,
     released: f64,
     lost: f64,
-    /// What the motion has exchanged: kinetic energy before numerical losses, stored energy, external work.
+    /// The energy exchanged by the motion: kinetic energy before numerical losses, stored energy, external work.
     exchanged: [Range; 3],
 }
 
@@ -213,8 +212,8 @@ impl Balance {
         Balance { before: [missed, external], ..Balance::default() }
     }
 
-    /// True where energy is missing in the balance, and no more than dampers account for, while the motion has not gained any: their work
-    /// is summed from its power at the ends of steps, which is too much where they stop a motion within a step.
+    /// True if dampers explain the missing energy and the motion has gained none. Their work is summed from the power at the ends of steps,
+    /// which is too much if they stop a motion within a step.
     pub fn is_work_of_dampers(&self, missing: f64) -> bool {
         missing <= self.damping && self.raised < 0.5 * missing
     }
@@ -227,16 +226,16 @@ impl Balance {
         self.peak = self.peak.max(external.abs());
     }
 
-    /// The energy of the motion, against which losses count: the largest that has changed its form, or come or gone as work. A
-    /// rigid motion at constant speed has nothing of it, or it would hide that a vibration dies away. Where more is lost than
-    /// has ever changed its form, it is the steady motion itself that loses, and all energy counts.
+    /// The reference energy for losses: the largest energy that has changed its form, or entered or left as work. A rigid motion at
+    /// constant speed has nothing of it, or it would hide that a vibration dies away. If the loss exceeds all energy that has changed its
+    /// form, the steady motion itself loses energy, and the total energy is the reference.
     pub fn motion(&self) -> f64 {
         let exchanged = self.exchanged.iter().map(Range::width).fold(0.0, f64::max);
         if self.lost > GONE * exchanged { self.peak } else { exchanged.max(OF_PEAK * self.peak) }
     }
 
-    /// What the work of a static analysis lacks, or has too much, for what is stored and dissipated at its end, and the energy to which
-    /// that is compared: the largest work, or the change of what is stored.
+    /// The missing work of a static analysis against its stored and dissipated energy, and the reference energy: the largest work, or the
+    /// largest change of stored energy.
     pub fn missed_in_statics(&self) -> (f64, f64) {
         (self.lost, self.external.max(self.exchanged[1].width()).max(NOTHING_HAPPENS * self.peak).max(self.rounding))
     }

@@ -37,13 +37,13 @@ pub struct System {
     turning_bodies: Vec<TurningBody>,
     /// The consistent mass matrices, element by element.
     pub(super) consistent: Vec<ConsistentMass>,
-    /// The dependent nodes, ordered so that a master stands before the nodes that depend on it.
+    /// The dependent nodes, sorted such that a master precedes its dependent nodes.
     pub rigid_links: Vec<RigidLink>,
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
     pub joints: Vec<Joint>,
     /// ε of the constraint equations.
     regularization: f64,
-    /// The links one by one, from which their results are computed.
+    /// The links one by one, for the computation of their results.
     pub(super) links: Vec<LinkElement>,
     /// Index of the first group of contacts; these stand last.
     pub(super) contacts: usize,
@@ -55,7 +55,7 @@ pub struct System {
     joint_loads: Vec<JointLoad>,
     /// The ends of the elements of beams, where results are wanted there.
     beam_ends: Option<BeamEnds>,
-    /// What is added to the masses of elements, where the deck asks for it.
+    /// The mass scaling of elements, if the deck requires it.
     mass_scaling: Option<MassScaling>,
     /// The dampers between nodes and the ground.
     pub(super) nodal_damping: Vec<model::NodalDamping>,
@@ -81,7 +81,7 @@ pub struct Forces {
     pub multipliers: Multipliers,
     partitions: Vec<Partition>,
     chunks: Vec<SumChunk>,
-    /// What each group of elements dissipates; [`System::advance`] writes it.
+    /// The dissipation of each group of elements; [`System::advance`] writes it.
     spent: Vec<Dissipation>,
     threads: bool,
 }
@@ -103,7 +103,7 @@ impl Forces {
         }
     }
 
-    /// The same forces, to be summed on several threads where the scene is large.
+    /// These forces, summed on several threads if the model is large.
     pub fn on_threads(self, threads: usize) -> Self {
         Forces { threads: threads > 1, ..self }
     }
@@ -115,7 +115,7 @@ impl System {
         self.regularization
     }
 
-    /// Lets joints whose friction grows with their load remember that at the end of a step of length `dt`, which is zero at a start or a jump.
+    /// Stores the loads of joints with load-dependent friction at the end of a step of length `dt`, which is zero at a start or a jump.
     pub fn remember_joint_loads(&self, state: &mut State, dt: f64) {
         self.joint_loads.iter().for_each(|load| load.remember(&self.joints, state, dt));
     }
@@ -125,12 +125,12 @@ impl System {
         self.beam_ends.as_ref()
     }
 
-    /// What is added to the masses of elements, where the deck asks for it.
+    /// The mass scaling of elements, if the deck requires it.
     pub fn mass_scaling(&self) -> Option<&MassScaling> {
         self.mass_scaling.as_ref()
     }
 
-    /// The global axis normal to a plane out of which nothing can move the scene, whether or not it is kept in it.
+    /// The global axis normal to a plane that nothing moves the model out of, whether or not the deck restricts it to this plane.
     pub fn plane_that_holds(&self, model: &Model) -> Option<usize> {
         plane_motion::that_holds(model, &self.inertias, &self.rigid_links)
     }
@@ -286,7 +286,7 @@ impl System {
         scale
     }
 
-    /// Adds weight, inertia and Rayleigh damping forces of some of the inertias to `F`, whose first entry is that of node `first`.
+    /// Adds weight, inertia and Rayleigh damping forces of some of the inertias to `F`, whose first entry belongs to node `first`.
     fn add_inertia_forces(
         &self,
         inertias: &[Inertia],
@@ -341,8 +341,7 @@ impl System {
         }
     }
 
-    /// Adds the forces on dependent nodes to those on their masters, the last in a chain first, and keeps them by themselves for
-    /// reactions.
+    /// Transfers the forces on dependent nodes to their masters, the last in a chain first, and keeps them separately for the tangent.
     pub(super) fn transfer_to_masters(&self, nodes: &[Node], forces: &mut Forces) {
         let F = &mut forces.on_nodes[..];
         for (dependent, force) in self.rigid_links.iter().zip(&mut forces.on_dependents).rev() {
@@ -403,8 +402,8 @@ impl System {
         forces.iter().fold(sum, |sum, f| sum + Vec3::new(f[0], f[1], f[2]))
     }
 
-    /// What loads and weight do in a load step between two configurations: their work by the mean of their values at its ends, the sum
-    /// of its terms without signs, and ½ Σ |Δf| |Δq|, by which it may depart from the work along a path on which both grow.
+    /// The work of loads and weight in a load step by the mean of their values at its ends, and the sum of its terms without signs. The
+    /// third value, ½ Σ |Δf| |Δq|, bounds the departure from the work along a path with growing loads and displacements.
     pub fn load_work(&self, from: (&[Node], &Loading), to: (&[Node], &Loading)) -> [f64; 3] {
         let mut sums = [self.external_work(from, to), 0.0, 0.0];
         let mut add = |old: Vec3, new: Vec3, moved: Vec3| {
@@ -435,8 +434,8 @@ impl System {
         sums
     }
 
-    /// True where the loads have a potential (see [`Load::has_potential`](model::Load::has_potential)), so that the tangent is symmetric and
-    /// its eigenvalues tell of stability. Pressure counts as if all edges were held.
+    /// True if the loads have a potential (see [`Load::has_potential`](model::Load::has_potential)), so that the tangent is symmetric and
+    /// its eigenvalues decide about stability. Pressure counts as if all edges were held.
     pub fn loads_have_potential(&self, normal: Option<usize>) -> bool {
         self.loads.iter().all(|load| load.has_potential(normal))
     }
@@ -448,8 +447,8 @@ impl System {
         })
     }
 
-    /// Writes the history variables at the fraction `part` of the way from the last accepted state to `now` into
-    /// `history`. Returns what the plastic strains on that way have dissipated.
+    /// Writes the history variables at the fraction `part` of the way from the last accepted state to `now` into `history`. Returns the
+    /// dissipation of plastic strains on this way.
     pub fn update_history(&self, now: &Configuration, part: f64, history: &mut [f64], threads: usize) -> Dissipation {
         thread_partition::sum_with(&self.groups, history, self.uses_threads(threads), &|group, history| {
             if group.history.is_empty() {
@@ -493,7 +492,7 @@ impl System {
         &self.mass_damping
     }
 
-    /// Power of the supports that move the frames relative to which masses are damped, besides that of their reactions.
+    /// Power of the supports that move the reference frames of mass damping, besides the power of their reactions.
     pub fn carrying_power(&self, nodes: &[Node]) -> f64 {
         if self.dynamic && self.mass_damping.has_frames() {
             self.mass_damping.powers((&self.inertias, &self.consistent), nodes)[1]

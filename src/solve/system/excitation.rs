@@ -9,8 +9,8 @@ use base::snapshot::keep;
 use mechanics::amplitude::{Amplitude, Jump, Side};
 use model::{AnalysisKind, GivenTurn, History, Model, PrescribedMotion, Restraint};
 
-/// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians. Of three rotations that are given together
-/// `u` is what the deck gives; `v` and `a` are components of the angular velocity and acceleration.
+/// Displacement, velocity and acceleration of a restrained degree of freedom; angles are in radians. For three rotations prescribed
+/// together, `u` is the value in the deck; `v` and `a` are components of the angular velocity and acceleration.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Prescribed {
     /// Displacement or rotation.
@@ -21,7 +21,7 @@ pub struct Prescribed {
     pub a: f64,
 }
 
-/// What the three rotations of a turn and their first and second derivatives are.
+/// The three rotations of a turn and their first and second derivatives.
 fn angles(turn: &GivenTurn, of: &[Prescribed]) -> [Vec3; 3] {
     let each = |value: fn(&Prescribed) -> f64| Vec3::from(turn.restraints.map(|i| value(&of[i])));
     [each(|of| of.u), each(|of| of.v), each(|of| of.a)]
@@ -41,8 +41,8 @@ pub struct Excitation<'a> {
     jumps: Vec<Vec<Jump>>,
     /// Times that differ by less count as equal.
     slack: f64,
-    /// Continuations of each amplitude and of each restrained degree of freedom beyond the run, along an equilibrium
-    /// path: its iterates pass the ends of the run, and the excitation must go on there.
+    /// Continuations of each amplitude and of each restrained degree of freedom beyond the run along an equilibrium path, because iterates
+    /// pass the ends of the run.
     loads: Vec<Extrapolation>,
     motions: Vec<Extrapolation>,
 }
@@ -52,8 +52,8 @@ pub struct Excitation<'a> {
 struct Extrapolation {
     begin: f64,
     end: f64,
-    /// Slope before the beginning, that of the function there; and after the end, where only iterates come, that of the
-    /// chord over the last [`TAIL`] of the run: a function that comes to rest at the end would lead nowhere.
+    /// Slope of the function before the beginning. After the end, which only iterates reach, the slope of the chord over the last [`TAIL`]
+    /// of the run; the slope itself may be zero there.
     slopes: [f64; 2],
 }
 
@@ -141,8 +141,7 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// The time at which the first load or prescribed motion of a static analysis begins to change; infinite where none
-    /// does.
+    /// The time of the first change of a load or prescribed motion in a static analysis; infinite if nothing changes.
     pub fn begin(&self) -> f64 {
         let model = self.model;
         let rest = |amplitude: Option<usize>| amplitude.map_or(0.0, |i| model.loading.amplitudes[i].rest());
@@ -216,8 +215,8 @@ impl<'a> Excitation<'a> {
         self.turns().iter().any(|turn| turn.restraints.contains(&restraint))
     }
 
-    /// Writes the increments of the prescribed motion from one time to another into `out`, with the rates at the latter as increments have
-    /// them: of rotations that are given together the rotation vector of the step.
+    /// Writes the increments of the prescribed motion between two times into `out`, with the rates at the later time. Rotations prescribed
+    /// together become the rotation vector of the step.
     pub fn moved(&self, from: &[Prescribed], to: &[Prescribed], out: &mut Vec<Prescribed>) {
         out.clear();
         out.extend(from.iter().zip(to).map(|(from, to)| Prescribed { u: to.u - from.u, ..*to }));

@@ -1,9 +1,9 @@
 //! The rotation of a rigid body on which nothing acts but its own angular momentum ℓ.
 //!
-//! With inverse principal inertias iₐ, i_b, i_c the energy is that of a body of revolution about a, ½ i_c ℓ² + ½ (iₐ − i_c) ℓₐ²,
-//! whose motion is known in closed form, and ½ (i_b − i_c) ℓ_b², which turns the body about b alone. Half of the second, the first
-//! and half of the second again are a symmetric step that keeps ℓ and is exact for bodies of revolution (A. Dullweber,
-//! B. Leimkuhler & R. McLachlan, J. Chem. Phys. 107 (1997)); b and c are the two axes that are nearest to one another.
+//! With inverse principal inertias iₐ, i_b, i_c the energy is the sum of two terms. The first, `½ i_c ℓ² + ½ (iₐ − i_c) ℓₐ²`, belongs to a
+//! body of revolution about a, with a known closed-form motion. The second, `½ (i_b − i_c) ℓ_b²`, turns the body about b alone. Half of the
+//! second, the first and half of the second form a symmetric step. It keeps ℓ and is exact for bodies of revolution (A. Dullweber, B.
+//! Leimkuhler & R. McLachlan, J. Chem. Phys. 107 (1997)); b and c are the two axes that are nearest to one another.
 
 use crate::tolerances::free_rotation::NEGLIGIBLE;
 use base::math::{Mat3, Vec3, rotation};
@@ -36,7 +36,7 @@ impl FreeRotation {
         FreeRotation { axes: [a.1, b.1, c.1], inverse: [a.0, b.0, c.0] }
     }
 
-    /// The rotation vector, global components, by which a body at `start` with angular momentum `l` turns in `dt`.
+    /// The rotation vector, global components, of a body at `start` with angular momentum `l` over the time `dt`.
     pub fn turn(&self, start: &Quaternion<f64>, l: &Vec3, dt: f64) -> Vec3 {
         let [a, b, _] = &self.axes;
         let [i_a, i_b, i_c] = self.inverse;

@@ -48,7 +48,7 @@ impl DerefMut for GroupBlock {
 pub struct Group {
     /// The elements with their formulation.
     pub block: GroupBlock,
-    /// The kind of the part, which says to which energy the elements contribute.
+    /// The kind of the part, which determines the energy column of the elements.
     pub kind: PartKind,
     /// The part's index in [`model::Model::parts`]. Links share one group; it has the index of the first link.
     pub part: usize,
@@ -59,12 +59,12 @@ pub struct Group {
 }
 
 impl Group {
-    /// The elements, where they act on nodes that change.
+    /// The elements, if their nodes change.
     pub fn wandering(&self) -> Option<&dyn Wandering> {
         self.block.pairs()?.wandering()
     }
 
-    /// Nodes on which elements may act besides their own, and those of all nodes that they may turn besides.
+    /// Other nodes subject to forces of the elements, and all nodes that turn with them.
     pub fn further_nodes(&self) -> [&[usize]; 2] {
         self.wandering().map_or([&[], &[]], Wandering::further_nodes)
     }

@@ -1,7 +1,7 @@
-//! The constraint equations that do not depend on others in the configuration at hand, and what redundant ones carry.
+//! The independent constraint equations in the current configuration, and the loads of redundant ones.
 //!
-//! Whether equations are redundant is a matter of geometry: it is looked for in their gradients, by orthogonalization with pivoting (G. Golub &
-//! C. Van Loan, Matrix Computations, 5.4), and not in G M⁻¹ Gᵀ, whose entries differ by the ratio of the inertias that they meet.
+//! Redundancy is a matter of geometry. Orthogonalization with pivoting finds it in the gradients (G. Golub & C. Van Loan, Matrix
+//! Computations, 5.4). The entries of G M⁻¹ Gᵀ are unsuitable, because they scale with different inertias.
 
 use super::masses::Masses;
 use super::schur_factor::SchurFactor;
@@ -14,12 +14,12 @@ pub struct IndependentRows {
     width: usize,
     /// The first column of each node.
     first: Vec<usize>,
-    /// What is left of the scaled gradients, row-major, and the squares of their norms.
+    /// The remainders of the scaled gradients, row-major, and their squared norms.
     left: Vec<f64>,
     norms: Vec<f64>,
     /// True for each equation that is not solved for: inert or redundant.
     pub idle: Vec<bool>,
-    /// Loads by which equations hold each other, orthonormal in the weights; as many rows as there are redundant equations.
+    /// Self-equilibrated loads of the equations, orthonormal in the weights; one row for each redundant equation.
     shares: Vec<f64>,
     count: usize,
     /// Room for a residual.
@@ -101,7 +101,7 @@ impl IndependentRows {
         }
     }
 
-    /// Finds by which loads the equations hold each other, of which nothing moves: one set for each that is redundant.
+    /// Finds the self-equilibrated loads of the equations: one set for each redundant equation.
     pub fn find_shares(
         &mut self,
         factor: &mut SchurFactor,

@@ -1,5 +1,5 @@
-//! Inertia of nodes. A rigid body, a point mass and a beam's share at a node are the same thing: a mass m and a tensor
-//! J₀ at a node with the Newton-Euler equations (33). All that falls on one node is summed once, before the run.
+//! Inertia of nodes. Bodies, point masses and shares of beams have the same form: a mass m and a tensor J₀ at a node with the Newton-Euler
+//! equations (33). All that falls on one node is summed once, before the run.
 
 use super::scale::Scale;
 use super::tangent_weights::TangentWeights;
@@ -12,9 +12,9 @@ use mechanics::state::Node;
 pub struct Inertia {
     /// The node.
     pub node: usize,
-    /// Mass, by which the node resists acceleration.
+    /// Inertial mass of the node.
     pub mass: f64,
-    /// Mass that has weight: without what mass scaling adds.
+    /// Gravitational mass: the inertial mass without mass scaling.
     pub weighing: f64,
     /// Inertia tensor J₀ about the node.
     pub J0: Mat3,
@@ -24,7 +24,7 @@ pub struct Inertia {
     pub turns: bool,
     /// The part of its angular acceleration in axes of the body, in axes of [`Inertia::J0`]; `None` where there is none.
     pub own: Option<Box<Mat3>>,
-    /// What damps its motion where its shares have factors α of their own; `None` where that of all masses holds.
+    /// The mass damping of a node whose shares have different factors α; `None` if the factor of the model applies.
     pub drag: Option<Box<OwnDrag>>,
 }
 
@@ -45,8 +45,8 @@ impl Inertia {
         R * self.J0 * R.transpose()
     }
 
-    /// The force m (field − a), with the mass that has weight for the field, and the moment −(J α + ω×J ω) of (33); weight alone unless `dynamic`. `scale` takes in
-    /// each term by itself, for in free motion they cancel.
+    /// The force m (field − a), with the gravitational mass for the field, and the moment −(J α + ω×J ω) of (33); weight alone unless
+    /// `dynamic`. `scale` includes each term separately, because in free motion the terms cancel.
     #[inline]
     pub fn force(&self, node: &Node, field: &Vec3, dynamic: bool, scale: &mut Scale) -> Force {
         let weight = self.weighing * field;
@@ -70,8 +70,8 @@ impl Inertia {
         [f.x, f.y, f.z, -m.x, -m.y, -m.z]
     }
 
-    /// Rayleigh damping: force per velocity and moment per angular velocity, global components, with the factor `alpha` of masses that
-    /// have none of their own. `None` without rotary inertia.
+    /// Rayleigh damping: force per velocity and moment per angular velocity, global components; `alpha` applies to masses without a
+    /// separate factor. `None` without rotary inertia.
     #[inline]
     pub fn drag(&self, node: &Node, alpha: f64) -> (f64, Option<Mat3>) {
         match &self.drag {
@@ -92,9 +92,8 @@ impl Inertia {
         0.5 * twice
     }
 
-    /// Derivative of the inertia and mass-damping forces, with the sign of a stiffness, for increments of the weights
-    /// q̇ and q̈. With `gyroscopic` it is complete, which makes it unsymmetric by C(r) (37) and the rotation of J;
-    /// without, it is M and α M alone.
+    /// Derivative of the inertia and mass-damping forces, with the sign of a stiffness, for increments of the weights `q̇` and `q̈`. With
+    /// `gyroscopic` it is complete and unsymmetric, due to C(r) (37) and the rotation of J; otherwise it is M and α M.
     pub fn tangent(&self, node: &Node, weights: &TangentWeights, damping: f64, gyroscopic: bool) -> Mat6 {
         let TangentWeights { rate, acceleration, turning, .. } = *weights;
         let mut K = Mat6::zeros();
@@ -133,16 +132,16 @@ impl Inertia {
         K
     }
 
-    /// The derivative of the rate of angular momentum e J ω + …, less e `rate` J, for a small turn δθ. The momentum changes by
-    /// δθ×π + J δΩ, the angular velocity in body axes by δΩ = (rate + ½ ω~ + κ rate J⁻¹ (π~ − ω~J)) δθ; what a finite rotation vector
-    /// adds is of second order in the step.
+    /// The derivative of the rate of angular momentum `e J ω + …`, less `e rate J`, for a small turn δθ. The momentum changes by `δθ×π + J
+    /// δΩ`, and the angular velocity in body axes by `δΩ = (rate + ½ ω~ + κ rate J⁻¹ (π~ − ω~J)) δθ`. A finite rotation vector adds terms
+    /// of second order in the step.
     fn momentum_tangent(&self, node: &Node, J: &Mat3, [rate, e, kappa]: [f64; 3]) -> Mat3 {
         let (omega, L) = (skew(&node.omega), skew(&(J * node.omega)));
         e * (0.5 * J * omega - L + kappa * rate * (L - omega * J))
     }
 
-    /// The same where the scheme relates angular velocities in axes of the body: J Ω̇ + Ω×JΩ turns with the body, changes by e J δΩ, and by
-    /// the gyroscopic part of δΩ.
+    /// Like [`Inertia::momentum_tangent`] if the scheme relates angular velocities in body axes: `J Ω̇ + Ω×JΩ` turns with the body, and
+    /// changes by `e J δΩ` and by the gyroscopic part of δΩ.
     fn own_tangent(&self, node: &Node, J: &Mat3, [rate, e, kappa]: [f64; 3]) -> Mat3 {
         let (omega, momentum) = (skew(&node.omega), J * node.omega);
         let gyroscopic = omega * J - skew(&momentum);
@@ -154,9 +153,9 @@ impl Inertia {
 /// Sums mass and inertia on each node.
 pub struct Lumped {
     sums: Vec<(f64, Mat3)>,
-    /// The same sums times α, where parts have factors of their own.
+    /// The sums multiplied by α, if parts have separate factors.
     drags: Vec<OwnDrag>,
-    /// α of what is added.
+    /// α of the masses added next.
     alpha: f64,
 }
 
@@ -166,12 +165,12 @@ impl Lumped {
         Lumped { sums: vec![(0.0, Mat3::zeros()); nodes], drags: Vec::new(), alpha: 0.0 }
     }
 
-    /// Sums what damps the masses besides, for parts with factors α of their own.
+    /// Sums the mass damping separately, for parts with separate factors α.
     pub fn with_drags(&mut self) {
         self.drags = vec![OwnDrag { mass: 0.0, J0: Mat3::zeros() }; self.sums.len()];
     }
 
-    /// Sets α of what is added from now on.
+    /// Sets α for all masses added from now on.
     pub fn set_alpha(&mut self, alpha: f64) {
         self.alpha = alpha;
     }
@@ -245,8 +244,8 @@ impl ConsistentMass {
         self.m.iter().enumerate().map(move |(i, &m)| (self.nodes[i / n], self.nodes[i % n], m))
     }
 
-    /// Subtracts M (a − field) and Rayleigh's damping force α M v from `F`, with velocities `relative` to what carries the damping where there
-    /// is any; weight alone unless `dynamic`.
+    /// Subtracts M (a − field) and Rayleigh's damping force α M v from `F`, with velocities `relative` to the moving frame if given; weight
+    /// alone unless `dynamic`.
     pub fn add_forces(
         &self,
         nodes: &[Node],

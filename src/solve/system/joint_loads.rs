@@ -1,4 +1,4 @@
-//! What joints carry across their axes, by which their friction is known: it is remembered at the end of each step, with its rate.
+//! The transverse loads of joints, which determine their friction, stored with their rates at the end of each step.
 
 use super::group::Group;
 use super::parts::links::{self, LinkElement};
@@ -38,7 +38,7 @@ pub fn find(model: &Model, joints: &[Joint], (links, groups): (&[LinkElement], &
 }
 
 impl JointLoad {
-    /// Writes what the joint carries across its axis at the end of a step of length `dt`, which is zero at a start or a jump, and its rate.
+    /// Writes the transverse load of the joint and its rate at the end of a step of length `dt`, which is zero at a start or a jump.
     pub fn remember(&self, joints: &[Joint], state: &mut State, dt: f64) {
         let JointLoad { equations: [first, held], joint, lock, place } = self;
         let made = &joints[*joint];

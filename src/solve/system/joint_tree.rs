@@ -1,4 +1,4 @@
-//! Whether joints form a tree with the ground, in which no constraint equation can be redundant.
+//! Checks if joints form a tree with the ground: no constraint equation of a tree is redundant.
 
 use mechanics::constraints::joint::Joint;
 use mechanics::constraints::rigid_link::RigidLink;
@@ -12,7 +12,7 @@ pub fn is_tree(model: &Model, joints: &[Joint], links: &[RigidLink]) -> bool {
     let mut sets = Sets((0..=ground).collect());
     let drives: HashSet<usize> = joints.iter().filter_map(|joint| Some(joint.drive.as_ref()?.node)).collect();
     let held: HashSet<usize> = model.constraints.restraints.iter().map(|restraint| restraint.node).collect();
-    // What a support holds belongs to the ground; one edge stands for all its directions.
+    // A restrained node belongs to the ground; one edge represents all its directions.
     held.into_iter().filter(|node| !drives.contains(node)).all(|node| sets.join(node, ground))
         && links.iter().all(|link| sets.join(link.node, link.master))
         && joints.iter().all(|joint| sets.join(joint.nodes[0], joint.nodes[1]))

@@ -2,10 +2,10 @@
 //! (57). With f the residual without them the iteration solves
 //!   [K + GᵀsG  Gᵀs ] [δq]   [ f − Gᵀλ ]
 //!   [sG        −ε s] [δμ] = [−s(1+ε)c ],   δλ = s (δμ − c),
-//! which is Newton's equation for f = Gᵀλ, c = 0 with the penalty s for a unit of λ. The second equation, times sGᵀ, is
-//! added to the first; this changes nothing but the path of elimination, whose pivots then do not vanish. O. A. Bauchau,
-//! A. Epple & C. L. Bottasso, J. Comput. Nonlinear Dyn. 4 (2009). Redundant equations share the load with the least norm:
-//! ε decides, and leaves the fraction ε of a gap to the next iteration.
+//! which is Newton's equation for `f = Gᵀλ`, `c = 0` with the penalty s for a unit of λ. The second equation, times `sGᵀ`, is added to the
+//! first. This changes only the elimination, whose pivots then do not vanish. O. A. Bauchau, A. Epple & C. L. Bottasso, J. Comput.
+//! Nonlinear Dyn. 4 (2009). Redundant equations share the load with the least norm because of ε; each iteration reduces a gap to the
+//! fraction ε.
 
 use super::equations::{Forces, System};
 use super::multipliers::Multipliers;
@@ -16,8 +16,7 @@ use base::math::{Mat6, Vec3, Vec6, angular, linear};
 use mechanics::constraints::joint::{ConstraintEquation, Joint, MOST_EQUATIONS};
 use mechanics::state::Node;
 
-/// Largest size of a joint's matrix: the degrees of freedom of its two nodes and of one that gears share, then its multipliers as those of
-/// one more node.
+/// Largest size of a joint's matrix: six degrees of freedom for each of its two nodes and for a node shared by gears, then its multipliers.
 const MOST_WIDTH: usize = 6 + 6 + 6 + MOST_EQUATIONS;
 
 /// Size of a joint's matrix.
@@ -34,7 +33,7 @@ pub struct JointState {
     pub m: Vec3,
     /// Force and moment on the second node.
     pub on_second: [Vec3; 2],
-    /// What the drive of the coordinate exerts along it on the second node; zero without a drive.
+    /// Force or moment of the drive along the coordinate on the second node; zero without a drive.
     pub drive: f64,
 }
 
@@ -158,7 +157,7 @@ impl System {
     }
 }
 
-/// Adds the derivative of the force of a constraint equation to the matrix of its joint, which is that wide.
+/// Adds the derivative of the force of a constraint equation to the matrix `K` of its joint, with `width` columns.
 fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, (K, width): (&mut [f64], usize)) {
     row.stiffness(a, b, lambda, |i, j, block| {
         for r in 0..3 {

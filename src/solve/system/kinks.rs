@@ -1,26 +1,26 @@
-//! Kinks of the forces of a scene, which no order of a scheme resolves in a step that passes one.
+//! Kinks of the forces of a model: a step across a kink has the same low order with every scheme.
 
 use super::equations::System;
 use super::group::Group;
 use mechanics::state::{Configuration, State};
 
-/// Elements of which each by itself bends the forces of the scene: of more, each has a small share, and kinks come one after the other.
+/// Largest number of elements whose single kinks matter; among more elements each has a small share, and kinks come one after the other.
 const FEW: usize = 8;
 /// Points of a contact, likewise: more than the corners of the bodies that touch.
 const FEW_POINTS: usize = 64;
 
-/// True where forces have kinks that a motion may pass.
+/// True if forces may have kinks along the motion.
 pub fn has_kinks(system: &System) -> bool {
     system.groups.iter().any(bends)
 }
 
-/// True where material yields in so few elements that the forces of the scene have a kink there.
+/// True if yielding is limited to so few elements that the forces of the model have a kink at yield.
 pub fn yields_at_once(system: &System) -> bool {
     let yields = system.groups.iter().filter(|group| group.kind.is_deformable() && !group.history.is_empty());
     (1..=FEW).contains(&yields.map(|group| group.block.len()).sum())
 }
 
-/// A number of the branches on which a state is; it changes where something opens, closes or comes to a stop.
+/// A number for the branches of a state; it changes if a part opens, closes or reaches a stop.
 pub fn branches(system: &System, state: &State) -> usize {
     let groups = system.groups.iter().filter(|group| bends(group));
     groups.fold(0, |sum: usize, group| sum.wrapping_add(branches_of(group, state)))

@@ -30,7 +30,7 @@ impl Loading {
     }
 }
 
-/// Force and moment of a load on its node, global components; those of a follower load rotate with the node, those of an effort go along the
+/// Force and moment of a load on its node, global components. A follower load rotates with the node, and an effort acts along the
 /// coordinate of its joint.
 #[inline]
 pub(super) fn load_on(load: &model::Load, factor: f64, nodes: &[Node]) -> (Vec3, Vec3) {

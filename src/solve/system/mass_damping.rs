@@ -9,7 +9,7 @@ use model::{Model, MovingFrame, MovingFrames};
 /// The damping of masses.
 #[derive(Debug, Clone, Default)]
 pub struct MassDamping {
-    /// α of masses that have no factor of their own, per time.
+    /// α of masses without a separate factor, per time.
     pub alpha: f64,
     acts: bool,
     frames: MovingFrames,
@@ -30,7 +30,7 @@ impl MassDamping {
         self.acts
     }
 
-    /// The linear and angular velocity of the frame in which a node stands.
+    /// The linear and angular velocity of the moving frame at a node.
     #[inline]
     pub fn carried(&self, node: usize, nodes: &[Node]) -> [Vec3; 2] {
         match self.frames.of(node) {
@@ -70,7 +70,7 @@ impl MassDamping {
         Some(-inertia.drag(&nodes[inertia.node], self.alpha).0 * skew(&omega))
     }
 
-    /// The power that drag takes from the motion relative to frames, and the one that the frames put in, which carry what damps.
+    /// The power dissipated by damping in the motion relative to the frames, and the power put in by the moving frames.
     pub fn powers(&self, (inertias, masses): (&[Inertia], &[ConsistentMass]), nodes: &[Node]) -> [f64; 2] {
         let mut sums = [0.0; 2];
         if !self.acts {

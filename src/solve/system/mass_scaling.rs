@@ -1,6 +1,5 @@
-//! Mass scaling of explicit dynamics: elements whose own critical time step is below the one that the deck wants are given the rotary
-//! inertia and the mass with which they have it ([`super::element_stability`]), once, as they lie at t = 0. What is added resists
-//! acceleration and has no weight, so that equilibrium under weight is that of the true masses.
+//! Mass scaling of explicit dynamics ([`super::element_stability`]): elements with a critical time step below the wanted one get additional
+//! rotary inertia and mass, once, at t = 0. The additional mass has inertia but no weight, so equilibrium under weight is unchanged.
 
 use super::element_stability::{ElementScaling, scaling};
 use super::group::Group;
@@ -14,20 +13,20 @@ use model::{AnalysisKind, Model, Part, PartKind};
 /// Number of elements whose tangents are formed at once.
 const CHUNK: usize = 64;
 
-/// What mass scaling adds to a scene.
+/// The mass scaling of a model.
 #[derive(Debug, Clone)]
 pub struct MassScaling {
     /// The critical time step that every element has at least.
     pub critical_step: f64,
-    /// The parts of the deck that have mass of their own, in its order.
+    /// The parts of the deck that have mass, in its order.
     pub parts: Vec<ScaledPart>,
-    /// Mass of the scene without what is added.
+    /// Mass of the model without mass scaling.
     pub mass: f64,
-    /// For each part of the model what each element is given; empty where nothing is.
+    /// For each part of the model, the scaling of each element; empty for parts without scaling.
     elements: Vec<Vec<ElementScaling>>,
 }
 
-/// What mass scaling adds to a part.
+/// The mass scaling of a part.
 #[derive(Debug, Clone)]
 pub struct ScaledPart {
     /// Its name.
@@ -39,7 +38,7 @@ pub struct ScaledPart {
     pub heavier: usize,
     /// ... and of those that are given rotary inertia.
     pub turning: usize,
-    /// Mass without what is added.
+    /// Mass without mass scaling.
     pub mass: f64,
     /// Mass that is added.
     pub added: f64,
@@ -48,7 +47,7 @@ pub struct ScaledPart {
 }
 
 impl MassScaling {
-    /// Adds mass to the inertias of nodes where the deck asks for it; `None` where it does not.
+    /// Adds mass to the inertias of nodes if the deck requires it; `None` otherwise.
     pub(super) fn new(model: &Model, x: &[Vec3], groups: &[Group], inertias: &mut [Inertia]) -> Option<MassScaling> {
         let critical_step = model.solution.scheme.mass_scaling_step()?;
         if model.analysis.kind != AnalysisKind::Dynamic {
@@ -68,7 +67,7 @@ impl MassScaling {
         Some(scaling)
     }
 
-    /// Adds what the elements of a group are given to the inertias of their nodes, and to what is told.
+    /// Adds the scaling of the elements of a group to the inertias of their nodes, and to the report.
     fn add_group(
         &mut self,
         group: &Group,
@@ -107,7 +106,7 @@ impl MassScaling {
         self.elements[group.part].extend(given);
     }
 
-    /// What is told of the part of the deck with this name and kind.
+    /// The report of the part of the deck with this name and kind.
     fn part(&mut self, part: &Part) -> &mut ScaledPart {
         let of = |told: &ScaledPart| told.kind == part.kind() && told.name == part.name();
         let at = self.parts.iter().position(of).unwrap_or_else(|| {
@@ -117,7 +116,7 @@ impl MassScaling {
         &mut self.parts[at]
     }
 
-    /// What an element is given, by its part and its number there.
+    /// The scaling of an element, by its part and its number there.
     pub(super) fn of(&self, part: usize, element: usize) -> ElementScaling {
         self.elements[part].get(element).copied().unwrap_or(ElementScaling::KEPT)
     }
@@ -148,7 +147,7 @@ impl ScaledPart {
     }
 }
 
-/// What the elements of a group need for a critical time step, as they lie at t = 0, with damping in proportion to their mass and stiffness.
+/// The scaling that the elements of a group need for a critical time step in the configuration at t = 0, with Rayleigh damping.
 fn needed(group: &Group, (model, masses): (&Model, &NodalMasses), nodes: &[Node], step: f64) -> Vec<ElementScaling> {
     let block = &group.block;
     let own = model.parts[group.part].own_damping();

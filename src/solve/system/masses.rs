@@ -1,6 +1,5 @@
-//! Accelerations from forces where each moving node is a rigid body of its own: its mass and inertia, with those of all
-//! nodes rigidly attached to it, about their common centre of mass. In body axes these are constant, so nothing is
-//! factorized during the run.
+//! Accelerations from forces if each independent node is a separate rigid body: its mass and inertia, with all rigidly attached nodes,
+//! about their common centre of mass. In body axes these are constant, so nothing is factorized during the run.
 
 use super::dofs::DofMap;
 use super::equations::System;
@@ -56,8 +55,7 @@ enum BlockKind {
     /// All rotations are unknowns. The node is the centre of mass, or the centre moves freely, or the node does not
     /// translate and the body turns about it.
     RigidBody,
-    /// The only rotation that is an unknown is that about a global axis, at t = 0 a principal one, and the node is the centre of mass:
-    /// a node of a plane scene.
+    /// The only unknown rotation is about a global axis, a principal axis at t = 0, and the node is the centre of mass.
     OneRotation { axis: usize },
     /// Some degrees of freedom are restrained.
     Restrained,
@@ -88,8 +86,7 @@ impl NodeRates {
 }
 
 impl Masses {
-    /// Returns `None` where masses of several nodes are coupled: by consistent masses, or by dependent nodes with free
-    /// rotations of their own.
+    /// Returns `None` if masses of several nodes are coupled: by consistent masses, or by dependent nodes with free rotations.
     pub fn new(system: &System, dofs: &DofMap) -> Option<Masses> {
         if !system.consistent.is_empty() {
             return None;
@@ -103,7 +100,7 @@ impl Masses {
             let (mut node, mut arm, mut J0) = (inertia.node, Vec3::zeros(), inertia.J0);
             while let Some(dependent) = link_of[node] {
                 if !dependent.rigid {
-                    // A spherical joint hands on the mass and leaves the inertia.
+                    // A spherical joint transfers the mass to the master but not the inertia.
                     if dependent.dofs != [true, true, true, false, false, false] || node != inertia.node {
                         return None;
                     }
@@ -127,7 +124,7 @@ impl Masses {
             }
             let s0 = if mass > 0.0 { moment / mass } else { Vec3::zeros() };
             let mut J0 = J - point(mass, &s0);
-            // A point mass at the end of an arm leaves nothing but rounding.
+            // For a point mass at the end of an arm J0 is only rounding.
             let trace = NEGLIGIBLE * J.amax();
             J0.iter_mut().filter(|J| J.abs() < trace).for_each(|J| *J = 0.0);
             place[node] = Some(blocks.len() as u32);
@@ -261,8 +258,8 @@ impl MassBlock {
         }
     }
 
-    /// The product aᵀ M a of the accelerations that forces give to the node. The rotation of a body that turns freely is followed
-    /// as it is, so that its own angular acceleration is no part of it: moments count, f²/m + m·J⁻¹m with m = J α + ω × J ω.
+    /// The product aᵀ M a of the accelerations that forces give to the node. For freely turning bodies it excludes the free angular
+    /// acceleration, because their rotation is integrated exactly: `f²/m + m·J⁻¹m` with the moments `m = J α + ω × J ω`.
     #[inline]
     pub fn push_product(&self, node: &Node, a: &Vec6) -> f64 {
         if self.kind != BlockKind::RigidBody {
@@ -298,17 +295,16 @@ impl MassBlock {
         F.iter_mut().zip(&rest).for_each(|(f, rest)| *f -= rest);
     }
 
-    /// Force and moment that angular velocities cause: m ω × (ω × s) of a mass off the node, and ω × J ω about the
-    /// centre of mass.
+    /// Force and moment due to angular velocities: `m ω × (ω × s)` of a mass off the node, and `ω × J ω` about the centre of mass.
     fn gyroscopic_force(&self, R: &Mat3, omega: &Vec3) -> Vec6 {
         let s = R * self.body.s0;
         let f = self.mass * omega.cross(&omega.cross(&s));
         stack(&f, &(omega.cross(&(R * (self.body.J0 * R.tr_mul(omega)))) + s.cross(&f)))
     }
 
-    /// Displacement and rotation vector of a body that turns freely in a step of length `dt` from `start`: the point that it
-    /// turns about goes on as central differences say, and about that it turns under the angular momentum that it has in the
-    /// middle of the step. Forward and backward are the same, so that no energy is made steadily. `None` for other nodes.
+    /// Displacement and rotation vector of a freely turning body in a step of length `dt` from `start`. Its pivot moves by central
+    /// differences, and the body turns about the pivot with its angular momentum at mid-step. Forward and backward are the same, so that no
+    /// energy is made steadily. `None` for other nodes.
     #[inline]
     pub fn drift(&self, start: &Node, dt: f64) -> Option<Vec6> {
         if self.kind != BlockKind::RigidBody {
@@ -327,11 +323,11 @@ impl MassBlock {
         Some(stack(&Vec3::from_fn(|i, _| if self.free[i] { u[i] } else { 0.0 }), &turn))
     }
 
-    /// Velocities and accelerations at the end of a velocity Verlet step of length `dt` from `start`. `F` is the
-    /// residual at the motion `now` there, with predicted velocities, and `found` what [`MassBlock::accelerate`] makes of it. The velocities follow from the mean of the
-    /// accelerations; those of a freely turning body from the mean rate of its angular momentum, which no moment of its
-    /// own inertia changes. Where degrees of freedom are restrained, the gyroscopic terms of the predicted angular
-    /// velocities are corrected: they would feed energy into the motion.
+    /// Velocities and accelerations at the end of a velocity Verlet step of length `dt` from `start`. `F` is the residual at the motion
+    /// `now` there, with predicted velocities, and `found` what [`MassBlock::accelerate`] makes of it. The velocities follow from the mean
+    /// of the accelerations. For a freely turning body they follow from the mean rate of its angular momentum, which no moment of its
+    /// inertia changes. Where degrees of freedom are restrained, the gyroscopic terms of the predicted angular velocities are corrected:
+    /// they would feed energy into the motion.
     #[inline]
     pub fn verlet(&self, start: &Node, now: &Node, F: &Force, found: &Vec6, dt: f64) -> NodeRates {
         match self.kind {
@@ -391,7 +387,7 @@ impl MassBlock {
     }
 }
 
-/// The axis of the only rotation that is free, where it is a principal axis of `J0`.
+/// The axis of the only free rotation, if it is a principal axis of `J0`.
 fn turning_axis(free: &[bool; 6], J0: &Mat3) -> Option<usize> {
     let axis = free[3..].iter().position(|&free| free)?;
     let alone = (0..3).all(|i| i == axis || !free[3 + i] && J0[(axis, i)] == 0.0 && J0[(i, axis)] == 0.0);

@@ -42,7 +42,7 @@ mod tangent_weights;
 mod thread_partition;
 mod turning_body;
 
-/// Parts of assembly by themselves, which tests look at.
+/// Internal parts of assembly, for tests.
 pub mod inner {
     pub use super::dependents::{Arms, Followers};
     pub use super::element_stability::{ElementScaling, scaling};

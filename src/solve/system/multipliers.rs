@@ -49,7 +49,7 @@ impl Multipliers {
         tail.iter_mut().zip(&self.gaps).for_each(|(r, c)| *r -= c);
     }
 
-    /// Updates λ ← λ + s `tail`, with `tail` as [`Multipliers::subtract_gaps`] leaves it.
+    /// Updates λ ← λ + s `tail`, with `tail` from [`Multipliers::subtract_gaps`].
     #[inline]
     pub fn add(&mut self, tail: &[f64]) {
         for ((value, s), r) in self.values.iter_mut().zip(&self.penalties).zip(tail) {

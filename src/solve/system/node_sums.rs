@@ -1,5 +1,5 @@
-//! The sum of what partitions of elements and inertias do on nodes, in chunks of nodes that several threads share. Each node gets the
-//! same terms in the same order whatever the chunks are.
+//! The sum of the nodal forces of partitions and inertias, in chunks of nodes shared by several threads. Each node gets the same terms in
+//! the same order whatever the chunks are.
 
 use super::inertia::Inertia;
 use super::scale::Scale;
@@ -10,7 +10,7 @@ use std::ops::Range;
 /// Number of nodes in a chunk.
 const NODES: usize = 512;
 
-/// A range of nodes, with what acts on them.
+/// A range of nodes, with the contributions to their forces.
 #[derive(Debug, Clone)]
 pub(super) struct SumChunk {
     nodes: Range<usize>,
@@ -40,8 +40,8 @@ pub(super) fn chunks(partitions: &[Partition], inertias: &[Inertia], nodes: usiz
     (0..nodes).step_by(NODES).map(chunk).collect()
 }
 
-/// Writes the forces of all partitions into `F`, which is that of the nodes of `chunks`, and adds those of `inertias` by `add`, which gets
-/// the inertias of a chunk, its forces and their first node.
+/// Writes the forces of all partitions into `F`, whose entries are the nodes of `chunks`. Then `add` adds the forces of `inertias`: it
+/// receives the inertias of a chunk, its forces and their first node.
 pub(super) fn sum<A>(
     chunks: &[SumChunk],
     partitions: &[Partition],

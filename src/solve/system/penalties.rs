@@ -1,4 +1,4 @@
-//! The penalty factors of the constraint equations of joints: what the forces of a unit gap are in the matrix; see [`super::joints`].
+//! The penalty factors of the constraint equations of joints: the force of a unit gap in the matrix, see [`super::joints`].
 
 use super::dofs::DofMap;
 use super::equations::System;
@@ -9,16 +9,15 @@ use linear::Solver;
 use mechanics::constraints::joint::{ConstraintEquation, Joint};
 use mechanics::state::Node;
 
-/// What the penalty factors of all joints rest on.
+/// The data for the penalty factors of all joints.
 pub(super) struct Diagonals {
     joints: Vec<Diagonal>,
     /// By node: the sum of [`Diagonal::moment`] over the joints that act on it, and the longest of their arms. Written where no inertia is in
     /// the matrix.
     on_nodes: Vec<[f64; 2]>,
-    /// By node: what rounding leaves of the stiffness against rotations that forces on dependent nodes have, where they cancel. Zero
-    /// where inertia is in the matrix.
+    /// By node: the rounding of the rotational stiffness due to cancelling forces on dependent nodes. Zero where inertia is in the matrix.
     rounding: Vec<f64>,
-    /// By constraint equation: its force, or zero where that is rounding.
+    /// By constraint equation: its force, or zero if the force is rounding.
     forces: Vec<f64>,
     /// The size of the scene.
     extent: f64,
@@ -37,8 +36,8 @@ impl Diagonals {
         }
     }
 
-    /// Takes the forces of the equations where something rests on them, a drive or a scene `at_rest`, without what rounding makes: of a gap that
-    /// the penalty factor of before has answered, and of a moment beside the force of the same joint.
+    /// Stores the forces of the equations for drives and for models `at_rest`, and sets rounding errors to zero. Rounding stems from gaps
+    /// times the earlier penalty factor, and for moments also from the force of the same joint.
     fn take(&mut self, system: &System, nodes: &[Node], multipliers: &Multipliers, at_rest: bool) {
         if !at_rest && !system.joints.iter().any(|joint| joint.drive.is_some()) || system.joints.is_empty() {
             return;
@@ -88,9 +87,9 @@ impl Diagonals {
         }
     }
 
-    /// The penalty factors for translations and rotations of the `j`-th joint where it holds weights by itself: where nothing at its ends
-    /// resists translations, so that what is stiff against rotations there are forces at arms, or nothing is as stiff as the forces of the
-    /// joints there. No other stiffness then tells what these would overturn. `None` for other joints. `values`: the matrix.
+    /// The penalty factors for translations and rotations of the `j`-th joint if it alone supports weights. Then nothing at its ends
+    /// resists translations, so rotational stiffness stems only from forces at arms; or all stiffness is below that of the joint forces. No
+    /// other stiffness then tells what these would overturn. `None` for other joints. `values`: the matrix.
     fn firm(&self, j: usize, values: &[f64]) -> Option<[f64; 2]> {
         let places = &self.joints[j].0;
         let on_nodes = places.iter().map(|place| self.on_nodes[place.independent]);
@@ -156,10 +155,10 @@ impl Diagonal {
         Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
     }
 
-    /// What an equation acts against: the inverse of Σ g²/K over its degrees of freedom, zero where none has stiffness, and
-    /// the largest K g² of translations, or of rotations for an equation between these. With `even`, K is the mean of the translations of a node,
-    /// or of its rotations, which does not depend on axes, and arms are left out where the equation acts on more: joints of one body then share alike
-    /// wherever they sit.
+    /// The effective stiffness behind an equation: the inverse of Σ g²/K over its degrees of freedom, zero without stiffness. Then the
+    /// largest K g² of translations, or of rotations for a rotational equation. With `even`, K is the mean over the translations or
+    /// rotations of a node, which does not depend on axes. Arms are omitted if the equation has other terms, so joints of one body share
+    /// loads equally at all places.
     fn stiffness(
         &self,
         G: &[Vec6; 2],
@@ -195,8 +194,8 @@ impl Diagonal {
         [if compliance > 0.0 && compliance.is_finite() { 1.0 / compliance } else { 0.0 }, largest]
     }
 
-    /// The size of the stiffness against rotations that the forces of a joint have: the sum of forces times arms and of moments, without
-    /// signs, that its equations exert on independent nodes. And the longest of these arms.
+    /// The magnitude of the rotational stiffness due to the forces of a joint: Σ |force| arm + Σ |moment| of its equations on independent
+    /// nodes. And the longest of these arms.
     fn moment(
         &self,
         joint: &Joint,
@@ -223,10 +222,10 @@ impl Diagonal {
 
 /// Finds the penalty factors, which rest on the matrix before any joint has added to it.
 ///
-/// Behind a light part an equation may feel a heavy one that it does not touch itself: with the light part's factor a gap
-/// would shrink by ε times the ratio of both, or grow; with the heaviest part's, the light one would be lost in rounding.
-/// A mean that lies nearer to the heaviest leaves both for ratios up to 1e16; where the ratio is moderate, nothing is amiss.
-/// An equation on which nothing acts has the largest factor, and 1 where nothing acts on any. `at_rest`: no inertia is in the matrix.
+/// A light part may couple an equation to a heavy part behind it. With the factor of the light part each iteration would multiply a gap by
+/// ε times the mass ratio. With the factor of the heaviest part the light one would be lost in rounding. A geometric mean nearer to the
+/// heaviest works for both up to ratios of 1e16; for moderate ratios the factor is not changed. An equation without stiffness has the
+/// largest factor, and 1 if no equation has stiffness. `at_rest`: no inertia is in the matrix.
 pub(super) fn set(
     system: &System,
     nodes: &[Node],
@@ -279,7 +278,8 @@ pub(super) fn set(
     }
 }
 
-/// The penalty factor of an equation by what it acts against, `s`, or by that of a joint that holds weights by itself, beside the largest of both.
+/// The penalty factor of an equation, from its effective stiffness `s` or from the factor `firm` of a joint that alone supports weights.
+/// The largest values of both limit it.
 fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
     let s = match firm {
         Some(firm) if firm > NOTHING * heaviest => return firm,
@@ -295,13 +295,13 @@ fn beside(s: f64, firm: Option<f64>, heaviest: f64, firmest: f64) -> f64 {
     }
 }
 
-/// The size of an entry of the diagonal by which a penalty factor is chosen: a factor as large as a negative entry would cancel it to zero.
+/// The magnitude of a diagonal entry for the choice of a penalty factor: a factor equal to a negative entry would cancel it to zero.
 fn outweighing(entry: f64) -> f64 {
     if entry < 0.0 { -INDEFINITE * entry } else { entry }
 }
 
-/// Gives the translations of a joint one penalty factor, and its rotations one, by their mean compliance. Redundant equations share loads in
-/// proportion to the factors: with one of each its own, loads would depend on the axes in which equations are written.
+/// Gives the translations of a joint one penalty factor, and its rotations one, by their mean compliance. Redundant equations share loads
+/// in proportion to the factors. With separate factors loads would depend on the axes of the equations.
 fn make_even(joint: &Joint, penalties: &mut [f64]) {
     for rotational in [false, true] {
         let is_one = |k: &usize| joint.equations[*k].is_rotational() == rotational && !joint.is_driven(*k);
@@ -319,12 +319,12 @@ fn firm_factors(moment: f64, arm: f64) -> [f64; 2] {
     [if arm > 0.0 { FIRM * moment / (arm * arm) } else { FIRM }, FIRM * moment]
 }
 
-/// The factor of penalties where mass is taken away from a matrix (K − σ M): what is negative there by as much as an equation adds would
-/// cancel it to zero, and no simple ratio of masses makes this factor 1.
+/// The factor of penalties in shifted matrices (K − σ M), where a negative term equal to a penalty would cancel it to zero. No simple mass
+/// ratio causes this with this factor.
 pub(super) const INDEFINITE: f64 = 2.618_033_988_749_895;
 
-/// The penalty factor of a drive from that of any equation: it holds even where what it carries has no stiffness of its own, or a
-/// negative one, as a weight that is turned upright. `moment` is of the size of the stiffness that the forces of the joint have.
+/// The penalty factor of a drive from the factor of other equations. It remains effective if the driven part has zero or negative
+/// stiffness, such as a weight that is turned upright. `moment` is of the size of the stiffness that the forces of the joint have.
 fn drive_penalty(s: f64, row: &ConstraintEquation, moment: f64) -> f64 {
     INDEFINITE * if row.is_rotational() { s.max(moment) } else { s }
 }

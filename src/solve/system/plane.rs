@@ -15,7 +15,7 @@ impl MotionPlane {
     /// True for a vector in the plane. It is judged by its largest entry: the norm of large numbers overflows, and nothing
     /// exceeds infinity.
     pub fn contains(&self, v: &Vec3) -> bool {
-        // The comparison is not reversed, so that entries that are not finite do not count as outside.
+        // The comparison is not reversed, so that non-finite entries do not count as outside.
         let outside = v[self.normal].abs() > SMALL * v.amax();
         !outside
     }

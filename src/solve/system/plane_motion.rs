@@ -8,8 +8,7 @@ use base::math::{Vec3, skew};
 use mechanics::constraints::rigid_link::RigidLink;
 use model::{Joint, Loading, Model, Node, Restraint};
 
-/// The global axis normal to the plane of a scene in which nothing can move out of it, unless the deck keeps
-/// out-of-plane motion.
+/// The global axis normal to the plane of a model that nothing moves out of it, unless the deck keeps out-of-plane motion.
 pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
     if model.analysis.plane { that_holds(model, inertias, rigid_links) } else { None }
 }

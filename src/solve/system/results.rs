@@ -45,7 +45,7 @@ pub fn plastic_strains(system: &System, now: &Configuration, out: &mut Vec<f64>)
     }
 }
 
-/// Writes whether each of the same elements has failed into `out`, which stays empty where none can.
+/// Writes for each of these elements whether it has failed into `out`, which stays empty if no element can fail.
 pub fn failed(system: &System, now: &Configuration, out: &mut Vec<bool>) {
     out.clear();
     let own = || system.groups.iter().filter(|group| group.kind.is_deformable());
@@ -74,8 +74,8 @@ pub fn nodal_resultants(system: &System, model: &Model, now: &Configuration, out
     beams::nodal_resultants(&system.groups, model, now, out);
 }
 
-/// Writes the stress resultants of all beams into `out`, in deck order, at integration points, and at ends where these are wanted;
-/// `loading` are the loads at the instant.
+/// Writes the stress resultants of all beams into `out`, in deck order, at integration points, and at ends if wanted; `loading` holds the
+/// loads at the instant.
 pub fn section_points(
     system: &System,
     model: &Model,

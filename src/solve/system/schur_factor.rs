@@ -1,5 +1,5 @@
-//! The factorization of G M⁻¹ Gᵀ: dense for few constraint equations, sparse for many, where two of them are coupled only by a body that
-//! both joints hold.
+//! The factorization of G M⁻¹ Gᵀ: dense for few constraint equations, sparse for many. Two equations are coupled only if their joints share
+//! a body.
 
 use super::equations::System;
 use base::math::lanes::LANES;
@@ -57,8 +57,8 @@ impl SchurFactor {
         matches!(self, SchurFactor::Sparse(_))
     }
 
-    /// Writes the entries, which `entry` gives by row and column, and factorizes. Equations that are `inert` stay by themselves; the
-    /// diagonal is `raised` by so much. Returns false where the matrix is singular.
+    /// Writes the entries, which `entry` gives by row and column, and factorizes. `inert` equations are decoupled; `raised` is added to the
+    /// diagonal. Returns false where the matrix is singular.
     pub fn factor(&mut self, inert: &[bool], raised: &[f64], entry: impl Fn(usize, usize) -> f64) -> bool {
         match self {
             SchurFactor::Dense(factor) => factor.factor(inert, raised, entry),
@@ -215,7 +215,7 @@ fn substitute(L: &[f64], x: &mut [f64]) {
     }
 }
 
-/// Σ aᵢ bᵢ, in sums of its own for each of eight lanes: one sum alone waits for each product.
+/// Σ aᵢ bᵢ in eight separate sums, because a single sum would wait for each product.
 #[inline]
 fn scalar_product(a: &[f64], b: &[f64]) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());

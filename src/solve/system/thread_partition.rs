@@ -9,12 +9,12 @@ use std::ops::{AddAssign, Range};
 
 /// Largest number of elements in a group.
 pub(super) const MOST_IN_GROUP: usize = 512;
-/// Number of elements from which several threads pay.
+/// Least number of elements for several threads.
 const WORTH_THREADS: usize = 1024;
 /// Largest number of partitions; each needs its own array of forces.
 const MOST_PARTITIONS: usize = 16;
 
-/// Groups whose forces are summed in an array of their own.
+/// Groups whose forces are summed in a separate array.
 #[derive(Debug, Clone)]
 pub struct Partition {
     groups: Range<usize>,
@@ -51,7 +51,7 @@ fn part(all: &[Group], groups: Range<usize>) -> Partition {
     Partition { groups, nodes, F: vec![[0.0; 6]; touched.last().map_or(0, |last| last + 1)] }
 }
 
-/// Where the history variables of a contiguous range of groups are written, and what each group dissipates.
+/// The memory for the history variables of a contiguous range of groups, and for the dissipation of each group.
 pub(super) struct GroupMemory<'a> {
     /// History variables of these groups.
     pub history: &'a mut [f64],
@@ -148,7 +148,7 @@ where
     }
 }
 
-/// Sums over groups like [`sum`]; `of` also receives the group's range of `history`, which is that of all `groups`.
+/// Sums over groups like [`sum`]; `of` also receives the group's range of `history`, which covers all `groups`.
 pub(super) fn sum_with<T>(
     groups: &[Group],
     history: &mut [f64],

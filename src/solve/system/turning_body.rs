@@ -1,25 +1,24 @@
 //! The rotation of a rigid body within a step of an implicit scheme.
 //!
-//! In the coordinates of a rotation vector a body that turns freely is accelerated, and a scheme that takes this for a motion makes
-//! or loses energy by it. So the relation of the scheme between velocities and accelerations is taken for the angular momentum
-//! π = J ω in axes fixed in space, which no moment of the body's own inertia changes, and its relation between rotation vectors and
-//! their rates is made exact to third order for the acceleration g of the rotation vector of a body without moments:
+//! In the coordinates of a rotation vector a freely turning body has an acceleration. A scheme that treats it as a motion generates or
+//! dissipates energy. The relation of the scheme between velocities and accelerations is therefore applied to the angular momentum `π = J
+//! ω` in space, which no moment of the body's inertia changes. Its relation between rotation vectors and their rates is made exact to third
+//! order for the acceleration g of the rotation vector of a body without moments:
 //!
-//! Θ̇ = r₁ Θ + r₂ ω₀ + r₃ α₀ + κ (g(Θ, Θ̇) − g₀), ω = T Θ̇, π̇ = e₁ J ω + e₂ π₀ + e₃ π̇₀, α = J⁻¹ (π̇ − ω×π).
+//! `Θ̇ = r₁ Θ + r₂ ω₀ + r₃ α₀ + κ (g(Θ, Θ̇) − g₀), ω = T Θ̇, π̇ = e₁ J ω + e₂ π₀ + e₃ π̇₀, α = J⁻¹ (π̇ − ω×π)`.
 //!
-//! About a thin axis the error of the momenta across it, divided by its small inertia, would become spin. As far as an axis is thin, its
-//! acceleration is therefore that of the angular velocity in axes of the body, which divides nothing:
+//! About a thin axis the error of the momenta across it, divided by its small inertia, would become spin. There the scheme is therefore
+//! applied to the angular velocity in body axes, without division by inertia:
 //!
 //! Ω̇ᵢ = wᵢ (J⁻¹ (Rᵀπ̇ − Ω×JΩ))ᵢ + (1 − wᵢ) (e₁ Ω + e₂ Ω₀ + e₃ Ω̇₀)ᵢ, wᵢ = min(1, Jᵢ / 0.1 J_max)².
 //!
-//! Both are of second order. Where no axis is thin a free body keeps its angular momentum to rounding, and the error of its rotation is of
-//! third order or higher; under moments the scheme is what it is for all other nodes, with its order and its stability. T and Θ̇ are those
-//! of [`rotation`].
-//! Momentum in space: J. C. Simo, K. K. Wong, Int. J. Numer. Meth. Engng 31 (1991).
+//! Both are of second order. If no axis is thin, a free body keeps its angular momentum to rounding, and the error of its rotation is of
+//! third order or higher. Under moments order and stability are those of the scheme. T and Θ̇ are those of [`rotation`]. Momentum in space:
+//! J. C. Simo, K. K. Wong, Int. J. Numer. Meth. Engng 31 (1991).
 //!
-//! What the deck holds or drives in rotation, what moves in a plane, what has the same inertia about all axes, and what has one that no
-//! body can have, turns like all other nodes. So do point masses and bodies that carry masses of dependent nodes: J is then not the inertia
-//! of what turns, its centre of mass is not the node, and the rule would lose more energy than that of the nodes.
+//! Other bodies turn like all other nodes: with restrained or driven rotations, in plane motion, with equal principal inertias, or with
+//! impossible ones. Point masses and bodies that carry masses of dependent nodes do too, because the node is then not the centre of the
+//! turning mass. The rule would dissipate more energy than the rule of other nodes.
 
 use super::inertia::{ConsistentMass, Inertia};
 use crate::tolerances::turning_body::{NEGLIGIBLE, PASSES, ROUNDING, THIN};
@@ -43,17 +42,17 @@ pub struct TurningBody {
     J0_inverse: Mat3,
     /// The angular acceleration by the rate of angular momentum in space, less the gyroscopic moment: W J₀⁻¹, in body axes.
     by_momentum: Mat3,
-    /// The part I − W of the angular acceleration that follows from angular velocities in axes of the body; `None` where no axis is thin.
+    /// The part I − W of the angular acceleration, from angular velocities in body axes; `None` if no axis is thin.
     own: Option<Mat3>,
 }
 
-/// What the rotation of a body starts from in a stage, in the axes of the body there. Seen from the body it is space that turns, by −Θ:
-/// vectors of the motion have the opposite sign.
+/// The start values of the rotation of a body in a stage, in body axes there. Seen from the body it is space that turns, by −Θ: vectors of
+/// the motion have the opposite sign.
 #[derive(Debug, Clone, Copy)]
 pub struct TurningStart {
     /// The rotation of the body.
     R: Mat3,
-    /// What stands in place of −ω₀ and −α₀ in the relation of the scheme between rotation vectors and their rates.
+    /// Start values of −ω₀ and −α₀ in the relation of the scheme between rotation vectors and their rates.
     omega: Vec3,
     alpha: Vec3,
     /// The part e₂ π₀ + e₃ π̇₀ of π̇.
@@ -104,20 +103,20 @@ impl TurningBody {
         inertias.iter_mut().filter_map(turning).collect()
     }
 
-    /// The body at a node, where nodes are asked for in ascending order; bodies at nodes that are not asked for do not move.
+    /// The body at a node; calls ascend in the nodes, and bodies at skipped nodes do not move.
     pub fn next_at<'a>(bodies: &mut Peekable<Iter<'a, TurningBody>>, node: usize) -> Option<&'a TurningBody> {
         while bodies.next_if(|body| body.node < node).is_some() {}
         bodies.next_if(|body| body.node == node)
     }
 
-    /// What a step from `node` starts from, where the scheme takes `alpha` for the angular acceleration.
+    /// The start values of a step from `node`, with `alpha` as angular acceleration of the scheme.
     pub fn start(&self, node: &Node, alpha: &Vec3, scheme: &Coefficients) -> TurningStart {
         let R = node.R();
         let [of_new, _, of_alpha, of_own] = scheme.of_velocities();
         let (omega, alpha) = (R.tr_mul(&node.omega), R.tr_mul(alpha));
         let momentum = self.J0 * omega;
         let rate = |alpha: &Vec3| self.J0 * alpha + omega.cross(&momentum);
-        // A steady rotation has no acceleration: the weight of π₀ is that of π but for the sign, and for rounding that would add up.
+        // A steady rotation has no acceleration: the weights of π₀ and π have equal magnitude, and their rounding errors would add up.
         let mut given = momentum * -of_new + rate(&alpha) * of_alpha;
         let mut own = omega * -of_new + alpha * of_alpha;
         if of_own != 0.0 {
@@ -129,8 +128,8 @@ impl TurningBody {
         TurningStart { R, omega: -omega, alpha: -alpha, momentum: given, own, free }
     }
 
-    /// What a second stage from `node` starts from, where `before` stands in place of the angular velocity and `rates` of its accelerations:
-    /// that of the angular momentum and, in axes of the body, that of the angular velocity.
+    /// The start values of a second stage from `node`. `before` replaces the angular velocity, and `rates` its accelerations: the rate of
+    /// the angular momentum, and of the angular velocity in body axes.
     pub fn start_of_stage(
         &self,
         node: &Node,
@@ -189,7 +188,7 @@ impl TurningBody {
         let [of_q, of_d, of_dd] = scheme.end;
         let rate_then = rate * of_dd[2] + rate_there * of_dd[3];
         let momentum_then = self.momentum(node) * of_d[1] + rate * of_d[2] + rate_there * of_d[3];
-        // The rotation vector follows by the acceleration with which the scheme comes to the new velocity.
+        // The rotation vector follows from the mean acceleration that gives the new velocity.
         let vector = |dd: &Vec3| theta * of_q[0] + node.omega * of_q[1] + node.alpha * of_q[2] + dd * of_q[3];
         let turned = |q: &Vec3| rotation::matrix(&rotation::renormalise(&(rotation::exp(q) * node.rotation)));
         let divided = |R: &Mat3, v: &Vec3| R * (self.by_momentum * R.tr_mul(v));
@@ -229,8 +228,8 @@ impl TurningBody {
         R * (self.J0 * R.tr_mul(alpha)) + node.omega.cross(&(R * (self.J0 * R.tr_mul(&node.omega))))
     }
 
-    /// The sum of angular accelerations with weights, each at its node, as one of the last node: of rates of the angular momentum in space
-    /// and, about thin axes, of angular velocities in axes of the body.
+    /// The weighted sum of angular accelerations at different nodes, as an acceleration of the last node. It sums rates of angular momentum
+    /// in space and, about thin axes, of angular velocities in body axes.
     pub fn combine(&self, rates: [(&Node, Vec3, f64); 3]) -> Vec3 {
         let [.., (last, ..)] = rates;
         let R = last.R();
@@ -248,7 +247,7 @@ impl TurningBody {
     }
 }
 
-/// Which nodes carry masses of dependent nodes; `links` as they are sorted, masters first.
+/// The nodes that carry masses of dependent nodes; `links` are sorted, masters first.
 fn carriers(nodes: usize, (inertias, consistent): (&[Inertia], &[ConsistentMass]), links: &[RigidLink]) -> Vec<bool> {
     let mut massive = vec![false; nodes];
     let of_elements = consistent.iter().flat_map(|element| &element.nodes);
@@ -265,8 +264,8 @@ fn set(of: &mut Vec6, angular: &Vec3) {
     (0..3).for_each(|i| of[3 + i] = angular[i]);
 }
 
-/// The inverse of an inertia tensor that a body can have: no principal inertia vanishes or exceeds the sum of the others, which bounds the
-/// acceleration of free rotation by ω². `None` too where all are alike: such a body turns steadily when it is free.
+/// The inverse of a physically possible inertia tensor: no principal inertia vanishes or exceeds the sum of the others. This bounds the
+/// acceleration of free rotation by ω². Also `None` for equal principal inertias, since such a free body turns steadily.
 fn inverse_of_a_body(J0: &Mat3) -> Option<Mat3> {
     let mut J = J0.symmetric_eigenvalues();
     J.as_mut_slice().sort_by(f64::total_cmp);
@@ -279,7 +278,7 @@ fn inverse_of_a_body(J0: &Mat3) -> Option<Mat3> {
 /// The part I − W of accelerations from angular velocities in axes of the body, and W J₀⁻¹ of those from the momentum in space. W has the
 /// principal axes of the body and is 1 above [`THIN`] of the largest inertia. `None` where no axis is thin.
 ///
-/// W falls with the square of the inertia, so that W J₀⁻¹ has a bound and vanishes with the inertia.
+/// W is proportional to the squared inertia, so W J₀⁻¹ is bounded and vanishes with the inertia.
 fn about_thin_axes(J0: &Mat3) -> Option<(Mat3, Mat3)> {
     let SymmetricEigen { eigenvectors, eigenvalues } = J0.symmetric_eigen();
     let largest = eigenvalues.max();

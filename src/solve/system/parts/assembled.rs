@@ -10,7 +10,7 @@ use mechanics::sections::Stiffness;
 use model::Model;
 use std::ops::Range;
 
-/// The data from which the blocks of a scene are made.
+/// The data for the blocks of a model.
 pub struct Setting<'s> {
     /// The model.
     pub model: &'s Model,
@@ -31,13 +31,13 @@ pub trait Assembled {
     /// Adds the mass of the part at its nodes or over its elements; a part may have none.
     fn add_masses(&self, _stiffnesses: &[Stiffness], _masses: &mut NodalMasses) {}
 
-    /// The lumped mass of an element; `None` for what has none, or does not deform.
+    /// The lumped mass of an element; `None` for elements without mass and for rigid ones.
     fn lumped(&self, _element: usize, _stiffnesses: &[Stiffness], _masses: &NodalMasses) -> Option<LumpedElement> {
         None
     }
 
-    /// The squares of the distances of neighbouring nodes of an element that deforms, at t = 0, as a tensor S, global components: aᵀ S a is
-    /// that along which waves run that turn the element about the unit vector a, and zero where none do.
+    /// The squared distances of neighbouring nodes of a deformable element at t = 0, as a tensor S, global components. `aᵀ S a` belongs to
+    /// waves that turn the element about the unit vector a, and is zero if there are none.
     fn spacing(&self, _element: usize, _masses: &NodalMasses) -> Mat3 {
         Mat3::zeros()
     }

@@ -1,5 +1,5 @@
-//! Resultants at both ends of each element of the beams, by its equilibrium: internal forces on its end nodes, less the shares there of
-//! loads along it, of weight and of inertia. They balance joints, supports and what else acts at the node to what the iteration leaves.
+//! Resultants at both ends of each beam element, from its equilibrium: internal forces on its end nodes, less the shares of distributed
+//! loads, weight and inertia. They balance joints, supports and other forces at the node up to the convergence error.
 
 use super::beams::{in_section, lumped};
 use super::masses::NodalMasses;
@@ -35,13 +35,13 @@ struct BeamEnd {
 }
 
 impl BeamEnds {
-    /// True where a table or an expected value asks for resultants at ends.
+    /// True if a table or an expected value uses resultants at ends.
     pub fn wanted(model: &Model) -> bool {
         let listed = model.output.sections.is_some_and(|places| places != SectionPlaces::Points);
         listed || model.expects.iter().any(|expect| matches!(expect.at, ExpectAt::Sections(_)))
     }
 
-    /// The ends of the beams of a model at its initial positions, with what is added to their masses.
+    /// The ends of the beams of a model at its initial positions, with the mass scaling.
     pub fn new(model: &Model, x: &[Vec3], mass_scaling: Option<&MassScaling>) -> BeamEnds {
         let mut loads: HashMap<(usize, usize, usize), Vec<usize>> = HashMap::new();
         for (index, load) in model.loading.nodal.iter().enumerate() {
@@ -109,7 +109,7 @@ impl BeamEnds {
         })
     }
 
-    /// The share of an end in what acts along the element: loads, weight less inertia, and damping of the mass.
+    /// The share of an end in the loads along the element: loads, weight less inertia, and damping of the mass.
     fn distributed(
         &self,
         end: &BeamEnd,

@@ -33,20 +33,20 @@ pub enum SectionPlace {
     End,
 }
 
-/// What acts along beams, from which the resultants at the ends of their elements follow.
+/// The loads along beams, for the resultants at the ends of their elements.
 pub struct EndForces<'a> {
     /// The ends.
     pub ends: &'a BeamEnds,
     /// The loads of the model, ...
     pub loads: &'a [Load],
-    /// ... and what they are at the instant.
+    /// ... and their values at the instant.
     pub loading: &'a Loading,
     /// Rayleigh damping of their masses.
     pub damping: &'a MassDamping,
 }
 
-/// Writes the stress resultants of all beams into `out`, in deck order: those at their integration points, and with what acts along the
-/// beams those at the ends of their elements too.
+/// Writes the stress resultants of all beams into `out`, in deck order: at their integration points, and with `acting` also at the ends of
+/// their elements.
 pub fn section_points(
     groups: &[Group],
     model: &Model,

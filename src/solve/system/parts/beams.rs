@@ -31,7 +31,7 @@ impl Assembled for Beam {
         Some(lumped(self, element, stiffnesses, masses))
     }
 
-    /// Torsion has the rotary inertia of the section, as it is.
+    /// The rotary inertia of torsion is not raised.
     fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
         let nodes = &self.elements[element].nodes;
         let along = (masses.x[nodes[self.order]] - masses.x[nodes[0]]) / self.order as f64;
@@ -68,8 +68,7 @@ fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn Element
     }
 }
 
-/// True where a plane motion bends all elements of a part along local z, false where along local y; `None` if it does
-/// neither.
+/// True if a plane motion bends all elements of a part along local z, false if along local y; `None` if neither.
 fn in_plane(part: &Beam, plane: Option<usize>) -> Option<bool> {
     let normal = plane?;
     let across = |axis: usize| part.elements.iter().all(|e| e.frame[(normal, axis)].abs() > 1.0 - 1e-12);
@@ -85,8 +84,8 @@ pub fn merges_fibres(beam: &Beam, plane: Option<usize>) -> bool {
 /// True for a section that bending and stretching in the plane neither bend nor twist out of it.
 fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
     let turn = |K: &Mat3| frame * K * frame.transpose();
-    // The coupling of forces and curvatures may be nothing but rounding, that of a shear centre at the centroid: it
-    // is small beside the geometric mean of the stiffnesses of forces and moments.
+    // With the shear centre at the centroid, the coupling of forces and curvatures may be only rounding. It is then small beside the
+    // geometric mean of the stiffnesses of forces and moments.
     let rest = turn(&C.NM);
     let paired = rest.amax() > SMALL * C.N.amax().sqrt() * C.M.amax().sqrt();
     plane.decouples(&turn(&C.N)) && plane.decouples(&turn(&C.M)) && (!paired || plane.decouples_rotations(&rest))
@@ -108,8 +107,8 @@ pub(super) fn lumped(beam: &Beam, element: usize, stiffnesses: &[Stiffness], mas
     LumpedElement(element.nodes[..=beam.order].iter().zip(weights).map(share).collect())
 }
 
-/// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order: polynomials through the
-/// integration points, or through both ends where there is one point.
+/// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order. The values are polynomials through
+/// the integration points, or through both ends if there is one point.
 pub fn nodal_resultants(groups: &[Group], model: &Model, now: &Configuration, out: &mut Vec<[f64; 6]>) {
     out.clear();
     for group in groups {

@@ -47,7 +47,7 @@ impl Assembled for Contact {
     fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
         let TouchedSurface::Shape(CarriedSurface { surface, .. }) = &self.surface else { return false };
         let center = surface.center[plane.normal].abs();
-        // Two solids of which each is the same on both sides of the plane push each other along it.
+        // Two solids that are symmetric about the plane push each other along it.
         if self.convex.iter().any(|one| !one.shape.is_symmetric(plane.normal)) {
             return false;
         }
@@ -63,7 +63,7 @@ impl Assembled for Contact {
     }
 }
 
-/// The blocks of points with equally many nodes against facets; each looks for what is near by itself, so they are not cut in pieces.
+/// The blocks of points with equally many nodes against facets. Each block searches its neighbours itself, so the blocks are not divided.
 /// Nodes of the facets against boxes and hulls come after them.
 fn facet_blocks(
     law: ContactLaw,

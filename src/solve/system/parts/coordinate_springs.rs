@@ -1,9 +1,9 @@
-//! What acts along the coordinates of joints, in the equation of motion. The coordinate q is the violation of the equation that would lock
-//! the joint, so its gradient G spreads the effort f over the nodes: force Gᵀ f, stiffness Gᵀ (∂f/∂q) G + f ∂²q, and action equals
-//! reaction.
+//! Springs, dampers, stops and friction along the coordinates of joints, in the equation of motion. The coordinate q is the gap of the
+//! equation that would lock the joint. Its gradient G distributes the effort f to the nodes: force Gᵀ f, stiffness Gᵀ (∂f/∂q) G + f ∂²q,
+//! and action equals reaction.
 //!
-//! Angles are counted over full turns from that at the end of the last step, on from there with the mean of the rates: half a turn
-//! more or less is the limit, not the turn itself. That of a drive is what the drive says, to the nearest turn.
+//! Angles are counted over full turns: the nearest to the angle extrapolated from the end of the last step with the mean of the rates. The
+//! extrapolation may err by half a turn. The angle of a drive is nearest to its prescribed value.
 
 use base::math::{Mat3, Vec3, Vec6, angular, linear, stack};
 use mechanics::constraints::joint::{ConstraintEquation, Drive};
@@ -18,7 +18,7 @@ use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node};
 use std::ops::Range;
 
-/// What acts along the coordinate of one joint.
+/// The laws along the coordinate of one joint.
 #[derive(Debug, Clone)]
 pub struct CoordinateSpring {
     /// The two nodes.
@@ -118,7 +118,7 @@ impl Elements for CoordinateSprings {
 
 impl Mechanics for CoordinateSprings {
     fn is_damped(&self) -> bool {
-        // What an impact loses is lost over the rate.
+        // An impact dissipates energy through the rate.
         let loses = |law: &CoordinateLaw| law.stops.as_ref().is_some_and(|stops| stops.loss != Loss::None);
         self.springs.iter().any(|spring| spring.law.damping > 0.0 || loses(&spring.law))
     }
@@ -142,7 +142,7 @@ impl Mechanics for CoordinateSprings {
                 (spring.law.friction_after(0.0, old), spring.law.friction_after(now.dt, old))
             {
                 lost.friction += part * 0.5 * (before.limit + friction.limit) * at.slip.abs();
-                // What sticks grows soft or stiff with the load, and is stretched all the same.
+                // A sticking spring changes its stiffness with the load at constant stretch.
                 let stretch = friction.stretch(old[0], old[ANCHOR]).0;
                 lost.friction += 0.5 * part * (before.stiffness - friction.stiffness) * stretch * stretch;
             }

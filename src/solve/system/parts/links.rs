@@ -17,7 +17,7 @@ use model::{Link, LinkKind, Model, PartKind};
 /// The state of a link at the end of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinkState {
-    /// Elongation; of a bushing, the relative displacement along its first axis; of a joint, its coordinate.
+    /// Elongation, relative displacement along the first axis of a bushing, or coordinate of a joint.
     pub elongation: f64,
     /// Rate of the elongation.
     pub rate: f64,
@@ -37,12 +37,12 @@ pub enum LinkElement {
     Line(link::Link),
     /// A bushing.
     Bushing(Bushing),
-    /// What acts along the coordinate of a joint.
+    /// The laws along the coordinate of a joint.
     Joint(CoordinateSpring),
 }
 
 impl Assembled for Link {
-    /// The first link stands for all: they share one block for lines and one for bushings.
+    /// The first link creates the blocks of all links, which share one block for each kind.
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
         if !setting.model.each::<Link>().next().is_some_and(|first| std::ptr::eq(first, self)) {
             return Vec::new();
@@ -118,8 +118,8 @@ pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Optio
     links.iter().position(turned)
 }
 
-/// The bushing, by its place among the links, whose ends turn against each other so far in a step of length `dt` from `start` to
-/// `end` that they may have turned by a full turn more or less.
+/// The bushing, by its place among the links, whose relative rotation in a step of length `dt` from `start` to `end` is ambiguous by a full
+/// turn.
 pub fn turns_too_far(links: &[LinkElement], start: &[Node], end: &[Node], dt: f64) -> Option<usize> {
     let turns =
         |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.turns_too_far(start, end, dt));
@@ -137,7 +137,7 @@ pub struct RememberingLink {
     pub name: String,
     /// The places of its history variables.
     pub slots: Vec<usize>,
-    /// True for what acts along a joint.
+    /// True for a link along the coordinate of a joint.
     pub is_joint: bool,
 }
 

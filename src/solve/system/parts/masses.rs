@@ -11,7 +11,7 @@ pub struct LumpedElement(pub Vec<NodalShare>);
 pub struct NodalShare {
     /// The node.
     pub node: usize,
-    /// Mass; zero where the deck leaves it out.
+    /// Mass; zero if the deck omits it.
     pub mass: f64,
     /// Inertia tensor about the node, global components at t = 0; zero likewise.
     pub J0: Mat3,
@@ -44,7 +44,7 @@ impl<'s> NodalMasses<'s> {
         element.0.iter().for_each(|share| self.lumped.add(share.node, share.mass, &share.J0));
     }
 
-    /// True where a deformable part has mass at a node of its own.
+    /// True if a deformable part adds mass at this node.
     pub fn has_mass(&self, kind: MassKind, node: usize) -> bool {
         match kind {
             MassKind::Lumped => true,
@@ -53,7 +53,7 @@ impl<'s> NodalMasses<'s> {
         }
     }
 
-    /// True where a deformable part has rotary inertia at a node of its own.
+    /// True if a deformable part adds rotary inertia at this node.
     pub fn has_rotary_inertia(&self, kind: MassKind, node: usize) -> bool {
         kind == MassKind::Consistent || self.has_mass(kind, node)
     }

@@ -28,7 +28,7 @@ pub fn assembled(part: &Part) -> &dyn Assembled {
     }
 }
 
-/// The column of the table of energies to which the elements of a part add what they store.
+/// The column of the energy table for the stored energy of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Storage {
     /// Elastic energy of deformable parts.
@@ -39,7 +39,7 @@ pub enum Storage {
     Contacts,
 }
 
-/// The column in which parts of a kind store energy.
+/// The energy column of a kind of part.
 #[inline]
 pub fn storage(kind: PartKind) -> Storage {
     match kind {

@@ -1,13 +1,13 @@
 //! Transverse shear forces of three-node triangles, by equilibrium of their moments.
 //!
 //! The edges of these elements bend, and twisting moments at the edges that turn into forces at the corners cannot be told, in one element,
-//! from shear forces. Those of all elements at a node cancel, though: what is left of the balance of moments there is
+//! from shear forces. The contributions of all elements at a node cancel, though. The remaining balance of moments is
 //!   Q_a ∑ A/3 = −∑ A M·∇L_a,
-//! over the elements at node a, with their mean moments M and areas A, and L_a linear. It is the weak form of Q = ∇·M, and converges with the order
-//! 1.2 to 1.5 in the size of the elements, where what elements say by themselves does not converge. Elements have the mean of their nodes.
+//! over the elements at node a, with their mean moments M and areas A, and L_a linear. It is the weak form of Q = ∇·M, and converges with
+//! order 1.2 to 1.5 in the element size, whereas Q of single elements does not converge. Elements have the mean of their nodes.
 //!
-//! Left out are nodes at which something else takes moments, elements of other parts or of other directors, supports, loads: elements have the mean
-//! of their other nodes, and keep their own where they have none.
+//! Nodes with other moments are omitted: elements of other parts or other directors, supports, loads. Elements use the mean of their other
+//! nodes, and keep their Q if there are none.
 
 use super::shells::ShellState;
 use crate::tolerances::shell_shear::SAME;
@@ -15,7 +15,7 @@ use base::math::Vec3;
 use mechanics::elements::shell::result_axes;
 use model::{Load, Model, PartType, Shell};
 
-/// What is known of a node.
+/// The balance of moments at a node.
 #[derive(Debug, Clone, Copy)]
 struct NodalMoments {
     /// −∑ A M·∇L, in the surface at t = 0; global components.
@@ -26,7 +26,7 @@ struct NodalMoments {
     part: usize,
     /// Director at t = 0.
     normal: Vec3,
-    /// False where something else takes moments.
+    /// False if other moments act at the node.
     is_free: bool,
 }
 
@@ -87,7 +87,7 @@ impl ShearBalance {
         }
     }
 
-    /// Empties the balances, and finds the nodes at which elements of one part are alone with their moments.
+    /// Clears the balances, and finds the nodes where only moments of elements of one part act.
     fn find_free(&mut self, model: &Model) {
         let none =
             NodalMoments { force: Vec3::zeros(), area: 0.0, part: usize::MAX, normal: Vec3::zeros(), is_free: true };

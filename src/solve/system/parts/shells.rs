@@ -96,7 +96,7 @@ fn lumped(part: &Shell, nodes: &[usize], masses: &NodalMasses) -> LumpedElement 
     let areas = shell::lumped_shares(&corners);
     let share = |(&node, area): (&usize, f64)| {
         let mass = if masses.has_mass(part.mass, node) { part.density * h * area } else { 0.0 };
-        // The inertia about the normal is the same, where a director has none, so that no direction is without inertia.
+        // The inertia about the normal, which a director does not have, gets the same value, so every direction has inertia.
         let rotary =
             if masses.has_rotary_inertia(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
         NodalShare { node, mass, J0: rotary * Mat3::identity() }
