@@ -46,14 +46,14 @@ pub enum Amplitude {
     Ramp {
         /// Start time.
         start: f64,
-        /// Time at which it reaches 1.
+        /// Time of the value 1.
         end: f64,
     },
     /// 1 for start ≤ t < end, 0 outside.
     Step {
-        /// Time at which it reaches 1.
+        /// Time of the jump to 1.
         start: f64,
-        /// Time at which it returns to 0.
+        /// Time of the return to 0.
         end: f64,
     },
     /// 1.
@@ -114,7 +114,7 @@ pub struct Jump {
 }
 
 impl Jump {
-    /// A sine that ends at a zero leaves only rounding of its argument.
+    /// True for a jump above rounding; a sine cut at its zero jumps by rounding only.
     fn is_felt(&self) -> bool {
         self.time.is_finite() && (self.after - self.before).abs() > 1e-12
     }
@@ -156,7 +156,7 @@ impl Amplitude {
         all.into_iter().filter(Jump::is_felt).collect()
     }
 
-    /// The same function, shifted to later times.
+    /// This function shifted to later times.
     #[must_use]
     pub fn later(self, by: f64) -> Amplitude {
         match self {

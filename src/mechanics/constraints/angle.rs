@@ -1,6 +1,6 @@
 //! Relative angle of two nodes about a shared axis, with its derivatives.
 //!
-//! With u = R_b p and the axes p, s normal to the shared axis e = p × s of the first node, x = u·R_a p and y = u·R_a s, the angle is θ =
+//! The axes p and s of the first node are normal to the shared axis e = p × s. With u = R_b p, x = u·R_a p and y = u·R_a s the angle is θ =
 //! atan2(y, x). If the nodes share the axis, x² + y² = 1. The formula is smooth elsewhere too, so iterates may leave the axis. The angle is
 //! known up to full turns: who needs them counts.
 

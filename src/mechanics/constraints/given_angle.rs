@@ -1,4 +1,4 @@
-//! One of three rotations of a node against its support, beside a free rotation: a component of the rotation vector, or an angle of a
+//! One of three rotations of a node against its support, beside a free rotation. It is a component of the rotation vector, or an angle of a
 //! sequence R = R_i R_j R_k of rotations about global axes. With e the axes and ± the sign of i, j, k the angles are
 //!   atan2(∓ e_j·R e_k, e_k·R e_k),  asin(± e_i·R e_k),  atan2(∓ e_i·R e_j, e_i·R e_i).
 
@@ -69,8 +69,8 @@ impl GivenAngle {
         }
     }
 
-    /// True if the angle is ambiguous after a step: the rotation vector is near half a turn, or the second angle of a sequence near a right
-    /// angle, or either has passed there.
+    /// True if the angle is ambiguous after a step: the rotation vector is near half a turn, the second angle of a sequence near a right
+    /// angle, or either has passed it.
     pub fn is_lost(&self, [before, after]: [&Node; 2], b: &Node) -> bool {
         const HALF_TURN: f64 = 3.0; // radians, of π
         const RIGHT_ANGLE: f64 = 0.05; // the cosine of 1.52 of π/2 radians

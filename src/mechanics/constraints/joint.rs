@@ -165,7 +165,7 @@ impl ConstraintEquation {
         }
     }
 
-    /// The equation that locks the distance of the second node from the first along an axis, counted from t = 0; its violation is that
+    /// The equation that locks the distance from the first to the second node along an axis, relative to t = 0; its violation is that
     /// distance. `d` is x_a − x_b at t = 0.
     pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {
         ConstraintEquation::BodyAxis { e: -e, at: -d.dot(e) }

@@ -52,14 +52,14 @@ pub trait Elements: Send + Sync {
     fn is_rotational(&self, _e: usize, _node: usize) -> bool {
         true
     }
-    /// The unit vector along which element `e` acts, where that is fixed in space.
+    /// The unit vector of the force of element `e`, if fixed in space.
     fn fixed_direction(&self, _e: usize) -> Option<Vec3> {
         None
     }
 }
 
-/// The forces of elements, their tangents and what materials remember: all that assembly asks. Matrices are row-major over the nodes of an
-/// element, [`Elements::dofs`] degrees of freedom each.
+/// The forces, tangents and material histories of elements, as assembly needs them. Matrices are row-major over the nodes of an element,
+/// [`Elements::dofs`] degrees of freedom each.
 pub trait Mechanics: Elements {
     /// The number of history variables of all material points.
     fn history(&self) -> usize {
@@ -76,18 +76,18 @@ pub trait Mechanics: Elements {
         let each = K.chunks_mut(length).enumerate();
         each.for_each(|(k, K)| self.tangent(first + k, now, rate_weight, moduli, K));
     }
-    /// The elastic tangent of element `e` in the configuration `now` with the stresses that it has where its nodes are those `stressed`: what
-    /// stresses add to stiffness, apart from what displacements do. By default all is that of the nodes `stressed`.
+    /// The elastic tangent of element `e` in the configuration `now`, with the stresses at the node positions `stressed`: geometric
+    /// stiffness without large displacements. By default all is that of the nodes `stressed`.
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
         self.tangent(e, &Configuration { nodes: stressed, lead: None, ..*now }, 0.0, Moduli::Elastic, K);
     }
-    /// Writes the history variables at `part` of the way from the last state to `now` into `new`, which has the length
-    /// [`Mechanics::history`], and returns the work that material points dissipate or store inelastically on that way.
+    /// Writes the history variables at `part` of the way from the last state to `now` into `new`, of length [`Mechanics::history`]. Returns
+    /// the work dissipated or stored inelastically by material points.
     fn update_history(&self, _now: &Configuration, _part: f64, _new: &mut [f64]) -> Dissipation {
         Dissipation::default()
     }
-    /// Subtracts the internal forces from `F` as [`Mechanics::subtract_forces`] does and writes the history variables in `now` into `new`
-    /// as [`Mechanics::update_history`] does: the same numbers, with the material computed once.
+    /// Does [`Mechanics::subtract_forces`] and [`Mechanics::update_history`] for the end of the step together, with the material computed
+    /// once and the same results.
     fn advance(&self, now: &Configuration, F: &mut [Force], new: &mut [f64]) -> Dissipation {
         self.subtract_forces(now, F);
         self.update_history(now, 1.0, new)
@@ -102,7 +102,7 @@ pub trait Mechanics: Elements {
     }
 }
 
-/// Energies, stresses and strains of elements, and whether they have failed: what is written and warned of.
+/// Energies, stresses, strains and failure of elements, for output and warnings.
 pub trait Results: Elements {
     /// Elastic energy stored.
     fn energy(&self, now: &Configuration) -> f64;
@@ -110,7 +110,7 @@ pub trait Results: Elements {
     fn damping_power(&self, _now: &Configuration) -> f64 {
         0.0
     }
-    /// Internal forces of element `e`, a line from its first node to its last, on these two; `None` for what is no such line.
+    /// Internal forces on the two end nodes of a line element `e`; `None` for other elements.
     fn end_forces(&self, _e: usize, _now: &Configuration) -> Option<[Force; 2]> {
         None
     }
@@ -118,7 +118,7 @@ pub trait Results: Elements {
     fn axial_force(&self, _e: usize, _now: &Configuration) -> Option<f64> {
         None
     }
-    /// The number of integration points of an element at which [`Results::point`] gives results.
+    /// The number of integration points with results of [`Results::point`].
     fn points(&self) -> usize {
         0
     }
@@ -126,8 +126,8 @@ pub trait Results: Elements {
     fn point(&self, _e: usize, _point: usize, _frame: &Mat3, _now: &Configuration) -> Option<IntegrationPoint> {
         None
     }
-    /// Stress resultants of a shell element whose nodes lay at `start`. Axis 1 is `axis` projected on the surface at t = 0, or,
-    /// where that is normal to the surface, the global axis farthest from the normal.
+    /// Stress resultants of a shell element whose nodes lay at `start`. Axis 1 is `axis` projected on the surface at t = 0; if `axis` is
+    /// normal to the surface, the global axis farthest from the normal is projected.
     fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<ShellResultants> {
         None
     }
@@ -154,13 +154,13 @@ pub trait Results: Elements {
     }
 }
 
-/// The branches between kinks on which elements are, and the states that they must not pass.
+/// Kinks in the forces of elements, and states that elements must not pass.
 pub trait Branches: Elements {
     /// True where element `e` has neither force nor tangent in this configuration.
     fn is_inactive(&self, _e: usize, _now: &Configuration) -> bool {
         false
     }
-    /// True where forces have kinks: their slope jumps where something opens, closes, slips, yields or comes to a stop.
+    /// True where forces have kinks: their slope jumps at opening, closing, slip, yielding and stops.
     fn has_kinks(&self) -> bool {
         false
     }
@@ -168,8 +168,8 @@ pub trait Branches: Elements {
     fn branches(&self, _now: &Configuration) -> usize {
         0
     }
-    /// True where element `e` has passed through zero length or area, or stands against its own sections, so that it is no longer what
-    /// it models. `before`: the nodes at the start of the step.
+    /// True where element `e` has passed through zero length or area, or is reversed against its sections, and no longer represents the
+    /// structure. `before`: the nodes at the start of the step.
     fn is_turned_over(&self, _e: usize, _before: &[Node], _now: &[Node]) -> bool {
         false
     }

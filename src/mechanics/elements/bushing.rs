@@ -70,7 +70,7 @@ impl Bushing {
         Quaternion::from_parts(Q.w, self.axes.tr_mul(&Q.imag()))
     }
 
-    /// True if the ends have rotated so far, in total or in this step, that the moment is undefined: near half a turn of a rotation vector
+    /// True if the ends have rotated too far, in total or in this step, for the moment to be defined: near half a turn of a rotation vector
     /// or of the swing of an axis.
     pub fn is_turned_over(&self, start: &[Node], end: &[Node]) -> bool {
         self.spring.is_turned_over(&self.relative_rotation(start), &self.relative_rotation(end))
@@ -252,7 +252,7 @@ impl Mechanics for Bushings {
         let (k, c, c_phi) = (global(&bushing.stiffness), global(&c), global(&c_phi));
         let k_phi = B * bushing.spring.tangent(&motion.Q, last) * B.transpose();
         let (r, u, w) = (skew(&motion.r), skew(&motion.u), skew(&motion.w));
-        // δF = F_r δr + F_1 δθ₁ with δd = Bᵀ(δr + r~ δθ₁), δḋ = Bᵀ(δu + u~ δθ₁), δu = δv₂ − δv₁ + r~ δω₁ − ω₁~ δr.
+        // δF = F_r δr + F_1 δθ₁ with δd = Bᵀ(δr + r~ δθ₁), δḋ = Bᵀ(δu + u~ δθ₁) and δu = δv₂ − δv₁ + r~ δω₁ − ω₁~ δr.
         let F_r = k + c * (rate_weight * Mat3::identity() - skew(&omega));
         let F_1 = k * r + c * (u + rate_weight * r) - skew(&F);
         // δM = M_2 (δθ₂ − δθ₁) + M_1 δθ₁

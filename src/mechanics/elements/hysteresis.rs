@@ -1,6 +1,6 @@
-//! Effort of a plastic hinge or a yielding damper over its coordinate: parallel springs that slip at their limits, and one that does not
-//! (Iwan, J. Appl. Mech. 33, 1966). First loading follows the backbone, which is piecewise linear and symmetric. Unloading and reloading
-//! follow the backbone twice as large (Masing), with kinematic hardening.
+//! Effort of a plastic hinge or a yielding damper over its coordinate: parallel springs with slip limits, and one without (Iwan, J. Appl.
+//! Mech. 33, 1966). First loading follows the backbone, which is piecewise linear and symmetric. Unloading and reloading follow the
+//! backbone twice as large (Masing), with kinematic hardening.
 
 use super::slider::{CoordinateState, DryFriction};
 

@@ -27,14 +27,14 @@ pub enum LinkLaw {
     CompressionOnly {
         /// k, force per length.
         stiffness: f64,
-        /// Shortening at which the link closes.
+        /// Shortening of the link at closing.
         gap: f64,
     },
     /// N = k (δ − gap) for δ ≥ gap, else zero.
     TensionOnly {
         /// k, force per length.
         stiffness: f64,
-        /// Elongation at which the link closes.
+        /// Elongation of the link at closing.
         gap: f64,
     },
 }
@@ -226,13 +226,13 @@ impl Link {
         self.damping > 0.0 || (self.beta > 0.0 && !matches!(self.law, LinkLaw::Linear { stiffness: 0.0, .. }))
     }
 
-    /// Returns the link with a node that takes up length: its displacement along x adds to the elongation of the ends.
+    /// Returns the link with a node for take-up: its displacement along x adds to the elongation of the ends.
     pub fn taken_up(self, node: Option<usize>) -> Link {
         let [a, b] = self.nodes;
         Link { take_up: node.map(|node| [a, b, node]), ..self }
     }
 
-    /// True if a node takes up length.
+    /// True for a link with take-up by a node.
     pub fn is_taken_up(&self) -> bool {
         self.take_up.is_some()
     }

@@ -1,9 +1,9 @@
 //! Follower pressure: it acts on the deformed area of a face, against its normal.
 //!
-//! The forces on the nodes of a face x(ξ, η) are f_a = −p ∫ N_a x,ξ × x,η dξ dη. The normal points to the side from which the nodes run
-//! counter-clockwise. The integral is a polynomial of second degree in the node positions, written out below for linear and bilinear x. f
-//! is −p times the derivative of the volume under the face. A closed surface therefore has the potential p V and a symmetric stiffness; at
-//! a free edge the stiffness is unsymmetric (Schweizerhof & Ramm 1984).
+//! The forces on the nodes of a face x(ξ, η) are f_a = −p ∫ N_a x,ξ × x,η dξ dη. About the normal the nodes run counter-clockwise. The
+//! integral is a polynomial of second degree in the node positions; the code below writes it out for linear and bilinear x. f is −p times
+//! the derivative of the volume under the face. A closed surface therefore has the potential p V and a symmetric stiffness; at a free edge
+//! the stiffness is unsymmetric (Schweizerhof & Ramm 1984).
 
 use super::block::{Force, subtract};
 use crate::state::Node;

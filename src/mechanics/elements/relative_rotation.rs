@@ -1,8 +1,8 @@
 //! The elastic moment of a bushing over the rotation of its second end relative to its first.
 //!
-//! Rotation vectors add only while they are small. For a body that spins about one axis and is slightly tilted, log(R) has transverse
-//! components that are turned by half the spin and longer than the tilt. If the stiffness about one axis n differs from the others, the
-//! rotation is split into a twist ψ about n and a swing s of that axis, from n to b = Q n:
+//! Rotation vectors add only while they are small. If a body spins about one axis and is slightly tilted, log(R) has transverse components
+//! turned by half the spin and longer than the tilt. If the stiffness about one axis n differs from the others, the rotation is split. It
+//! becomes a twist ψ about n and a swing s of that axis, from n to b = Q n:
 //!   s = g(c) n × b,  c = n·b = cos θ,  g = θ/sin θ,   ψ̇ = ω·h,  h = (n + b)/(1 + c),
 //!   energy ½ s·k s + ½ k_n ψ²,  moment Hᵀ k s + k_n ψ h  with ṡ = H ω.
 //! The swing is that of the axis alone, however far the second end has turned about it. P. Dobrowolski, arXiv:1506.05481 (2015);
@@ -82,8 +82,8 @@ impl RotationalSpring {
         }
     }
 
-    /// Largest angle that moments depend on, of a step between two rotations in which the second end turns by the vector `spun` according
-    /// to velocities, components in the frame. A spin about a free axis is none of them.
+    /// Largest angle with influence on the moments in a step between two rotations; velocities give the rotation vector `spun` of the
+    /// second end, components in the frame. A spin about a free axis is none of them.
     pub fn step_angle(&self, rotations: &[Quaternion<f64>; 2], spun: &Vec3) -> f64 {
         let [before, after] = rotations;
         match *self {

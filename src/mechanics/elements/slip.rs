@@ -5,17 +5,17 @@ use base::math::Vec3;
 /// A spring of friction over one step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Slip {
-    /// The way of its anchor by slip, in axes that turn with what is touched.
+    /// The displacement of the anchor by slip, in axes turning with the touched body.
     pub way: Vec3,
     /// The size of its force at the end of the step.
     pub pull: f64,
     /// The force per stretch.
     pub stiffness: f64,
-    /// False where what rubs is apart at the end of the step.
+    /// False if the two are apart at the end of the step.
     pub touches: bool,
     /// The way along each other in a step that ends apart.
     pub apart: f64,
-    /// The speed of approach at the two ends of the step, negative where the two part; infinite at the start where it is not known.
+    /// The approach speed at both ends of the step, negative in separation; infinite at the start if unknown.
     pub approach: [f64; 2],
 }
 

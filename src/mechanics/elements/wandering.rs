@@ -46,9 +46,9 @@ impl Partners {
     }
 }
 
-/// A group of elements that also act on nodes that [`super::Elements::nodes`] does not list.
+/// A group of elements acting also on nodes outside [`super::Elements::nodes`].
 pub trait Wandering {
-    /// Nodes on which elements may act beside their own, and the nodes that they may turn.
+    /// Further nodes with forces from the elements, and further nodes with moments.
     fn further_nodes(&self) -> [&[usize]; 2];
 
     /// All pairs that may act soon at these node positions.

@@ -1,5 +1,5 @@
-//! Common part of generalized-α, HHT-α and Newmark: equilibrium at t + Δt with q̈₁, Newmark's formulas with γ and β for an acceleration a,
-//! and (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈.
+//! Common part of generalized-α, HHT-α and Newmark: equilibrium at t + Δt with q̈₁, Newmark's formulas with γ, β and an acceleration a, and
+//! (1 − α_m) a₁ + α_m a = (1 − α_f) q̈₁ + α_f q̈.
 
 use super::coefficients::Coefficients;
 use base::math::rotation::RotationUpdate;

@@ -1,9 +1,9 @@
-//! Central differences as velocity Verlet: positions at t + Δt follow from the motion at t, accelerations from equilibrium with the mass
-//! alone, and velocities from the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping, periods
-//! shortened; stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2, see [`super::stability_limit`]. Momenta of free
-//! motion are conserved. A free body follows its angular momentum: exactly with two equal principal inertias, otherwise with an energy
-//! oscillation of second order. With coupled masses or restrained directions the rotation Δt ω + ½ Δt² α is not reversible. Such a body
-//! gains or loses energy steadily, by the third power of the step.
+//! Central differences as velocity Verlet. Positions at t + Δt follow from the motion at t, accelerations from equilibrium with the mass
+//! alone, velocities from the mean of the accelerations. Nothing is solved for but M a = r. Second order, no damping, periods shortened;
+//! stable while the step resolves the fastest mode of the scene: ω Δt ≤ 2, see [`super::stability_limit`]. Momenta of free motion are
+//! conserved. A free body follows its angular momentum: exactly with two equal principal inertias, otherwise with an energy oscillation of
+//! second order. With coupled masses or restrained directions the rotation Δt ω + ½ Δt² α is not reversible. Such a body gains or loses
+//! energy steadily, by the third power of the step.
 //!
 //! Forces of velocity use the prediction v + Δt a, which keeps the order; the limit becomes ¼ (ω Δt)² + 2 ξ ω Δt ≤ 1. `mass_scaling_step`
 //! raises the mass of elements until each is stable at that step. L. Verlet, Phys. Rev. 159 (1967); T. Belytschko, T. J. R. Hughes (eds.),

@@ -111,8 +111,8 @@ mod tests {
         }
     }
 
-    /// Damping and period elongation per period at 10, 20 and 40 implicit stages a period, by an independent evaluation of the stability
-    /// function R(iωΔt), to two digits; a step removes unresolved motion.
+    /// Damping and period elongation per period at 10, 20 and 40 implicit stages a period. The reference is an independent evaluation of
+    /// R(iωΔt), to two digits; a step removes unresolved motion.
     #[test]
     fn spectrum_of_the_free_oscillator() {
         let scheme = Esdirk3 { rotation: RotationUpdate::Exponential };

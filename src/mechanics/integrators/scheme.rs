@@ -36,8 +36,7 @@ pub trait Scheme: fmt::Debug + Send + Sync {
     /// schemes.
     fn coefficients(&self, dt: f64) -> Coefficients;
 
-    /// Weights of (a, q̈ at the start, q̈ at the end of the step) in a at the end, for schemes with an algorithmic acceleration a in place
-    /// of the q̈ of equilibrium.
+    /// Weights of (a, q̈ at the start, q̈ at the end of the step) in a at the end, for schemes with an algorithmic acceleration a.
     fn algorithmic_acceleration(&self) -> Option<[f64; 3]> {
         None
     }
@@ -77,8 +76,8 @@ pub trait TwoStages {
     /// The weights of backward differences at the end of a step of length Δt.
     fn backward(&self, dt: f64) -> Backward;
 
-    /// The second stage, from the motion between the stages. In place of v and a it uses b₀ q₀ and b₀ v₀ + b₁ v. q₀ is the increment of the
-    /// first stage, v₀ and v the velocities at its start and end, b from [`TwoStages::backward`].
+    /// The second stage, from the motion between the stages. In place of v and a it uses b₀ q₀ and b₀ v₀ + b₁ v, with b from
+    /// [`TwoStages::backward`]. q₀ is the increment of the first stage, v₀ and v are the velocities at its start and end.
     fn second(&self, dt: f64) -> Coefficients;
 }
 

@@ -11,8 +11,8 @@ pub fn longest_step(stiffness: f64, damping: f64) -> f64 {
     2.0 / (damping + (damping * damping + stiffness).sqrt())
 }
 
-/// The largest stiffness of a mode that is stable at the step, with damping γ = α + β κ. It is not positive if mass-proportional damping
-/// alone is too fast for the step.
+/// The largest stable stiffness of a mode at the step, with damping γ = α + β κ. It is not positive if mass-proportional damping alone
+/// requires a shorter step.
 pub fn largest_stiffness(dt: f64, alpha: f64, beta: f64) -> f64 {
     (1.0 - alpha * dt) / (dt * (0.25 * dt + beta))
 }

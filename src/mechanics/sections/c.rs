@@ -70,7 +70,7 @@ pub fn channel(height: f64, width: f64, web: f64, flange: f64) -> Result<Section
     Ok(c(height, width, web, flange)?.section())
 }
 
-/// Walls of [`channel`]; the web takes the corners.
+/// Walls of [`channel`]; the web includes the corners.
 fn c(height: f64, width: f64, web: f64, flange: f64) -> Result<Profile, String> {
     positive(&[("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)])?;
     smaller(("web_thickness", web), ("width", width), "the web must leave a flange: less than")?;

@@ -1,4 +1,4 @@
-//! What shapes of sections share: checks of dimensions, and rectangles side by side.
+//! Helpers of several section shapes: checks of dimensions, and properties of rectangles side by side.
 
 /// Area, centroid, and moments about the centroid of rectangles side by side, each as (y, z) of its centre, width, height.
 pub fn rectangles(parts: &[([f64; 2], f64, f64)]) -> (f64, [f64; 2], [f64; 3]) {

@@ -1,9 +1,9 @@
 //! Sections as fibres, for materials that yield.
 //!
-//! Fibres lie in pairs of Gauss points, side by side: areas and moments are exact, as is the plastic moment wherever the
-//! neutral axis falls between pairs. Measured on a rectangle of n layers, the worst error of M(κ) up to 20 times the curvature
-//! of first yield, % of the greatest moment, ideally plastic (with the axial force 0.3 N_p; with hardening 0.7 % of E the
-//! numbers are within 0.8 of these; last column: error of the bending stiffness, %):
+//! Fibres lie in pairs of Gauss points, side by side: areas and moments are exact, as is the plastic moment wherever the neutral axis falls
+//! between pairs. The table gives the worst error of M(κ) on a rectangle of n layers, up to 20 times the curvature of first yield, in % of
+//! the greatest moment. The material is ideally plastic; numbers in brackets are with the axial force 0.3 N_p. Hardening of 0.7 % of E
+//! changes the numbers by at most 0.8. The last column is the error of the bending stiffness, in %.
 //!
 //! | n | 6 | 8 | 12 | 16 | EI |
 //! |---|---|---|---|---|---|
@@ -15,23 +15,26 @@
 //! | Lobatto | 5.6 (5.6) | 2.9 (2.2) | 1.3 (0.7) | 0.7 (0.6) | 0 |
 //! | least error, [`base::math::quadrature::kinked`] | 1.9 (1.4) | 1.0 (0.6) | 0.47 (0.3) | | 0 |
 //!
-//! Pairs are as good as midpoints, which miss the elastic answer, and better than any longer rule: a kink in the stress does
-//! not care for the degree, only for the longest gap. Rectangles have the places of least error up to twelve rows, and pairs beyond.
+//! Pairs are as good as midpoints, which have an elastic error, and better than any longer rule: at a kink in the stress only the longest
+//! gap matters, not the degree. Rectangles have the places of least error up to twelve rows, and pairs beyond.
 //!
-//! Shear has the shape of the elastic solution for good, scaled by Γ₂, Γ₃ and κ₁. So the elastic section is exact, and
-//! yielding does not redistribute shear: the capacities Σ A |s| τ_Y are, against the limits of plasticity, for a rectangle's
-//! shear force √(5k/6), 5/6 at a shear factor k of 5/6; its torque 1.05 (square) to 1.01 (10:1); a tube's torque and a thin one's shear force exact; a cell's torque
-//! exact at equal thickness, else above 2 A_m t_min τ_Y; an I's shear force about 1.15 of the web's, as its flanges share in
-//! it. A uniform mode would give the rectangle 0.91, but yields at the edges where no shear is: under bending and up to 0.7 of
-//! A τ_Y the parabola lies nearer to Drucker's M/M_p = 1 − (Q/A τ_Y)⁴ (1956, J. Appl. Mech. 23, 509-514).
+//! Shear always has the shape of the elastic solution, scaled by Γ₂, Γ₃ and κ₁. So the elastic section is exact, and yielding does not
+//! redistribute shear. The capacities Σ A |s| τ_Y, relative to the limits of plasticity, are:
+//! - rectangle: shear force √(5k/6), 5/6 at a shear factor k of 5/6; torque 1.05 (square) to 1.01 (10:1);
+//! - tube: torque exact, shear force exact if thin;
+//! - cell: torque exact at equal thickness, else above 2 A_m t_min τ_Y;
+//! - I: shear force about 1.15 of the web's, with the share of its flanges.
+//!
+//! A uniform mode would give the rectangle 0.91, but yields at the edges, where shear is zero. Under bending and up to 0.7 of A τ_Y the
+//! parabola is nearer to Drucker's M/M_p = 1 − (Q/A τ_Y)⁴ (1956, J. Appl. Mech. 23, 509-514).
 
 use super::section::Section;
 use base::math::{Mat3, Vec3};
 
-/// A part of a section that has one stress.
+/// A part of a section with one stress.
 ///
-/// Its strains are ε = Γ₁ + z κ₂ − y κ₃ and γ_a = shear[a]·(Γ₂, Γ₃, κ₁). What does the same work as σ and τ_a in the section:
-/// N = Σ A σ, M_y = Σ A z σ, M_z = −Σ A y σ and (Q_y, Q_z, T) = Σ A Σ_a τ_a shear[a].
+/// Its strains are ε = Γ₁ + z κ₂ − y κ₃ and γ_a = shear[a]·(Γ₂, Γ₃, κ₁). The stress resultants with the same work as σ and τ_a are N = Σ A
+/// σ, M_y = Σ A z σ, M_z = −Σ A y σ and (Q_y, Q_z, T) = Σ A Σ_a τ_a shear[a].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fibre {
     /// Area.
@@ -46,9 +49,8 @@ pub struct Fibre {
 
 /// Fibres with modes for shear and twist about the shear centre → about the centroid, with exactly the section's stiffness.
 ///
-/// Their sum C′ = Σ A s sᵀ misses C by the error of the quadrature, and by the corners, which the middle lines of walls see
-/// otherwise than the plates do. L L′⁻¹ s, with C = L Lᵀ and C′ = L′ L′ᵀ, is the nearby set that does not.
-/// Nothing is returned where the modes depend on each other.
+/// Their sum C′ = Σ A s sᵀ differs from C by the quadrature error, and by the corners, different for middle lines of walls and for plates.
+/// L L′⁻¹ s, with C = L Lᵀ and C′ = L′ L′ᵀ, is the nearby set that does not. Nothing is returned where the modes depend on each other.
 pub fn calibrated(mut fibres: Vec<Fibre>, section: &Section) -> Option<Vec<Fibre>> {
     let Section { torsion, shear: [yy, zz, yz], shear_center: [ys, zs], .. } = *section;
     let C = Mat3::new(yy, yz, 0.0, yz, zz, 0.0, 0.0, 0.0, torsion);
@@ -69,8 +71,8 @@ fn shear_stiffness(fibres: &[Fibre]) -> Mat3 {
 
 /// The fibres for motion in the plane of x and z (`along_z`) or of x and y: those at one height in the plane become one.
 ///
-/// Areas add, and so does the energy of shear in the plane (its mode is the root of the mean square); coordinates and modes
-/// out of the plane are gone. Bending and shear in the plane keep their stiffness, bending also its plastic answer.
+/// Areas add, and so does the energy of in-plane shear (its mode is the root of the mean square). Coordinates and modes out of the plane
+/// are dropped. Bending and shear in the plane keep their stiffness, bending also its plastic answer.
 pub fn flattened(fibres: &[Fibre], along_z: bool) -> Vec<Fibre> {
     let height = |f: &Fibre| if along_z { f.z } else { f.y };
     let mode = usize::from(along_z);
@@ -171,8 +173,8 @@ mod tests {
         })
     }
 
-    /// All the section knows comes back from its fibres, at any counts. Bounds are round-off: 1e-13 of the area times the
-    /// lengths at hand, more where the shear centre lies far out and most of the stiffness is that of its arm.
+    /// All the section knows comes back from its fibres, at any counts. Bounds are round-off: 1e-13 of the area times lengths, more where
+    /// the shear centre lies far out and its arm dominates the stiffness.
     #[test]
     fn the_elastic_section_is_exact() {
         for shape in random_shapes() {
@@ -244,9 +246,9 @@ mod tests {
         }
     }
 
-    /// Torque: 2π/3 (R³ − r³) for any tube; 2 A_m t for a cell of equal walls, to t/b squared; a full rectangle's sand heap,
-    /// b² (3h − b)/6, lies below what the elastic warping carries. Shear: all of a thin tube's walls (to the 20 fibres around),
-    /// 5/6 of the rectangle.
+    /// Torque: 2π/3 (R³ − r³) for any tube; 2 A_m t for a cell of equal walls, to t/b squared. The sand heap of a full rectangle, b² (3h −
+    /// b)/6, lies below the torque of the elastic warping. Shear: all of a thin tube's walls (to the 20 fibres around), 5/6 of the
+    /// rectangle.
     #[test]
     fn plastic_shear_and_torque() {
         let twist = [0.0, 0.0, 1.0];

@@ -106,8 +106,8 @@ mod tests {
     use super::*;
     use crate::sections::tests::close;
 
-    /// EN 10210-2 for SHS 100×100×5: I_t = 439 cm⁴ with corners of middle radius 1.25 t. The same formula reproduces the
-    /// standard's three digits with the radius and this section, to round-off, without it.
+    /// EN 10210-2 for SHS 100×100×5: I_t = 439 cm⁴ with corners of middle radius 1.25 t. The formula reproduces the standard's three digits
+    /// with the radius, and this section, to round-off, without it.
     #[test]
     fn square_hollow_section_agrees_with_the_standard() {
         let t: f64 = 0.005;
@@ -124,8 +124,8 @@ mod tests {
         close(shs.Iz, shs.Iy, 1e-14);
     }
 
-    /// By hand for a thin cell of side a under V: I = 2/3 a³t, in a web q = V t/I (3/8 a² − z²/2), in a flange q = V t/I a y/2;
-    /// ∫q²/t ds = V² t (a⁵/I²) (9/40 + 1/24) = V² 3/(5 a t): the shear area is 5/12 of the whole. The bound is t/a.
+    /// By hand for a thin cell of side a under V: I = 2/3 a³t. In a web q = V t/I (3/8 a² − z²/2), in a flange q = V t/I a y/2. ∫q²/t ds =
+    /// V² t (a⁵/I²) (9/40 + 1/24) = V² 3/(5 a t): the shear area is 5/12 of the whole. The bound is t/a.
     #[test]
     fn square_cell_shear_area() {
         let (a, t) = (1.0, 1e-6);

@@ -149,8 +149,8 @@ mod tests {
         assert!(i.shear_center[0].abs() < 1e-15);
     }
 
-    /// IPE 200 (EN 10365: A = 28.5 cm², I_y = 1943 cm⁴, I_z = 142 cm⁴, I_t = 6.98 cm⁴) has fillets of radius 12 mm; their area
-    /// 4 r² (1 − π/4) is added here, the rest of their effect stays within the bounds. Torsion lives from its fillets.
+    /// IPE 200 (EN 10365: A = 28.5 cm², I_y = 1943 cm⁴, I_z = 142 cm⁴, I_t = 6.98 cm⁴) has fillets of radius 12 mm. Their area 4 r² (1 −
+    /// π/4) is added here; the rest of their effect stays within the bounds. Torsion lives from its fillets.
     #[test]
     fn ipe_200_near_the_standard() {
         let i = i_section(0.2, 0.1, 0.1, 0.0056, 0.0085, 0.0085).unwrap();
@@ -158,7 +158,7 @@ mod tests {
         close(i.Iz, 142e-8, 0.005);
         assert!(i.Iy < 1943e-8 && i.Iy > 0.94 * 1943e-8);
         assert!(i.torsion < 6.98e-8 && i.torsion > 0.6 * 6.98e-8);
-        // The web carries nearly all: its middle-line area, less what the parabola takes.
+        // The web carries nearly all the shear: the shear area is its middle-line area, reduced by the parabolic distribution.
         let web = 0.0056 * (0.2 - 0.0085);
         assert!(i.shear[1] < web && i.shear[1] > 0.9 * web);
         close(i.shear[0], 5.0 / 6.0 * 2.0 * 0.1 * 0.0085, 0.001);

@@ -75,7 +75,7 @@ pub fn angle(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<
     Ok(l(height, width, vertical, horizontal)?.section())
 }
 
-/// Walls of [`angle`]; the upright leg takes the corner.
+/// Walls of [`angle`]; the upright leg includes the corner.
 fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Profile, String> {
     positive(&[("height", height), ("width", width), ("thickness", vertical), ("thickness", horizontal)])?;
     smaller(("thickness", vertical), ("width", width), "the upright leg must leave a flat one: less than")?;
@@ -104,9 +104,8 @@ mod tests {
         assert!(l.Iyz < 0.0, "the legs fill the second and fourth quadrants");
     }
 
-    /// Symmetry about the bisector: both the moments and the shear areas have their principal axes at 45°.
-    /// EN 10056-1, L 100×100×10: A = 19.2 cm², I = 177 cm⁴, centroid at 2.82 cm; its rounded toes take up to 2 % off
-    /// both.
+    /// Symmetry about the bisector: the principal axes of moments and shear areas lie at 45°. EN 10056-1, L 100×100×10: A = 19.2 cm², I =
+    /// 177 cm⁴, centroid at 2.82 cm; its rounded toes reduce both by up to 2 %.
     #[test]
     fn equal_angle_has_axes_at_45_degrees() {
         let l = angle(0.1, 0.1, 0.01, 0.01).unwrap();

@@ -1,9 +1,9 @@
 //! Cross sections: shape → areas and moments → stiffnesses and inertias per length.
 //!
-//! A shape lies in the y-z plane of the beam, width along y and height along z. Every constructor answers with the section
-//! about its centroid, or with what is wrong in the deck's words.
+//! A shape lies in the y-z plane of the beam, width along y and height along z. Every constructor returns the section about its centroid,
+//! or a message with the deck's keys.
 //!
-//! The shape of a section is a file of its own and an entry of [`SECTIONS`].
+//! A shape is one file and one entry of [`SECTIONS`].
 
 pub mod c;
 pub mod dimensions;

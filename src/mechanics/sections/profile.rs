@@ -1,9 +1,9 @@
 //! Thin-walled shapes as walls and plates: the walls' middle lines carry the shear flow, the plates are the area.
 //!
-//! Areas and moments are those of the drawn rectangles, corners sharp; shear follows the middle lines; torsion is
-//! Σ b t³/3 over middle lines less 0.105 t⁴ for each free end (El Darwish & Johnston 1965, J. Struct. Div. ASCE 91(ST1),
-//! 203-227; 0.21 t⁴ is the exact loss of a narrow rectangle's two ends). The bulge where walls meet is left out, and so are
-//! fillets: the constant is up to 3 % low for sharp corners.
+//! Areas and moments are those of the drawn rectangles with sharp corners; shear follows the middle lines. Torsion is Σ b t³/3 over middle
+//! lines less 0.105 t⁴ for each free end (El Darwish & Johnston 1965, J. Struct. Div. ASCE 91(ST1), 203-227; 0.21 t⁴ is the exact loss of a
+//! narrow rectangle's two ends). The bulge where walls meet is left out, and so are fillets: the constant is up to 3 % low for sharp
+//! corners.
 
 use super::dimensions::rectangles;
 use super::fibres::Fibre;
@@ -107,7 +107,7 @@ mod tests {
     use crate::sections::l::angle;
 
     /// Against Prandtl's problem on the sharp-cornered shapes, solved by finite differences (five points, two grids and their
-    /// extrapolation; the same program gives the square's 0.140577). The junctions' bulge is what is missing.
+    /// extrapolation; the same program gives the square's 0.140577). The missing part is the bulge at the junctions.
     #[test]
     fn torsion_is_slightly_low() {
         for (section, exact) in [

@@ -75,11 +75,11 @@ pub fn rectangle(width: f64, height: f64, nu: f64) -> Result<Section, String> {
     })
 }
 
-/// C in the flexibility in shear 6/5 + (ν/(1 + ν))² C of a rectangle `r` times as wide as it is deep along the force.
+/// C in the shear flexibility 6/5 + (ν/(1 + ν))² C of a rectangle; `r` is its width over its depth along the force.
 ///
-/// C = A/I² ∫|∇φ|² dA is the energy of the shear stress that anticlastic bending brings, ∇²φ = −y with φ = 0 at the edge (F. Gruttmann and
-/// W. Wagner, 2001, Comput. Mech. 27, 199-207). Series across and along the force give, with k = (m + ½)π,
-/// C = r⁴ (1/5 − 18 r/π⁵ Σ tanh(nπ/r)/n⁵) = r² − 558 ζ(5)/π⁵ r + 6/5 − 18 r Σ 2/((e^(2kr) − 1) k⁵); five terms leave 1e-16 on either side of 1.
+/// C = A/I² ∫|∇φ|² dA is the energy of the shear stress from anticlastic bending, ∇²φ = −y with φ = 0 at the edge (F. Gruttmann and W.
+/// Wagner, 2001, Comput. Mech. 27, 199-207). Series across and along the force give, with k = (m + ½)π, C = r⁴ (1/5 − 18 r/π⁵ Σ
+/// tanh(nπ/r)/n⁵) = r² − 558 ζ(5)/π⁵ r + 6/5 − 18 r Σ 2/((e^(2kr) − 1) k⁵); the error after five terms is 1e-16 on either side of 1.
 fn anticlastic(r: f64) -> f64 {
     if r <= 1.0 {
         let rest: f64 =
@@ -105,8 +105,8 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
     a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * (b / a) * (31.0 / 32.0 * ZETA_5 - rest))
 }
 
-/// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), which no fibre at the edges feels, until
-/// [`super::fibres::calibrated`] scales it to the shear area; twist is Saint-Venant's.
+/// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), zero at the edges; [`super::fibres::calibrated`] scales it to the
+/// shear area. Twist is Saint-Venant's.
 pub(super) fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usize; 2]) -> Vec<Fibre> {
     let parabola = |x: f64| 1.25 * (1.0 - x * x);
     let mut fibres = Vec::new();
@@ -122,8 +122,8 @@ pub(super) fn rectangle_fibres(width: f64, height: f64, [along_y, along_z]: [usi
     fibres
 }
 
-/// (∂φ/∂z, −∂φ/∂y) of Prandtl's function, ∇²φ = −2 (Timoshenko & Goodier, art. 109): with c across the rectangle, |c| < b,
-/// and p along it, |p| < a, φ = b² − c² − 32 b²/π³ Σ_{n odd} (−1)^((n−1)/2) n⁻³ cosh(kp)/cosh(ka) cos(kc), k = nπ/2b.
+/// (∂φ/∂z, −∂φ/∂y) of Prandtl's function, ∇²φ = −2 (Timoshenko & Goodier, art. 109). With c across the rectangle, |c| < b, and p along it,
+/// |p| < a, φ = b² − c² − 32 b²/π³ Σ_{n odd} (−1)^((n−1)/2) n⁻³ cosh(kp)/cosh(ka) cos(kc), k = nπ/2b.
 fn rectangle_twist(width: f64, height: f64, y: f64, z: f64) -> [f64; 2] {
     let flat = width >= height;
     let (a, b, p, c) = if flat { (width, height, y, z) } else { (height, width, z, y) };
@@ -163,7 +163,7 @@ mod tests {
         close(rectangle_torsion(a, b), a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * b / a * sum), 1e-14);
     }
 
-    /// ∫φ y dA of ∇²φ = −y on |y| < a, |z| < b with φ = 0 at the edge, by five points on n × n cells and conjugate gradients.
+    /// ∫φ y dA of ∇²φ = −y on |y| < a, |z| < b with φ = 0 at the edge, by five-point differences on n × n cells and conjugate gradients.
     fn torsion_like_energy(a: f64, b: f64, n: usize) -> f64 {
         let (h_y, h_z) = (2.0 * a / n as f64, 2.0 * b / n as f64);
         let (w_y, w_z) = (1.0 / (h_y * h_y), 1.0 / (h_z * h_z));
@@ -196,7 +196,8 @@ mod tests {
         dot(&x, &load) * h_y * h_z
     }
 
-    /// Both series against finite differences on two grids, whose extrapolation leaves h⁴ ln h, as y is not zero in the corners: up to 1e-4.
+    /// Both series against finite differences on two grids. Their extrapolation has an error of h⁴ ln h, up to 1e-4, because y is not zero
+    /// in the corners.
     #[test]
     fn anticlastic_shear_by_finite_differences() {
         for r in [0.5, 0.9, 1.1, 2.0, 4.0] {

@@ -1,4 +1,4 @@
-//! The numbers of a cross section, and what a beam feels of it.
+//! The properties of a cross section, and its stiffness and inertia for beams.
 
 use base::math::Mat3;
 use std::ops::AddAssign;
@@ -16,7 +16,7 @@ pub struct Section {
     pub Iyz: f64,
     /// Saint-Venant torsion constant.
     pub torsion: f64,
-    /// Shear areas: yy, zz and the product yz, which couples the two directions where Iyz does.
+    /// Shear areas: yy, zz and the product yz, which couples the two directions as Iyz does.
     pub shear: [f64; 3],
     /// Shear centre (y_s, z_s) from the centroid.
     pub shear_center: [f64; 2],
@@ -66,12 +66,12 @@ pub struct Stiffness {
     pub inertia_per_length: Mat3,
 }
 
-/// The shear stiffness of a beam that does not deform in shear, over that of its section: what is left of the deflection in shear is
-/// below the last digits that a mesh resolves, and rounding loses no more than four digits.
+/// The shear stiffness of a beam without shear deformation, relative to that of its section: the remaining shear deflection is below the
+/// mesh error, and rounding costs at most four digits.
 const RIGID_IN_SHEAR: f64 = 1e4;
 
 impl Stiffness {
-    /// The stiffness of a section that hardly deforms in shear, about the shear centre where it lies.
+    /// The stiffness of a section that hardly deforms in shear, about its shear centre.
     pub fn without_shear(&self) -> Stiffness {
         let mut out = self.clone();
         let more = RIGID_IN_SHEAR - 1.0;

@@ -1,4 +1,4 @@
-//! What the shape of a section says of itself, and what several shapes share.
+//! The registry entry of a section shape, and the trait of all shapes.
 
 use super::fibres::{Fibre, calibrated};
 use super::section::{Section, Stiffness};
@@ -20,7 +20,7 @@ pub struct MakeSection {
 
 /// The section that a table `[sections.x]` describes.
 pub enum CrossSection {
-    /// A shape, from which stiffness and mass follow with a material.
+    /// A shape; stiffness and mass follow from it and a material.
     Shape(Box<dyn SectionShape>),
     /// Stiffnesses and masses per length, as given.
     Stiffness(Box<Stiffness>),
@@ -34,13 +34,13 @@ pub trait SectionShape: fmt::Debug {
     /// The default numbers of fibres; `first` is given where the deck gives only the first number.
     fn default_fibres(&self, first: Option<usize>) -> Result<[usize; 2], String>;
 
-    /// Fibres of which only the sum of shear modes is not yet that of the section.
+    /// Fibres whose shear modes are not yet scaled to the section.
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String>;
 
-    /// Half its smaller side, or its radius: the distance from its axis at which a beam is in contact.
+    /// Half its smaller side, or its radius: the contact radius of a beam.
     fn half_depth(&self) -> f64;
 
-    /// The fibres of `section`, which is that of the shape. `counts`, even numbers, may be left out: `[]`, `[first]` or `[first, second]`.
+    /// The fibres of `section`, the section of this shape. `counts`, even numbers, may be left out: `[]`, `[first]` or `[first, second]`.
     ///
     /// | Shape | first | second | default | worst error in M(κ) |
     /// |---|---|---|---|---|
@@ -50,8 +50,8 @@ pub trait SectionShape: fmt::Debug {
     /// | i, l | " | " | 8, 4 | 1.2 % |
     /// | c | " | " | 12, 4 | 0.8 % |
     ///
-    /// Errors are for an ideally plastic material up to 20 times the curvature of first yield, about y, z and an axis between,
-    /// in units of the greatest moment. Open walls need four through the thickness for their plastic torque: two give 15 % more.
+    /// Errors are for an ideally plastic material up to 20 times the curvature of first yield, about y, z and an axis between, relative to
+    /// the greatest moment. Open walls need four through the thickness for their plastic torque: two give 15 % more.
     ///
     /// Errors: counts that are odd or too few; a general section.
     fn fibres(&self, counts: &[usize], section: &Section) -> Result<Vec<Fibre>, String> {

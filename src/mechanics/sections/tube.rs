@@ -91,8 +91,8 @@ pub fn tube(outer_radius: f64, thickness: f64, nu: f64) -> Result<Section, Strin
     Ok(Section { area, Iy: I, Iz: I, Iyz: 0.0, torsion: 2.0 * I, shear: [shear, shear, 0.0], shear_center: [0.0; 2] })
 }
 
-/// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free
-/// surfaces, Saint-Venant's flexure at ν = 0, whose energy gives Cowper's factor; twist is r along the circle.
+/// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free surfaces. This is
+/// Saint-Venant's flexure at ν = 0; its energy gives Cowper's factor. Twist is r along the circle.
 pub(super) fn tube_fibres(outer: f64, inner: f64, shear_area: f64, [around, through]: [usize; 2]) -> Vec<Fibre> {
     let (R2, r2) = (outer * outer, inner * inner);
     let factor = shear_area / (0.25 * PI * (R2 * R2 - r2 * r2));
@@ -145,8 +145,8 @@ mod tests {
         close(tube.torsion, 2.0 * PI * R.powi(3) * t, 2e-6);
     }
 
-    /// The energy of the stress itself, by midpoints in r and φ: Saint-Venant's flexure of the full circle (Timoshenko & Goodier, art. 122),
-    /// and of the thick tube by its stress functions. ∫|τ|² dA A/Q², to the square of the step, 1e-6.
+    /// The energy of the stress itself, by midpoints in r and φ: Saint-Venant's flexure of the full circle (Timoshenko & Goodier, art.
+    /// 122), and of the thick tube by its stress functions. ∫|τ|² dA A/Q² has an error of the square of the step, 1e-6.
     #[test]
     fn shear_areas_have_the_energy_of_the_stress() {
         for nu in [0.0, 0.3, 0.5] {

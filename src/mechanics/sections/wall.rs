@@ -1,4 +1,4 @@
-//! Shear flow in thin walls: what a shear force does in a section made of straight walls, along their middle lines.
+//! Shear flow in thin walls: the flow of a shear force along the middle lines of a section of straight walls.
 //!
 //! The flow of Jourawski gives the shear areas (by its energy) and the shear centre (by its moment). Reference: Kollbrunner
 //! & Basler, Torsion in Structures, 1969. Left out: warping stiffness; the beams of this program have no unknown for it.
@@ -175,8 +175,8 @@ mod tests {
         close(shear.center[1], 1.0, 1e-12);
     }
 
-    /// A slit ring has its shear centre on the side away from the slit, 2R from the centre (Timoshenko, Strength of
-    /// Materials II, art. 54); the polygon errs by (π/n)².
+    /// A slit ring has its shear centre on the side away from the slit, 2R from the centre (Timoshenko, Strength of Materials II, art. 54).
+    /// The error of the polygon is (π/n)².
     #[test]
     fn a_slit_ring_has_its_shear_center_outside() {
         let n = 400;

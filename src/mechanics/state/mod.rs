@@ -85,8 +85,8 @@ impl Node {
         rotation::matrix(&self.rotation)
     }
 
-    /// Moves the node from `start` by an increment q = (Δu, Θ) with the rates q̇, q̈. This is the only place that updates a rotation, R =
-    /// exp(Θ~) R_n. Returns the departure from orthogonality of a truncated rotation update.
+    /// Moves the node from `start` by an increment q = (Δu, Θ) with the rates q̇, q̈. Rotations change only here, by R = exp(Θ~) R_n.
+    /// Returns the departure from orthogonality of a truncated rotation update.
     #[inline]
     pub fn advance(&mut self, start: &Node, increment: &Increment, update: RotationUpdate) -> f64 {
         let Increment { q, d, dd } = increment;
@@ -176,7 +176,7 @@ pub struct Configuration<'a> {
     pub history: &'a [f64],
     /// Time from that state to this instant.
     pub dt: f64,
-    /// The previous iterate, whose velocities are the correction that led here; `None` if there is none.
+    /// The previous iterate; its velocities are the last correction. `None` if there is none.
     ///
     /// A correction moves slender parts along straight lines and so stretches them. Stress and geometric stiffness of the iterate are then
     /// far from those of the equilibrium ahead. Stresses that are extrapolated linearly from the iterate before are not (D. Magisano, L.

@@ -13,7 +13,7 @@ use base::math::lanes::{LANES, Lanes};
 use base::math::number::{LaneVec3, Number};
 use base::math::{Mat3, Vec3};
 
-/// The number of elements from which eight side by side take less time than one after the other; the numbers are the same.
+/// Least number of elements for which computing eight side by side is faster; the results are bitwise the same.
 const WORTH_A_PACK: usize = 6;
 
 /// Stress resultants of one element.
@@ -31,8 +31,8 @@ struct Damping<T> {
 /// The stress resultants at an integration point.
 type Stress<'a, T> = dyn FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2] + 'a;
 
-/// Internal forces and moments on the nodes of a pack, global components, whose nodes move by `motion` and whose sections have the stress
-/// resultants `stress`.
+/// Internal forces and moments on the nodes of a pack, global components, from the motion `motion` of the nodes and the stress resultants
+/// `stress`.
 ///
 /// It is compiled once for all sections, which `stress` hides at the cost of a call.
 #[inline(never)]
@@ -147,7 +147,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 }
 
 impl<const N: usize, S: BeamSection> Beams<N, S> {
-    /// The energy that is lost with an element that fails, in the fibres that have not.
+    /// The energy in the intact fibres of a failing element, removed with it.
     fn lost_with(&self, e: usize, now: &Configuration) -> Dissipation {
         let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
         let mut sum = Dissipation::default();
@@ -221,7 +221,7 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
-        // Where material yields, its state counts more than what a correction stretches.
+        // In yielding material the current state matters more than the stretching by a correction.
         let lead = now.lead.filter(|_| S::IS_ELASTIC);
         self.tangents_of::<f64>(&self.elements[e..=e], (now, lead), Some(rate_weight), moduli, K);
     }

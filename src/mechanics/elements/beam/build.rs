@@ -1,4 +1,4 @@
-//! Beams as the model describes them, and what is computed once from the undeformed geometry.
+//! Beams as the model describes them, and the quantities computed once from the undeformed geometry.
 
 use super::fibres::{FibreProfile, FibreSection};
 use super::kinematics::{Beam, Beams};
@@ -50,7 +50,7 @@ pub struct FibreModel {
     pub fibres: Vec<Fibre>,
     /// Shear stress enters the yield condition; otherwise shear and torsion stay elastic.
     pub shear: bool,
-    /// The rule by which an element is integrated along its length.
+    /// The integration rule along the length of an element.
     pub rule: IntegrationRule,
     /// The number of integration points of an element, at least its order.
     pub points: usize,

@@ -1,4 +1,4 @@
-//! Fibres of a section eight at a time, with the bits that each has by itself.
+//! Fibres of a section eight at a time; a fibre has bitwise the same result alone.
 
 use crate::materials::{Ask, Dissipation, MaterialLaw, Spent, StressState};
 use crate::sections::Fibre;

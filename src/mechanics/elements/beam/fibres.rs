@@ -1,9 +1,8 @@
-//! A section of fibres, each with a stress and history variables of its own, that yields.
+//! A section of fibres that yields; each fibre has a stress and separate history variables.
 //!
-//! The strains of a fibre are ε = Γ₁ + z κ₂ − y κ₃ and, where shear enters the yield condition, γ_a = s_a·(Γ₂, Γ₃, κ₁). The
-//! stiffness of the elastic section less that of the elastic fibres (all of shear and torsion where these stay elastic) acts
-//! beside them, in proportion to the area of the fibres that have not failed. An element of which one section has no fibres left is
-//! severed: it carries nothing.
+//! The strains of a fibre are ε = Γ₁ + z κ₂ − y κ₃ and, where shear enters the yield condition, γ_a = s_a·(Γ₂, Γ₃, κ₁). The stiffness of
+//! the elastic section less that of the elastic fibres acts beside them; with elastic shear it includes all of shear and torsion. It is
+//! reduced with the intact area of the fibres. An element with a section of failed fibres only is severed and has no force.
 
 use super::fibre_lanes::FibreLanes;
 use super::fibre_sum::FibreSum;
@@ -189,7 +188,7 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
         first..first + length
     }
 
-    /// The part of the fibres of point `g` that is intact; none where another section of the element has none left.
+    /// The intact fraction of the fibres of point `g`; 0 if another section of the element has no fibres left.
     #[inline]
     fn intact(&self, g: usize, history: &[f64]) -> f64 {
         if !self.profile.law.can_fail() {

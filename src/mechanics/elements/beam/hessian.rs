@@ -166,7 +166,7 @@ impl<T: Number> Hessian<T> {
     pub fn add_second(&mut self, point: &GaussPoint<T>, tangent: &LaneVec3<T>, g: &ZRow<T>, [n, m]: &[LaneVec3<T>; 2]) {
         let (p, inv2) = (&point.p, T::splat(2.0) * point.inv);
         let sigma_e = n.dot(&(point.strain[0] + *tangent)) + m.dot(&point.strain[1]);
-        // n·Y_Γ = −p·(r′ p n), whose matrix is that of −r′·n by the scalar part, of r′ × n beside it, and of r′·n − n r′ᵀ − r′ nᵀ.
+        // n·Y_Γ = −p·(r′ p n). Its matrix is −r′·n in the scalar part, r′ × n beside it, and r′·n − n r′ᵀ − r′ nᵀ in the rest.
         let (u, along, across) = (&point.dr, point.dr.dot(n), point.dr.cross(n));
         for i in 0..4 {
             for k in 0..=i {

@@ -1,5 +1,5 @@
-//! Kinematics of a beam: from the motion of its nodes to strains, strain rates and their derivatives at a Gauss point; of one element,
-//! or of eight side by side.
+//! Kinematics of a beam, for one element or for eight side by side: strains, strain rates and their derivatives at a Gauss point from the
+//! motion of the nodes.
 
 use super::quaternion::{Quat, dot, left, right_unit, rotation, vector};
 use super::section::{BeamSection, BeamStiffness};
@@ -186,7 +186,7 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
         T::splat(self.shape.weight[g]) * self.jacobian
     }
 
-    /// The strains Γ and κ from which the stress of a tangent follows: those extrapolated from the iterate before, see
+    /// The strains Γ and κ for the stress of a tangent: extrapolated from the previous iterate, see
     /// [`Configuration::lead`](crate::state::Configuration), or those of the point.
     #[inline(always)]
     pub fn leading_strains(
@@ -201,7 +201,7 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
         [before.strain[0] + gamma, before.strain[1] + kappa]
     }
 
-    /// Strain rates Γ̇ and κ̇ for the velocities of the nodes, and ż, from which they follow.
+    /// Strain rates Γ̇ and κ̇ for the velocities of the nodes, and the underlying ż.
     #[inline(always)]
     pub fn rates(
         &self,

@@ -1,4 +1,4 @@
-//! What the sections of some beams say side by side.
+//! Stiffness and linearization of the sections of several beams side by side.
 
 use base::math::number::{LaneVec3, Number};
 

@@ -1,5 +1,4 @@
-//! The sections of a beam: the interface, and a section that stays elastic. Those that yield stand in
-//! [`super::fibres`].
+//! The sections of a beam: the interface, and a section that stays elastic. Sections that yield are in [`super::fibres`].
 
 use super::lane_section::{Linearised, SectionStiffness};
 use crate::elements::block::Moduli;
@@ -12,7 +11,7 @@ use base::math::{Mat3, Vec3};
 /// The sections of one element, one at each integration point. Strains Γ, κ and stress resultants n, m (force and moment) have
 /// global components at t = 0.
 pub trait BeamSection: Send + Sync {
-    /// True for a section that never yields: its stress is that of [`BeamSection::elastic`].
+    /// True for a section that never yields, with the stress of [`BeamSection::elastic`].
     const IS_ELASTIC: bool = false;
     /// The number of integration points of an element of `nodes` nodes whose rule has `rule` points.
     fn points(nodes: usize, rule: usize) -> usize;
@@ -33,8 +32,8 @@ pub trait BeamSection: Send + Sync {
         Self: 'a;
     /// Elastic energy per length.
     fn energy(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> f64;
-    /// Writes the history variables of point `g` at `part` of the way to `now` into its range of `new`, the history of the group,
-    /// and returns the dissipation per length.
+    /// Writes the history variables of point `g` at `part` of the way to `now` into its range of `new`, the history of the group. Returns
+    /// the dissipation per length.
     fn update_history(
         &self,
         _g: usize,
@@ -68,8 +67,7 @@ pub trait BeamSection: Send + Sync {
     fn has_failed(&self, _history: &[f64]) -> bool {
         false
     }
-    /// What point `g` of an element that fails still stores in fibres that have not failed, per length: elastic energy, and what kinematic
-    /// hardening has kept.
+    /// Energy per length in the intact fibres at point `g` of a failing element: elastic energy, and energy of kinematic hardening.
     fn lost(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Configuration) -> Dissipation {
         Dissipation::default()
     }
@@ -105,7 +103,7 @@ impl BeamStiffness {
         BeamStiffness { N: *N, M: *M, NM: *NM, coupled: *NM != Mat3::zeros() }.rotated(frame)
     }
 
-    /// Those of some elements side by side.
+    /// The stiffnesses of several elements side by side.
     #[inline(always)]
     pub fn side_by_side<'a, T: Number>(of: impl Fn(usize) -> &'a BeamStiffness) -> SectionStiffness<T> {
         let (zero, coupled) = ([[T::ZERO; 3]; 3], (0..T::COUNT).any(|lane| of(lane).coupled));

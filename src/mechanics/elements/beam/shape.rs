@@ -7,7 +7,7 @@ use serde::Deserialize;
 /// The largest number of integration points of an element.
 pub const MOST_POINTS: usize = 5;
 
-/// The rule by which an element is integrated along its length.
+/// The integration rule along the length of an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum IntegrationRule {
@@ -28,8 +28,8 @@ impl IntegrationRule {
     }
 }
 
-/// The deflection of a beam between two nodes less the straight line between them, at a fraction s of its length: for each node per
-/// displacement across the axis, and per rotation and length. `phi` is 12EI/(GA h²), the part of shear (Timoshenko's beam).
+/// Deflection of a beam from the straight line between two nodes at a fraction s of its length. For each node: per transverse displacement,
+/// and per rotation and length. `phi` is 12EI/(GA h²), the part of shear (Timoshenko's beam).
 pub fn cubic_deflection(s: f64, phi: f64) -> [[f64; 2]; 2] {
     let (r, bulge) = (1.0 - s, s * (1.0 - s) * (1.0 - 2.0 * s));
     let shear = 0.5 * phi * s * r;

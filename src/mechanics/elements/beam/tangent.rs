@@ -1,4 +1,4 @@
-//! The tangent of beam elements, of one or of eight side by side: the Hessian in z = (p, p′, r′) of each Gauss point, by pairs of nodes,
+//! The tangent of beam elements, one or eight side by side: the Hessian in z = (p, p′, r′) of each Gauss point, by pairs of nodes,
 //! projected on rotations.
 
 use super::hessian::{Hessian, ZRows, add, rate_rows};
@@ -77,8 +77,8 @@ impl<T: Number, const N: usize> Pairs<T, N> {
         self.add(true, &Hessian::product(B, &viscous.times(B), [true, true]), w, at);
     }
 
-    /// Adds the derivatives of damping by the rates of the nodes, `viscous` by those of z: `rate_weight` times ∂f/∂ż, and ∂f/∂z by
-    /// q̇_b = ½ ω_b q_b, which turns with q_b.
+    /// Adds the derivatives of damping by the rates of the nodes: `rate_weight` times ∂f/∂ż, and ∂f/∂z by q̇_b = ½ ω_b q_b, which turns
+    /// with q_b. `viscous` holds the derivatives by z.
     #[inline(always)]
     fn add_rate_terms(&mut self, viscous: &Self, rate_weight: T, omega: impl Fn(usize) -> LaneVec3<T>) {
         for b in 0..N {
@@ -175,7 +175,7 @@ type Linearise<'a, T> = dyn Fn(usize, &[LaneVec3<T>; 2]) -> Linearised<T> + 'a;
 pub(super) struct PackSections<'a, T> {
     /// The number of integration points.
     pub points: usize,
-    /// What they say at a point.
+    /// Stress and its derivative at a point.
     pub linearise: &'a Linearise<'a, T>,
     /// Damping times the stiffness before they yield.
     pub viscous: SectionStiffness<T>,
@@ -183,9 +183,8 @@ pub(super) struct PackSections<'a, T> {
     pub has_failed: bool,
 }
 
-/// Tangents of the elements of a pack, row-major, one after the other into `K`, see [`crate::elements::Mechanics::tangent`], with the
-/// stresses that `lead` tells; symmetric without a
-/// `rate_weight`, with which they are those of damped elements.
+/// Writes the tangents of the elements of a pack into `K`, row-major, one after the other, see [`crate::elements::Mechanics::tangent`],
+/// with the stresses extrapolated from `lead`. Without a `rate_weight` they are symmetric; with one they include damping.
 pub(super) fn tangent<T: Number, const N: usize>(
     pack: &Pack<T, N>,
     sections: &PackSections<T>,
