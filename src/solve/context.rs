@@ -1,4 +1,4 @@
-//! The constants of a run: the model, its plan, its system, and what is computed from them once.
+//! The constants of a run: the model, its plan, its system, and data computed from them once.
 
 use super::node_chunks::NodeChunks;
 use super::stop_request::StopRequest;
@@ -19,9 +19,9 @@ pub struct Context<'a> {
     pub system: &'a System,
     /// Loads and prescribed motion as functions of time.
     pub excitation: Excitation<'a>,
-    /// Nodes that move by increments of their own, in ascending order; the others do not move or follow a master.
+    /// Nodes with independent increments, in ascending order; other nodes do not move or follow a master.
     pub independent_nodes: Vec<usize>,
-    /// All nodes in chunks, by which loops over them go.
+    /// All nodes in chunks, for loops over nodes.
     pub chunks: NodeChunks,
     /// Prescribed degrees of freedom, by index in the model's list, whose motion joints transmit to other nodes.
     pub driving: Vec<usize>,
@@ -29,10 +29,9 @@ pub struct Context<'a> {
     pub numbers: Vec<usize>,
     /// Coefficients of [`mechanics::integrators::Scheme::algorithmic_acceleration`]; `None` in statics too.
     pub algorithmic_acceleration: Option<[f64; 3]>,
-    /// The largest distance of a node from the first, the length to which corrections are compared where hardly
-    /// anything moves.
+    /// The largest distance of a node from the first: the reference length for corrections if the motion is negligible.
     pub length: f64,
-    /// Position of the first node at t = 0, the origin of the distances by which rounding is measured.
+    /// Position of the first node at t = 0, the origin of coordinates for estimates of rounding.
     pub origin: Vec3,
     /// True where reactions or the work of forces are wanted.
     pub wants_forces: bool,
@@ -89,7 +88,7 @@ pub fn at_rest(model: &Model) -> Vec<Node> {
     model.nodes.iter().map(|node| Node::at_rest(node.x)).collect()
 }
 
-/// The nodes that move by increments of their own. A node that nothing moves stays where it is and costs nothing.
+/// The nodes with independent increments. Nodes that nothing moves are omitted and cost nothing.
 fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> {
     let n = model.nodes.len();
     let mut follows = vec![false; n];

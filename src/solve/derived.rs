@@ -13,8 +13,8 @@ use mechanics::state::State;
 use model::Model;
 use std::ops::BitOr;
 
-/// A set of derived quantities, those that the observer needs; others are not computed. The bits come in three groups: what it needs
-/// where tables are due, of every accepted step, and where fields are drawn.
+/// A set of derived quantities, those that the observer needs; others are not computed. The bits form three groups: quantities for steps
+/// with tables, for every accepted step, and for steps with fields.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Wanted(u64);
 
@@ -51,7 +51,7 @@ impl Wanted {
     /// All quantities.
     pub const ALL: Wanted = Wanted((1 << 13) - 1);
 
-    /// True where all of `what` is wanted where tables are due.
+    /// True if all of `what` is wanted for steps with tables.
     pub const fn has(self, what: Wanted) -> bool {
         self.0 & what.0 == what.0
     }
@@ -86,7 +86,7 @@ impl Wanted {
         Wanted(self.0 << (2 * GROUP))
     }
 
-    /// True where all of `what` is wanted of a step, at which tables are `due` and fields `drawn`, or not.
+    /// True if all of `what` is wanted for a step, with tables if `due` and fields if `drawn`.
     pub const fn has_now(self, what: Wanted, due: bool, drawn: bool) -> bool {
         let always = self.has(Wanted(what.0 << GROUP));
         always || due && self.has(what) || drawn && self.has(what.where_drawn())
@@ -119,7 +119,7 @@ pub struct Derived {
     pub plastic_strains: Vec<f64>,
     /// Whether each of these elements has failed, likewise; empty where none can.
     pub failed: Vec<bool>,
-    /// What failed in the step.
+    /// Elements and links that failed in the step.
     pub broken: Vec<Broken>,
     /// Stress resultants of all shell elements in deck order.
     pub shells: Vec<ShellState>,
@@ -133,9 +133,9 @@ pub struct Derived {
     pub bars: Vec<f64>,
     /// Elastic energies of all beams, bars and shells in deck order.
     pub parts: Vec<PartEnergy>,
-    /// The loads at the instant, by which ends of beams are in balance.
+    /// The loads at the instant, for the resultants at the ends of beams.
     pub loading: Loading,
-    /// What all steps took since tables were due before, this one included.
+    /// The effort of all steps since the last tables, including this one.
     pub effort: Effort,
 }
 
@@ -159,7 +159,7 @@ pub struct Request<'a> {
     pub due: bool,
     /// True where fields are drawn.
     pub drawn: bool,
-    /// Mechanical energy at t = 0, from which the balance is drawn; `None` where no energy is summed.
+    /// Mechanical energy at t = 0, the reference of the balance; `None` if energies are not summed.
     pub balance: Option<f64>,
     /// Number of threads.
     pub threads: usize,
@@ -177,7 +177,7 @@ impl Derived {
         }
     }
 
-    /// Computes what is wanted of this step and empties the rest.
+    /// Computes the quantities wanted for this step and clears the others.
     pub fn compute(&mut self, wanted: Wanted, request: &Request) {
         self.clear();
         let &Request { model, system, excitation, state, begins, due, drawn, balance, threads } = request;
@@ -209,7 +209,7 @@ impl Derived {
             system.contact_touches(model, now, &mut self.contact_touches);
         }
         if is_wanted(Wanted::SECTIONS) {
-            // What begins acts already at the beginning, and jumps at the end of a step come after it.
+            // Loads that begin with a run or stage act from its beginning; jumps at the end of a step act after it.
             excitation.loading(state.time, if begins { Side::After } else { Side::Before }, &mut self.loading);
             results::section_points(system, model, (now, &self.loading), &mut self.sections);
         }

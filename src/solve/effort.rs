@@ -18,7 +18,7 @@ pub struct Effort {
 keep!(Effort { iterations, refactorizations, residual, cuts });
 
 impl Effort {
-    /// That of these steps and of another.
+    /// The sum of this effort and another one.
     #[must_use]
     pub fn and(self, other: Effort) -> Effort {
         Effort {

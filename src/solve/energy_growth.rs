@@ -1,5 +1,5 @@
-//! Watches the balance of energy: with central differences nothing else tells of motion that grows though the scene at
-//! its current configuration is stable.
+//! Watches the balance of energy. With central differences no other check detects growing motion in a model that is stable in its current
+//! configuration.
 
 use super::failure::Failure;
 use crate::plan::Plan;
@@ -11,15 +11,15 @@ use mechanics::integrators::Stepping;
 use mechanics::state::State;
 use model::{AnalysisKind, Model};
 
-/// The balance of energy of an analysis. In statics the work of a step is that of its ends, whatever lies between: what the balance
-/// misses is told at the end.
+/// The balance of energy of an analysis. In statics the work of a step uses only its ends, so the missing energy is reported only at the
+/// end of the run.
 #[derive(Default)]
 pub struct EnergyGrowth {
     /// The largest departures from the balance so far.
     pub balance: Balance,
     /// True where energy had grown at the last check.
     growing: bool,
-    /// Time of the last check at which the balance was kept.
+    /// Time of the last check with a kept balance.
     kept_until: f64,
 }
 
@@ -31,10 +31,9 @@ impl EnergyGrowth {
         (self.balance, self.kept_until) = (balance, time);
     }
 
-    /// Updates the balance; `energy` is that of the state where it is known. Central differences have failed where they
-    /// have generated more energy than was available; where hardly any is available yet, only by far more. The verdict
-    /// must not depend on output times: work is taken account of in every step, and energies are summed where links may
-    /// release some.
+    /// Updates the balance; `energy` is the energy of the state, if known. Central differences have failed if they have generated more
+    /// energy than was available, and much more as long as little is available. The verdict must not depend on output times: work is taken
+    /// account of in every step, and energies are summed where links may release some.
     pub fn check(
         &mut self,
         (model, plan, system): (&Model, &Plan, &System),

@@ -8,7 +8,7 @@ use mechanics::materials::Dissipation;
 use mechanics::state::State;
 use model::StepLength;
 
-/// Watches for events where the errors of steps are told. Nothing is looked at in other runs.
+/// Watches for events in runs that estimate the error of their steps. Nothing is looked at in other runs.
 #[derive(Default)]
 pub struct Events {
     /// The branches at the beginning; `None` where nothing is looked at.

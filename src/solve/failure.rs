@@ -24,7 +24,7 @@ pub enum Failure {
         /// True for the first matrix of a run that nothing has moved yet: shorter steps do not help.
         at_start: bool,
     },
-    /// A direction without mass in which nothing holds a node.
+    /// A massless direction without restraint at a node.
     MasslessDirection {
         /// The name of the node.
         label: String,
@@ -32,7 +32,7 @@ pub enum Failure {
         rotation: bool,
         /// The unit vector of the direction, global components.
         direction: [f64; 3],
-        /// True where what acts there pushes the node away.
+        /// True if compression there pushes the node away.
         buckles: bool,
         /// A part there that would hold it, but is open or slack, likewise.
         open: Option<String>,
@@ -41,7 +41,7 @@ pub enum Failure {
     NotConverged {
         /// The number of iterations.
         iterations: usize,
-        /// What the last step shows of the cause.
+        /// The evidence of the cause in the last step.
         cause: NoConvergence,
         /// The part that has opened or gone slack last, while it is, by its name in quotes.
         open: Option<String>,
@@ -75,7 +75,7 @@ pub enum Failure {
     },
     /// No load or prescribed motion changes with the time, so nothing leads on along the path.
     NoLoadIncrement {
-        /// The time at which that is so.
+        /// The current time.
         time: f64,
     },
     /// A path did not end within the steps that it was given.
@@ -125,7 +125,7 @@ pub enum Failure {
     EnergyGrowth {
         /// The energy generated, as a multiple of the available energy.
         ratio: f64,
-        /// The last time at which the balance of energy was found to be kept.
+        /// The time of the last check with a kept balance of energy.
         kept_until: f64,
     },
     /// A step of an explicit scheme rotates something too far.
@@ -152,11 +152,11 @@ pub enum Failure {
         /// The name of its part.
         name: String,
     },
-    /// The work of a load step is not what has been stored and dissipated: its ends do not lie on one path of equilibria.
+    /// The work of a load step differs from the stored and dissipated energy: its ends do not lie on one path of equilibria.
     EquilibriumJumps {
         /// The name of the node that moves most.
         label: String,
-        /// The direction in which it does.
+        /// The direction of its motion.
         direction: &'static str,
         /// The work of the loads in the step.
         work: f64,
@@ -167,7 +167,7 @@ pub enum Failure {
     UnstableStep,
     /// The path of equilibria becomes unstable.
     Buckles(Instability),
-    /// The error of a step is larger than what is allowed.
+    /// The error of a step exceeds the allowed error.
     ErrorTooLarge {
         /// The length of the step.
         dt: f64,
@@ -226,7 +226,7 @@ pub struct NamedResidual {
 keep!(NamedResidual: Default { label, direction, residual });
 
 impl Failure {
-    /// A pivot that vanishes, by its row; the part that is open there, and whether nothing has moved yet.
+    /// A vanishing pivot by its row, with the open part there, and whether the motion has not begun.
     pub(super) fn singular(
         model: &Model,
         plan: &Plan,
@@ -238,7 +238,7 @@ impl Failure {
         Failure::Singular { label, direction, open, at_start }
     }
 
-    /// A motion that nothing resists, by the node and the degree of freedom that it moves most.
+    /// An unresisted motion, by the node and degree of freedom with the largest motion.
     pub(super) fn mechanism(
         model: &Model,
         (node, dof): (usize, usize),
@@ -344,22 +344,23 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
-    /// True where a shorter step would end alike: a signal, a path that becomes unstable, and contacts whose multipliers come nearer at a pace that no step changes.
+    /// True if a shorter step would fail in the same way: after a signal, on an unstable path, and for contact multipliers, whose
+    /// convergence does not depend on the step.
     pub fn is_final(&self) -> bool {
         matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. } | Failure::Buckles(_))
     }
 
-    /// True where the equilibrium that was refused says that the matrix of its iteration leads elsewhere.
+    /// True if the refused equilibrium shows that the matrix of its iteration is misleading.
     pub fn blames_matrix(&self) -> bool {
         matches!(self, Failure::ConstraintsViolated { .. } | Failure::UnstableStep | Failure::Buckles(_))
     }
 
-    /// True where the memory does not hold what was asked for.
+    /// True if memory is short.
     pub fn is_of_memory(&self) -> bool {
         matches!(self, Failure::Modes(ModesFault::TooLarge(_)))
     }
 
-    /// The time up to which results are valid, where that is not the time of the failure.
+    /// The end time of valid results, if it differs from the time of the failure.
     pub fn valid_until(&self) -> Option<f64> {
         match self {
             Failure::EnergyGrowth { kept_until, .. } => Some(*kept_until),

@@ -1,4 +1,4 @@
-//! The frame that a run shows of each accepted step, to an observer that can only read it.
+//! The frame of each accepted step, passed to an observer that can only read it.
 
 use super::derived::Derived;
 use super::effort::Effort;
@@ -14,26 +14,26 @@ pub struct Frame<'a> {
     pub model: &'a Model,
     /// The state at the end of the step.
     pub state: &'a State,
-    /// Accepted steps so far, the one at hand included; 0 at t = 0.
+    /// Number of accepted steps, including this one; 0 at t = 0.
     pub step: usize,
     /// Length of the step that led here; 0 at t = 0.
     pub dt: f64,
-    /// What the step took; at a time inside it, what that time took alone.
+    /// The effort of the step; at a time inside it, the effort of this time.
     pub effort: Effort,
     /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
-    /// True when the output cadence asks for this step; t = 0 and the last step always are. The last step before a
-    /// failure is shown once more for it, with no iterations.
+    /// True if the output cadence selects this step, and always at t = 0 and for the last step. The last step before a failure is shown
+    /// once more for it, with no iterations.
     pub due: bool,
-    /// True when the cadence of fields asks for this step; t = 0 and the end of the run always are.
+    /// True if the cadence of fields selects this step, and always at t = 0 and at the end of the run.
     pub drawn: bool,
     /// True for the last step of the run.
     pub last: bool,
     /// True at a time inside the step, which goes on.
     pub inside: bool,
-    /// True at a time at which runs are compared with each other; quantities are computed as where tables are due.
+    /// True at a time for the comparison of runs; quantities are then computed as for tables.
     pub compared: bool,
-    /// Indices into [`Model::expects`] of the displacements at which this step ends.
+    /// Indices into [`Model::expects`] of the displacements that this step hits.
     pub passed: &'a [usize],
     /// Reactions on the structure, global components, in the order of the model's restraints; empty unless wanted of
     /// this step.
@@ -61,13 +61,13 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Forgets what it has received: the run begins again at t = 0, with shorter steps. Nothing is done where nothing is kept. An error is
+    /// Discards everything received: the run begins again at t = 0, with shorter steps. Nothing is done where nothing is kept. An error is
     /// one of input/output.
     fn restart(&mut self, _: &Model) -> std::io::Result<()> {
         Ok(())
     }
 
-    /// The times at which another run has to be seen for the errors of what this observer has received to be told.
+    /// The times when this observer needs another run to report errors of the received results.
     fn times_to_compare(&self) -> Vec<f64> {
         Vec::new()
     }
@@ -80,7 +80,7 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Takes note of the run that tells the errors of what has been received; of `None` where none does.
+    /// Receives the run used for the errors of the received results; `None` if there is none.
     fn on_other_run(&mut self, _: Option<OtherRun>) {}
 
     /// True where a checkpoint is due. It is asked before every step, and at the end of a run that can be made longer.
@@ -94,7 +94,7 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Keeps what the run itself lets watch its steps; what others have received they keep with [`Observer::on_checkpoint`].
+    /// Saves observers that belong to the run itself; others save their data with [`Observer::on_checkpoint`].
     fn keep_seen(&mut self, _: &mut Snapshot) {}
 }
 

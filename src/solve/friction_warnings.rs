@@ -1,10 +1,10 @@
-//! What a run says of friction that steps or stiffnesses do not resolve.
+//! Warnings of friction that steps or stiffnesses do not resolve.
 
 use base::names::to_digits;
 use base::snapshot::keep;
 use std::fmt;
 
-/// Steps that do not resolve a contact throw off what rests on it.
+/// Steps that do not resolve a contact throw off a resting body.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ContactThrows {
     /// The name of the contact.
@@ -26,7 +26,7 @@ keep!(ContactThrows: Default { name, speed, slid, stiffness, step });
 pub struct SlipBegins {
     /// The name of the contact or joint.
     pub name: String,
-    /// The error of what has slipped.
+    /// The error of the slip.
     pub error: f64,
     /// The largest slip.
     pub farthest: f64,
@@ -34,7 +34,7 @@ pub struct SlipBegins {
     pub stiffness: Option<[f64; 2]>,
     /// A `stick` of a joint that does.
     pub stick: Option<f64>,
-    /// A step that does, where the deck gives the step.
+    /// A sufficient step, if the deck gives the step.
     pub step: Option<f64>,
 }
 

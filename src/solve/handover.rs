@@ -1,8 +1,8 @@
 //! From one stage to the next: the state that the one has reached, in the scene of the other.
 //!
-//! Positions, rotations, history and multipliers are carried over by the names of nodes, parts and joints. What holds or joins the scene anew
-//! takes it as it is. What is out of balance at the beginning of a static stage, because supports, joints, links, contacts or loads have come
-//! or gone or because inertia no longer acts, is taken up by forces that go back to zero over the stage, so that nothing jumps.
+//! Positions, rotations, history and multipliers are carried over by the names of nodes, parts and joints. New supports, joints and
+//! attachments refer to the current positions. A static stage may begin out of balance because supports, joints, links, contacts or loads
+//! have changed, or because inertia no longer acts. Forces then restore the balance and fade to zero over the stage, so that nothing jumps.
 
 use super::context::Context;
 use super::outcome::Counts;
@@ -20,7 +20,7 @@ use model::{AnalysisKind, Joint, Load, Model, count_along};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// What a stage begins with.
+/// The start data of a stage.
 #[derive(Clone)]
 pub struct Handover {
     /// The state, in the order of the new scene.
@@ -29,16 +29,16 @@ pub struct Handover {
     pub(super) fresh: Vec<Range<usize>>,
     /// The effort of all stages before.
     pub(super) counts: Counts,
-    /// What the balance of energy has missed so far.
+    /// The missing energy of the balance so far.
     pub(super) missed: f64,
-    /// The forces that the end of the stage before leaves out of balance on each node, where nothing but loads differs in a motion that
-    /// goes on; schemes that fulfil the equation of motion elsewhere than at the ends of steps leave some.
+    /// The unbalanced forces on each node at the end of the previous stage, if a motion continues under changed loads only. Schemes with
+    /// equilibrium off the ends of steps cause them.
     pub(super) out_of_balance: Option<Vec<Force>>,
-    /// What the scheme leaves out of balance on each node at the end of the stage before, where a motion goes on by the same scheme and
-    /// something holds, joins or touches it otherwise; empty elsewhere. A scheme that fulfils the equation of motion elsewhere than at the
-    /// ends of steps would ring where it began anew from an equilibrium there.
+    /// The unbalanced forces on each node due to the scheme at the end of the previous stage, if a motion continues with changed supports,
+    /// joints or contacts; empty otherwise. Schemes with equilibrium off the ends of steps would oscillate after a restart from equilibrium
+    /// at the end.
     pub(super) left_by_scheme: Vec<Force>,
-    /// What load steps leave to those after them; `None` unless both stages are static.
+    /// The data that load steps pass to later ones; `None` unless both stages are static.
     pub(super) load_steps: Option<LoadSteps>,
 }
 
@@ -50,16 +50,16 @@ pub(super) struct EndedStage<'e, 'a> {
     pub state: &'e State,
     /// The effort of it and all before.
     pub counts: Counts,
-    /// Mechanical energy from which its balance is drawn.
+    /// Mechanical energy at the reference of its balance.
     pub initial_energy: Option<f64>,
-    /// What its load steps have left.
+    /// The data that its load steps pass to later ones.
     pub load_steps: &'e LoadSteps,
 }
 
 /// Prepares the model of the next stage for the state at the end of the one before, and builds its system.
 ///
 /// # Errors
-/// As for [`System::new`], and where a part does not remember what it did.
+/// As for [`System::new`], and if the history of a part does not match.
 pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(System, Handover), String> {
     let &EndedStage { cx, state, .. } = before;
     let from = NodeMap::new(cx.model, model);
@@ -98,7 +98,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
     Ok((system, handover))
 }
 
-/// Lets no stage be plane unless all are: what has yielded in a plane motion remembers nothing of what lies out of it.
+/// Lets no stage be plane unless all are: the history of yielding in a plane motion has no components out of the plane.
 ///
 /// # Errors
 /// As for [`System::new`].
@@ -122,14 +122,14 @@ pub fn share_plane<'m>(stages: impl Iterator<Item = &'m mut Model>) -> Result<()
 struct NodeMap {
     /// The node of the scene before, for each of the new one.
     old: Vec<Option<usize>>,
-    /// The node whose place a support has, for each support point that is new.
+    /// For each new support point, the node of its support.
     on: Vec<Option<usize>>,
     /// The joint of the scene before with the same name between the same nodes, for each of the new one.
     joints: Vec<Option<usize>>,
 }
 
 impl NodeMap {
-    /// Nodes are known by their labels. The point of a support has that of the node that it holds, and comes after it.
+    /// Nodes are known by their labels. The point of a support has the label of its node, and follows it in the list.
     fn new(before: &Model, now: &Model) -> NodeMap {
         let mut known: HashMap<&str, Vec<usize>> = HashMap::new();
         before.nodes.iter().enumerate().for_each(|(i, node)| known.entry(&node.label).or_default().push(i));
@@ -151,7 +151,7 @@ impl NodeMap {
         NodeMap { old, on, joints }
     }
 
-    /// The nodes where they are: those that are new with what carries them, or where the deck has them.
+    /// The nodes at their current positions; new nodes move with their masters, or keep the positions of the deck.
     fn place(&self, state: &State, model: &Model, links: &[RigidLink]) -> Vec<Node> {
         let at = |(i, old): (usize, &Option<usize>)| match old {
             Some(old) => state.nodes[*old],
@@ -205,7 +205,7 @@ impl NodeMap {
         Ok((next, fresh))
     }
 
-    /// The forces that the scheme leaves on the nodes where they were free to move, and none on nodes that are new.
+    /// The unbalanced forces of the scheme on free nodes, and zero on new nodes.
     fn left_by_scheme(&self, cx: &Context, state: &State, model: &Model) -> Vec<Force> {
         let is_same = cx.is_dynamic()
             && model.analysis.kind == AnalysisKind::Dynamic
@@ -255,7 +255,8 @@ impl NodeMap {
     }
 }
 
-/// Writes the velocities of the state into the model, and those that the deck gives where nodes now are: by them the plan finds what moves.
+/// Writes the velocities of the state into the model, and those of the deck at the current positions; the plan uses them to find the moving
+/// parts.
 fn carry_velocities(from: &NodeMap, (before, state): (&Model, &State), model: &mut Model) {
     let [goes_on, moved] = [&*model, before].map(|model| model.analysis.kind == AnalysisKind::Dynamic);
     // About modes bodies spin as they have done, or, before any motion, as the deck says.
@@ -276,8 +277,8 @@ fn carry_velocities(from: &NodeMap, (before, state): (&Model, &State), model: &m
     }
 }
 
-/// Lets equations that were there before hold what they held, and those that are new the nodes as they are; true where any differs from
-/// that of the deck. A support may fix other directions than before.
+/// Keeps the equations of earlier joints, and refers new equations to the current nodes; true if any differs from the deck. A support may
+/// fix other directions than before.
 fn rejoin(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) -> bool {
     let mut changed = false;
     for (joint, known) in model.constraints.joints.iter_mut().zip(&from.joints) {
@@ -297,7 +298,7 @@ fn rejoin(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) -> 
     changed | recount(from, before, nodes, model)
 }
 
-/// Lets coordinates go on from what they counted, and those of new joints count from here; true where any differs from that of the deck.
+/// Keeps the counts of earlier coordinates, and starts those of new joints at the current positions; true if any differs from the deck.
 fn recount(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) -> bool {
     let mut springs = Vec::new();
     let mut changed = false;
@@ -327,14 +328,14 @@ fn rest(state: &mut State) {
     (state.work.damping_power, state.work.accelerations, state.work.step) = (0.0, 0.0, 0.0);
 }
 
-/// Adds the loads that hold back what is out of balance and go to zero over the stage; true where there are any. All that is not zero is
-/// held, however small beside other forces: a soft part may be moved by it.
+/// Adds loads that balance the residual forces and fade to zero over the stage; true if there are any. All that is not zero is held,
+/// however small beside other forces: a soft part may be moved by it.
 fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> bool {
     let mut forces = Forces::new(system, state.nodes.len());
     let mut loading = Loading::default();
     forces.multipliers.values.copy_from_slice(&state.multipliers);
     let excitation = Excitation::new(model);
-    // After unloading what acts is rounding itself: what the stage will bring on tells what is large.
+    // After unloading all forces may be rounding errors, so the loads at the end of the stage set the scale.
     excitation.loading(model.analysis.end_time, Side::Before, &mut loading);
     let later = system.residual(&state.configuration(), &loading, &mut forces);
     excitation.loading(state.time, Side::After, &mut loading);
@@ -343,7 +344,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
         forces.on_nodes[restraint.node][restraint.dof] = 0.0;
     }
     if let Some(normal) = system.plane {
-        // What rounding leaves out of the plane does not lead out of it.
+        // Rounding errors out of the plane must not cause motion out of it.
         let keep = |of: &mut [f64; 6]| {
             (0..3).for_each(|i| of[if i == normal { i } else { 3 + i }] = 0.0);
         };
@@ -369,12 +370,12 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
     model.loading.nodal.len() > before
 }
 
-/// True for forces above those that an equilibrium leaves.
+/// True for forces above the residual of a converged equilibrium.
 fn is_felt(of: &[f64; 6], scale: Scale, length: f64) -> bool {
     largest(&of[..3]) > LEFT * scale.force || moment_is_felt(of, scale, length)
 }
 
-/// True for moments above those that an equilibrium leaves.
+/// True for moments above the residual of a converged equilibrium.
 fn moment_is_felt(of: &[f64; 6], scale: Scale, length: f64) -> bool {
     largest(&of[3..]) > LEFT * scale.moment_beside_forces(length)
 }

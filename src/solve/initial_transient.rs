@@ -1,7 +1,7 @@
-//! Accelerations at t = 0, or after a jump of the loads, of nodes with little mass that dampers bring to another velocity long before a step
-//! ends: where an end of a damped beam moves off at once, the next node turns with 1e9 rad/s² for a microsecond. Schemes take an
-//! acceleration for one that lasts a step, and would turn the node by radians at its end. It is then replaced by that which an implicit step
-//! sees, (M + γΔt C + βΔt² K) a = f, which agrees with M a = f to the order of the step where the step resolves the motion.
+//! Accelerations at t = 0, or after a jump of the loads, of light nodes whose velocity dampers change within a small part of a step. If an
+//! end of a damped beam suddenly moves, the next node turns with 1e9 rad/s² for a microsecond. Schemes take an acceleration for one that
+//! lasts a step, and would turn the node by radians at its end. It is then replaced by the acceleration of an implicit step, (M + γΔt C +
+//! βΔt² K) a = f. If the step resolves the motion, this agrees with M a = f to the order of the step.
 
 use super::context::Context;
 use super::start::update_rates_of_dependent_nodes;
@@ -14,8 +14,8 @@ use mechanics::integrators::Stepping;
 use mechanics::state::{Configuration, Node, State};
 use model::StepLength;
 
-/// Replaces the accelerations that no step resolves, for implicit steps of given length. `before` holds the nodes before a jump, of which
-/// those go on as they were whose accelerations do not jump; `None`: all begin.
+/// Replaces the accelerations that no step resolves, for implicit steps of given length. `before` holds the nodes before a jump, and
+/// accelerations that do not jump are kept; `None` at the beginning of a run.
 pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State, before: Option<&[Node]>) {
     let explicit = matches!(cx.model.solution.scheme.stepping(), Stepping::Verlet | Stepping::RungeKutta(_));
     let StepLength::Fixed { step: dt } = cx.model.analysis.step_length else { return };
@@ -32,7 +32,7 @@ pub fn pass_over(cx: &Context, ws: &mut Workspace, state: &mut State, before: Op
         [moves, turns && jumps(&angular(&now), before.map(|node| &node.alpha))]
     };
     let any = |&node: &usize| leaps(state, node) != [false; 2];
-    // Without dampers nothing ends so soon but vibrations, with which schemes deal as they are known to.
+    // Without dampers only vibrations are so short, and schemes treat these as usual.
     let damped = cx.is_dynamic() && !cx.plan.linear && cx.system.is_damped();
     if explicit || !damped || !cx.independent_nodes.iter().any(any) {
         return;
@@ -65,8 +65,8 @@ fn differs(acceleration: &Vec3, other: &Vec3) -> bool {
     (other - acceleration).norm() > UNRESOLVED * acceleration.norm()
 }
 
-/// Solves the matrix of a step for the forces without those of inertia; returns the factor that makes accelerations of the solution in
-/// `ws.correction`, or `None` where there is none.
+/// Solves the matrix of a step for the forces without inertia. Returns the factor from the solution in `ws.correction` to accelerations, or
+/// `None` if the matrix is singular.
 fn solve(cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Option<f64> {
     ws.trial.nodes.clone_from(&state.nodes);
     for &node in &cx.independent_nodes {

@@ -1,4 +1,4 @@
-//! The state after a jump: of the loads, of the velocities that supports prescribe, or of what fails.
+//! The state after a jump of the loads or of prescribed velocities, or after a failure of a part.
 
 use super::context::Context;
 use super::failure::Failure;
@@ -11,8 +11,8 @@ use mechanics::elements::Force;
 use mechanics::state::{Configuration, Node, State};
 use model::Restraint;
 
-/// Takes the state over a jump of the loads or of prescribed velocities. Other velocities are continuous, accelerations jump by M Δa = Δf
-/// and reactions with them; otherwise the scheme would take the old acceleration into the next step and lose an order.
+/// Takes the state over a jump of the loads or of prescribed velocities. Other velocities are continuous; accelerations jump by M Δa = Δf,
+/// and reactions with them. With the old acceleration the scheme would lose an order in the next step.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
@@ -28,8 +28,8 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     jump_from(cx, ws, state, &before, Side::After)
 }
 
-/// As [`jump`], at the beginning of a stage in which the motion goes on: the loads have jumped at the end of the stage before, which keeps the
-/// velocities that supports have had.
+/// Like [`jump`], at the beginning of a stage that continues a motion. The loads have jumped at the end of the previous stage, but the
+/// velocities of supports have not.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
@@ -48,8 +48,8 @@ pub fn kick(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
     jump_from(cx, ws, state, &before, Side::After)
 }
 
-/// Gives prescribed degrees of freedom the velocities that they have from now on, and what joints and masses tie to them what follows. The
-/// impulse of the supports does the work by which the kinetic energy changes.
+/// Sets the velocities of prescribed degrees of freedom after the jump, and the velocities that follow through joints and masses. The
+/// change of kinetic energy is work of the supports.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
@@ -78,8 +78,8 @@ pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> R
     Ok(())
 }
 
-/// Takes the state over the failure of material points or links in the step of length `dt` that was taken last, of which the history at its
-/// beginning is still at hand: their forces are gone, and accelerations and reactions jump as at a jump of the loads.
+/// Updates the state after the failure of material points or links in the last step of length `dt`, whose initial history is still
+/// available. Their forces vanish, and accelerations and reactions jump as at a jump of the loads.
 ///
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
@@ -114,7 +114,7 @@ pub fn jump_from(
         add_accelerations(cx, ws, state, &massless);
     }
     if cx.wants_forces {
-        // Reactions jump by what the new accelerations leave of the new loads.
+        // Reactions jump by the new loads less the inertia forces of the new accelerations.
         cx.system.residual(&state.configuration(), &ws.loads.instant, &mut ws.forces);
         for (reaction, restraint) in state.reactions.iter_mut().zip(&cx.model.constraints.restraints) {
             *reaction -= ws.forces.on_nodes[restraint.node][restraint.dof] - before[restraint.node][restraint.dof];
@@ -123,8 +123,8 @@ pub fn jump_from(
     Ok(())
 }
 
-/// The impulse −M Δv on the unknowns of nodes, Δv what supports give to or take from the velocities `before`: it is what passes by mass that
-/// is off the held directions, or off their axes. Empty where velocities are those before.
+/// The impulse −M Δv on the unknowns of nodes, with Δv the jump of supported velocities from `before`. It acts through mass coupled to the
+/// restrained directions. Empty where velocities are those before.
 pub fn impulse(cx: &Context, ws: &mut Workspace, state: &State, (before, massless): (&[Node], &[usize])) -> Vec<f64> {
     let zero = Vec3::zeros();
     let at_rest = |node: &Node| Node { v: zero, omega: zero, a: zero, alpha: zero, ..*node };

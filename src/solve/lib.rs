@@ -1,8 +1,7 @@
 //! Integration in time. `solve` shows each accepted step to an [`Observer`]; it knows nothing of files.
 //!
-//! The files stand from the bottom up: what a run reads ([`context`]) and what a step writes ([`workspace`]), both
-//! plain data; the parts of a step that all schemes share; the implicit and the explicit schemes; the controllers of
-//! the step length; the run on top.
+//! The files build on each other. At the bottom are data: the constants of a run ([`context`]) and the workspace of a step ([`workspace`]).
+//! Then come parts of steps common to all schemes, the implicit and explicit schemes, the controllers of the step length, and the run.
 
 #![warn(missing_docs)]
 
@@ -50,7 +49,7 @@ mod trials;
 mod warning;
 mod workspace;
 
-/// Parts of steps by themselves, which tests look at.
+/// Internal parts of steps, for tests.
 pub mod inner {
     pub use crate::context::{Context, at_rest};
     pub use crate::control::COMPARISONS;

@@ -1,4 +1,4 @@
-//! A matrix with its factorization, and the one protocol by which systems with joints are solved.
+//! A matrix with its factorization, and the common solution procedure for systems with joints.
 
 use super::context::Context;
 use super::failure::Failure;
@@ -21,7 +21,7 @@ pub struct LinearSystem {
     pub loses_nothing: bool,
     /// True while a step is under way that may be taken again.
     pub in_step: bool,
-    /// True where the matrix is no longer that of the step, since something else has been looked at by it.
+    /// True if another analysis has overwritten the matrix of the step.
     pub overwritten: bool,
 }
 
@@ -33,7 +33,7 @@ impl LinearSystem {
         LinearSystem { solver, assembly, loses_nothing: true, in_step: false, overwritten: false }
     }
 
-    /// Looks whether a signal ends what is computed: before the first step of a run is done, and where the step under way takes too long.
+    /// Checks if a signal ends the computation: before the first step of a run is complete, and if the current step is too slow.
     ///
     /// # Errors
     /// [`Failure::Stopped`] where one does.
@@ -43,7 +43,7 @@ impl LinearSystem {
         if stops { Err(Failure::Stopped) } else { Ok(()) }
     }
 
-    /// Factors the matrix. False where a signal has ended that.
+    /// Factors the matrix. False if a signal has stopped it.
     ///
     /// # Errors
     /// A pivot is zero or not finite.
@@ -52,15 +52,15 @@ impl LinearSystem {
         self.solver.factor_unless(&|| cx.stop.is_made() && (loses_nothing || in_step && cx.stop.is_overdue()))
     }
 
-    /// Makes the structure anew where pairs of elements act for which the matrix has no room: those that may act soon have room then.
-    /// Without memory for that it stays, and what it has no room for is left out of it, not of the forces.
+    /// Rebuilds the structure if the matrix has no room for active pairs of elements; all pairs that may soon act then have room. If memory
+    /// is short the structure is kept: the matrix then omits these pairs, the forces do not.
     pub fn make_room(&mut self, cx: &Context, now: &Configuration) {
         if !self.assembly.has_room(cx.system, now) {
             self.rebuild(cx, &cx.system.partners(now.nodes));
         }
     }
 
-    /// Keeps the pairs for which the matrix has room, before all else: by them it is built anew.
+    /// Saves the pairs with room in the matrix before all other data, because the matrix is rebuilt from them.
     pub fn keep_room(&mut self, cx: &Context, snapshot: &mut Snapshot) {
         if cx.system.wandering_groups().next().is_none() || cx.plan.explicit {
             return;

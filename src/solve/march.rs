@@ -13,7 +13,7 @@ use base::snapshot::{Keep, Snapshot, keep};
 use mechanics::state::{Node, State};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A run under way: what it reads, what it writes, its state, and its observer.
+/// A run in progress: its constants, workspace, state and observer.
 pub struct March<'r, 'a> {
     /// Constants of the run.
     pub cx: &'r Context<'a>,
@@ -27,7 +27,7 @@ pub struct March<'r, 'a> {
     pub observer: &'r mut dyn Observer,
     /// The times inside steps that are still to come.
     pub samples: Samples<'r>,
-    /// What ends the stage before its time.
+    /// The watch that may end the stage early.
     pub stop_watch: Option<&'r mut StopWatch>,
     /// The flag that ends the run when it is raised.
     pub stop: &'a AtomicBool,
@@ -37,7 +37,7 @@ pub struct March<'r, 'a> {
     pub place: RunPosition,
     /// True where it does not begin, but goes on from a checkpoint.
     pub resumes: bool,
-    /// What leads to further runs of the scene.
+    /// The search that may start further runs of the model.
     pub search: &'r mut dyn Keep,
 }
 
@@ -48,31 +48,30 @@ pub struct RunPosition {
     pub begin: f64,
     /// The interval that is being covered, from 0.
     pub interval: usize,
-    /// Number of its steps that are done, where their length is given.
+    /// Number of completed steps of the interval, if their length is given.
     pub step: usize,
-    /// Cutbacks before the step at hand.
+    /// Cutbacks before the current step.
     pub cuts: usize,
 }
 
 keep!(RunPosition { begin, interval, step, cuts });
 
 impl March<'_, '_> {
-    /// Between two steps that `controller` leads: shows a checkpoint where one is due, and ends the run where the stop flag is raised, with
-    /// one.
+    /// Between two steps of `controller`: writes a checkpoint when due. If the stop flag is raised, it also ends the run.
     ///
     /// # Errors
-    /// [`Outcome::Stopped`] where the run is to end, [`Outcome::Io`] where the observer cannot write.
+    /// [`Outcome::Stopped`] if the run is to end, [`Outcome::Io`] if the observer cannot write.
     pub fn pause(&mut self, controller: &mut dyn Keep) -> Result<(), Outcome> {
         let stops = self.stop.load(Ordering::Relaxed);
         if stops || self.observer.wants_checkpoint(false) {
             self.show_checkpoint(controller, false)?;
         }
-        // What comes between a pause and the end of a step may be given up, and begun again from here.
+        // A step after this pause may be aborted and repeated from here.
         self.ws.matrix.in_step = true;
         if stops { Err(Outcome::Stopped { time: self.state.time }) } else { Ok(()) }
     }
 
-    /// The outcome of a run that ends by the failure of a step which `controller` leads. A step that a signal has ended leaves a checkpoint.
+    /// The outcome of a run whose `controller` failed in a step. A step aborted by a signal writes a checkpoint.
     pub fn failed_step(&mut self, controller: &mut dyn Keep, failure: Failure) -> Outcome {
         match failure {
             Failure::Stopped if !self.ws.matrix.loses_nothing => {
@@ -83,7 +82,7 @@ impl March<'_, '_> {
         }
     }
 
-    /// At the end of a run that `controller` has led: shows a checkpoint from which the run may be made longer, where one is wanted.
+    /// At the end of a run of `controller`: writes a checkpoint for an extension of the run, if wanted.
     ///
     /// # Errors
     /// [`Outcome::Io`] where the observer cannot write.
@@ -103,7 +102,7 @@ impl March<'_, '_> {
         self.observer.on_checkpoint(&snapshot.into_bytes(), at_end).map_err(Outcome::Io)
     }
 
-    /// Keeps what comes behind the search and the recorder, or takes it back.
+    /// Saves or restores the data after the search and the recorder.
     pub fn keep_rest(&mut self, controller: &mut dyn Keep, snapshot: &mut Snapshot) {
         let March { ws, state, observer, samples, stop_watch, place, cx, .. } = self;
         place.keep(snapshot);
@@ -116,7 +115,7 @@ impl March<'_, '_> {
         observer.keep_seen(snapshot);
     }
 
-    /// True where something has failed since this was asked last, with what it had stored.
+    /// True if parts with stored energy have failed since the last call.
     pub fn has_released(&mut self) -> bool {
         let eroded = self.state.work.material.eroded;
         std::mem::replace(&mut self.recorder.eroded, eroded) != eroded
@@ -132,7 +131,7 @@ impl March<'_, '_> {
         self.recorder.notify(self.cx, self.ws, self.state, self.observer, step)
     }
 
-    /// Shows the state at a sample inside the step of length `dt` that was taken last, and counts what it took.
+    /// Shows the state at a sample inside the last step of length `dt`, and counts its effort.
     ///
     /// # Errors
     /// As for [`Recorder::notify_inside`].

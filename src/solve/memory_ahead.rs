@@ -8,7 +8,7 @@ use linear::{Solver, TooLarge};
 use mechanics::state::Node;
 use model::{AnalysisKind, ModeExtent, ResponseMethod};
 
-/// Modes that are kept at once where all below a frequency are asked for.
+/// Number of stored modes assumed if all modes below a frequency are wanted.
 const MODES_UP_TO: usize = 50;
 
 /// Matrices that a run will need, without numbers. Their memory is taken, but not touched.
@@ -40,7 +40,7 @@ impl Run<'_> {
         if self.context.system.wandering_groups().next().is_some() { 2.0 } else { 1.0 }
     }
 
-    /// The matrices that the run makes later, as large as they are where all is at rest: with room for pairs in contact, and those of modes
+    /// The matrices that the run creates later, in the size for the model at rest: with room for contact pairs, and the matrices of modes
     /// and responses.
     ///
     /// # Errors

@@ -1,4 +1,4 @@
-//! Modes about the state at the end of a run; where that is the state at its start, no load steps lead to it.
+//! Modes about the state at the end of a run; no load steps precede if this is the initial state.
 
 use super::context::Context;
 use super::control::{Controller, Schedule};
@@ -16,7 +16,7 @@ use model::PrescribedMotion;
 /// The interval of a run that has come to the state of its modes.
 const AT_ITS_END: usize = usize::MAX;
 
-/// Leads a run to its end, and shows the modes about the state there where the model asks for them.
+/// Completes a run, and shows the modes about its final state if the model requires them.
 ///
 /// # Errors
 /// The outcome that ends it early.
@@ -25,7 +25,7 @@ pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule)
     if !analysis.has_modes() {
         return controller.run(march, schedule);
     }
-    // A stage of modes takes the state as it is; loads of buckling are factors of modes, and bring nothing on before.
+    // A stage of modes uses the current state; buckling loads are scaled by the factors of modes, so they are not applied before.
     if analysis.stage.is_none() && march.place.interval < AT_ITS_END {
         if analysis.buckles() || rests(march) {
             let report = &StepReport::begin(0.0);
@@ -46,14 +46,14 @@ pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule)
     loop {
         march.pause(controller)?;
         match show(march, controller) {
-            // A checkpoint is due, or a signal leaves one.
+            // A checkpoint is due, or a signal requires one.
             Err(Outcome::Stopped { .. }) => {}
             shown => return shown,
         }
     }
 }
 
-/// The loads in the state, and those of which buckling seeks the factor: all that act, or in a stage those that first act there.
+/// The loads of the state, and the loads scaled by buckling factors: all loads, or in a stage the loads that begin there.
 fn loads(cx: &Context) -> [Loading; 2] {
     let (model, mut base) = (cx.model, Loading::default());
     cx.excitation.loading(model.analysis.end_time, Side::Before, &mut base);
@@ -75,7 +75,7 @@ fn loads(cx: &Context) -> [Loading; 2] {
     [base, factored]
 }
 
-/// True where supports and joints carry all loads, and nothing moves; the state then is that at the end of the run.
+/// True if supports and joints carry all loads and nothing moves; the state then becomes the final state of the run.
 fn rests(march: &mut March) -> bool {
     let March { cx, ws, state, stop, .. } = march;
     let end = cx.model.analysis.end_time;
@@ -91,8 +91,8 @@ fn rests(march: &mut March) -> bool {
     true
 }
 
-/// The largest force out of balance relative to the largest force, in a state that a stage has reached; `None` where it is in balance, and
-/// in a deck without stages.
+/// The largest residual force relative to the largest force, in a state reached by a stage; `None` if it is in equilibrium, and in a deck
+/// without stages.
 fn unbalanced(march: &mut March, loading: &Loading) -> Option<f64> {
     let March { cx, ws, state, stop, .. } = march;
     cx.model.analysis.stage.as_ref()?;
@@ -130,7 +130,7 @@ fn loads_at_full_size(cx: &Context, reach: f64) -> [f64; 2] {
 /// Finds the modes about the state and shows them.
 ///
 /// # Errors
-/// [`Outcome::Stopped`] where the search ends before it is done; what it has found of a response is kept.
+/// [`Outcome::Stopped`] if the search is interrupted; the computed part of a response is kept.
 fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
     let [loading, factored] = &loads(march.cx);
     let left = unbalanced(march, loading);
@@ -179,7 +179,7 @@ fn show_response(march: &mut March, controller: &mut Controller, mut modes: Mode
     const ROWS: usize = 256;
     let mut rows = modes.response.as_mut().map_or_else(Vec::new, |response| std::mem::take(&mut response.rows));
     while march.place.step <= rows.len() {
-        // A checkpoint keeps what has been found.
+        // A checkpoint includes the rows computed so far.
         std::mem::swap(&mut march.ws.response.rows, &mut rows);
         let paused = march.pause(controller);
         std::mem::swap(&mut march.ws.response.rows, &mut rows);

@@ -1,4 +1,4 @@
-//! What the last step of an iteration without convergence shows of the cause, and the message that follows from it.
+//! The evidence in the last step of an iteration without convergence, and its message.
 
 use base::names::short;
 use base::snapshot::keep;
@@ -10,15 +10,15 @@ pub struct NoConvergence {
     pub at_limit: bool,
     /// The `least_step` of the deck, where it forbids the next cutback.
     pub least_step: Option<f64>,
-    /// The number of iterations that would do at the contraction seen last, where that is not far away.
+    /// The number of iterations that would suffice at the last contraction, unless it is far away.
     pub enough: Option<usize>,
 }
 
 keep!(NoConvergence: Default { at_limit, least_step, enough });
 
 impl NoConvergence {
-    /// The message up to the list of forces. `open`: the part that has opened last, in quotes; `lacks_slip`: the matrix leaves out a part of
-    /// friction; `worst`: node, direction and size of the largest unbalanced force.
+    /// The message up to the list of forces. `open` is the part that has opened last, in quotes. With `lacks_slip` the matrix omits a part
+    /// of friction. `worst` is the node, direction and size of the largest residual force.
     pub fn message(
         &self,
         iterations: usize,

@@ -4,7 +4,7 @@
 use model::Restraint;
 use std::ops::{AddAssign, Range};
 
-/// Number of nodes in a chunk: what they move by stays near the processor from one loop to the next.
+/// Number of nodes in a chunk: their increments stay in the cache from one loop to the next.
 const NODES: usize = 512;
 
 /// A range of nodes, with the ranges of what belongs to them in ascending lists.
@@ -25,7 +25,7 @@ pub struct NodeChunks {
     threads: bool,
 }
 
-/// Numbers by node that are cut where the nodes are.
+/// Data by node that can be split at a node.
 pub trait ByNode: Send + Sized {
     /// The numbers of the first `nodes` nodes, and of the others.
     fn split(self, nodes: usize) -> (Self, Self);
@@ -45,7 +45,7 @@ impl<A: ByNode, B: ByNode> ByNode for (A, B) {
 }
 
 impl NodeChunks {
-    /// Chunks of `nodes` nodes, which several threads share where `threads`.
+    /// Divides `nodes` nodes into chunks, processed by several threads with `threads`.
     pub fn new(nodes: usize, independent: &[usize], restraints: &[Restraint], threads: bool) -> Self {
         let mut order: Vec<usize> = (0..restraints.len()).collect();
         order.sort_by_key(|&i| restraints[i].node);
@@ -64,7 +64,7 @@ impl NodeChunks {
         NodeChunks { chunks, restraints: order, threads }
     }
 
-    /// Calls `of` for each chunk with its part of `data`, which is by node, and sums what it returns.
+    /// Calls `of` for each chunk with its part of `data` and sums the results.
     pub fn run<D: ByNode, R>(&self, data: D, of: &(impl Fn(&NodeChunk, D) -> R + Sync)) -> R
     where
         R: Default + AddAssign + Send,
@@ -99,7 +99,7 @@ impl AddAssign for Nothing {
     fn add_assign(&mut self, _: Nothing) {}
 }
 
-/// The largest of some numbers, none of which is negative.
+/// The largest of non-negative numbers.
 #[derive(Default)]
 pub struct Largest(pub f64);
 

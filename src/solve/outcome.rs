@@ -10,14 +10,14 @@ pub enum Outcome {
     Done,
     /// No step could be taken, however short.
     Failed {
-        /// The time up to which results are valid.
+        /// The end time of valid results.
         time: f64,
         /// The failure of the shortest step.
         failure: Failure,
     },
     /// The stop flag was raised.
     Stopped {
-        /// The end of the last step, up to which results are valid.
+        /// The end of the last step; results are valid up to it.
         time: f64,
     },
     /// The observer could not write.
@@ -25,7 +25,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// The end of a run at a time by what no shorter step may overcome.
+    /// The outcome of a run that ends at a time by a failure for the shortest step.
     pub(super) fn of(failure: Failure, time: f64) -> Outcome {
         match failure {
             Failure::Stopped => Outcome::Stopped { time },

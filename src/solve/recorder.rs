@@ -28,9 +28,9 @@ pub struct Recorder {
     pub counts: Counts,
     /// The effort of the stages before.
     before: Counts,
-    /// True for a trial run, of which no tables are written.
+    /// True for a trial run, which writes no tables.
     pub is_trial: bool,
-    /// Largest number of steps; a run that takes more is given up.
+    /// Largest number of steps; a run with more steps fails.
     pub most_steps: usize,
     /// Time spent in the observer.
     pub observing: Duration,
@@ -40,14 +40,14 @@ pub struct Recorder {
     initial_energy: Option<f64>,
     /// What has failed.
     breakage: Breakage,
-    /// What errors of steps do not go with their order for.
+    /// Events that reduce the order of the error of steps.
     pub events: Events,
-    /// The energy that what failed before the step at hand had stored.
+    /// The energy that parts failed before the current step had stored.
     pub eroded: f64,
     derived: Derived,
     tables: Pace,
     fields: Pace,
-    /// True where tables were due inside the step at hand.
+    /// True if tables were due inside the current step.
     looked_inside: bool,
     /// Length of the last step, where tables were not due at its end.
     pending: Option<f64>,
@@ -67,7 +67,7 @@ struct Pace {
 keep!(Pace { last });
 
 impl Pace {
-    /// True where output is due at a step; that of t = 0 and of the end is due anyway.
+    /// True if output is due at a step; `anyway` is true at t = 0 and at the end.
     fn is_due(&mut self, cadence: Cadence, (step, time): (usize, f64), anyway: bool) -> bool {
         let due = anyway
             || match cadence {
@@ -132,7 +132,7 @@ impl Recorder {
         }
     }
 
-    /// Sums the energy at the start of the run, or of a stage. What comes or goes between stages is not counted as missed.
+    /// Sums the energy at the start of the run, or of a stage. Changes between stages do not count as missing energy.
     pub fn begin(&mut self, cx: &Context, state: &State, handover: Option<&Handover>) {
         self.breakage.begin(cx.system, state);
         self.events.begin(cx, state);
@@ -158,12 +158,12 @@ impl Recorder {
         }
     }
 
-    /// Mechanical energy from which the balance is drawn; `None` where no energy is summed.
+    /// Mechanical energy at the reference of the balance; `None` if energies are not summed.
     pub fn initial_energy(&self) -> Option<f64> {
         self.initial_energy
     }
 
-    /// The number of elements and links that have failed; `None` where none can.
+    /// The number of failed elements and links; `None` if none can fail.
     pub fn broken(&self) -> Option<usize> {
         self.breakage.count()
     }
@@ -194,7 +194,7 @@ impl Recorder {
     /// Counts a step, computes the wanted quantities and shows it.
     ///
     /// # Errors
-    /// [`Outcome::Io`] where the observer cannot write, [`Outcome::Failed`] where energy grows.
+    /// [`Outcome::Io`] if the observer cannot write, [`Outcome::Failed`] if energy grows.
     pub fn notify(
         &mut self,
         cx: &Context,
@@ -242,8 +242,7 @@ impl Recorder {
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
     }
 
-    /// Shows the state at a sample inside the step of length `dt` that was taken last, before the step itself is shown, and counts what it
-    /// took.
+    /// Shows the state at a sample inside the last step of length `dt`, before the step itself is shown, and counts its effort.
     ///
     /// # Errors
     /// [`Outcome::Io`] where the observer cannot write.
@@ -277,7 +276,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Shows the last accepted step once more where it was not due and no other follows, so that tables end with it.
+    /// Shows the last accepted step again if it was not due and no step follows, so that tables end with it.
     ///
     /// # Errors
     /// [`Outcome::Io`] where the observer cannot write.
@@ -355,7 +354,7 @@ impl Recorder {
         (due, drawn)
     }
 
-    /// Adds what a step took to what steps took since tables were due.
+    /// Adds the effort of a step to the effort since the last tables.
     fn spend(&mut self, step: &AcceptedStep) {
         self.derived.effort = self.derived.effort.and(step.effort());
     }
@@ -369,7 +368,7 @@ impl Recorder {
         [due, drawn]: [bool; 2],
     ) -> Frame<'f> {
         let &AcceptedStep { dt, compared, last, passed, .. } = step;
-        // Each multiplier has a negative pivot of its own.
+        // Each multiplier adds one negative pivot.
         let negative = || ws.matrix.solver.negative_eigenvalues().saturating_sub(cx.system.multipliers());
         Frame {
             model: cx.model,

@@ -9,7 +9,7 @@ pub struct StepReport {
     pub factorizations: usize,
     /// Residual at the last evaluation, relative to the largest force or moment at a node.
     pub residual: f64,
-    /// Time at which the step ends.
+    /// Time at the end of the step.
     pub to: f64,
 }
 

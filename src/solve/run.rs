@@ -47,9 +47,9 @@ pub struct Run<'a> {
     pub(super) recorder: Recorder,
     pub(super) wanted: Wanted,
     pub(super) step_error: Option<StepError>,
-    /// What the stage begins with; `None` for a run from t = 0.
+    /// The start data of the stage; `None` for a run from t = 0.
     handover: Option<Handover>,
-    /// What ends the stage before its time.
+    /// The watch that may end the stage early.
     pub(super) stop_watch: Option<StopWatch>,
     stop: &'a AtomicBool,
     /// The checkpoint that the run goes on from; `None` once it does.
@@ -57,7 +57,7 @@ pub struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// Prepares a run that shows the `wanted` quantities; it ends early where `stop` is raised.
+    /// Prepares a run that shows the `wanted` quantities; it ends early if `stop` is raised.
     ///
     /// # Errors
     /// There is no memory for the solver.
@@ -81,7 +81,7 @@ impl<'a> Run<'a> {
         Ok(Run { context, workspace, controller, recorder, wanted, step_error, handover, stop_watch, stop, checkpoint })
     }
 
-    /// Lets the run begin with what the stage before has left; with `None` it begins at t = 0.
+    /// Starts the run from the end of the previous stage; with `None` it starts at t = 0.
     pub fn go_on_from(&mut self, handover: Option<Handover>) {
         self.handover = handover;
     }
@@ -150,8 +150,7 @@ impl<'a> Run<'a> {
         (outcome.err().unwrap_or(Outcome::Done), Some(state))
     }
 
-    /// Runs once, and shows the observer, as a trial, what happens at these times; steps that follow an error do so as those of another run
-    /// did in the end.
+    /// Runs once and shows the observer these times as a trial. Error-controlled steps use the final tolerance of another run.
     pub fn rehearse(&mut self, times: Vec<f64>, like: Option<StepError>, observer: &mut dyn Observer) -> Outcome {
         let model = self.context.model;
         if let Some(StepError { tolerance, longest, .. }) = like {
@@ -187,7 +186,7 @@ impl<'a> Run<'a> {
     /// stages before.
     ///
     /// # Errors
-    /// As for [`System::new`], and where a part does not remember what it did.
+    /// As for [`System::new`], and if the history of a part does not match.
     pub fn hand_over(
         &self,
         (state, counts): (&State, Counts),
@@ -198,19 +197,19 @@ impl<'a> Run<'a> {
         hand_over(&EndedStage { cx: &self.context, state, counts, initial_energy, load_steps }, model)
     }
 
-    /// Keeps what a run that has come to its end leaves to the stage after it, besides its state and counts: what
-    /// [`Run::hand_over`] needs where the run was made before a checkpoint.
+    /// Saves the data of a completed run for the next stage, besides its state and counts: [`Run::hand_over`] needs them if the run ended
+    /// before a checkpoint.
     pub fn keep_end(&mut self, snapshot: &mut Snapshot) {
         self.recorder.initial_energy_mut().keep(snapshot);
         self.workspace.load_steps.keep(snapshot);
     }
 
-    /// Gives back the memory of the matrix and its factor; what the run has found and leaves to the next stage stays.
+    /// Frees the memory of the matrix and its factor; results and data for the next stage are kept.
     pub fn forget_matrix(&mut self) {
         self.workspace.matrix.solver = Solver::none();
     }
 
-    /// Whether the value at which the stage was to stop has been reached; `None` where there is none.
+    /// Whether the stage has reached its stop value; `None` if it has none.
     pub fn has_stopped(&self) -> Option<bool> {
         self.stop_watch.as_ref().map(StopWatch::is_reached)
     }
@@ -235,7 +234,7 @@ impl<'a> Run<'a> {
         (!self.context.system.joints.is_empty()).then_some(self.workspace.joint_violation)
     }
 
-    /// The number of elements and links that have failed; `None` where none can.
+    /// The number of failed elements and links; `None` if none can fail.
     pub fn broken(&self) -> Option<usize> {
         self.recorder.broken()
     }
@@ -250,9 +249,8 @@ impl<'a> Run<'a> {
         &self.workspace.warnings
     }
 
-    /// The part by which central differences with automatic steps overshoot displacements on the mean, where the steps that are stable are too
-    /// long for the motion itself: an oscillation comes out larger by 1/√(1 − (ω Δt/2)²). `None` for other steps, and for a motion that is
-    /// rounding.
+    /// The mean relative overshoot of displacements by central differences with automatic steps, if stable steps are too long for the
+    /// motion. An oscillation is too large by 1/√(1 − (ω Δt/2)²). `None` for other steps, and for a motion that is rounding.
     pub fn overshoot(&self) -> Option<f64> {
         let [resisted, all] = self.workspace.warnings.resisted;
         let square = 0.25 * resisted / all;
@@ -261,9 +259,9 @@ impl<'a> Run<'a> {
         (is_automatic && is_seen && square > 0.0 && square < 1.0).then(|| 1.0 / (1.0 - square).sqrt() - 1.0)
     }
 
-    /// What the work of the load steps of a static analysis has too much, or lacks, for what is stored and dissipated at the end, and the
-    /// energy to which that is compared. `None` in dynamics, where the tangent is constant, and along a path of given arc length, which
-    /// does not jump; and where forces are rounding.
+    /// The missing or excess work of the load steps of a static analysis, compared with stored and dissipated energy at the end, and the
+    /// reference energy. `None` in dynamics, with a constant tangent, under arc-length control, which does not jump, and if forces are
+    /// rounding.
     pub fn missed_work(&self) -> Option<(f64, f64)> {
         let (cx, ws) = (&self.context, &self.workspace);
         let along = cx.model.analysis.step_length.is_arc_length();
@@ -273,7 +271,7 @@ impl<'a> Run<'a> {
         let (works, (missed, energy)) = (&ws.load_steps.works, self.balance().missed_in_statics());
         // Loads that act at once do work before they are in equilibrium.
         let beyond = (missed.abs() - works.sudden).max(0.0);
-        // Where nothing gives way, what is done is that of the displacements which the iteration leaves.
+        // In rigid models displacements are convergence errors, and their work is the reference.
         let left = cx.model.solution.iteration.tolerance * cx.length * ws.load_steps.peak.forces.force;
         Some((beyond.copysign(missed), energy.max(works.largest).max(0.5 * works.gross).max(left)))
     }

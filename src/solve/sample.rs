@@ -1,4 +1,4 @@
-//! The times inside steps at which the motion is looked at.
+//! Times inside steps for which the motion is evaluated.
 
 use base::snapshot::{Keep, Snapshot};
 
@@ -9,7 +9,7 @@ pub struct Sample {
     pub time: f64,
     /// True for an output time.
     pub due: bool,
-    /// True for a time at which runs are compared.
+    /// True for a time for the comparison of runs.
     pub compared: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Runs to the end, and runs by a tolerance: the run itself, a trial with longer steps that tells its error, and the run again where that is
-//! more than was asked for, see [`super::trials`].
+//! Single runs, and runs by a tolerance, see [`super::trials`]: the run itself, a trial with longer steps for its error, and further runs
+//! if the error is too large.
 
 use super::control::{Schedule, comparison_times};
 use super::frame::{Observer, OtherRun};
@@ -15,7 +15,7 @@ use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
 
-/// Into how many the intervals between the times at which steps must end are cut, in the run under way and the one before.
+/// Number of parts of each interval between required ends of steps, in the current run and the previous one.
 #[derive(Debug, Clone, Copy)]
 struct Pieces {
     now: usize,
@@ -24,18 +24,18 @@ struct Pieces {
 
 keep!(Pieces { now, before });
 
-/// What runs of a scene by a tolerance leave to those after them.
+/// The data that runs by a tolerance pass to later runs.
 struct Search {
     /// The run that is under way.
     under_way: UnderWay,
     error: StepError,
     pieces: Pieces,
-    /// Times at which the run under way is compared, besides those of every scene.
+    /// Times for the comparison of the current run, besides the general ones.
     compared: Vec<f64>,
     /// The run before.
     before: Option<Kept>,
     judged: Judged,
-    /// The times between which runs are compared: those of the stage, or of the part of it in which it comes to its stop.
+    /// The time range of comparison: the stage, or its part up to the stop.
     between: [f64; 2],
 }
 
@@ -54,26 +54,25 @@ enum UnderWay {
 
 keep_either!(UnderWay { 0 => Main, 1 => Trial, 2 => Settled });
 
-/// A run whose error a trial is to tell, with what is set aside for the trial.
+/// The run judged by a trial, with its data during the trial.
 struct Judged {
     run: Kept,
     state: State,
     recorder: Recorder,
     warnings: Warnings,
     seen: [f64; 2],
-    /// True where it came to the value at which the stage stops.
+    /// True if it reached the stop value of the stage.
     stopped: bool,
 }
 
 keep!(Judged { run, state, recorder, warnings, seen, stopped });
 
-/// What is shown of another run, by the factor between the errors of both.
+/// The other run as shown to the observer, by the ratio of both errors.
 type TellOther = fn(f64) -> OtherRun;
 
 impl Run<'_> {
-    /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did
-    /// not start. Where steps follow a tolerance, their error is estimated by a second run, and the run is made again where it is
-    /// too large.
+    /// Runs to the end, to a failure, or until stopped. Returns the outcome and the last state; none where the run did not start. If steps
+    /// follow a tolerance, a second run estimates their error, and the run is repeated if it is too large.
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         match (&self.context.model.analysis.step_length, self.controller.by_tolerance()) {
             (&StepLength::ErrorControlled { tolerance, .. }, Some(_)) => self.within(tolerance, observer),
@@ -96,7 +95,7 @@ impl Run<'_> {
         }
     }
 
-    /// Begins with the first run, or takes up the search at a checkpoint.
+    /// Begins with the first run, or resumes the search at a checkpoint.
     fn begin_search(&mut self, asked: f64) -> Search {
         let model = self.context.model;
         let mut search = Search {
@@ -134,7 +133,7 @@ impl Run<'_> {
         let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, search.between);
         let (outcome, state) = self.once(&mut trace, &schedule, search);
         let run = trace.into_kept().with_events(self.recorder.events.met());
-        // What fails with shorter steps did come to its end with those before.
+        // The run fails with shorter steps, but the previous run was complete.
         if search.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
             let of_before = search.error.before;
             let begun = self.begin_again(&mut search.error, of_before, observer);
@@ -156,8 +155,8 @@ impl Run<'_> {
         }
     }
 
-    /// The end of the times at which a run is to be compared that has come to its stop so early that hardly any of them lie before; `None` for
-    /// any other. They limit steps as well, of which the first in a long stage may be too long for what it does until it stops.
+    /// The new end of the comparison times if a run has stopped so early that hardly any of them lie before; `None` otherwise. Comparison
+    /// times also limit steps: in a long stage they may be too long for the motion until the stop.
     fn early_stop(&self, [begin, end]: [f64; 2], stopped: f64) -> Option<f64> {
         let is_early = self.has_stopped() == Some(true) && stopped - begin < EARLY * (end - begin);
         (is_early && stopped > begin).then(|| begin + (stopped - begin) / IN_TIME)
@@ -172,7 +171,7 @@ impl Run<'_> {
         (search.before, search.error.difference) = (None, None);
         let StepError { tolerance, longest, .. } = search.error;
         self.begin_again(&mut search.error, (tolerance, longest), observer)?;
-        // It is no run that tells of an error.
+        // The aborted run does not contribute to the error estimate.
         search.error.others -= 1;
         Ok(())
     }
@@ -193,7 +192,7 @@ impl Run<'_> {
         };
         let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
         observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which(error.apart)));
-        // Jumps and kinks of loads dictate most steps: only shorter ones between them tell anything.
+        // If jumps and kinks of loads determine most steps, only a finer division between them changes the steps.
         *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
         let next = if dictated { Some(error.tolerance) } else { next };
         let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
@@ -214,7 +213,7 @@ impl Run<'_> {
         None
     }
 
-    /// Makes the run by the tolerance before once more, for the run after it fails or asks for far too many steps.
+    /// Repeats the run with the previous tolerance, because the later run fails or needs far too many steps.
     fn settle(&mut self, search: &mut Search, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         let model = self.context.model;
         let schedule = Schedule::new(model, comparison_times(search.between), self.controller.looks_inside());
@@ -224,10 +223,10 @@ impl Run<'_> {
         (outcome, state)
     }
 
-    /// Prepares for a run by another tolerance, of which nothing has been seen yet.
+    /// Prepares for a run by another tolerance, without results yet.
     ///
     /// # Errors
-    /// The observer cannot forget what it has received.
+    /// The observer cannot discard the received data.
     fn begin_again(
         &mut self,
         error: &mut StepError,
@@ -243,7 +242,7 @@ impl Run<'_> {
         observer.restart(model)
     }
 
-    /// Sets aside what belongs to the run that has come to its end, for a trial with longer steps.
+    /// Stores the data of the completed run during a trial with longer steps.
     fn begin_trial(&mut self, search: &mut Search, observer: &mut dyn Observer) {
         let (model, Search { error, judged, .. }) = (self.context.model, &mut *search);
         judged.recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));

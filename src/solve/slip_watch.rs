@@ -1,5 +1,6 @@
-//! Watches slip that begins anew under friction. It begins at rest, but the spring of friction lets go with a speed F/√(k m) and the step adds
-//! h F/m: each time the slip that follows is too long by that speed times its duration. Nothing is looked at without friction.
+//! Watches slip that begins anew under friction. The exact slip begins with zero velocity, but the spring of friction releases with the
+//! velocity F/√(k m) and the step adds h F/m. The following slip is too long by this velocity times its duration. Nothing is looked at
+//! without friction.
 
 use super::context::Context;
 use super::friction_warnings::SlipBegins;
@@ -22,17 +23,17 @@ pub struct SlipWatch {
 
 keep!(SlipWatch { springs, throws });
 
-/// The way from which a motion is one of the scene, where springs of friction give by `stick`.
+/// The distance above which slip is a visible motion of the model; springs of friction stretch by `stick` before they slip.
 fn visible(cx: &Context, stick: f64) -> f64 {
     (OF_LENGTH * cx.length).max(OF_STRETCH * stick)
 }
 
-/// A spring of friction, with what it has slipped.
+/// A spring of friction, with its accumulated slip.
 #[derive(Default)]
 struct Spring {
     group: usize,
     element: usize,
-    /// True where what rubs touched at the end of the last step.
+    /// True if the bodies touched at the end of the last step.
     touched: bool,
     /// True once it has come to rest since it slipped last: slip that follows begins with speed zero.
     rests: bool,
@@ -41,7 +42,7 @@ struct Spring {
     limit: f64,
     stiffness: f64,
     phase: Phase,
-    /// The sum of what has slipped, and how far it was from the start at most.
+    /// The sum of the slip, and its largest distance from the start.
     way: [f64; 3],
     farthest: f64,
     /// The sum of the errors of phases, and how large it was at most.
@@ -67,7 +68,7 @@ struct Phase {
     length: f64,
     /// The speed with which it began.
     speed: f64,
-    /// What its error is so far.
+    /// Its error so far.
     error: f64,
 }
 
@@ -97,7 +98,7 @@ impl SlipWatch {
         self.throws.iter_mut().for_each(|throw| throw.end_step(dt));
     }
 
-    /// The warning of the contact that throws off what rests on it, where that slides so far meanwhile that it is seen.
+    /// The warning of the contact that throws off a resting body, if the slide meanwhile is visible.
     pub fn throws(&self, cx: &Context) -> Option<Warning> {
         let stick =
             |group: usize| self.springs.iter().filter(|of| of.group == group).map(Spring::stick).fold(0.0, f64::max);
@@ -128,12 +129,12 @@ impl SlipWatch {
 }
 
 impl Spring {
-    /// True where it has slipped so far that its slip is a motion of the scene: not of what settles or hardly gives.
+    /// True if its slip is a visible motion of the model, and not settling or a small yielding.
     fn is_seen(&self, cx: &Context) -> bool {
         self.farthest > visible(cx, self.stick())
     }
 
-    /// What it gives before it slips.
+    /// Its largest stretch before slip.
     fn stick(&self) -> f64 {
         if self.stiffness > 0.0 { self.limit / self.stiffness } else { 0.0 }
     }
@@ -149,7 +150,7 @@ impl Spring {
         }
         let length = slip.way.norm();
         if length == 0.0 {
-            // The spring goes back: what it holds has come to rest on the way.
+            // The spring relaxes: the body has come to rest meanwhile.
             self.rests |= slip.pull < before;
             return;
         }

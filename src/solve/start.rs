@@ -15,7 +15,7 @@ use mechanics::state::{Configuration, Increment, Node, State, Work};
 /// Finds the state at t = 0; warns where initial velocities do not agree with the joints.
 ///
 /// # Errors
-/// [`Failure::Singular`] where a mass matrix cannot be inverted, [`Failure::ConstraintsViolated`] where joints do not fit the scene.
+/// [`Failure::Singular`] if a mass matrix is singular, [`Failure::ConstraintsViolated`] if joints do not fit the model.
 pub fn start(cx: &Context, ws: &mut Workspace) -> Result<State, Failure> {
     let mut state = given_state(cx);
     cx.excitation.loading(0.0, Side::After, &mut ws.loads.instant);
@@ -130,8 +130,8 @@ pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: 
     }
 }
 
-/// Replaces velocities by those that the joints allow, the nearest in kinetic energy, after an `impulse` on the unknowns of nodes, which
-/// is empty where there is none; the mass matrix is factorized already. Returns the largest change relative to the largest velocity.
+/// Replaces velocities by the nearest ones in kinetic energy that the joints allow, after an `impulse` on the unknowns of nodes, if not
+/// empty. The mass matrix is factorized already. Returns the largest change relative to the largest velocity.
 pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], impulse: &[f64]) -> f64 {
     let (mut change, mut largest) = (0.0f64, 0.0f64);
     // Redundant equations leave a fraction of the gaps to the next correction: three leave nothing.
@@ -158,13 +158,13 @@ pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], 
         }
         update_rates_of_dependent_nodes(cx, ws, nodes);
     }
-    // What moves by less than rounding over the whole run is at rest.
+    // Parts that move by less than rounding over the whole run are at rest.
     let nowhere = NOWHERE * cx.length / (cx.model.analysis.end_time - cx.model.analysis.begin);
     if change > nowhere { change / largest } else { 0.0 }
 }
 
-/// True where joints have changed velocities that the deck gives, from `trial` to `nodes`. A drive that starts at once takes along
-/// what is joined to it and has none, which doubts nothing; without drives any change is one of what is given.
+/// True if joints have changed initial velocities of the deck, from `trial` to `nodes`. A drive that starts suddenly also moves joined
+/// parts without initial velocity, and this is no contradiction. Without drives any change concerns velocities of the deck.
 fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool {
     if ws.prescribed.start.iter().all(|given| given.v == 0.0) {
         return true;

@@ -1,4 +1,5 @@
-//! The state at the beginning of a stage: what the stage before has left, and accelerations and reactions of what acts now.
+//! The state at the beginning of a stage: the final state of the previous stage, with accelerations and reactions under the new loads and
+//! constraints.
 
 use super::context::Context;
 use super::failure::Failure;
@@ -15,7 +16,7 @@ use base::math::{Vec6, stack};
 use mechanics::elements::Force;
 use mechanics::state::{Node, State};
 
-/// Finds the state at the beginning of a stage. Where a motion goes on as it was, nothing is changed but velocities of supports that jump there.
+/// Finds the state at the beginning of a stage. If a motion continues unchanged, only the velocities of supports may jump.
 ///
 /// # Errors
 /// As for [`super::start::start`].
@@ -100,8 +101,8 @@ fn go_on_algorithmic(state: &mut State, (before, algorithmic): (&[Node], &[Vec6]
     all.zip(jumps).for_each(|((now, then), jump)| *now = then + jump);
 }
 
-/// True where joints have changed velocities that the deck gives in this stage, from `trial` to `nodes`. That they end motion which the
-/// stage before has left doubts nothing.
+/// True if joints have changed velocities that the deck gives in this stage, from `trial` to `nodes`. Joints may stop motion of the
+/// previous stage without a warning.
 fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool {
     let largest = nodes.iter().map(|node| speed(cx, &node.v, &node.omega)).fold(0.0, f64::max);
     let given = cx.model.nodes.iter().zip(ws.trial.nodes.iter().zip(nodes));
@@ -110,7 +111,7 @@ fn given_velocities_change(cx: &Context, ws: &Workspace, nodes: &[Node]) -> bool
     given.map(|(_, (before, after))| change(before, after)).any(|change| change > DIGITS * largest)
 }
 
-/// Gives the velocities of the deck, those of supports, and none to what is held; accelerations follow.
+/// Sets the velocities of the deck and of supports, and zero for restrained degrees of freedom; accelerations follow.
 fn give_rates(cx: &Context, ws: &Workspace, state: &mut State) {
     for (node, spec) in state.nodes.iter_mut().zip(&cx.model.nodes) {
         (node.a, node.alpha) = Default::default();
@@ -128,7 +129,7 @@ fn give_rates(cx: &Context, ws: &Workspace, state: &mut State) {
     }
 }
 
-/// Lets what is new, such as points that are in contact, remember the beginning of the stage; all else remembers what it does.
+/// Initializes the history of new parts, such as points in contact, at the beginning of the stage; other parts keep their history.
 fn take_up_history(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut State) {
     if handover.fresh.is_empty() {
         return;

@@ -4,14 +4,14 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-/// A step that takes longer is given up: schedulers kill a process half a minute after their signal, or sooner. A run that goes on at the end of
-/// a step gives the same bits as one that was never stopped, so nearly all steps are to come to their end.
+/// Time limit for the current step after a signal, since schedulers kill a process half a minute after their signal, or sooner. Nearly all
+/// steps should be completed: a run resumed at the end of a step gives the same bits as an uninterrupted one.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// A request to end a run.
 pub struct StopRequest<'a> {
     flag: &'a AtomicBool,
-    /// The time from the request on after which a step is given up.
+    /// The time from the request after which a step is aborted.
     patience: Duration,
     /// When the request was seen first.
     seen: OnceLock<Instant>,
@@ -29,7 +29,7 @@ impl<'a> StopRequest<'a> {
         self.flag.load(Ordering::Relaxed)
     }
 
-    /// True where the run was to end so long ago that the step under way is given up.
+    /// True if the request was made so long ago that the current step is aborted.
     #[inline]
     pub fn is_overdue(&self) -> bool {
         self.is_made() && self.seen.get_or_init(Instant::now).elapsed() >= self.patience

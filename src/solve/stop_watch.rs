@@ -1,4 +1,4 @@
-//! What ends a stage before its time: a displacement, or the work or the force of a load, that comes to a value.
+//! Ends a stage early at a value of a displacement, or of the work or force of a load.
 
 use super::context::Context;
 use super::workspace::Workspace;
@@ -11,18 +11,18 @@ use mechanics::elements::Force;
 use mechanics::state::State;
 use model::{Actors, Stop, StopQuantity};
 
-/// Watches the quantity at a value of which the stage ends.
+/// Watches the quantity whose value ends the stage.
 pub struct StopWatch {
     stop: Stop,
     /// The restraints whose motion does work, by index in the model's list.
     moved: Vec<usize>,
-    /// Of the value less the quantity: its sign, 0 until the quantity has left a value at which it begins, and the larger of both.
+    /// The sign of the value less the quantity, 0 until the quantity has left an initial value, and the largest magnitude of both.
     side: f64,
     size: f64,
-    /// Work up to the beginning of the step at hand.
+    /// Work up to the beginning of the current step.
     work: f64,
     reached: bool,
-    /// The state and the load steps at the beginning of the step at hand.
+    /// The state and the load steps at the beginning of the current step.
     before: State,
     load_steps: LoadSteps,
     buffers: Buffers,
@@ -35,17 +35,17 @@ keep!(StopWatch { side, size, work, reached, before, load_steps, buffers } witho
 struct Buffers {
     loads: [Loading; 2],
     motions: [Vec<Prescribed>; 2],
-    /// What prescribed motions move by in the step.
+    /// The increments of prescribed motions in the step.
     moved: Vec<Prescribed>,
     forces: Vec<Force>,
-    /// What is held back of the loads at the beginning of the stage; empty where nothing is.
+    /// The balanced part of the loads at the beginning of the stage; empty if there is none.
     held: Loading,
 }
 
 keep!(Buffers { loads, motions, moved, forces, held });
 
 impl Buffers {
-    /// Finds what a static stage that follows another one holds back of loads that come with it, or that jump where it begins.
+    /// In a static stage after another one, finds the balanced part of new loads and of loads that jump at its beginning.
     fn hold_back(&mut self, cx: &Context, actors: &Actors) {
         let begin = cx.model.analysis.begin;
         if cx.is_dynamic() || begin == 0.0 {
@@ -61,7 +61,7 @@ impl Buffers {
     }
 }
 
-/// Takes what is held back off the loads at a time: as dead loads that goes to zero over the stage.
+/// Subtracts the balanced part of the loads at a time, which fades to zero over the stage.
 fn take_held(cx: &Context, held: &Loading, time: f64, loads: &mut Loading) {
     let left = (cx.model.analysis.end_time - time) / cx.model.analysis.duration();
     loads.factors.iter_mut().zip(&held.factors).for_each(|(load, held)| *load -= left * held);
@@ -115,13 +115,13 @@ impl StopWatch {
         self.take_side(rest);
     }
 
-    /// Finds from which side the value is come to; a quantity that is at it is on none.
+    /// Finds the side of the value that the quantity is on; 0 if they are equal.
     fn take_side(&mut self, rest: f64) {
         self.size = self.size.max(rest.abs());
         self.side = if self.is_met(rest) { 0.0 } else { rest.signum() };
     }
 
-    /// Takes account of a step that has been taken and does not come to the value; `None` then, and what is left where it does.
+    /// Checks a completed step: `None` if the value is not reached, otherwise the remaining distance.
     pub fn passed(&mut self, cx: &Context, state: &State) -> Option<f64> {
         let rest = self.stop.value - self.quantity(cx, state);
         if self.side == 0.0 || self.leaves_branch(state) {
@@ -133,7 +133,7 @@ impl StopWatch {
         None
     }
 
-    /// True where a rotation vector has gone over to that of the same rotation the other way round, by which no value is passed.
+    /// True if a rotation vector has changed to its equivalent in the opposite direction, which passes no value.
     fn leaves_branch(&self, state: &State) -> bool {
         let StopQuantity::Displacement([node, 3..6]) = self.stop.quantity else { return false };
         let [before, now] = [&self.before, state].map(|of| rotation::log(&of.nodes[node].rotation));
@@ -152,7 +152,7 @@ impl StopWatch {
         ws.load_steps.copy_from(&self.load_steps);
     }
 
-    /// What is left to the value at the beginning of the step.
+    /// The distance to the value at the beginning of the step.
     pub fn left_before(&mut self, cx: &Context) -> f64 {
         if let StopQuantity::Work(_) = self.stop.quantity {
             return self.side * (self.stop.value - self.work);
@@ -164,7 +164,7 @@ impl StopWatch {
         left
     }
 
-    /// What is left to the value in a state between which and the beginning of the step nothing has been taken account of; negative beyond it.
+    /// The distance to the value in a state of the current step; negative beyond the value.
     pub fn left(&mut self, cx: &Context, state: &State) -> f64 {
         self.side * (self.stop.value - self.quantity(cx, state))
     }
@@ -207,7 +207,7 @@ impl StopWatch {
             }
             StopQuantity::Force(actors) => {
                 let loads = &mut buffers.loads[1];
-                // What stands at the very beginning is not that of the stage before.
+                // At the beginning of the stage, loads of the previous stage do not count.
                 let side = if state.time > cx.model.analysis.begin { Side::Before } else { Side::After };
                 cx.excitation.loading(state.time, side, loads);
                 take_held(cx, &buffers.held, state.time, loads);

@@ -1,12 +1,11 @@
-//! Loads of a static analysis that act at once, at t = 0 or where their amplitude jumps, are brought on in proportion to the time over
-//! the step that follows. At its end they are those of the deck; where the step is cut they grow from part to part, and their work is that
-//! of forces that grow with what they move.
+//! Sudden loads of a static analysis, at t = 0 or at a jump of their amplitude, are ramped over the following step. At its end they have
+//! the values of the deck. If the step is cut back, they grow from substep to substep, and their work is the work of growing forces.
 
 use super::context::Context;
 use crate::system::{Loading, Side};
 use base::snapshot::keep;
 
-/// The step that brings loads on.
+/// The step over which sudden loads are ramped.
 #[derive(Debug, Clone, Default)]
 pub struct SuddenLoads {
     from: f64,
@@ -18,7 +17,7 @@ pub struct SuddenLoads {
 keep!(SuddenLoads: Default { from, to, jump });
 
 impl SuddenLoads {
-    /// The step that ends at `to`, from t = 0, where nothing acts before, or from a jump.
+    /// The ramp up to `to`, from t = 0, where no load acts before, or from a jump.
     pub fn over(cx: &Context, from: f64, to: f64) -> SuddenLoads {
         let (mut before, mut jump) = (Loading::default(), Loading::default());
         cx.excitation.loading(from, Side::After, &mut jump);
@@ -29,7 +28,7 @@ impl SuddenLoads {
         SuddenLoads::new(from, to, jump)
     }
 
-    /// The step that brings a jump of the loads on between two times.
+    /// The ramp of a jump of the loads between two times.
     pub fn new(from: f64, to: f64, jump: Loading) -> SuddenLoads {
         SuddenLoads { from, to, jump }
     }
@@ -42,7 +41,7 @@ impl SuddenLoads {
         self.jump.pressures.clone_from(&jump.pressures);
     }
 
-    /// Takes from the loads of the deck at a time of the step what does not act yet. Those of its end stay as they are, to the last bit.
+    /// Subtracts the part of the jump that does not act yet at a time of the step. At the end of the step the loads keep every bit.
     pub fn bring_on(&self, time: f64, loads: &mut Loading) {
         if time < self.to {
             add(loads, -(self.to - time) / (self.to - self.from), &self.jump);

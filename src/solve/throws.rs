@@ -1,5 +1,5 @@
-//! What steps that do not resolve a contact do to what rests on it: they throw it off faster than it came. Nothing takes the energy away, so that
-//! it hops on, and slides where friction would hold it.
+//! Detects steps that do not resolve a contact: they throw off a resting body faster than it approached. Nothing dissipates this energy, so
+//! the body keeps bouncing, and slides although friction should hold it.
 
 use super::context::Context;
 use super::friction_warnings::ContactThrows;
@@ -27,7 +27,7 @@ pub struct Throw {
     /// The largest speed of a throw, and the way slid while nothing touches.
     parted: f64,
     pub slid: f64,
-    /// Of the step at hand: whether anything touches, the speeds with which what touches met and what touched parts, and the way while apart.
+    /// Data of the current step: whether any point touches, the largest approach and separation velocities, and the slide while apart.
     step: (bool, [f64; 3]),
 }
 
@@ -83,7 +83,7 @@ impl Throw {
     pub fn warning(&self, cx: &Context) -> Option<Warning> {
         let (name, law) = law_of(cx.model, &cx.system.groups[self.group])?;
         let step = cx.model.analysis.nominal_step();
-        // Steps of two thirds of half a period give back what they take.
+        // Steps of two thirds of half a period return the energy of the impact.
         let enough = self.period / PI;
         let throws = ContactThrows {
             name: name.to_owned(),

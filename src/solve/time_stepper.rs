@@ -12,7 +12,7 @@ use linear::TooLarge;
 use mechanics::integrators::Stepping;
 use mechanics::state::State;
 
-/// A stepper that takes a step of given length.
+/// A stepper for steps of given length.
 pub enum TimeStepper<'a> {
     /// Steps with equilibrium iterations, statics included.
     Implicit(Box<Implicit<'a>>),
@@ -57,7 +57,8 @@ impl<'a> TimeStepper<'a> {
     }
 
     /// Takes the state over a failure of material or of a link in the step of length `dt` that was taken last, as [`jumps::release`] does.
-    /// Central differences find the accelerations anew in every step, which are so short that half of one is no matter.
+    /// Central differences compute new accelerations in every step, and their steps are so short that an error over half a step is
+    /// negligible.
     ///
     /// # Errors
     /// [`Failure::Singular`] where a mass matrix cannot be inverted.
@@ -72,7 +73,7 @@ impl<'a> TimeStepper<'a> {
         Ok(())
     }
 
-    /// Forgets the iterates of the step that was taken last, which is taken back.
+    /// Discards the iterates of the last step, which is undone.
     pub fn forget_iterates(&mut self) {
         if let TimeStepper::Implicit(stepper) = self {
             stepper.solver.newton.forget_iterates();

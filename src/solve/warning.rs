@@ -1,4 +1,4 @@
-//! What a run has to say about its own results: they may not be the answer to the deck, or not to all of it.
+//! Warnings of a run about its results, which may not or not fully answer the deck.
 
 use super::friction_warnings::{ContactThrows, SlipBegins};
 use base::names::{short, to_digits};
@@ -6,7 +6,7 @@ use base::snapshot::{keep, keep_either};
 use std::fmt;
 use std::mem::discriminant;
 
-/// A doubt about results, with what it concerns.
+/// A doubt about results, with the object concerned.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
     /// Initial velocities do not agree with the joints, and were changed.
@@ -14,7 +14,7 @@ pub enum Warning {
         /// The largest change over the largest velocity.
         change: f64,
     },
-    /// The error of steps that follow a tolerance is above what was asked for.
+    /// The error of steps that follow a tolerance exceeds the requested error.
     StepError {
         /// The error asked for, relative to the largest motion.
         asked: f64,
@@ -28,7 +28,7 @@ pub enum Warning {
         /// The difference of the last two runs, likewise.
         difference: f64,
     },
-    /// A load step ended where rounding leaves a residual.
+    /// A load step converged only to a residual of rounding.
     Unbalanced {
         /// The residual, relative to the forces.
         residual: f64,
@@ -39,12 +39,12 @@ pub enum Warning {
         name: String,
         /// The largest depth.
         depth: f64,
-        /// The smallest dimension of bodies that touch and of what is touched.
+        /// The smallest dimension of the touching and the touched bodies.
         size: f64,
     },
-    /// Load control has passed a load at which the equilibrium becomes unstable.
+    /// Load control has passed a load beyond which the equilibrium is unstable.
     Unstable(Instability),
-    /// The same out of the plane of a plane motion.
+    /// Like `Unstable`, out of the plane of a plane motion.
     UnstableOutOfPlane(Instability),
     /// Modes of the state grow.
     Grows {
@@ -55,7 +55,7 @@ pub enum Warning {
         /// Its mode, from 1.
         fastest: usize,
     },
-    /// What modes leave out, in words.
+    /// Omissions of modes, in words.
     Modes(String),
     /// Beams press each other side by side.
     SideBySide {
@@ -74,7 +74,7 @@ pub enum Warning {
         /// How deep.
         depth: f64,
     },
-    /// A shell that yields is stretched beyond what its measure of strain is for.
+    /// A yielding shell is stretched beyond the range of its strain measure.
     LargeStrain {
         /// The name of the shell.
         name: String,
@@ -92,11 +92,11 @@ pub enum Warning {
         /// The largest drift in radians.
         drift: f64,
     },
-    /// Steps that do not resolve a contact throw off what rests on it.
+    /// Steps that do not resolve a contact throw off a resting body.
     ContactThrows(ContactThrows),
     /// Slip begins anew with a speed that it should not have.
     SlipBegins(SlipBegins),
-    /// The critical time step is below that for which mass scaling has raised the masses of elements.
+    /// The critical time step is below the value that mass scaling gave to elements.
     ScaledStep {
         /// The critical time step that elements were given.
         wanted: f64,
@@ -104,7 +104,7 @@ pub enum Warning {
         longest: f64,
         /// The node that its fastest motion moves most.
         label: String,
-        /// The link or contact that has most of the stiffness of that motion; empty where none has.
+        /// The link or contact with most of the stiffness of that motion; empty if there is none.
         cause: String,
     },
 }
@@ -132,7 +132,7 @@ keep_either!(Warning {
 /// Where and how an equilibrium becomes unstable.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Instability {
-    /// Time at which the first mode buckles, estimated between the ends of a step; its start where it was unstable already.
+    /// Time of buckling in the first mode, estimated between the ends of a step; the start of the step if it was already unstable.
     pub time: f64,
     /// True where the start of the step was unstable already.
     pub already: bool,
@@ -165,7 +165,7 @@ fn step_error(asked: f64, estimate: Option<f64>) -> String {
     }
 }
 
-/// What is lost where a load step ends with a residual of rounding.
+/// The message of a load step that ends with a residual of rounding.
 fn unbalanced(residual: f64) -> String {
     format!(
         "a load step ends with unbalanced forces of {} of the largest: displacements are so small, or \
@@ -175,7 +175,7 @@ fn unbalanced(residual: f64) -> String {
     )
 }
 
-/// What is known where runs with events do not come nearer to each other.
+/// The message of runs with events that do not converge to each other.
 fn runs_part(asked: f64, difference: f64) -> String {
     format!(
         "two runs differ by {} of the largest motion, and shorter steps have brought them no nearer to each other. Events such as impacts or \
@@ -186,7 +186,7 @@ fn runs_part(asked: f64, difference: f64) -> String {
     )
 }
 
-/// What is wrong where a shell is stretched far; stress conjugate to Green's strain makes forces wrong by the square of the stretch.
+/// The message of a shell with large strain; the stress conjugate to Green's strain makes forces wrong by the square of the stretch.
 fn large_strain(shell: &str, strain: f64, logarithmic: bool) -> String {
     let square = (1.0 + 2.0 * strain).max(0.0);
     if logarithmic {
@@ -207,7 +207,7 @@ fn large_strain(shell: &str, strain: f64, logarithmic: bool) -> String {
     )
 }
 
-/// What is wrong where a rotation that is fixed alone has drifted.
+/// The message of a drift of a single fixed rotation.
 fn drifted(node: &str, direction: &str, drift: f64) -> String {
     format!(
         "{direction} of `{node}` is fixed alone and has drifted to {} radians: such a rotation is a component of each step's rotation vector, and \
@@ -216,13 +216,13 @@ fn drifted(node: &str, direction: &str, drift: f64) -> String {
     )
 }
 
-/// What was done to initial velocities, by this part of the largest.
+/// The message of corrected initial velocities; `change` is relative to the largest velocity.
 fn corrected(change: f64) -> String {
     let part = short(change);
     format!("initial velocities violate the joints: they were corrected by up to {part} of the largest velocity")
 }
 
-/// What is wrong where a contact begins to act with something inside.
+/// The message of a contact with an initial penetration.
 fn begins_closed(contact: &str, depth: f64) -> String {
     format!(
         "contact `{contact}` begins closed in this stage: something lies {} inside the surface where the stages before have left it, and is \
@@ -231,7 +231,7 @@ fn begins_closed(contact: &str, depth: f64) -> String {
     )
 }
 
-/// What is wrong where a body touches more others than it remembers.
+/// The message of a body that touches more others than its history can hold.
 fn crowded(contact: &str) -> String {
     format!(
         "contact `{contact}`: a body touches more than 32 others at once that are as large as it is or larger. Those beyond press it all the \
@@ -240,7 +240,7 @@ fn crowded(contact: &str) -> String {
     )
 }
 
-/// What bounds the step where elements do not.
+/// The message of a critical time step below the value given to elements.
 fn scaled_step([wanted, longest]: [f64; 2], label: &str, cause: &str) -> String {
     let cause = match cause {
         "" => "elements have become shorter or stiffer, or have no mass where they are attached, or dampers are stiff"
@@ -255,7 +255,7 @@ fn scaled_step([wanted, longest]: [f64; 2], label: &str, cause: &str) -> String 
     )
 }
 
-/// What is wrong where beams press each other side by side.
+/// The message of beams that press each other side by side.
 fn side_by_side(contact: &str) -> String {
     format!(
         "contact `{contact}`: beams, bars or edges press each other side by side. Each pair of elements touches in one point, which jumps from \
@@ -324,7 +324,7 @@ impl fmt::Display for Warning {
     }
 }
 
-/// The warnings of a run, each kind once: the first tells.
+/// The warnings of a run, only the first of each kind.
 #[derive(Debug, Clone, Default)]
 pub struct Warnings {
     warnings: Vec<Warning>,
@@ -413,18 +413,18 @@ impl Warnings {
         }
     }
 
-    /// The remarks in the order in which they arose.
+    /// The remarks in order of occurrence.
     pub fn remarks(&self) -> &[Remark] {
         &self.remarks
     }
 
-    /// The warnings in the order in which they arose.
+    /// The warnings in order of occurrence.
     pub fn iter(&self) -> impl Iterator<Item = &Warning> {
         self.warnings.iter()
     }
 }
 
-/// What a run does not judge, or does more slowly than elsewhere, and says in its log: no doubt about results.
+/// Limits of checks, or slow algorithms, which a run reports in its log; they do not question results.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Remark {
     /// Motion out of the plane is not held there, as at t = 0 alone: buckling out of the plane is judged as if it were.

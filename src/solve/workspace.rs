@@ -1,4 +1,4 @@
-//! The workspace of a step: plain data, allocated once, without behaviour of its own.
+//! The workspace of a step: plain data, allocated once, without behaviour.
 
 use super::context::Context;
 use super::linear_system::LinearSystem;
@@ -14,7 +14,7 @@ use base::snapshot::{Keep, Snapshot, keep};
 use linear::{Solver, TooLarge};
 use mechanics::state::{Node, State};
 
-/// The numbers of the step at hand.
+/// The data of the current step.
 pub struct Workspace {
     /// The motion to the instant of equilibrium; of explicit steps, to their end.
     pub trial: TrialMotion,
@@ -36,7 +36,7 @@ pub struct Workspace {
     /// Largest coordinate of a node at the start of the step, counted from the first node at t = 0. The rounding of
     /// distances is measured by it.
     pub reach: f64,
-    /// What load steps leave to those after them.
+    /// The data that load steps pass to later ones.
     pub load_steps: LoadSteps,
     /// The matrix of the step: its tangent, or that of masses and joints.
     pub matrix: LinearSystem,
@@ -48,11 +48,11 @@ pub struct Workspace {
     pub rotation_drift: f64,
     /// Largest gap of a joint at the end of a step, relative to `reach`, over all steps.
     pub joint_violation: f64,
-    /// What the run is warned of so far.
+    /// The warnings of the run so far.
     pub warnings: Warnings,
     /// Slip that begins anew.
     slips: SlipWatch,
-    /// What has been found of a frequency response.
+    /// The computed part of a frequency response.
     pub response: ResponseSoFar,
 }
 
@@ -164,7 +164,7 @@ impl Workspace {
 }
 
 impl Workspace {
-    /// Takes account of slip in a step of length `dt` to this state, of which the history at its beginning is still at hand.
+    /// Records slip in a step of length `dt` to this state; the initial history of the step is still available.
     pub fn note_slip(&mut self, cx: &Context, state: &State, dt: f64) {
         self.slips.note(cx, &self.history, state, dt);
     }
