@@ -1,5 +1,5 @@
-//! Capsules and cylinders on faces of a shell, which they meet by their ends or rims, and by their surface the nodes of the faces: whether an edge of the mesh
-//! may pass between all of these.
+//! Detects mesh edges between the contacts of capsules and cylinders on faces of a shell: their ends or rims touch the faces, and the nodes
+//! of the faces touch their surface.
 
 use super::mesh_edges::{MeshEdge, mesh_edges};
 use super::points::Finder;
@@ -14,11 +14,11 @@ use deck::contacts as words;
 
 /// Decks have some digits only.
 const DIGITS: f64 = 1e-6;
-/// The part of its radius by which a solid may sink into a fold unseen: a mesh of a curved surface is no closer to that.
+/// Depth into a fold without a warning, relative to the radius of the solid: meshes of curved surfaces are no more accurate.
 const SHALLOW: f64 = 0.05;
 
-/// Warns of each capsule and cylinder in `with` that may lie across an edge of the mesh of `part` which it does not see: one that is longer than
-/// the solid is wide, belongs to the border or to a fold, and lies where the solid may come to. The faces are these, half as thick as given.
+/// Warns of each capsule and cylinder in `with` that may cross an edge of the mesh of `part` undetected. Such an edge is longer than the
+/// solid is wide, belongs to the border or to a fold, and lies within reach of the solid. The faces are these, half as thick as given.
 pub fn warn_of_long_solids<'d>(
     finder: &mut Finder<'_, 'd>,
     owner: &Owner<'d>,
@@ -80,7 +80,7 @@ pub fn warn_of_long_solids<'d>(
     }
 }
 
-/// The way that a body goes normal to `normal` by its velocity and its weight alone; infinite where anything else may move it.
+/// The displacement of a body across `normal` by its velocity and gravity alone; infinite if anything else may move it.
 fn way_of(finder: &Finder, index: usize, normal: &Vec3) -> f64 {
     let (scene, deck) = (finder.scene, finder.scene.deck);
     let Some(body) = deck.bodies.get(index) else { return f64::INFINITY };
@@ -99,8 +99,7 @@ fn way_of(finder: &Finder, index: usize, normal: &Vec3) -> f64 {
     along(vec3_or_zero(&body.velocity)) * time + 0.5 * along(gravity) * time * time
 }
 
-/// What a solid is called, its length and its radius, where it has such; a radius that the contact gives is that of the ends of a capsule, and of points of
-/// rims.
+/// Name, length and radius of a long solid. A radius given by the contact applies to the ends of a capsule and to points on rims.
 fn long_solid(shape: &ConvexShape, given: Option<f64>) -> Option<(&'static str, f64, f64)> {
     match shape {
         ConvexShape::Spherocylinder(Spherocylinder { half, radius }) => {

@@ -65,7 +65,7 @@ fn faces<'d>(
         return finder.report.error(&part.span, message);
     }
     if facets.is_empty() {
-        // A part with errors of its own has no faces, and these have been said.
+        // The part has no faces because of errors already reported.
         return None;
     }
     let names = finder.report.require_nodes(owner, "with", &contact.with)?;
@@ -91,7 +91,7 @@ fn faces<'d>(
         let hint = format!("for a part that touches itself, give with = \"{ITSELF}\"");
         return finder.report.error_with(&at.span, message, hint);
     }
-    // What is attached to the body that carries rigid faces does not touch them.
+    // Nodes attached to the body of rigid faces do not touch these.
     let root = finder.topology.root(faces.facets[0].nodes[0]);
     let is_rigid = faces.facets.iter().flat_map(Facet::nodes).all(|&node| finder.topology.root(node) == root);
     finder.on_lines = lines;
@@ -137,7 +137,7 @@ struct Sides {
     surface: PartIndex,
     /// Half its thickness, or its radius.
     half: f64,
-    /// The lines of which it is made.
+    /// The lines in the surface.
     lines: SurfaceLines,
 }
 
@@ -185,7 +185,7 @@ fn sides<'d>(
     Some(Sides { place, surface, half, lines })
 }
 
-/// The lines of which a part that is a surface is made; `edges` is of shells alone.
+/// The lines of a part used as a surface; only shells have `edges`.
 fn lines_of_surface(
     part: &At<String>,
     table: &At<OneOf<words::Surface>>,
@@ -204,8 +204,7 @@ fn lines_of_surface(
     }
 }
 
-/// The surfaces of all bodies in a list that are boxes, hulls, cylinders or capsules; beside `lines` without capsules, which are lines themselves there and see the
-/// ends of others.
+/// The surfaces of all boxes, hulls, cylinders and capsules in a list; against lines without capsules, which are lines themselves there.
 fn solids_of(scene: &Scene, names: &[At<String>], inflated: f64, lines: bool) -> Vec<CarriedSurface> {
     let places = names.iter().filter_map(|at| scene.names.place(&at.value));
     let leaves = places.flat_map(|place| scene.names.leaves(place));
@@ -269,7 +268,7 @@ fn balls<'d>(
     ))
 }
 
-/// What is to touch among itself.
+/// The bodies in contact among themselves.
 #[derive(Default)]
 struct Members {
     /// Nodes and radii of balls.
@@ -280,14 +279,14 @@ struct Members {
     has_tubes: bool,
 }
 
-/// True for a body of the deck whose shape could not be read, which has been said.
+/// True for a body with an unreadable shape; the error is already reported.
 fn is_unread(scene: &Scene, place: Place) -> bool {
     let Place::Body(body) = place else { return false };
     let has_shape = scene.deck.bodies.get(body).is_some_and(|body| body.shape.is_some());
     has_shape && matches!(scene.bodies[body].shape.touching(0), Touching::Nodes)
 }
 
-/// The bodies and points that a list names; `None` where one of them is neither.
+/// The bodies and points in a list; `None` if an entry is neither.
 fn members<'d>(finder: &mut Finder<'_, 'd>, among: &'d At<deck::words::Names>, given: Option<f64>) -> Option<Members> {
     let (scene, report) = (finder.scene, &mut *finder.report);
     let (mut members, mut sound) = (Members::default(), true);

@@ -14,11 +14,11 @@ use mechanics::elements::contact::restitution::{self, Loss};
 use mechanics::elements::contact::{ContactLaw, ContactPoint, ConvexBody, MOST_NODES, TouchKind};
 use std::f64::consts::{PI, TAU};
 
-/// Fraction of 1/√(k/m) that a step of an impact may reach ahead: an impact then takes nine steps or more.
+/// Fraction of 1/√(k/m) for one step of an impact: an impact then needs nine steps or more.
 const RESOLUTION: f64 = 0.5;
 /// Gap, as a part of the size of the scene, that counts as closed in statics: the rounding of positions.
 const TOUCHING: f64 = 1e-12;
-/// Steps that an impact should last where nothing cuts them, by the chapter on contact stiffness.
+/// Number of steps for an impact where steps are not cut, as in the chapter on contact stiffness.
 const STEPS: f64 = 10.0;
 
 /// Reads the numbers of a contact law.
@@ -47,7 +47,7 @@ struct Other {
 
 /// The masses that meet at the points of a contact.
 struct Meeting {
-    /// The largest mass that takes part in an impact.
+    /// The largest effective mass in an impact.
     mean: f64,
     /// The least such mass, with the rotation of bodies.
     least: f64,
@@ -56,7 +56,7 @@ struct Meeting {
 }
 
 impl LawReader<'_, '_> {
-    /// The law, and why its stiffness was chosen where the deck leaves it open.
+    /// The law, and the reason for its stiffness if the program has chosen it.
     pub fn contact_law(
         &self,
         owner: &Owner,
@@ -118,7 +118,7 @@ impl LawReader<'_, '_> {
         };
         let words::Coefficients { sticking, kinetic, decay } = contact.coefficients();
         let resolved = dynamic && meeting.rigid && frequency.is_finite();
-        // What gives nothing back is stopped in half of the time.
+        // An impact with restitution 0 stops in half of the time.
         let resolution = if matches!(loss, Loss::Whole { .. }) { 0.5 * RESOLUTION } else { RESOLUTION };
         ContactLaw {
             stiffness,
@@ -136,7 +136,7 @@ impl LawReader<'_, '_> {
         }
     }
 
-    /// Warns where nothing cuts steps that are too long for an impact on the stiffness that was chosen.
+    /// Warns of fixed steps that are too long for an impact on the chosen stiffness and are not cut.
     fn check_step(&self, owner: &Owner, meeting: &Meeting, stiffness: f64, report: &mut Report) {
         let StepLength::Fixed { step } = self.scene.analysis.step_length else { return };
         let impact = PI * (meeting.least / stiffness).sqrt();
@@ -157,7 +157,7 @@ impl LawReader<'_, '_> {
         report.warn(owner.span, message, hint);
     }
 
-    /// The smallest dimension of bodies that touch and of what is touched.
+    /// The smallest dimension of the touching and touched bodies.
     pub fn size(&self, opposite: Opposite, touching: (&[ContactPoint], &[ConvexBody])) -> f64 {
         let (points, _) = with_convex(touching);
         self.meets(opposite, &points).size_of_bodies()
@@ -197,7 +197,7 @@ impl LawReader<'_, '_> {
         Ok(self.meets(opposite, points).stiffness(meeting.mean))
     }
 
-    /// The mass that resists a motion of a node. Dependent nodes have that of what they depend on.
+    /// The mass that resists a motion of a node. Dependent nodes have the mass of their masters.
     fn mass(&self, node: usize) -> f64 {
         let root = self.topology.root(node);
         let restrained = (0..3).all(|dof| self.topology.restraint(root, dof).is_some());
@@ -212,7 +212,7 @@ impl LawReader<'_, '_> {
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
             let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
             rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
-            // More than the node's own mass takes part in an impact of a body on a deformable part.
+            // In an impact of a body on a deformable part, more than the mass of the node takes part.
             let taken = if is_body == other_is_rigid || !other.is_finite() { reduced } else { (own * other).sqrt() };
             mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
             let reduced = 1.0 / (1.0 / own + 1.0 / least_other);
@@ -221,7 +221,7 @@ impl LawReader<'_, '_> {
         Meeting { mean, least, rigid }
     }
 
-    /// What the points meet, as a mass.
+    /// The mass opposite to the points.
     fn other(&self, opposite: Opposite) -> Other {
         let Opposite::Facets(_) = opposite else {
             let carrier = opposite.node();
@@ -244,7 +244,7 @@ impl LawReader<'_, '_> {
         own > 0.5 * self.at_nodes.get(node).copied().unwrap_or(0.0)
     }
 
-    /// The compliance r²/J by which a body is easier to move at a point, or at a lever from it, than at its centre.
+    /// The compliance r²/J from the rotation of a body, at a point or at a lever from it.
     fn ease(&self, point: &ContactPoint, lever: f64) -> f64 {
         let root = self.topology.root(point.nodes[0]);
         let body = self.scene.bodies.iter().find(|body| body.node == root);

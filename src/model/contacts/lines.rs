@@ -1,4 +1,5 @@
-//! The lines with which things touch a surface that is itself made of lines: beams and bars, free edges of shells, capsules, edges of boxes, hulls and cylinders, and bodies that are made of such parts.
+//! Contact by lines on a surface of lines. The lines are beams and bars, free edges of shells, capsules, and edges of boxes, hulls and
+//! cylinders; bodies of such parts have their lines.
 
 use super::points::{Finder, SurfaceLines, Touch, lines_of};
 use crate::places::place::Place;
@@ -11,7 +12,7 @@ use mechanics::elements::contact::facets::free_edges;
 use mechanics::elements::contact::{Facet, TouchKind, Toucher};
 
 impl<'d> Finder<'_, 'd> {
-    /// The lines with which a place touches a surface of lines; `None` where it touches with something else.
+    /// The lines of a place in contact with a surface of lines; `None` for contact by points.
     pub(super) fn lines_of_place(&mut self, place: Place, name: &str, at: &'d At<String>) -> Option<Vec<Touch>> {
         if self.on_lines == SurfaceLines::None {
             return None;
@@ -44,8 +45,8 @@ impl<'d> Finder<'_, 'd> {
             .collect()
     }
 
-    /// A body that is drawn: a capsule as all between the two ends of its line; a box or a hull by its corners, and by its edges where they
-    /// cross others; a cylinder by those of a prism within. All of these are nodes that are rigidly attached to the body.
+    /// The lines of a body with a shape. A capsule is the line between its ends; a box or a hull has its corners and, for crossings, its
+    /// edges; a cylinder has those of an inscribed prism. All of these are nodes that are rigidly attached to the body.
     fn lines_of_solid(&mut self, body: usize, name: &str, at: &'d At<String>) -> Option<Vec<Touch>> {
         self.scene.deck.bodies.get(body)?.shape.as_ref()?;
         let shape = self.scene.bodies[body].shape.as_convex()?;
@@ -61,7 +62,7 @@ impl<'d> Finder<'_, 'd> {
         })
     }
 
-    /// The corners of a polyhedron that is drawn in these axes of a body, and its edges where they cross others.
+    /// The corners of a polyhedron in these axes of a body, and its edges for crossings.
     fn corners_and_edges(
         &mut self,
         body: usize,
@@ -86,7 +87,7 @@ impl<'d> Finder<'_, 'd> {
         nodes.collect()
     }
 
-    /// A body that is made of parts, or to which parts belong that are rigid: their lines; of shells against beams their nodes.
+    /// The lines of the rigid parts of a body; for shells against beams, their nodes.
     fn lines_of_parts(&mut self, body: usize) -> Option<Vec<Touch>> {
         let node = self.scene.bodies[body].node;
         let entries = self.scene.parts.entries().filter(|(_, entry)| entry.rigid_elements.is_some());

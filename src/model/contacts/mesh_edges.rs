@@ -1,4 +1,4 @@
-//! The edges of a mesh of faces over which something long may lie: those of the border, and folds that bulge.
+//! The mesh edges that a long body may lie across: border edges and convex folds.
 
 use base::math::Vec3;
 use std::collections::BTreeMap;
@@ -7,9 +7,9 @@ use std::collections::BTreeMap;
 pub struct MeshEdge {
     /// Its ends.
     pub ends: [Vec3; 2],
-    /// The normal of what lies there, of unit length, away from the faces at a fold; zero where more than two faces meet.
+    /// The unit normal on the side of the long body, away from the faces at a fold; zero where more than two faces meet.
     pub normal: Vec3,
-    /// The sine of half the angle by which the faces are folded towards the normal; 1 at the border.
+    /// The sine of half the fold angle toward the normal; 1 at the border.
     pub rise: f64,
     /// True for an edge of one face alone.
     pub is_border: bool,
@@ -29,8 +29,8 @@ impl MeshEdge {
         (from - part.clamp(0.0, 1.0) * along).norm()
     }
 
-    /// How deep something straight may sink into the edge before its ends, so far apart, touch the faces on either side of it; `seen_from` is
-    /// a place on its side. The border stops it nowhere.
+    /// Depth of a straight body in the edge at which its ends, `apart` from each other, touch the faces on both sides; `seen_from` is a
+    /// place on its side. The border stops it nowhere.
     pub fn sink(&self, seen_from: &Vec3, apart: f64) -> f64 {
         match self.is_border {
             true => f64::INFINITY,

@@ -7,7 +7,7 @@ use base::diagnostic::Span;
 use base::names::short;
 use deck::contacts::{Contact, ContactMethod};
 
-/// The depth that is left, as a part of the size of what touches, where the deck leaves it open: the tolerance of equilibria.
+/// The default tolerance of the depth, relative to the size of the touching bodies: the tolerance of equilibria.
 const LEFT: f64 = 1e-8;
 /// The least that a tolerance may be, as a part of the largest coordinates: some digits above their rounding.
 const LEAST: f64 = 1e-14;
@@ -21,7 +21,7 @@ pub fn is_augmented(contact: &Contact) -> bool {
 const MOST: f64 = 1e-4;
 
 /// Checks the keys of the method, of what touches by points alone or not, and returns the tolerance of the depth; `None` for springs alone.
-/// `size` is that of what touches, `extent` that of the scene.
+/// `size` is that of the touching bodies, `extent` that of the model.
 pub fn tolerance(
     scene: &Scene,
     owner: &Owner,

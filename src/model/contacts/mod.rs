@@ -1,4 +1,4 @@
-//! `[[contacts]]`: surfaces, the points that touch them, and what acts there.
+//! `[[contacts]]`: surfaces, the points in contact with them, and the laws.
 
 pub mod coarse_faces;
 pub mod faces;
@@ -58,7 +58,7 @@ pub fn contacts<'d>(
     contacts
 }
 
-/// What the laws of all contacts depend on.
+/// The data shared by the laws of all contacts.
 struct LawSetting<'a, 'd> {
     scene: &'a Scene<'d>,
     masses: &'a [Mass],
@@ -121,8 +121,8 @@ fn of_shape<'d>(
     })
 }
 
-/// Which solids touch a surface with all that they are: the node that carries it, and whether cylinders alone do. Multipliers, which
-/// are those of points, leave planes and cylinders to these.
+/// The solids in contact by volume with a surface: its node, and whether only cylinders. Multipliers act at points, so planes and cylinders
+/// then have contact by points. Multipliers, which are those of points, leave planes and cylinders to these.
 fn in_full(node: usize, surface: &Surface, by_points: bool) -> Option<OnConvex> {
     let (is_plane, is_cylinder) =
         (matches!(surface.shape, SurfaceShape::Plane(_)), matches!(surface.shape, SurfaceShape::Cylinder(_)));
@@ -153,7 +153,7 @@ fn of_facets<'d>(
     let least = facets.iter().map(|facet| facet.half).fold(f64::INFINITY, f64::min);
     let radii = found.points.iter().map(|point| point.radius);
     let radius = radii.chain(found.convex.iter().map(|one| 0.5 * one.shape.least())).fold(f64::INFINITY, f64::min);
-    // What is pressed in by so much is in the middle.
+    // At this depth a body is in the middle of the sheet.
     found.size = least + radius;
     if is_zone {
         return Some(found);
@@ -173,7 +173,7 @@ fn of_facets<'d>(
     Some(found)
 }
 
-/// The pairs of boxes and hulls, by number, that joints hold together or that are one body.
+/// The pairs of boxes and hulls, by number, connected by joints or in one body.
 fn joined(convex: &[ConvexBody], joints: &[Joint], topology: &Topology) -> Vec<[usize; 2]> {
     let place: HashMap<usize, usize> = convex.iter().enumerate().map(|(k, one)| (topology.root(one.node), k)).collect();
     let of_root = |node: usize| place.get(&topology.root(node)).copied();
@@ -193,7 +193,7 @@ fn gap_at_start(found: &Contact, faces: &FacetSurface, topology: &Topology) -> f
     on_solids.fold(of_points.min(of_convex), f64::min)
 }
 
-/// The mass at each node, and at what it depends on.
+/// The mass at each node, added to its master's.
 fn masses_at_nodes(scene: &Scene, masses: &[Mass], topology: &Topology) -> Vec<f64> {
     let mut at = vec![0.0; topology.list.len()];
     scene.bodies.iter().for_each(|body| at[body.node] += body.mass);
@@ -265,7 +265,7 @@ fn check_start(
     warn_closed(owner, least, size, at_rest, report);
 }
 
-/// Warns where the least gap at t = 0 is deeper than weight holds things; `size` is that of coordinates.
+/// Warns where the least gap at t = 0 is below the depth at rest under gravity; `size` is that of coordinates.
 fn warn_closed(owner: &Owner, least: f64, size: f64, at_rest: f64, report: &mut Report) {
     // Decks have some digits only.
     if least < -1e-6 * size && -least > 1.001 * at_rest {

@@ -6,7 +6,7 @@ use mechanics::elements::contact::facets::facet_gap;
 use mechanics::elements::contact::{ContactPoint, Facet, Surface};
 use mechanics::state::Node;
 
-/// What points meet in a contact.
+/// The side opposite to the points of a contact.
 #[derive(Clone, Copy)]
 pub enum Opposite<'a> {
     /// A shape, and the node that carries it.
@@ -29,7 +29,7 @@ impl Opposite<'_> {
         }
     }
 
-    /// A node whose motion is that of all, as far as a stiffness depends on it.
+    /// A node representative of the motion of all, for the choice of stiffness.
     pub fn node(&self) -> usize {
         match self {
             Opposite::Shape(node, _) => *node,
@@ -37,7 +37,7 @@ impl Opposite<'_> {
         }
     }
 
-    /// Its smallest dimension; infinite where it has none, as a sheet, which may be pressed in by more than its thickness.
+    /// Its smallest dimension; infinite for a sheet, because a penetration may exceed its thickness.
     pub fn least(&self) -> f64 {
         match self {
             Opposite::Shape(_, surface) => surface.least(),
@@ -48,7 +48,7 @@ impl Opposite<'_> {
         }
     }
 
-    /// The least gap of points at t = 0; infinite where none is told.
+    /// The least gap of points at t = 0; infinite without points.
     pub fn gap(&self, points: &[ContactPoint], topology: &Topology) -> f64 {
         match self {
             Opposite::Shape(node, surface) => {

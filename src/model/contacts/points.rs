@@ -42,7 +42,7 @@ impl Touch {
         Touch { nodes: ends.iter().map(|&node| (node, 0.5)).collect(), radius, extent: TouchKind::Line }
     }
 
-    /// What crosses others between two nodes that touch for themselves.
+    /// An edge between two nodes with separate contact points.
     pub(super) fn edge(ends: &[usize], radius: f64) -> Touch {
         Touch { extent: TouchKind::Edge, ..Touch::line(ends, radius) }
     }
@@ -53,7 +53,7 @@ pub(super) fn lines_of(nodes: &[usize], radius: f64) -> Vec<Touch> {
     nodes.windows(2).map(|ends| Touch::line(ends, radius)).collect()
 }
 
-/// Connects points that the deck names as touching something, so that supports and loads find them connected.
+/// Connects the points in `with` lists, so that supports and loads find them connected.
 pub fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
     let lists = scene.deck.contacts.iter().filter_map(|contact| contact.with.as_ref());
     for name in lists.flat_map(|list| &list.values) {
@@ -63,7 +63,7 @@ pub fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
     }
 }
 
-/// The lines of which a surface is made.
+/// The lines of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurfaceLines {
     /// It is made of something else.
@@ -74,12 +74,12 @@ pub enum SurfaceLines {
     FreeEdges,
 }
 
-/// A surface that convex solids touch with all that they are.
+/// A surface in contact by volume with convex solids.
 #[derive(Debug, Clone, Copy)]
 pub struct OnConvex {
     /// The node that carries it.
     pub carrier: usize,
-    /// True for a plane, which boxes and hulls touch with their corners and capsules with their ends: these are all that there is.
+    /// True for a plane: boxes and hulls touch it fully by corners, and capsules by ends.
     pub cylinders_alone: bool,
 }
 
@@ -98,17 +98,17 @@ pub struct Finder<'a, 'd> {
     pub scene: &'a Scene<'d>,
     /// The nodes; those that points need are added.
     pub topology: &'a mut Topology,
-    /// The report, to which errors go.
+    /// The report for errors.
     pub report: &'a mut Report<'d>,
-    /// The surface, where that is a convex shape that convex solids touch with all that they are.
+    /// The surface, if it is a convex shape with contact by volume.
     pub on_convex: Option<OnConvex>,
-    /// The lines of which the surface is made.
+    /// The lines of the surface.
     pub on_lines: SurfaceLines,
     /// The boxes, hulls, cylinders and capsules found.
     pub convex: Vec<ConvexBody>,
-    /// What is seen of all that was found.
+    /// Coverage of the touching bodies found.
     pub sight: Sight,
-    /// True where something was found between whose nodes or corners further points may lie.
+    /// True if further points may lie between the nodes or corners found.
     pub divides: bool,
 }
 
@@ -158,7 +158,7 @@ impl<'a, 'd> Finder<'a, 'd> {
                 let mut key: Vec<(usize, u64)> = touch.nodes.iter().map(|&(node, w)| (node, w.to_bits())).collect();
                 // A line may be named from either end.
                 key.sort_unstable();
-                // What two parts share is as thick as the thicker of them.
+                // The contact radius of a shared node or line is that of the thicker part.
                 match seen.entry(key) {
                     Entry::Vacant(place) => {
                         place.insert(touches.len());
@@ -182,7 +182,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         Some(touches.into_iter().map(|touch| self.contact_point(touch, given, friction)).collect())
     }
 
-    /// Refuses `points` that lie nowhere, and warns of what they do not divide: lines and convex solids touch in full.
+    /// Refuses `points` without a part or body to divide, and warns for lines and convex solids, because these touch in full.
     fn check_points(&mut self, contact: &'d words::Contact, names: &Names, undivided: &Undivided) -> Option<()> {
         let at = contact.points.as_ref()?;
         if !names.values.iter().any(|at| self.names_part(at)) {
@@ -240,7 +240,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         leaves.into_iter().any(is_part)
     }
 
-    /// The points that one name of the list covers; `None` where they are not known or may not touch.
+    /// The points of one name in the list; `None` if unknown or not allowed to touch.
     fn touches_of_name(
         &mut self,
         at: &'d At<String>,
@@ -261,7 +261,7 @@ impl<'a, 'd> Finder<'a, 'd> {
             return Some(found);
         }
         if found.is_empty() {
-            // A part with errors of its own has no nodes, and these have been said.
+            // The part has no nodes because of errors already reported.
             if self.scene.nodes_of(place).is_empty() {
                 self.scene.report_empty(place, at, self.report);
             }
@@ -338,7 +338,7 @@ impl<'a, 'd> Finder<'a, 'd> {
     fn open(&mut self, elements: &[Vec<usize>], is_surface: bool, radius: f64, between: Option<usize>) {
         let x = |node: usize| self.topology.x(node);
         let width = |nodes: &Vec<usize>| match is_surface {
-            // What goes through a mesh of a surface is as wide as its diagonal.
+            // A body passing through a mesh of a surface is at most as wide as its diagonal.
             true => {
                 let facets = curved_faces::facets(nodes.len()).iter();
                 let pairs =
@@ -364,7 +364,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         lines.map(|line| self.contact_point(line, Some(radius), friction)).collect()
     }
 
-    /// Half the thickness of a part, or another distance from its nodes at which it is in contact.
+    /// The contact radius of a part: half its thickness unless given.
     pub fn contact_radius(&self, part: PartIndex) -> f64 {
         self.scene.parts.entry(part).map_or(0.0, |entry| entry.contact_radius)
     }
@@ -402,7 +402,7 @@ impl<'a, 'd> Finder<'a, 'd> {
 }
 
 impl Finder<'_, '_> {
-    /// The nodes that go with a body, of its parts with the contact radius of these, and what lies `between` them.
+    /// The nodes of a body's parts with their contact radius, and the places `between` them.
     fn touches_of_parts(&mut self, body: usize, between: usize, found: &mut Vec<Touch>) {
         let scene = self.scene;
         let mut radii: HashMap<usize, f64> = HashMap::new();

@@ -15,7 +15,7 @@ pub struct Opening {
     pub divides: bool,
 }
 
-/// What is seen of all that touches in a contact.
+/// Coverage of the touching bodies in a contact.
 #[derive(Default)]
 pub struct Sight {
     /// Its shapes.
@@ -27,8 +27,8 @@ pub struct Sight {
 }
 
 impl Sight {
-    /// Warns of surfaces that may pass between points unseen; `points` is what the deck asks for between nodes and corners, and `by_points`
-    /// is true where nothing but points may touch.
+    /// Warns of surfaces that may pass between points undetected. `points` is the deck's number between nodes and corners; `by_points` is
+    /// true for contact by points alone.
     pub fn check(
         &self,
         owner: &Owner,

@@ -1,5 +1,5 @@
-//! The penalty stiffness where the deck leaves it open: by the material and size of what touches, by weight and by speed. It does
-//! not depend on the time step, so that results converge with it.
+//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. It does not depend on the time
+//! step, so that results converge with it.
 
 use crate::contacts::opposite::Opposite;
 use crate::places::nodes::Topology;
@@ -11,7 +11,7 @@ use deck::Deck;
 use mechanics::elements::contact::ContactPoint;
 use std::collections::HashSet;
 
-/// The part of the size of what touches that weight on one point presses it in: nobody sees it.
+/// Depth under weight on one point, relative to the size of the bodies: invisible.
 const SUNK: f64 = 1e-3;
 /// The part of the size that an impact presses in: it is over before anything has turned, and steps can follow it.
 const STRUCK: f64 = 1e-2;
@@ -20,9 +20,9 @@ const STRUCK: f64 = 1e-2;
 pub struct ChosenStiffness {
     /// The force of a point per depth.
     pub stiffness: f64,
-    /// The quantity by which it was chosen, in words.
+    /// The reason for the choice, in words.
     pub reason: String,
-    /// True where nothing but the time that the run lasts was there to choose it by.
+    /// True if only the duration of the run was available for the choice.
     pub rests_on_time: bool,
 }
 
@@ -41,7 +41,7 @@ pub struct Meets<'a, 'd> {
 }
 
 impl Meets<'_, '_> {
-    /// The stiffness for the mass that meets: the largest that material, weight and speed ask for.
+    /// The stiffness for the effective mass: the largest by material, weight and speed.
     pub fn stiffness(&self, mass: f64) -> ChosenStiffness {
         let (size, speed) = (self.size(), self.speed());
         let mut choices = Vec::new();
@@ -74,8 +74,8 @@ impl Meets<'_, '_> {
         ChosenStiffness { stiffness, reason, rests_on_time }
     }
 
-    /// The stiffness from which load steps find multipliers, which it does not decide: by material, or by weight and loads on the mass that
-    /// meets. `None` where the deck says nothing of these.
+    /// The initial stiffness of load steps with multipliers, which does not affect the result: by material, or by weight and loads on the
+    /// effective mass. `None` where the deck says nothing of these.
     pub fn stiffness_under_loads(&self, mass: f64) -> Option<ChosenStiffness> {
         if let Some((stiffness, part)) = self.softest_part() {
             let reason = format!("E A over the length of an element of `{part}`");
@@ -88,8 +88,8 @@ impl Meets<'_, '_> {
         (force > 0.0).then(|| ChosenStiffness { stiffness: force / depth, reason, rests_on_time: false })
     }
 
-    /// The least stiffness of the deformable parts that touch, each by the shortest element that does, with the names of the parts. The spring
-    /// of a contact then gives way by no more than the mesh does anyway: a softer one would delay a blow by more than an element.
+    /// The least stiffness over the deformable parts in contact, each by its stiffest touching element, with the name of the part. The
+    /// spring of a contact then gives way by no more than the mesh does anyway: a softer one would delay a blow by more than an element.
     fn softest_part(&self) -> Option<(f64, &str)> {
         let mut touching: HashSet<usize> = self.points.iter().flat_map(ContactPoint::nodes).copied().collect();
         if let Opposite::Facets(_) = self.opposite {
@@ -104,13 +104,13 @@ impl Meets<'_, '_> {
             let all = self.scene.parts.list.iter().filter_map(|part| Some((stiffest(part)?, part.name())));
             all.min_by(|a, b| a.0.total_cmp(&b.0))
         };
-        // What hangs on a node of what touches does not touch; where nothing touches with a whole element, what has the nodes does.
+        // Elements with only some touching nodes do not count, unless no element touches with all of its nodes.
         let whole = softest(&|nodes| nodes.iter().all(|node| touching.contains(node)));
         whole.or_else(|| softest(&|nodes| nodes.iter().any(|node| touching.contains(node))))
     }
 
-    /// The smallest dimension of bodies that touch and of what is touched; that of the scene where neither has one. Parts count for
-    /// nothing: a sheet may be pressed in by more than its thickness and is still on its side.
+    /// The smallest dimension of touching and touched bodies; the extent of the model if neither has one. Parts count for nothing: a sheet
+    /// may be pressed in by more than its thickness and is still on its side.
     pub fn size_of_bodies(&self) -> f64 {
         let parts = &self.scene.parts.list;
         let nodes = parts.iter().flat_map(|part| (0..part.elements()).flat_map(|element| part.nodes(element)));
@@ -118,12 +118,12 @@ impl Meets<'_, '_> {
         self.smallest(|point| !point.nodes().iter().any(|node| of_parts.contains(node)))
     }
 
-    /// The smallest dimension of what touches and of what is touched; that of the scene where neither has one.
+    /// The smallest dimension of the touching and touched sides; the extent of the model if neither has one.
     fn size(&self) -> f64 {
         self.smallest(|_| true)
     }
 
-    /// The same of the points that count.
+    /// The smallest dimension over the points that count.
     fn smallest(&self, counts: impl Fn(&ContactPoint) -> bool) -> f64 {
         let body = |point: &ContactPoint| {
             let root = self.topology.root(point.nodes[0]);
@@ -151,7 +151,7 @@ impl Meets<'_, '_> {
         if extent > 0.0 { extent } else { 1.0 }
     }
 
-    /// The time that the run lasts, all of its stages together: a stage by itself does not choose.
+    /// The duration of the run, over all stages, so that stages have one stiffness.
     fn duration(&self) -> f64 {
         match self.scene.stage {
             Some(stage) => stage.sequence.end(),
@@ -164,7 +164,7 @@ impl Meets<'_, '_> {
         self.scene.stage.map_or(self.scene.deck, |stage| stage.sequence.whole)
     }
 
-    /// The velocity and the angular velocity with which the deck lets a node begin, in whatever stage that is.
+    /// The initial velocity and angular velocity of a node in the deck, in any stage.
     fn begins_with(&self, node: usize) -> [Vec3; 2] {
         let of_body = self.scene.bodies.iter().position(|body| body.node == node);
         match of_body.and_then(|index| self.whole_deck().bodies.get(index)) {

@@ -23,7 +23,7 @@ pub struct Analysis {
     pub step_length: StepLength,
     /// Least length of a step after cutbacks.
     pub least_step: f64,
-    /// True where out-of-plane motion that nothing can excite is omitted from the unknowns.
+    /// True where the unknowns omit out-of-plane motion without excitation.
     pub plane: bool,
 }
 
@@ -54,7 +54,7 @@ impl Analysis {
         self.kind == AnalysisKind::Dynamic
     }
 
-    /// True where load steps are all that is computed.
+    /// True for an analysis by load steps alone.
     pub fn is_static(&self) -> bool {
         self.kind == AnalysisKind::Static
     }
@@ -87,7 +87,7 @@ impl Analysis {
         }
     }
 
-    /// True where damping and gyroscopic moments enter the modes: bodies that spin excite and are excited with theirs.
+    /// True where damping and gyroscopic moments enter the modes, with the spin of bodies.
     pub fn damps_modes(&self) -> bool {
         matches!(self.kind, AnalysisKind::Modal(ModesAsked { damped: true, .. }) | AnalysisKind::Response(_))
     }
@@ -102,12 +102,12 @@ impl Analysis {
         self.stage.as_ref().is_some_and(|stage| stage.goes_on)
     }
 
-    /// True where it does but for loads that come, go or jump.
+    /// True where the motion goes on and only loads come, go or jump.
     pub fn loads_alone_change(&self) -> bool {
         self.stage.as_ref().is_some_and(|stage| stage.loads_alone_change)
     }
 
-    /// True where a longer `end_time` changes nothing of what has been computed: steps of given length in motion, in a deck without stages.
+    /// True where a longer `end_time` keeps all earlier results: fixed time steps, in a deck without stages.
     pub fn can_be_longer(&self) -> bool {
         let steps_are_given = matches!(self.step_length, StepLength::Fixed { .. });
         self.is_dynamic() && steps_are_given && self.stage.is_none()
@@ -118,7 +118,7 @@ impl Analysis {
         self.end_time - self.begin
     }
 
-    /// The length of step on which samples and studies are based: that of fixed steps, or about that of the first.
+    /// The step length for sampling and studies: the fixed step, or about the first one.
     pub fn nominal_step(&self) -> f64 {
         match &self.step_length {
             StepLength::Fixed { step } => *step,
@@ -145,7 +145,7 @@ pub struct Solution {
 pub struct Iteration {
     /// The moduli and acceleration of the iteration.
     pub method: Method,
-    /// The rule by which the matrix is formed anew.
+    /// The rule for forming the matrix anew.
     pub update: Update,
     /// The side of the equation on which gyroscopic terms stand.
     pub gyroscopic: Gyroscopic,

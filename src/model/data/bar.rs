@@ -21,7 +21,7 @@ pub struct Bar {
     pub mass_per_length: f64,
     /// The distribution of the mass.
     pub mass: MassKind,
-    /// Rayleigh factors of its own.
+    /// Rayleigh factors of this part.
     pub damping: OwnDamping,
     /// True where the bar goes slack under compression.
     pub tension_only: bool,
@@ -34,7 +34,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    /// The quantities for `[[expect]]`; plastic strain only if its material yields.
     pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&[AXIAL_FORCE, PLASTIC_STRAIN]];
 }
 

@@ -22,7 +22,7 @@ pub struct Beam {
     pub mass: MassKind,
     /// True where the section's rotary inertia is kept.
     pub rotary_inertia: bool,
-    /// Rayleigh factors of its own.
+    /// Rayleigh factors of this part.
     pub damping: OwnDamping,
     /// The fibres and their law; `None` where the material is elastic.
     pub yielding: Option<FibreModel>,
@@ -35,8 +35,7 @@ pub struct Beam {
 /// An element of a beam.
 #[derive(Debug, Clone)]
 pub struct BeamElement {
-    /// Nodes from one end to the other, of which the first `order + 1` are used. Inner nodes lie at the Lobatto points
-    /// of a straight line.
+    /// Nodes from one end to the other; the first `order + 1` are used. Inner nodes lie at the Lobatto points of a straight line.
     pub nodes: [usize; 5],
     /// Columns: section axes x (along the beam), y, z in global components at t = 0.
     pub frame: Mat3,
@@ -45,7 +44,7 @@ pub struct BeamElement {
 }
 
 impl Beam {
-    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    /// The quantities for `[[expect]]`; plastic strain only if its material yields.
     pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&SECTION_FORCES, &[PLASTIC_STRAIN]];
 }
 

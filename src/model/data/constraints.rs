@@ -14,7 +14,7 @@ pub struct Constraints {
     pub joints: Vec<Joint>,
     /// The restraints, at most one for each degree of freedom, sorted by node and degree of freedom.
     pub restraints: Vec<Restraint>,
-    /// The nodes of which all three rotations are given and more than one moves.
+    /// The nodes with all three rotations given, more than one of them moving.
     pub turns: Vec<GivenTurn>,
 }
 
@@ -23,7 +23,7 @@ pub struct Constraints {
 pub struct GivenTurn {
     /// The restraints of rx, ry and rz, by index in [`Constraints::restraints`].
     pub restraints: [usize; 3],
-    /// What the three numbers mean.
+    /// The meaning of the three numbers.
     pub angles: RotationAngles,
 }
 
@@ -49,35 +49,35 @@ pub struct Joint {
     pub ends: [usize; 2],
     /// The constraint equations.
     pub equations: Vec<ConstraintEquation>,
-    /// The same as the deck has them at t = 0: a stage that begins with others holds what it finds.
+    /// The equations of the deck at t = 0; a stage with other initial positions locks those instead.
     pub of_deck: Vec<ConstraintEquation>,
     /// True where it holds a dependent node to its support; the support's reactions are then the joint's forces.
     pub supports: bool,
-    /// What of the deck it comes from.
+    /// The entry of the deck behind it.
     pub origin: JointOrigin,
     /// Its coordinate; `None` where it has none, or it holds a support or an attachment.
     pub coordinate: Option<JointCoordinate>,
 }
 
-/// What of the deck a joint comes from.
+/// The entry of the deck behind a joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JointOrigin {
     /// An entry of `[[joints]]`.
     Deck,
-    /// A support of a node that depends on another, or that has a free rotation beside those that are given.
+    /// A support of a dependent node, or of a node with a free rotation beside the given ones.
     Support,
     /// An attachment that elimination cannot do.
     Attachment,
 }
 
-/// The coordinate of a joint, and what acts along it.
+/// The coordinate of a joint, its drive and its effort.
 #[derive(Debug, Clone)]
 pub struct JointCoordinate {
     /// The equation that would lock it; its violation is the coordinate.
     pub lock: ConstraintEquation,
     /// The axis, a unit vector, global at t = 0.
     pub axis: Vec3,
-    /// What leads it; the last equation of the joint is then [`JointCoordinate::lock`].
+    /// The drive of the coordinate; the last equation of the joint is then [`JointCoordinate::lock`].
     pub drive: Option<JointDrive>,
     /// The force or moment between the ends.
     pub effort: Option<JointEffort>,
@@ -85,19 +85,19 @@ pub struct JointCoordinate {
     pub spring: Option<usize>,
 }
 
-/// What leads the coordinate of a joint: a prescribed motion, or the gears that it belongs to.
+/// The drive of a joint's coordinate: a prescribed motion, or gears.
 #[derive(Debug, Clone, Copy)]
 pub struct JointDrive {
     /// The node whose displacement along x, times the ratio, is the coordinate.
     pub node: usize,
     /// Coordinate per displacement of the node.
     pub ratio: f64,
-    /// True where no motion is prescribed, so that the node is an unknown.
+    /// True without a prescribed motion: the node is then an unknown.
     pub is_free: bool,
 }
 
 impl JointDrive {
-    /// The same with the node's place, from those of all nodes at t = 0.
+    /// The drive with the node's place, from the places of all nodes at t = 0.
     pub fn at(&self, x: &[Vec3]) -> Drive {
         Drive { node: self.node, start: x[self.node], ratio: self.ratio, is_free: self.is_free }
     }
@@ -119,12 +119,12 @@ impl Joint {
         Joint { name, ends, of_deck: equations.clone(), equations, supports, origin, coordinate: None }
     }
 
-    /// The same as what holds an attachment.
+    /// Marks the joint as the substitute of an attachment.
     pub fn of_attachment(self) -> Joint {
         Joint { origin: JointOrigin::Attachment, ..self }
     }
 
-    /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate stays as it is.
+    /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate is not changed.
     pub fn lead(&mut self, drive: JointDrive) {
         if let Some(coordinate) = &mut self.coordinate {
             coordinate.drive = Some(drive);

@@ -14,18 +14,18 @@ pub struct Contact {
     pub surface: TouchedSurface,
     /// The points.
     pub points: Vec<ContactPoint>,
-    /// Boxes and hulls that touch the surface, which is one then, or each other, with their corners, edges and faces.
+    /// Boxes, hulls, cylinders and capsules in contact by volume, with the convex surface or with each other.
     pub convex: Vec<ConvexBody>,
     /// The pairs of these, by number in ascending order, that do not touch each other: a joint holds them together.
     pub joined: Vec<[usize; 2]>,
-    /// The shapes of all that touches, by which `check` says what is not seen.
+    /// The shapes of the touching bodies; `check` lists the parts ignored in contact.
     pub touchers: BTreeSet<Toucher>,
     /// The contact law; `None` for a clearance monitor, which exerts no force.
     pub law: Option<ContactLaw>,
-    /// The smallest dimension of bodies that touch and of what is touched, by which depths are judged; of faces and of balls among
-    /// themselves the distance of their middles when they touch.
+    /// The smallest dimension of the touching and touched bodies, the scale of depths. For faces and for balls among themselves, the
+    /// distance of their middles at touch.
     pub size: f64,
-    /// By what the stiffness was chosen, where the deck leaves it to the program.
+    /// The reason for the stiffness, if the program has chosen it.
     pub chosen: Option<String>,
 }
 
@@ -58,7 +58,7 @@ pub struct FacetSurface {
     pub is_of_edges: bool,
     /// What touches them.
     pub touchers: FacetTouchers,
-    /// The bodies that are boxes or hulls, whose surface the nodes of the facets touch.
+    /// The boxes, hulls, cylinders and capsules whose surface the nodes of the facets touch.
     pub solids: Vec<CarriedSurface>,
     /// Of each of these, the points that are its corners, by number.
     pub corners: Vec<Vec<usize>>,
@@ -67,8 +67,7 @@ pub struct FacetSurface {
 }
 
 impl FacetSurface {
-    /// True where one side touches and the other is touched, and so forces have a resultant: not in what touches itself, and not among
-    /// bodies.
+    /// True where one side touches the other, so that forces have a resultant; false for self-contact and for bodies among themselves.
     pub fn has_sides(&self) -> bool {
         matches!(self.touchers, FacetTouchers::Others)
     }
@@ -96,7 +95,7 @@ impl Contact {
 }
 
 impl Contact {
-    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    /// The quantities for `[[expect]]`.
     pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&CONTACT, &[CONTACT_FORCE]];
 }
 

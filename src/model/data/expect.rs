@@ -50,20 +50,20 @@ pub enum ExpectAt {
     Elements(usize, usize),
 }
 
-/// The frequency at which a response is read.
+/// The frequency for reading a response.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OverFrequencies {
     /// This one.
     At(f64),
-    /// That of the greatest value.
+    /// The frequency of the greatest value.
     Max,
-    /// That of the least value.
+    /// The frequency of the least value.
     Min,
-    /// That of the greatest absolute value.
+    /// The frequency of the greatest absolute value.
     Abs,
 }
 
-/// The instant at which the value is read.
+/// The instant for reading the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
     /// At this time; along a path, when the load reaches it for the first time from below.

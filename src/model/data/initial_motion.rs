@@ -1,4 +1,4 @@
-//! Velocities that the deck gives, as functions of the place: a stage begins with them where nodes then are.
+//! Initial velocities from the deck, as functions of the place; a stage evaluates them at the current positions of nodes.
 
 use base::math::Vec3;
 use mechanics::amplitude::Amplitude;
@@ -9,7 +9,7 @@ use std::sync::Arc;
 pub struct PlaceFactor {
     /// The factor over the place along `direction`, or over the angle about `axis`.
     pub amplitude: Amplitude,
-    /// The point from which places are measured, global components.
+    /// The origin for measuring places, global components.
     pub center: Vec3,
     /// The unit vector along which places are measured. With an axis it lies across that, and angles are measured from it.
     pub direction: Vec3,
@@ -36,7 +36,7 @@ pub struct InitialMotion {
     pub v: Vec3,
     /// Angular velocity, global components.
     pub omega: Vec3,
-    /// The point about which all turns as a rigid body, global components; `None` where nodes turn by themselves.
+    /// The centre of a rigid rotation, global components; `None` where each node only has its angular velocity.
     pub about: Option<Vec3>,
     /// Velocity along the normals of shells, instead of `v`.
     pub along_normal: Option<f64>,

@@ -30,7 +30,7 @@ impl MassIntegrals {
         }
     }
 
-    /// The centre of mass, or that of the elements where there is no mass.
+    /// The centre of mass; without mass, the centroid of the elements.
     pub fn center(&self) -> Vec3 {
         if self.mass > 0.0 { self.first / self.mass } else { self.first_of_size / self.size }
     }

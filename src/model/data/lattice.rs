@@ -56,7 +56,7 @@ fn lattice(nodes: &[usize], between: usize, edges: &mut HashSet<[usize; 2]>, pla
     }
 }
 
-/// The same of a curved element: on its sides between neighbouring nodes, and within the faces between its nodes.
+/// The lattice of a curved element: on its sides between neighbouring nodes, and within the faces between its nodes.
 fn curved_lattice<F: CurvedFace<N>, const N: usize>(
     nodes: &[usize],
     between: usize,
@@ -85,7 +85,7 @@ fn curved_lattice<F: CurvedFace<N>, const N: usize>(
         lattice(facet, between, &mut known, &mut own);
     }
     for weights in own {
-        // The same place in coordinates of the element.
+        // The place in coordinates of the element.
         let at = |i: usize| weights.iter().map(|&(k, w): &(usize, f64)| w * F::NODES[k][i]).sum();
         let values = F::values([at(0), at(1)]);
         let of = nodes.iter().copied().zip(values).filter(|(_, w)| w.abs() > 1e-14);

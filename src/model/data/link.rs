@@ -18,12 +18,12 @@ pub struct Link {
     pub ends: [usize; 2],
     /// Its law.
     pub kind: LinkKind,
-    /// Rayleigh factors of its own.
+    /// Rayleigh factors of this link.
     pub own_damping: OwnDamping,
-    /// The forces at which it fails; none for one that does not.
+    /// The forces at failure; `None` for a link that does not fail.
     pub failure: Option<LinkFailure>,
-    /// Where it is pretensioned, the node whose displacement along x is the length that has been taken up. A load pulls at it in the stage
-    /// that pretensions, after which it is held.
+    /// For a pretensioned link, the node whose displacement along x is the length taken up. A load acts on it in the stage of
+    /// pretensioning; later stages lock it.
     pub take_up: Option<usize>,
 }
 
@@ -38,8 +38,7 @@ pub enum LinkKind {
         damping: f64,
         /// The fixed direction; `None` where the force acts along the line of the ends.
         direction: Option<Vec3>,
-        /// Length (along the line) at which the law's elongation is zero; along `direction`: the initial projection
-        /// counts as zero elongation unless a free length is given.
+        /// Length (along the line) without elongation; along `direction` the initial projection, unless a free length is given.
         free_length: f64,
     },
     /// Six components in a frame that is fixed to the first end: three of the relative position, three of the relative rotation.
@@ -68,7 +67,7 @@ impl Link {
 }
 
 impl Link {
-    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    /// The quantities for `[[expect]]`.
     pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&LINK];
 }
 
@@ -137,7 +136,7 @@ impl PartAnswers for Link {
     }
 }
 
-/// Lets what acts along the coordinates of joints, known by its index among all links, count by other equations.
+/// Replaces the equations of links along joint coordinates, given by their index among all links.
 pub fn count_along<'l>(links: impl Iterator<Item = &'l mut Link>, equations: &[(usize, ConstraintEquation)]) {
     let mut links: Vec<&mut Link> = links.collect();
     for &(index, counted) in equations {

@@ -50,14 +50,14 @@ pub struct Load {
     pub follower: bool,
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
-    /// What it acts along: it is then a share of a load on that. `None` for a load on the node alone.
+    /// The element or coordinate of a load with this share; `None` for a load on the node alone. `None` for a load on the node alone.
     pub along: Option<LoadAlong>,
-    /// False where the moment is none that acts on the node by itself: that of a share of a spread load, which makes up for the shape between the
-    /// nodes and cancels those of its neighbours, and what iterations have left at the end of the stage before.
+    /// False for moments without a direct action on the node: those of spread loads, which account for the shape between nodes and cancel
+    /// between neighbours, and residual moments of the last stage.
     pub moment_counts: bool,
 }
 
-/// What a load acts along, of which the loads on nodes are shares.
+/// The element or coordinate of a load, with shares on nodes.
 #[derive(Debug, Clone, Copy)]
 pub enum LoadAlong {
     /// An element over which a load per length is spread: the part, by its index in [`super::Model::parts`], and its element.
@@ -126,9 +126,9 @@ impl Load {
         }
     }
 
-    /// True where it has a potential, so that its tangent is symmetric: it does not follow its node, and its moment acts about the `normal` of a
-    /// plane motion alone, since moments about axes fixed in space do work that depends on the order of rotations. A moment that does not count
-    /// by itself is left aside. The potential of an effort is the coordinate times the effort.
+    /// True where it has a potential, hence a symmetric tangent: it is no follower, and its moment acts only about the `normal` of a plane
+    /// motion. The work of moments about fixed axes in space depends on the order of rotations. Moments without direct action are left
+    /// aside. The potential of an effort is the coordinate times the effort.
     pub fn has_potential(&self, normal: Option<usize>) -> bool {
         let about_normal = || (0..3).all(|i| self.moment[i] == 0.0 || normal == Some(i));
         self.coordinate().is_some() || !self.follower && (!self.moment_counts || about_normal())
@@ -155,7 +155,7 @@ pub struct BaseAcceleration {
     pub amplitude: usize,
 }
 
-/// Rayleigh factors that the deck gives a part by itself; `None` where those of the whole scene hold.
+/// Rayleigh factors of a part; `None` for those of the whole model.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct OwnDamping {
     /// α on its mass, 1/time.
@@ -183,7 +183,7 @@ pub struct Damping {
     pub mass_factor: f64,
     /// Rayleigh's β, time; it acts on strain rates of deformable parts and on springs of links and joints.
     pub stiffness_factor: f64,
-    /// The frames relative to which α acts.
+    /// The reference frames of α.
     pub frames: MovingFrames,
     /// Dampers of nodes.
     pub nodal: Vec<NodalDamping>,

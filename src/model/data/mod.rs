@@ -1,4 +1,4 @@
-//! The model as plain data: what every later stage reads, and what building it writes.
+//! The model as plain data, written by the build and read by all later stages.
 
 mod analysis;
 mod bar;

@@ -21,7 +21,7 @@ pub struct Model {
     pub analysis: Analysis,
     /// The scheme and the iteration.
     pub solution: Solution,
-    /// The nodes, to which all else refers by index.
+    /// The nodes; all other data refer to them by index.
     pub nodes: Vec<Node>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,

@@ -1,6 +1,6 @@
 //! The modes that an analysis looks for.
 
-/// Natural modes about the state in which loads hold the scene.
+/// Natural modes about the state under the loads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ModesAsked {
     /// The number of modes.

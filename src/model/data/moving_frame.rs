@@ -1,13 +1,13 @@
-//! Frames that supports move, in which parts stand.
+//! Reference frames of parts, moved by supports.
 
 use base::math::Vec3;
 
-/// A frame whose velocity is that of nodes that supports move.
+/// A frame with the velocity of nodes moved by supports.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MovingFrame {
-    /// For each global direction the node whose translation it has; `None` where it is at rest.
+    /// For each global direction the node with the frame's translation; `None` for a frame at rest.
     pub translation: [Option<usize>; 3],
-    /// The node about which it turns, and the components of its rotation that it has; `None` where it does not turn.
+    /// The centre node of its rotation and the active components of that node's rotation; `None` without rotation.
     pub rotation: Option<(usize, [bool; 3])>,
 }
 

@@ -16,7 +16,7 @@ pub struct Node {
     pub label: String,
     /// True for points named in the deck and for bodies.
     pub named: bool,
-    /// True where it is no place: its displacement along x is a number, such as the coordinate of a joint that is driven.
+    /// True for a node without a place: its displacement along x is a scalar, such as the coordinate of a driven joint.
     pub is_number: bool,
     /// Initial position, global components.
     pub x: Vec3,
@@ -24,9 +24,9 @@ pub struct Node {
     pub v: Vec3,
     /// Initial angular velocity, global components.
     pub omega: Vec3,
-    /// What the deck gives: the velocity, and the angular velocity.
+    /// The velocity and the angular velocity given in the deck.
     pub given: [Option<GivenVelocity>; 2],
-    /// Place in the deck that names it, or the part that it belongs to: first byte, and the one after the last.
+    /// Bytes in the deck that name it or its part: the first byte, and the one after the last.
     pub place: Option<[usize; 2]>,
 }
 

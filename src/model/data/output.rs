@@ -12,19 +12,19 @@ pub struct Output {
     pub nodes: Vec<usize>,
     /// The times of the histories.
     pub cadence: Cadence,
-    /// True where the deck leaves these times open.
+    /// True where the deck does not give these times.
     pub cadence_is_open: bool,
     /// True where energy.csv is written.
     pub energy: bool,
     /// True where links.csv is written.
     pub links: bool,
-    /// What the tables of contacts are about; `None`: none is written.
+    /// The rows of the contact tables; `None` without these tables.
     pub contacts: Option<ContactRows>,
     /// True where reactions.csv is written.
     pub reactions: bool,
     /// The places of beams that sections.csv is about; `None`: neither it nor the tables of bars and shells are written.
     pub sections: Option<SectionPlaces>,
-    /// True where something in the deck may fail, which tables have columns for.
+    /// True where something in the deck may fail; tables then have columns for it.
     pub failures: bool,
     /// True where layers.csv is written.
     pub layers: bool,
@@ -38,7 +38,7 @@ pub struct Output {
     pub checkpoint: Option<f64>,
 }
 
-/// The times at which histories or fields are written; t = 0 and the end are always among them.
+/// The times of output to histories or fields; t = 0 and the end are always among them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cadence {
     /// They are written every so many accepted steps.
@@ -50,9 +50,8 @@ pub enum Cadence {
 }
 
 impl Cadence {
-    /// The cadence of at most so many times, and no less than some two fifths of them, in a run of given length: whole
-    /// numbers of steps where these are given, times apart otherwise. It is that of every step where the run has no
-    /// more, and along a path, whose length nobody knows.
+    /// A cadence of at most `times` outputs and at least two fifths of them, in a run of given length. It counts steps if their length is
+    /// fixed, and time otherwise. Every step is written in shorter runs, and along a path, because its length is unknown.
     pub fn at_most(times: f64, end_time: f64, step_length: &StepLength) -> Cadence {
         match step_length {
             StepLength::Fixed { step } => Cadence::Steps(round_up(end_time / step / times)),

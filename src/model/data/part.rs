@@ -1,6 +1,5 @@
-//! The parts of a scene that resist: beams, bars, shells, links and contacts. What other rooms ask of any part is listed in
-//! [`PartAnswers`] and answered by each kind in its own file: one more kind is that file, and a variant with the lines that the compiler
-//! then misses.
+//! The parts of a scene that resist: beams, bars, shells, links and contacts. [`PartAnswers`] lists the questions to any part, answered by
+//! each kind in one file. A further kind is one file and one variant; the compiler then finds the missing match arms.
 
 use super::bar::Bar;
 use super::beam::Beam;
@@ -28,7 +27,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// The kind of the part, by which rooms tell parts apart without their data.
+    /// The kind of the part, independent of its data.
     pub fn kind(&self) -> PartKind {
         match self {
             Part::Beam(_) => PartKind::Beam,
@@ -44,13 +43,13 @@ impl Part {
         self.kind() == other.kind() && self.name() == other.name()
     }
 
-    /// What the log and `check` count of the part: its elements, or the part itself where it has none of its own.
+    /// The count of the part in the log and `check`: its elements, or 1 for links and contacts.
     pub fn counted(&self) -> usize {
         if self.kind().is_deformable() { self.elements() } else { 1 }
     }
 }
 
-/// What all kinds of parts answer is asked of the part itself.
+/// A part gives access to the common interface of all kinds.
 impl Deref for Part {
     type Target = dyn PartAnswers;
 
@@ -77,7 +76,7 @@ impl DerefMut for Part {
     }
 }
 
-/// The quantities that `[[expect]]` may ask of a part of this kind; plastic strain, where its material yields.
+/// The quantities for `[[expect]]` of a part of this kind; plastic strain only if its material yields.
 pub fn quantities_of(kind: PartKind) -> Vec<Column> {
     let quantities = match kind {
         PartKind::Beam => Beam::QUANTITIES,

@@ -1,4 +1,4 @@
-//! What every kind of part answers, each in the file of its kind. What a kind does not have is what is answered by default.
+//! The interface of all kinds of parts, implemented in the file of each kind. Defaults answer for kinds without a property.
 
 use super::integrals::MassIntegrals;
 use super::loading::OwnDamping;
@@ -49,7 +49,7 @@ pub trait PartAnswers {
     /// The deck's name of the part.
     fn name(&self) -> &str;
 
-    /// True for a part that stands in a table of its own; false for what acts along a joint.
+    /// True for a part with a separate table; false for a spring along a joint.
     fn is_listed(&self) -> bool {
         true
     }
@@ -60,7 +60,7 @@ pub trait PartAnswers {
     /// Nodes of an element of a deformable part, ends of a link, points of a contact without the node that carries the surface.
     fn nodes(&self, element: usize) -> &[usize];
 
-    /// Calls `visit` with every node that the part names, so that nodes can be numbered anew.
+    /// Calls `visit` with every node of the part, for renumbering.
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize));
 
     /// True where the material of the part yields.
@@ -83,12 +83,12 @@ pub trait PartAnswers {
         true
     }
 
-    /// Rayleigh factors that the deck gives the part by itself.
+    /// Rayleigh factors given for this part in the deck.
     fn own_damping(&self) -> OwnDamping {
         OwnDamping::default()
     }
 
-    /// How the mass of the part is spread; `None` for a part without mass of its own.
+    /// The distribution of the mass; `None` for a part without mass.
     fn mass_kind(&self) -> Option<MassKind> {
         None
     }
@@ -98,29 +98,28 @@ pub trait PartAnswers {
         0.0
     }
 
-    /// An element of this length as a load along it sees it; `None` for what has no length.
+    /// An element of this length for a spread load; `None` for elements without length.
     fn line(&self, _element: usize, _length: f64, _stiffnesses: &[Stiffness]) -> Option<LineElement> {
         None
     }
 
-    /// The part as a linear spring along a line; `None` for all that is not just that.
+    /// The part as a linear spring along a line; `None` for other parts.
     fn linear_spring(&self) -> Option<LinearSpring> {
         None
     }
 
-    /// The stiffness of an element against stretching at t = 0: E A over its length, E times the thickness of a shell; `None` for what has
-    /// none.
+    /// The stretching stiffness of an element at t = 0: E A over its length, or E times the thickness of a shell; `None` for other parts.
     fn stretching(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> Option<f64> {
         None
     }
 
-    /// The smaller and the larger depth of a cross-section: of a shell its thickness, of a beam those of the rectangle with the
-    /// axial and bending stiffness of its first element; `None` for what has none.
+    /// The smaller and the larger depth of a cross-section. For a shell its thickness; for a beam the rectangle with the axial and bending
+    /// stiffness of its first element. `None` for other parts.
     fn depths(&self, _stiffnesses: &[Stiffness]) -> Option<[f64; 2]> {
         None
     }
 
-    /// How an element is drawn; `None` for a contact, whose surface and points are drawn with what carries them.
+    /// The drawing of an element; `None` for a contact, drawn with its bodies.
     fn drawing(&self, _element: usize) -> Option<Drawing<'_>> {
         None
     }
@@ -135,8 +134,8 @@ pub trait PartAnswers {
         Vec::new()
     }
 
-    /// Moves the elements of the part into integrals over them, positions by `x`, because the part is rigid. Returns the nodes of
-    /// each as it is drawn.
+    /// Moves the elements of the part into integrals over them, positions by `x`, because the part is rigid. Returns the nodes of each
+    /// element for drawing.
     fn take_out(
         &mut self,
         _stiffnesses: &[Stiffness],

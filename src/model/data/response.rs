@@ -15,7 +15,7 @@ pub struct ResponseAsked {
     pub damping_ratio: f64,
     /// The modes that answer with their inertia.
     pub extent: ModeExtent,
-    /// True where the deck leaves open how many modes answer with their inertia.
+    /// True where the deck does not give the number of modes with inertia.
     pub extent_is_open: bool,
 }
 
@@ -28,7 +28,7 @@ pub struct AroundResonances {
     pub count: usize,
 }
 
-/// The ways in which a response is found.
+/// The methods for a response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ResponseMethod {
     /// By the equations themselves, factorised at each frequency.

@@ -22,7 +22,7 @@ pub struct Shell {
     pub density: f64,
     /// The distribution of the mass.
     pub mass: MassKind,
-    /// Rayleigh factors of its own.
+    /// Rayleigh factors of this part.
     pub damping: OwnDamping,
     /// The layers and their law; `None` where the material is elastic.
     pub yielding: Option<LayerModel>,
@@ -87,7 +87,7 @@ impl ShellElement {
 }
 
 impl Shell {
-    /// The quantities that `[[expect]]` may ask of it; plastic strain, where its material yields.
+    /// The quantities for `[[expect]]`; plastic strain only if its material yields.
     pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&[VON_MISES, PLASTIC_STRAIN], &SHELL_RESULTANTS];
 }
 

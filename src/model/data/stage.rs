@@ -11,22 +11,22 @@ pub struct RunStage {
     pub index: usize,
     /// The number of stages.
     pub count: usize,
-    /// True where the motion of a dynamic stage goes on in this one, with all that holds, joins, touches or loads the scene.
+    /// True where the motion of a dynamic stage goes on in this one, with the same supports, joints, contacts and loads.
     pub goes_on: bool,
-    /// True where it does but for loads that come or go.
+    /// True where the motion goes on and only loads come or go.
     pub loads_alone_change: bool,
-    /// True where forces that a static stage finds out of balance at its beginning go to zero over it.
+    /// True where residual forces at the beginning of a static stage decrease to zero over it.
     pub holds_back: bool,
-    /// The amplitude of loads that first act here and have none of their own; a buckling stage seeks the factor of these.
+    /// The amplitude of loads that first act here and have no other; a buckling stage seeks the factor of these.
     pub own_amplitude: usize,
-    /// What ends it before its time.
+    /// The condition for an early end.
     pub stop: Option<Stop>,
 }
 
-/// A value at which a stage ends.
+/// A value that ends a stage.
 #[derive(Debug, Clone)]
 pub struct Stop {
-    /// The quantity that comes to the value.
+    /// The quantity compared with the value.
     pub quantity: StopQuantity,
     /// The value, which it passes from either side.
     pub value: f64,
@@ -34,7 +34,7 @@ pub struct Stop {
     pub label: String,
 }
 
-/// The quantity at a value of which a stage ends.
+/// The quantity that ends a stage at a value.
 #[derive(Debug, Clone)]
 pub enum StopQuantity {
     /// A displacement, or a component of the rotation vector, counted from t = 0: the node, and 0..6 for ux, uy, uz, rx, ry, rz.

@@ -1,5 +1,4 @@
-//! The ways in which steps get their lengths: fixed, by their error, by the stability limit, or along an equilibrium
-//! path.
+//! The choice of step lengths: fixed, by error, by the stability limit, or along an equilibrium path.
 
 use super::displacement_target::DisplacementTarget;
 
@@ -9,14 +8,14 @@ pub const ERROR_TOLERANCE: f64 = 1e-3;
 pub const FIRST_STEP: f64 = 5e-3;
 /// Least number of automatic steps of central differences, where little or nothing resists: loads must still be resolved.
 pub const FEWEST_STEPS: f64 = 50.0;
-/// Automatic steps of central differences, as a fraction of the critical time step. Beam elements in large bending are
-/// unstable at 0.9, not at 0.86: what is stable at one configuration may grow where the stiffness oscillates.
+/// Automatic steps of central differences, as a fraction of the critical time step. Beam elements in large bending are unstable at 0.9 and
+/// stable at 0.86: with an oscillating stiffness, motion may grow below the critical time step of each configuration.
 pub const SAFE: f64 = 0.8;
-/// The fraction where links or contacts may stiffen the scene: they cut steps, and a mode at the fraction p of the
-/// limit has up to 1/(1 − p²) of its energy at a step, which a shorter step takes for all of it.
+/// The fraction where links or contacts may stiffen the model and cut steps. A mode at the fraction p of the limit has up to 1/(1 − p²) of
+/// its energy at an instant; a shorter step makes this excess permanent.
 pub const SAFE_WHERE_STRUCK: f64 = 0.5;
 
-/// The way in which steps get their lengths.
+/// The choice of step lengths.
 #[derive(Debug, Clone, PartialEq)]
 pub enum StepLength {
     /// Steps have this length, or are a little shorter where they end at an output time.
@@ -33,7 +32,7 @@ pub enum StepLength {
     },
     /// Steps are a fraction of the critical time step of central differences.
     StabilityLimited {
-        /// The fraction, below 1, for what is stable at one configuration may grow where the stiffness oscillates.
+        /// The fraction, below 1: with an oscillating stiffness, motion may grow although each configuration is stable.
         fraction: f64,
     },
     /// Steps are arcs of an equilibrium path of a static analysis; the time follows, and may decrease.
@@ -43,9 +42,9 @@ pub enum StepLength {
 /// Steps along an equilibrium path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArcLength {
-    /// Increment of the time, that is of the load, in the first step, which sets the length of the others.
+    /// Increment of the time (the load) in the first step; its arc is the unit of the other lengths.
     pub first: f64,
-    /// The displacement at which the path ends, unless `end_time` is reached before.
+    /// The final displacement of the path, unless `end_time` is reached before.
     pub stop: Option<DisplacementTarget>,
     /// Number of steps after which the run ends wherever it is.
     pub steps: Option<usize>,
@@ -54,7 +53,7 @@ pub struct ArcLength {
 }
 
 impl StepLength {
-    /// True where a run finds the lengths of its time steps by itself.
+    /// True where the run chooses its time steps.
     pub fn is_automatic(&self) -> bool {
         matches!(self, StepLength::ErrorControlled { .. } | StepLength::StabilityLimited { .. })
     }

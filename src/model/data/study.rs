@@ -33,7 +33,7 @@ pub struct Study {
     pub meshes: Vec<f64>,
     /// Polynomial degrees of the elements of all beams, ascending; if empty, the deck's own.
     pub beam_orders: Vec<u64>,
-    /// Errors for which the cheapest variant is wanted, largest first; if empty, 1e-2, 1e-3, 1e-4.
+    /// Error levels for the search of the cheapest variant, largest first; if empty, 1e-2, 1e-3, 1e-4.
     pub wanted_errors: Vec<f64>,
 }
 
@@ -64,6 +64,6 @@ pub struct Choice {
     pub label: String,
     /// The scheme itself.
     pub scheme: Arc<dyn Scheme>,
-    /// The table `[integrator]` that asks for it, on one line.
+    /// The table `[integrator]` for it, on one line.
     pub table: String,
 }

@@ -11,11 +11,11 @@ pub struct Mesh {
     pub nodes: Vec<MeshNode>,
     /// The elements in the order of the file.
     pub elements: Vec<MeshElement>,
-    /// The groups in the order in which the file names them first.
+    /// The groups in the order of their first names in the file.
     pub groups: Vec<MeshGroup>,
     /// Parts of the file that were not read.
     pub skipped: Vec<Skipped>,
-    /// What was read otherwise than one might think.
+    /// Notes on parts of the file read in an unexpected way.
     pub notes: Vec<MeshNote>,
     /// The indices of the nodes by their numbers in the file.
     pub(super) ids: Ids,
@@ -99,7 +99,7 @@ pub struct MeshElement {
     pub kind: CellShape,
     /// The indices of its nodes; those beyond their number are 0.
     pub(super) nodes: [u32; MOST_CELL_NODES],
-    /// The index of a node that gives the direction of its section: it lies from the first node to that one.
+    /// The index of the node for the direction of its section, seen from the first node.
     pub toward: Option<u32>,
     /// Its line in the file, counted from 1.
     pub line: u32,
@@ -112,7 +112,7 @@ impl MeshElement {
     }
 }
 
-/// What the file groups under a name.
+/// The kind of a group's members.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GroupKind {
     /// A set of nodes.
@@ -120,9 +120,9 @@ pub enum GroupKind {
     Nodes,
     /// Elements that are points.
     Points,
-    /// Elements, all of which are lines.
+    /// Line elements only.
     Lines,
-    /// Elements, all of which are faces.
+    /// Face elements only.
     Faces,
     /// Elements of any shape.
     Elements,
@@ -133,7 +133,7 @@ pub enum GroupKind {
 pub struct MeshGroup {
     /// The name in the file; a nameless group is named after its tag.
     pub name: String,
-    /// What the file groups under it.
+    /// The kind of its members.
     pub kind: GroupKind,
     /// Names that may stand before its own with a point between: the instance and its part, or the assembly.
     pub scopes: Vec<String>,
@@ -147,12 +147,12 @@ pub struct MeshGroup {
     pub skipped: usize,
 }
 
-/// What was read otherwise than one might think.
+/// A note on a part of the file read in an unexpected way.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeshNote {
     /// What was found.
     pub what: String,
-    /// What that means for the mesh.
+    /// The meaning for the mesh.
     pub meaning: String,
     /// The line, counted from 1.
     pub line: usize,
@@ -175,7 +175,7 @@ impl Mesh {
         self.ids.get(id)
     }
 
-    /// The indices of all groups of a name, which may have that of a scope and a point before it.
+    /// The indices of all groups of a name, with or without a scope and a point before it.
     pub fn named(&self, name: &str) -> &[u32] {
         let found = if self.folds_case { self.by_name.get(&name.to_lowercase()) } else { self.by_name.get(name) };
         found.map_or(&[], |found| found)

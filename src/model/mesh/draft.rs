@@ -21,17 +21,17 @@ pub struct Draft {
     pub lines: Vec<u32>,
     /// The elements so far, in the order of the file.
     pub elements: Vec<RawElement>,
-    /// The groups so far, in the order in which the file names them first.
+    /// The groups so far, in the order of their first names in the file.
     pub groups: Vec<RawGroup>,
     /// Parts of the file that were not read.
     pub skipped: Vec<Skipped>,
-    /// What was read otherwise than one might think.
+    /// Notes on parts of the file read in an unexpected way.
     pub notes: Vec<MeshNote>,
     /// True where case has no meaning in names of groups.
     pub folds_case: bool,
     /// Errors so far.
     pub faults: Vec<Fault>,
-    /// Index in `skipped` by what was skipped.
+    /// Index in `skipped` by `Skipped::what`.
     places: HashMap<String, usize>,
 }
 
@@ -51,7 +51,7 @@ pub struct RawElement {
 }
 
 impl RawElement {
-    /// The element with a number added to all of its own.
+    /// The element with an offset added to all its numbers.
     pub fn moved(mut self, offset: u64) -> Self {
         self.id += offset;
         self.nodes[..self.kind.size()]
@@ -67,7 +67,7 @@ impl RawElement {
 pub struct RawGroup {
     /// The name in the file.
     pub name: String,
-    /// What the file groups under it.
+    /// The kind of its members.
     pub kind: GroupKind,
     /// Names that may stand before its own, with a point between.
     pub scopes: Vec<String>,
@@ -99,7 +99,7 @@ impl Draft {
         short(self.elements.len() - 1)
     }
 
-    /// Drops nodes and elements that are given again as they are. Groups must not hold any elements yet.
+    /// Drops repeated nodes and elements that are identical. Groups must not hold any elements yet.
     pub fn drop_repeated(&mut self) {
         let (ids, again) = Ids::new(self.nodes.iter().map(|node| node.id));
         let first = |id: u64| ids.get(id).unwrap_or(usize::MAX);
@@ -171,7 +171,7 @@ impl Draft {
         self.faults.push(text.fault_on(message(), line, id));
     }
 
-    /// The element with the indices of its nodes; notes what is wrong with it.
+    /// The element with the indices of its nodes; reports its errors.
     fn checked(&mut self, text: &Text, ids: &Ids, raw: &RawElement) -> MeshElement {
         let (kind, line) = (raw.kind, raw.line as usize);
         let mut element = MeshElement { id: raw.id, kind, nodes: [0; MOST_CELL_NODES], toward: None, line: raw.line };
@@ -211,7 +211,7 @@ impl Draft {
     /// The groups with the indices of their nodes and elements.
     fn resolved(&mut self, text: &Text, ids: &Ids) -> Vec<MeshGroup> {
         let mut groups = Vec::new();
-        // For each node and each element, the last group that holds it is noted, so that it enters no group twice.
+        // For each node and each element the last group with it is noted, so that no group holds it twice.
         let (mut of_node, mut of_element) = (vec![0u32; self.nodes.len()], vec![0u32; self.elements.len()]);
         for (index, raw) in std::mem::take(&mut self.groups).into_iter().enumerate() {
             let mark = short(index + 1);
@@ -268,7 +268,7 @@ fn by_name(groups: &[MeshGroup], folds_case: bool) -> HashMap<String, Vec<u32>> 
     by_name
 }
 
-/// What is wrong with the nodes between the corners of an element, which are at `x`.
+/// The error of the nodes between the corners of an element, with its nodes at `x`.
 fn flaw_of_sides(kind: CellShape, x: &impl Fn(usize) -> Vec3) -> Option<&'static str> {
     if kind.is_line() {
         let (along, from) = (x(1) - x(0), x(2) - x(0));
@@ -282,7 +282,7 @@ fn flaw_of_sides(kind: CellShape, x: &impl Fn(usize) -> Vec3) -> Option<&'static
     curved_faces::tangents_of(kind.size(), x).iter().any(folded).then_some("folds back on itself at one of its nodes")
 }
 
-/// What is wrong with the shape of an element with corners at `x`, the last repeated beyond their number.
+/// The error of an element's shape, with its corners at `x` (the last one repeated up to four).
 fn flaw(kind: CellShape, x: &[Vec3; 4]) -> Option<&'static str> {
     let n = kind.corners();
     let longest = (0..n).map(|i| (x[(i + 1) % n] - x[i]).norm()).fold(0.0, f64::max);

@@ -1,5 +1,5 @@
-//! Gmsh in ASCII, versions 4.1 and 2.2. The groups are the physical groups of dimension 0, 1 and 2. A group without a name is
-//! called `physical_7` by its tag, or `physical_7_lines` where groups of several dimensions have that tag and no name.
+//! Gmsh in ASCII, versions 4.1 and 2.2. The groups are the physical groups of dimension 0, 1 and 2. A group without a name is called
+//! `physical_7` by its tag; if unnamed groups of several dimensions share the tag, it is called `physical_7_lines`.
 
 use super::data::{CellShape, GroupKind, MOST_CELL_NODES};
 use super::draft::{Draft, RawGroup};
@@ -9,7 +9,7 @@ use base::text_file::{Fault, Text, TextLine, Word, Words};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// What the number of an element type means.
+/// The meaning of an element type number.
 enum ElementType {
     Point,
     Cell(CellShape),
@@ -53,7 +53,7 @@ struct Groups {
 }
 
 impl Groups {
-    /// The index of a group, which is added where it is new.
+    /// The index of a group; a new group is added.
     fn place(&mut self, dimension: u8, tag: u64) -> usize {
         let next = self.list.len();
         let place = *self.places.entry((dimension, tag)).or_insert(next);
@@ -369,7 +369,7 @@ fn nodes_2(text: &mut Text, draft: &mut Draft, parametric: bool) -> Result<(), F
     Ok(())
 }
 
-/// Compares the number of nodes or elements that a section announces with that found.
+/// Compares the announced number of nodes or elements with the number found.
 fn counted(text: &Text, line: TextLine, section: &str, what: &str, said: u64, found: usize) -> Result<(), Fault> {
     if said == found as u64 {
         return Ok(());

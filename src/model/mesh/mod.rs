@@ -40,7 +40,7 @@ fn extension(path: &str) -> Option<String> {
 /// # Errors
 /// All errors found in the file, at least one.
 pub fn read_text(text: &mut Text) -> Result<Mesh, Vec<Diagnostic>> {
-    // Abaqus and CalculiX do not tell capitals from small letters in names.
+    // Names in Abaqus and CalculiX are not case-sensitive.
     let mut draft = Draft::new(may_include(text.path));
     let read = match extension(text.path).as_deref() {
         Some("msh") => gmsh::read(text, &mut draft),

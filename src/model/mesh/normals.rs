@@ -1,21 +1,18 @@
 //! Normals of a surface of triangles and quadrilaterals at their nodes.
 //!
-//! At a node, the elements that share an edge and whose normals differ by less than [`FOLD`] form one smooth side. Each side has
-//! one normal: the mean of the normals of its elements at the node, weighted by their angles there (Thürmer & Wüthrich 1998), so
-//! that it does not depend on how faces are divided. An element of the other orientation counts with the other sign and has the
-//! opposite normal.
+//! At a node, elements form one smooth side if they share an edge and the angle between their normals is below [`FOLD`]. Each side has one
+//! normal: the mean of its elements' normals at the node, weighted by their angles there (Thürmer & Wüthrich 1998). It does not depend on
+//! the division of faces. An element of the other orientation counts with the other sign and has the opposite normal.
 
 use base::math::{Vec3, curved_faces};
 use std::f64::consts::{PI, TAU};
 
-/// The angle between neighbours, in degrees, from which their edge is a fold: the 12 faces of a coarse cylinder are still smooth,
-/// plates that meet at an angle are not.
+/// The fold angle between neighbours, in degrees: the 12 faces of a coarse cylinder are smooth, plates meeting at a larger angle are not.
 pub const FOLD: f64 = 31.0;
 
-/// Unit normals at the corners of each face, on the side from which the corners of the face follow each other
-/// counter-clockwise, and the number of edges at which two neighbours are oriented differently. `faces`: indices into `x`,
-/// three or four corners each, or, with sides of second degree, six, eight or nine nodes, of which each has its normal; N is the largest
-/// number of nodes, and 9 where some have eight, whose ninth normal is that of their middle.
+/// Unit normals at the corners of each face, and the number of edges between neighbours of different orientation. About its normal the
+/// corners of a face are counter-clockwise. `faces`: indices into `x`, three or four corners each, or six, eight or nine nodes with sides
+/// of second degree; each node has a normal. N is the largest number of nodes, or 9 if some have eight; the ninth normal is at the middle.
 pub fn normals<'a, const N: usize>(
     x: &[Vec3],
     faces: impl Iterator<Item = &'a [u32]> + Clone,
@@ -158,7 +155,7 @@ impl Sides {
         for run in edges.chunk_by(|a, b| a.0 == b.0) {
             // Neighbours of one orientation run through their common edge in opposite directions.
             against += usize::from(run.len() == 2 && run[0].2 == run[1].2 && node < run[0].0);
-            // Where more than two faces meet, each joins those that continue it; of many, the last eight are compared.
+            // Where more than two faces meet, each joins its continuations; only the last eight are compared.
             for (i, a) in run.iter().enumerate().skip(1) {
                 for b in &run[i.saturating_sub(8)..i] {
                     let sense = if a.2 == b.2 { -1.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! Parts, their instances and the assembly: what holds nodes, elements and sets.
+//! Parts, their instances and the assembly: the blocks with nodes, elements and sets.
 
 use super::sets::{BlockIndex, SetIndex, SetKind, Sets};
 use crate::mesh::draft::RawElement;
@@ -22,7 +22,7 @@ pub struct Block {
 
 /// A part where it stands in the assembly.
 pub struct Instance {
-    /// What the instance itself holds.
+    /// The nodes, elements and sets of the instance itself.
     pub own: Block,
     /// Its part.
     pub part: usize,
@@ -30,7 +30,7 @@ pub struct Instance {
     pub translation: Vec3,
     /// A point of the axis about which it is then turned, and the rotation.
     pub rotation: Option<(Vec3, Quaternion<f64>)>,
-    /// The number of lines read that say where it stands.
+    /// The number of lines read for its position.
     pub rows: usize,
     /// Its line, counted from 1.
     pub line: usize,
@@ -53,13 +53,13 @@ impl Instance {
 
 /// All blocks of a file.
 pub struct Blocks {
-    /// What stands outside parts and instances.
+    /// The data outside parts and instances.
     pub root: Block,
     /// The parts.
     pub parts: Vec<Block>,
     /// The instances.
     pub instances: Vec<Instance>,
-    /// The block to which the line at hand belongs.
+    /// The block of the current line.
     pub at: BlockIndex,
 }
 
@@ -80,7 +80,7 @@ impl Blocks {
         }
     }
 
-    /// The block to which the line at hand belongs.
+    /// The block of the current line.
     pub fn block_mut(&mut self) -> &mut Block {
         match self.at {
             BlockIndex::Root => &mut self.root,
@@ -89,7 +89,7 @@ impl Blocks {
         }
     }
 
-    /// The index of a set in the block at hand, which is added where it is new.
+    /// The index of a set in the current block; a new set is added.
     pub fn place(&mut self, kind: SetKind, name: &str) -> usize {
         self.block_mut().sets.place(kind, name)
     }
@@ -121,7 +121,7 @@ impl Blocks {
         own.or_else(|| self.instances.iter().position(of_part))
     }
 
-    /// The set of a name: of an instance where one is given, of the block at hand, or of the instance before a point.
+    /// Finds a set by name: in the given instance, in the current block, or in the instance named before a point.
     pub fn refer(&self, instance: Option<usize>, kind: SetKind, name: &str) -> Option<SetIndex> {
         let within = |instance: usize, name: &str| {
             let find = |block: BlockIndex| {
@@ -143,7 +143,7 @@ impl Blocks {
         within(self.instance(of)?, name)
     }
 
-    /// Instance and number of a node or an element that `P-1.3` stands for.
+    /// Instance and number of a node or an element in the form `P-1.3`.
     pub fn number_in_instance(&self, name: &str) -> Option<(usize, u64)> {
         let (instance, id) = name.split_once('.')?;
         Some((self.instance(instance)?, id.parse().ok()?))

@@ -1,4 +1,4 @@
-//! The mesh as one list of nodes and elements: instances where they stand, with numbers of their own, and the sets of all blocks.
+//! The mesh as one list of nodes and elements: instances at their positions with distinct numbers, and the sets of all blocks.
 
 use super::blocks::{Block, Blocks};
 use super::sets::{BlockIndex, Member, Set, SetIndex, SetKind};
@@ -8,7 +8,7 @@ use crate::mesh::ids::{Ids, short};
 use base::text_file::{Fault, Text};
 use std::collections::HashSet;
 
-/// What is added to the numbers of each instance, and of the assembly.
+/// The offsets of the numbers of each instance, and of the assembly.
 struct Offsets {
     instances: Vec<u64>,
     root: u64,
@@ -17,7 +17,7 @@ struct Offsets {
 /// Puts the blocks into the draft, with their sets as groups.
 ///
 /// # Errors
-/// A set that holds what does not exist, or numbers too large for several instances.
+/// Unknown nodes or elements in a set, or numbers too large for several instances.
 pub fn flatten(text: &Text, draft: &mut Draft, mut assembly: Blocks) -> Result<(), Fault> {
     if assembly.instances.is_empty() {
         for part in (0..assembly.parts.len()).filter(|&part| !assembly.parts[part].nodes.is_empty()).collect::<Vec<_>>()
@@ -79,7 +79,7 @@ fn offsets(text: &Text, draft: &mut Draft, assembly: &Blocks) -> Result<Offsets,
     Ok(Offsets { instances: (0..count).map(|at| at * step).collect(), root })
 }
 
-/// True where a node or an element of the assembly has a number that some instance has too, or might have.
+/// True where a node or an element of the assembly has a number that an instance may have too.
 fn has_numbers_of_instances(assembly: &Blocks) -> bool {
     let root = &assembly.root;
     if assembly.instances.len() > 1 {
@@ -191,7 +191,7 @@ impl<'a, 't> Groups<'a, 't> {
     fn missing(&self, set: SetIndex, what: &str, id: u64, line: u32) -> Result<(), Fault> {
         let name = &self.assembly.block(set.block).sets.list[set.set].name;
         let reason = if self.others.get(id).is_some() { "whose type is not read" } else { "which does not exist" };
-        // The file knows nothing of what is added to its numbers.
+        // The message shows the number in the file, without the offset.
         let offset = set.instance.map_or(self.offsets.root, |instance| self.offsets.instances[instance]);
         let id = id.checked_sub(offset).unwrap_or(id);
         let message = format!("set `{name}` holds {what} {id}, {reason}");

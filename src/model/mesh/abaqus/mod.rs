@@ -16,7 +16,7 @@ use base::text_file::{Fault, Text};
 use blocks::{Blocks, Instance};
 use sets::{BlockIndex, Member, SetIndex, SetKind};
 
-/// Keywords that are errors, with what they do to the mesh.
+/// Keywords refused, with their effect on the mesh.
 const CHANGES: [(&str, &str); 8] = [
     ("NGEN", "makes nodes"),
     ("NFILL", "makes nodes"),
@@ -27,18 +27,18 @@ const CHANGES: [(&str, &str); 8] = [
     ("SYSTEM", "moves nodes"),
     ("PARAMETER", "stands for numbers"),
 ];
-/// Parameters of keywords that are errors, with the value that means nothing, and what others do to the mesh.
+/// Parameters refused, by keyword: the value without effect, and the effect of other values on the mesh.
 const PARAMETERS: [(&str, &str, &str, &str); 3] = [
     ("NODE", "SYSTEM", "R", "moves nodes"),
     ("ELEMENT", "OFFSET", "0", "makes other numbers"),
     ("INSTANCE", "LIBRARY", "", "reads another file"),
 ];
-/// Parameters without a value, which may stand on a line of their own after a comma.
+/// Parameters without a value; they may follow a comma on a separate line.
 const FLAGS: &[&str] = &["GENERATE", "INTERNAL", "UNSORTED"];
-/// The remedy for what is not read.
+/// The remedy for unsupported features.
 const FLAT: &str = "write the mesh as one flat file: every node and element by itself";
 
-/// What the data lines after a keyword describe.
+/// The meaning of the data lines after a keyword.
 enum DataLines {
     Skipped,
     Nodes {
@@ -85,7 +85,7 @@ impl ElementType {
 /// Reads the file into the draft.
 ///
 /// # Errors
-/// The first place where the file is not as its format says, or makes nodes, elements or sets in a way that is not read.
+/// The first error of format, or the first unsupported way to make nodes, elements or sets.
 pub fn read(text: &mut Text, draft: &mut Draft) -> Result<(), Fault> {
     let mut cards = Cards::new(text, FLAGS);
     let (mut assembly, mut lines) = (Blocks::default(), DataLines::Skipped);
@@ -123,7 +123,7 @@ fn refused(mut fault: Fault, hint: &str) -> Fault {
     fault
 }
 
-/// Says what the data lines of a keyword describe.
+/// The meaning of the data lines of a keyword.
 fn begin(text: &Text, draft: &mut Draft, assembly: &mut Blocks, keyword: &Keyword) -> Result<DataLines, Fault> {
     let (name, key) = (&keyword.name, keyword.key());
     check(text, keyword, &key)?;
@@ -166,7 +166,7 @@ fn begin(text: &Text, draft: &mut Draft, assembly: &mut Blocks, keyword: &Keywor
     })
 }
 
-/// Makes sure that a keyword makes no nodes, elements or sets in a way that is not read.
+/// Refuses keywords that make nodes, elements or sets in an unsupported way.
 fn check(text: &Text, keyword: &Keyword, key: &str) -> Result<(), Fault> {
     let name = &keyword.name;
     if let Some((_, what)) = CHANGES.iter().find(|(word, _)| *word == key) {
@@ -208,7 +208,7 @@ fn begin_set(
     Ok(DataLines::Set { set, kind, generate: keyword.has("GENERATE"), instance })
 }
 
-/// What is said of a set that does not exist.
+/// The message for an unknown set.
 fn unknown(assembly: &Blocks, instance: Option<usize>, kind: SetKind, name: &str) -> String {
     let (what, other, others) = match kind {
         SetKind::Nodes => ("node", SetKind::Elements, "an element"),

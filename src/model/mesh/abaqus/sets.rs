@@ -1,8 +1,8 @@
-//! Sets of one part, one instance or the assembly. Sets of nodes and sets of elements have names of their own.
+//! Sets of one part, one instance or the assembly. Sets of nodes and sets of elements have separate names.
 
 use std::collections::HashMap;
 
-/// What a set is of.
+/// The kind of a set's members.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SetKind {
     /// Nodes.
@@ -22,7 +22,7 @@ pub struct SetIndex {
     pub set: usize,
 }
 
-/// What holds nodes, elements and sets.
+/// The index of a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum BlockIndex {
     /// All that stands outside parts and instances: a flat file, or the assembly.
@@ -60,7 +60,7 @@ pub struct Set {
 pub struct Sets {
     /// Index in `list`, by the kind and the name in lower case.
     names: HashMap<(SetKind, String), usize>,
-    /// All sets in the order in which the file names them first.
+    /// All sets in the order of their first names in the file.
     pub list: Vec<Set>,
 }
 
@@ -70,7 +70,7 @@ impl Sets {
         self.names.get(&(kind, name.to_ascii_lowercase())).copied()
     }
 
-    /// The index of a set, which is added where it is new.
+    /// The index of a set; a new set is added.
     pub fn place(&mut self, kind: SetKind, name: &str) -> usize {
         let next = self.list.len();
         let place = *self.names.entry((kind, name.to_ascii_lowercase())).or_insert(next);

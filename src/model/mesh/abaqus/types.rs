@@ -1,9 +1,9 @@
-//! Types of elements: which shape they have, and how many nodes those have that are not read.
+//! Types of elements: the shapes of supported types, and the number of nodes of others.
 
 use crate::mesh::data::CellShape;
 
-/// Types by shape. The deck says what a group is, so that a membrane or a plane element is a face like a shell, and a truss a line
-/// like a beam. Axisymmetric elements are none: they stand for rings.
+/// Types by shape. The deck decides the kind of a group, so a membrane or a plane element is a face like a shell, and a truss a line like a
+/// beam. Axisymmetric elements are none: they stand for rings.
 const SHAPES: &[(CellShape, &[&str])] = &[
     (
         CellShape::Segment,
@@ -81,7 +81,7 @@ pub fn shape(name: &str) -> Option<CellShape> {
     SHAPES.iter().find(|(_, names)| names.contains(&name)).map(|(shape, _)| *shape)
 }
 
-/// The number of nodes of a type of element that is not read, where its name tells it.
+/// The number of nodes of an unsupported element type, if its name contains it.
 pub fn nodes_of_other(name: &str) -> Option<usize> {
     let listed = OTHERS.iter().find(|(other, _)| *other == name).map(|(_, nodes)| *nodes);
     let counted = || {
