@@ -1,11 +1,11 @@
-//! All thresholds of the solution, each with its reason: what is small, what is large, how often something is tried.
+//! All thresholds of the solution, each with its reason: limits for small and large values, and numbers of trials.
 //!
 //! A module for each file that asks.
 
 // The step and its iteration.
 
 pub mod iteration {
-    /// Residual below which forces balance, so that open joints are to blame.
+    /// Residual of balanced forces, below which open joints cause the failure.
     pub const BALANCED: f64 = 1e-3;
     /// By how much longer an iteration may be whose corrections are shortened.
     pub const LONGER: usize = 4;
@@ -14,11 +14,11 @@ pub mod iteration {
 }
 
 pub mod convergence {
-    /// Number of residuals that have not fallen after which none will; rounding halves one by chance.
+    /// Number of residuals without a decrease after which no decrease is expected; rounding alone may halve a single one.
     pub const STAGNANT: usize = 3;
-    /// Contraction from which only rounding may be left to correct.
+    /// Contraction above which the remaining correction may be only rounding.
     pub const SLOW: f64 = 0.5;
-    /// Part of the last residual above which a residual counts as one that has not fallen.
+    /// Ratio to the last residual above which a residual counts as not decreased.
     pub const FALLS: f64 = 0.5;
     /// Safety on the square of the ratio of two corrections, which is the contraction of the residual with an own matrix.
     pub const SECOND_ORDER: f64 = 10.0;
@@ -39,24 +39,24 @@ pub mod convergence_tolerance {
     pub const PART_OF_FORCES: f64 = 0.1;
     /// A thousandth of a twelfth, rounded: errors of one sign add up.
     pub const PART_OF_FIRST: f64 = 1e-4;
-    /// Whatever the error of the step: an impact, a load that jumps, or stiff parts that turn far in steps which do not resolve them, where
-    /// what is left would drive them.
+    /// Upper limit for all steps: in impacts, at jumps of loads, and for stiff parts that turn far in unresolved steps, larger residual
+    /// forces would drive the motion.
     pub const MOST_OF_FIRST: f64 = 1e-5;
-    /// The step, in radians of an oscillator, for which dissipation is looked at.
+    /// The step, in radians of an oscillator, for the check of dissipation.
     pub const DISSIPATION_TURN: f64 = 1.0;
     /// Above the rounding of eigenvalues.
     pub const NO_DISSIPATION: f64 = 1e-9;
 }
 
 pub mod progress {
-    /// The residual, as a multiple of the tolerance and as it is, that must be met where material yields.
+    /// The required residual of yielding models, as a multiple of the tolerance and as an absolute value.
     pub const SURE: [f64; 2] = [1e3, 1e-3];
-    /// A load step that ends at rounding with a residual larger than the tolerance by this factor is not what was asked for.
+    /// A load step that converges only to rounding is refused if its residual exceeds the tolerance by this factor.
     pub const UNBALANCED: f64 = 1e3;
 }
 
 pub mod correction {
-    /// The square of a slenderness, by which bending answers rounding of axial forces with larger corrections.
+    /// The square of a slenderness: bending amplifies corrections due to rounding of axial forces by it.
     pub const SLENDER: f64 = 1e4;
     /// The largest translation, in parts of the model's length, and the largest rotation, in radians.
     pub const LARGEST: [f64; 2] = [0.05, 0.25];
@@ -67,7 +67,8 @@ pub mod correction {
 }
 
 pub mod augmentation {
-    /// Equilibria of a step after which it is given up. One leaves a half where the spring is as soft as what it presses: enough for 1e-30.
+    /// Largest number of equilibria in a step. With a contact spring as soft as the pressed part, each equilibrium halves the penetration,
+    /// so this is enough for 1e-30.
     pub const MOST: usize = 100;
 }
 
@@ -77,57 +78,55 @@ pub mod projection {
 }
 
 pub mod joints {
-    /// Largest number of corrections of positions before the step is given up.
+    /// Largest number of corrections of positions in a step.
     pub const MOST_CORRECTIONS: usize = 12;
     /// A gap, relative to positions, that rounding may leave.
     pub const ROUNDING: f64 = 16.0 * f64::EPSILON;
     /// The largest gap, relative to positions, that a joint may have at the end of a step; iteration and projection leave far less.
     pub const LARGEST_GAP: f64 = 1e-9;
-    /// Ratio of two principal inertias from which redundant loops do not close with explicit schemes.
+    /// Ratio of two principal inertias above which explicit schemes cannot close redundant loops.
     pub const UNLIKE: f64 = 1e11;
     /// Part of a body's largest inertia below which an axis has none.
     pub const NO_INERTIA: f64 = 1e-12;
 }
 
 pub mod residual {
-    /// Part of the moments, over the model's length, by which forces are measured that have no scale of their own, and the reverse.
+    /// Part of the moments, over the model's length, used as scale of forces if they have none, and the reverse.
     pub const OTHER: f64 = 1e-3;
 }
 
 pub mod load_steps {
-    /// Loads and motions below this part of the largest so far are those of a structure that has been let go: amplitudes come back to zero
-    /// with the rounding of their times.
+    /// Loads and motions below this part of their maximum count as zero: amplitudes return to zero only to the rounding of their times.
     pub const GONE: f64 = 1e-12;
-    /// Supports that have moved by more than this part of the model's length, or in radians, stress what they deform a million times more than
-    /// rounding does.
+    /// Support motion, as a part of the model's length or in radians, that causes stresses a million times larger than rounding.
     pub const SEEN: f64 = 1e-9;
-    /// A residual above this part of the forces that it is summed from leaves no digit of them.
+    /// Part of the summed terms above which a residual has no correct digit.
     pub const ROUNDING: f64 = 0.1;
 }
 
 // Strategies of the iteration.
 
 pub mod linearized_prediction {
-    /// Part of the motion by which the residual is differentiated; a power of two, so that it is taken back exactly.
+    /// Part of the motion for the difference of the residual; a power of two, so that it can be undone exactly.
     pub const PART: f64 = 1.0 / (1 << 20) as f64;
 }
 
 pub mod refresh {
     /// Largest number of steps that begin with a fresh matrix because old ones have misled.
     pub const MOST_EAGER: usize = 64;
-    /// Contraction from which any matrix is renewed: the iteration would take its limit.
+    /// Contraction above which any matrix is renewed, because the iteration would reach its limit.
     pub const USED_UP: f64 = 0.9;
-    /// Contraction from which an old matrix has misled: a fresh one pays within two iterations.
+    /// Contraction above which an old matrix is misleading, because a fresh one pays within two iterations.
     pub const MISLED: f64 = 0.5;
-    /// Part of a step by which equal steps differ: by the rounding of their ends.
+    /// Relative difference of equal steps due to the rounding of their ends.
     pub const SAME_STEP: f64 = 1e-9;
-    /// The contraction from which the second correction shows that the matrix was of no more use.
+    /// The contraction of the second correction above which the matrix is useless.
     pub const USELESS: f64 = 0.3;
-    /// The contraction up to which a matrix serves corrections of this size well.
+    /// The contraction below which a matrix is useful for corrections of this size.
     pub const USEFUL: f64 = 0.05;
-    /// Part of a correction that made its matrix useless, up to which the next one is kept.
+    /// Limit of the next correction, as a part of one that made its matrix useless.
     pub const SHARE: f64 = 0.8;
-    /// What was useless once is tried again by and by.
+    /// Growth of this limit per step, so that useless matrices are tried again.
     pub const GROWTH: f64 = 1.02;
 }
 
@@ -139,7 +138,7 @@ pub mod anderson {
 }
 
 pub mod line_search {
-    /// The least and the largest part of a correction that the secant leaves: the work along it is no straight line.
+    /// The least and the largest factor on a correction by the secant, since the work is not linear along it.
     pub const SECANT: [f64; 2] = [0.1, 0.9];
     /// Largest fraction of the work of the residual that may be left after a correction.
     pub const LEFT: f64 = 0.8;
@@ -150,23 +149,23 @@ pub mod line_search {
 pub mod rotated_matrix {
     /// An angle φ spoils the matrix of a tree by about φ² EA L²/EI beside what bends it; below this the contraction does not show it.
     pub const NEGLIGIBLE: f64 = 1e-3;
-    /// A scene that needs fewer matrices than this has none that grow old.
+    /// A model that needs fewer matrices than this needs no rotated ones.
     pub const MANY: usize = 8;
 }
 
 pub mod beam_trees {
-    /// EA L²/EI, the square of a slenderness, from which on a tree counts. Stockier beams stretch hardly less easily than they bend:
-    /// an old matrix errs more by the masses that have moved than by what has turned (measured on flying beams of 2000 and 10,000,
-    /// which lose, and on scenes from 1.3e5 on, which need a half to a third of the time).
+    /// `EA L²/EI`, the square of a slenderness, above which a tree is rotated. Stockier beams stretch almost as easily as they bend, and an
+    /// old matrix errs more by moved masses than by rotations. Measured: flying beams of 2000 and 10,000 become slower, and models above
+    /// 1.3e5 need a half to a third of the time.
     pub const SLENDER: f64 = 1e5;
 }
 
 pub mod stabilization {
-    /// Part of the model's length, or of a radian, by which a first correction may move what springs hold. What hangs already hardly moves; what
-    /// moves further would jump to where it hangs, which is no path of equilibria.
+    /// Limit of a first correction with springs, as a part of the model's length or in radians. Hanging parts hardly move in it; others
+    /// would jump to their hanging position, which is not on a path of equilibria.
     pub const IN_PLACE: f64 = 0.05;
-    /// Part of the springs above which a mode has a stiffness of its own. Joints are closed to 1e-7 where equations are redundant, and what they
-    /// carry works in what is open.
+    /// Stiffness of a mode, as a part of the springs, above which it is stable without them. Redundant joints are closed only to 1e-7, and
+    /// their forces do work in the gaps.
     pub const HELD: f64 = 1e-5;
     /// And part of the terms that this stiffness is summed from: a thousand times their rounding.
     pub const ROUNDING: f64 = 1e-13;
@@ -182,32 +181,32 @@ pub mod arc_length_constraint {
 // Guards.
 
 pub mod mechanism {
-    /// A mode may be a mechanism where the elements store less than this part of the terms that their energy is summed from: some hundred
-    /// times the rounding of the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.
+    /// A mode may be a mechanism if the elements store less than this part of the summed energy terms: some hundred times the rounding of
+    /// the matrix. Thin shells of 100 x 100 elements, thickness 1e-4 of the side, store 1e-13.
     pub const ENERGY: f64 = 1e-14;
-    /// And it is one where forces on no element exceed this part of their terms. The mode has rounding of its own, amplified by the condition
-    /// of what is not the mechanism; a cantilever of 1000 elements, which hardly bends any of them, leaves 1e-4.
+    /// And it is one where forces on no element exceed this part of their terms. The mode has rounding errors, amplified by the condition
+    /// of the other modes; a cantilever of 1000 elements, each hardly bent, has 1e-4.
     pub const FORCE: f64 = 1e-6;
     /// Motions below this part of the largest are taken for rounding of the mode.
     pub const MOVING: f64 = 1e-4;
 }
 
 pub mod mode {
-    /// Part by which entries of a mode that are equal by symmetry differ by rounding.
+    /// Relative rounding difference of entries of a mode that are equal by symmetry.
     pub const EQUAL: f64 = 1e-6;
-    /// Number of inverse iterations. Each multiplies the share of the softest mode by the ratio of the next stiffness to its own, which is
-    /// 1e6 and more at a singularity, and 2 at least where one mode buckles before the next.
+    /// Number of inverse iterations. Each amplifies the softest mode by the ratio of the next stiffness to its stiffness. The ratio is at
+    /// least 1e6 at a singularity, and at least 2 if modes buckle one after the other.
     pub const ITERATIONS: usize = 6;
-    /// A mode is one of rotations where its largest translation is below this part of a rotation times the model's length: an element
-    /// that only turns about its own axis.
+    /// A mode consists of rotations if its largest translation is below this part of a rotation times the model's length, as for an element
+    /// turning about its axis.
     pub const ROTATIONAL: f64 = 1e-3;
 }
 
 pub mod massless {
-    /// A pivot below this part of the diagonal is rounding of the terms that cancel in it, some thousand times over: a chain that is
-    /// pulled so little has strains below 1e-12.
+    /// A pivot below this part of the diagonal is rounding of cancelling terms, with a margin of some thousand. A chain with so little
+    /// tension has strains below 1e-12.
     pub const ROUNDING: f64 = 1e-12;
-    /// Degrees of freedom of nodes that are looked at together; of more, each node is looked at by itself.
+    /// Largest number of degrees of freedom of nodes that are checked together; in larger clusters each node is checked separately.
     pub const MOST: usize = 60;
     /// Components of a direction below this part of the largest are not said.
     pub const SMALL: f64 = 1e-6;
@@ -216,19 +215,20 @@ pub mod massless {
 pub mod jump {
     /// The lever, as a part of the model's length, over which a rotation is compared with translations.
     pub const LEVER: f64 = 1e-3;
-    /// Largest rotation of a node in a load step, in radians. Below it the chord of a turning element keeps a positive part along its old
-    /// direction with room to spare, and the work of moments follows from the rotation vector of the step alone.
+    /// Largest rotation of a node in a load step, in radians. Below it the chord of a turning element keeps a clearly positive component
+    /// along its old direction. The rotation vector of the step then gives the work of moments.
     pub const LARGEST_TURN: f64 = 1.25;
-    /// Largest rotation of a node of a shell against the mean of its element in a step of a motion, in radians: a step that is resolved bends no element so far.
+    /// Largest rotation of a node of a shell against the mean of its element in a dynamic step, in radians; resolved steps bend elements
+    /// less.
     pub const LARGEST_TWIST: f64 = 0.5;
     /// Work within this part of all work done, for either sign, is not missed: a step has its own error, and equilibrium its tolerance.
     pub const ACCURACY: f64 = 1e-3;
-    /// Part of ½ |Δf| |Δq| by which the work of loads that grow by Δf may depart from that of their mean. Where forces grow with the n-th power
-    /// of displacements it is (n − 1)/(n + 1): nothing in a linear step, one half for a slack string, which is cubic. Where a gap closes, or a
-    /// structure yields, it is more in a long step and less in a shorter one; where the equilibrium jumps it is nearly all, or more.
+    /// Largest departure of the work of loads that grow by Δf from the work of their mean, as a part of `½ |Δf| |Δq|`. For forces
+    /// proportional to the n-th power of displacements it is `(n − 1)/(n + 1)`: zero in a linear step, one half for the cubic force of a
+    /// slack string. It decreases with the step if a gap closes or a structure yields. It is nearly one, or more, if the equilibrium jumps.
     pub const CURVED: f64 = 0.6;
-    /// Part of ½ |Δf| |Δq| that is in doubt: the step is taken in two halves, and where what is missed in the first is not half of it or less,
-    /// in their halves, until the path is smooth or plainly jumps. A jump leaves its loss in one half.
+    /// Part of `½ |Δf| |Δq|` above which a step is in doubt and taken in two halves. It is halved again, until the path is smooth or
+    /// clearly jumps, if the first half misses more than half of the work. In a jump one of the halves misses all of the work.
     pub const DOUBTFUL: f64 = 0.2;
     /// The work of forces along this part of the model's length is rounding, as is that of moments along this angle.
     pub const NOTHING: f64 = 1e-12;
@@ -237,20 +237,20 @@ pub mod jump {
 }
 
 pub mod stability_tangent {
-    /// Number of bisections for the load at which the first eigenvalue is negative: 1e-5 of the step.
+    /// Number of bisections for the load at the first negative eigenvalue: 1e-5 of the step.
     pub const BISECTIONS: usize = 17;
-    /// Number of points in a step at which a determinant is looked at: two modes that buckle one after the other leave its sign.
+    /// Number of points in a step with an evaluated determinant, because two modes that buckle one after the other do not change its sign.
     pub const SCANS: usize = 16;
-    /// Turn of a node in a step, in radians, above which the tangents between the ends of the step, K₀ + θ (K₁ − K₀), say nothing of a
-    /// determinant: half-way they are wrong by an eighth of its square, as part of what is stiffest, and slender parts bend a thousand times
-    /// more easily than they stretch.
+    /// Turn of a node in a step, in radians, above which the interpolated tangents K₀ + θ (K₁ − K₀) are unsuitable for determinants.
+    /// Half-way their error is an eighth of its square, relative to the stiffest terms, and slender parts bend a thousand times more easily
+    /// than they stretch.
     pub const TURNS: f64 = 0.05;
-    /// An eigenvalue that is negative by less than this part of the diagonal is rounding; that of a thousand elements in bending is 1e-12.
+    /// A negative eigenvalue below this part of the diagonal is rounding; a thousand elements in bending have 1e-12.
     pub const ROUNDING: f64 = 1e-14;
 }
 
 pub mod stability {
-    /// Part of a step of the deck below which one that ends on an unstable branch is not cut again. A strut with a lateral load of 1e-6 of its
+    /// Part of the deck's step below which steps to an unstable branch are not cut again. A strut with a lateral load of 1e-6 of its
     /// buckling load bends away within 1e-4 of it.
     pub const SHORTEST: f64 = 1.0 / 4096.0;
 }
@@ -261,38 +261,38 @@ pub mod out_of_plane {
 }
 
 pub mod contacts {
-    /// Of the size of what touches, where the program has chosen the stiffness: five times what it chose it for.
+    /// Visible penetration, as a part of the size of the touching body, for a stiffness chosen by rdsolve: five times the intended one.
     pub const SEEN: f64 = 0.05;
-    /// The same where the deck gives it and may mean something soft, a tyre or a buffer: what is in to its middle has no side left.
+    /// Limit for a stiffness in the deck, which may describe a soft tyre or buffer: beyond its centre a body has no side left.
     pub const MEANT: f64 = 0.5;
-    /// The same of faces and of balls among themselves, whose size is the depth at which their middles meet.
+    /// Limit for faces and for balls among each other: their size is the penetration between touching centres.
     pub const TO_THE_MIDDLE: f64 = 0.5;
-    /// Of the size of what touches: the depth by which stiffnesses are chosen.
+    /// Penetration at the beginning, as a part of the size of the touching body: the value used to choose stiffnesses.
     pub const BEGINS_CLOSED: f64 = 1e-3;
-    /// Part of the size of a body by which it sinks in at rest: the depth by which stiffnesses are chosen.
+    /// Penetration at rest, as a part of the size of a body: the value used to choose stiffnesses.
     pub const SUNK: f64 = 1e-3;
 }
 
 pub mod strain {
-    /// Strain from which forces are off by a tenth: stress conjugate to Green's strain makes them twice the strain too large.
+    /// Strain with forces wrong by a tenth: the stress conjugate to Green's strain makes them too large by twice the strain.
     pub const LARGE: f64 = 0.05;
-    /// The same with logarithmic strain, whose series ends: a stretch to 1.34 or to 0.75, where forces begin to be off by a hundredth.
+    /// Limits for the truncated series of logarithmic strain: at stretches of 1.34 and 0.75 forces are wrong by a hundredth.
     pub const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
     /// How often in a run strains are looked at: plastic ones do not go away.
     pub const LOOKS: f64 = 100.0;
 }
 
 pub mod drift {
-    /// The drift, in radians, from which it is told.
+    /// The drift, in radians, that causes a warning.
     pub const NOTICED: f64 = 1e-3;
     /// How often in a run rotations are looked at.
     pub const LOOKS: f64 = 100.0;
 }
 
 pub mod energy_growth {
-    /// Energy that steps generate, as a multiple of that available, from which a run is lost and ends.
+    /// Generated energy, as a multiple of the available energy, above which a run is lost and ends.
     pub const FAR: f64 = 100.0;
-    /// Part of the available energy that steps may have generated where results are still sound.
+    /// Part of the available energy that steps may generate with sound results.
     pub const SOUND: f64 = 0.02;
 }
 
@@ -304,7 +304,7 @@ pub mod fixed {
     /// Largest number of substeps of a step, without contacts and with them. Without contacts, consecutive steps that are
     /// each cut into more than `MANY` substeps count together.
     pub const MOST_SUBSTEPS: [usize; 2] = [1024, 4096];
-    /// Substeps of a step from which consecutive steps count together.
+    /// Number of substeps in a step above which consecutive steps count together.
     pub const MANY: usize = 32;
     /// Halvings of a step whose corrections are shortened.
     pub const CAREFUL_HALVINGS: u32 = 6;
@@ -329,12 +329,12 @@ pub mod error_controlled {
     pub const WORTH: f64 = 1.4;
     /// Errors oscillate with the motion, and their sum counts, so lengths follow a mean over this fraction of the run, ...
     pub const SPAN: f64 = 0.05;
-    /// ... in which the last step has at least this weight.
+    /// ... with at least this weight of the last step.
     pub const WEIGHT: f64 = 0.002;
-    /// Fraction of the sum of all errors that remains at the end: steady growth to 1 of an oscillation has a root mean
-    /// square of 1/√6 over a run; a little less, since errors partly cancel, as the scenes B1, C4 and X1 show.
+    /// Fraction of the sum of all errors that remains at the end. Steady growth to 1 of an oscillation has a root mean square of 1/√6 over
+    /// a run; errors partly cancel, as the models B1, C4 and X1 show.
     pub const MEAN: f64 = 0.3;
-    /// The same for Runge-Kutta schemes, whose errors damp the motion in the main: they cancel less.
+    /// This fraction for Runge-Kutta schemes: their errors mainly damp the motion, and cancel less.
     pub const MEAN_OF_STAGES: f64 = 0.6;
     /// Least number of steps of a run.
     pub const FEWEST: f64 = 50.0;
@@ -342,8 +342,8 @@ pub mod error_controlled {
     /// short, for the sake of impacts. They have no common divisor, lest all of them end where a vibration passes through
     /// zero.
     pub const TRIALS: [f64; 6] = [1.7e-4, 7.1e-4, 2.9e-3, 0.011, 0.037, 0.053];
-    /// An estimate that two filters reduce below this fraction is that of unresolved motion, with a period of four steps or
-    /// less; unless other motion leaves more than the root of it after a third filter.
+    /// An estimate reduced below this fraction by two filters belongs to unresolved motion with a period of at most four steps. A third
+    /// filter shows other motion by more than the root of this fraction.
     pub const RESOLVED: f64 = 0.3;
     /// Number of filters that remove such motion, and keep most of a mode with ten steps a period.
     pub const FILTERS: usize = 8;
@@ -367,14 +367,14 @@ pub mod arc_length {
     pub const CHANGE: f64 = 2.0;
     /// Cosine of the angle between steps below which they grow no more.
     pub const STRAIGHT: f64 = 0.8;
-    /// Cosine below which a step may have left the path for another and is tried at half the length; but only so many
-    /// times, for where material begins to yield a path has kinks that no step is too short for.
+    /// Cosine below which a step may have left the path and is tried at half the length. The number of trials is limited, since paths have
+    /// kinks at first yield for all step lengths.
     pub const BENT: f64 = 0.2;
     /// Number of times that a step is tried at half the length because the path bends.
     pub const TRIES: usize = 3;
     /// Number of iterations beyond which the first step is tried at half the load.
     pub const HARD: usize = 12;
-    /// Largest number of steps of a path, unless the deck asks for another.
+    /// Largest number of steps of a path, unless the deck gives another.
     pub const MOST_STEPS: usize = 100_000;
     /// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.
     pub const MOST_TARGETS: usize = 8;
@@ -391,8 +391,9 @@ pub mod end_at_stop {
 }
 
 pub mod tolerance {
-    /// Steps in which an event falls are no longer than this part of the run, times the root of the tolerance. What such a step errs by goes with
-    /// the square of its length; a step of a twentieth of what opens and closes again then errs by less than a tenth of the tolerance.
+    /// Longest step with an event inside, in units of the run times the root of the tolerance. The error of such a step is
+    /// proportional to the square of its length. A step of a twentieth of the duration of a contact then has an error below a tenth of the
+    /// tolerance.
     pub const LONGEST_WITH_EVENT: f64 = 0.01;
 }
 
@@ -401,14 +402,14 @@ pub mod tolerance {
 pub mod stiffening {
     /// Below this fraction of the limit, by approximate inertias, the quotient is not computed.
     pub const QUICK: f64 = 0.05;
-    /// What tells that a mode grows, a little above the value of one at the limit.
+    /// The quotient of a growing mode, slightly above the value of a mode at the limit.
     pub const LIMIT: f64 = 4.1;
 }
 
 pub mod scaled_step {
     /// Differences of residuals leave seven digits of the limit.
     pub const ROUNDING: f64 = 1e-4;
-    /// Part of the stiffness of a mode from which one link or contact is what makes it fast.
+    /// Part of the stiffness of a mode above which one link or contact causes its high frequency.
     pub const MOST: f64 = 0.5;
 }
 
@@ -426,9 +427,8 @@ pub mod critical_step {
     pub const LONGER: f64 = 1.05;
     /// A limit shorter by this factor counts as a cutback.
     pub const SHORTER: f64 = 0.95;
-    /// The displacement by which residuals are differenced, over the model's length. Over the length of an element it is a
-    /// strain, which must not make steel yield: with a thousand elements it is 2e-6. Positions in two parts leave seven
-    /// digits of it.
+    /// The displacement for differences of residuals, over the model's length. Over the length of an element it is a strain, which must not
+    /// make steel yield: with a thousand elements it is 2e-6. Positions in two parts leave seven digits of it.
     pub const SMALL: f64 = 1e-9;
     /// Factor on the square of the frequency, which power iteration approaches from below.
     pub const BELOW: f64 = 1.1;
@@ -447,15 +447,15 @@ pub mod start {
     pub const DIGITS: f64 = 1e-5;
     /// The part of the size of the scene that counts as no way over a whole run.
     pub const NOWHERE: f64 = 1e-9;
-    /// A mass this many times larger leaves an acceleration below rounding.
+    /// A factor on masses that reduces accelerations below rounding.
     pub const FIXED: f64 = 1e20;
 }
 
 pub mod initial_transient {
-    /// Motions by such an acceleration in a step, as parts of the model's length and in radians, that rotations of slender parts may have
-    /// without stretching what they should only bend.
+    /// Motions by such an acceleration in a step, as parts of the model's length and in radians, that stretch slender parts only a little.
     pub const LARGE: f64 = 1e-3;
-    /// Part of an acceleration by which that of an implicit step differs where the step does not resolve it, and that before a jump where it jumps.
+    /// Relative difference of an acceleration from that of an implicit step, above which the step does not resolve it. Above this
+    /// difference from the value before a jump it counts as jumping.
     pub const UNRESOLVED: f64 = 0.5;
 }
 
@@ -467,14 +467,14 @@ pub mod handover {
 }
 
 pub mod stop_watch {
-    /// Part of the value within which it is met by a step of given length, which is shortened to end there.
+    /// Part of the value within which a shortened step of given length has reached it.
     pub const MET: f64 = 1e-8;
 }
 
 pub mod search {
-    /// The part of the time between comparisons in which a stage must come to its stop for its error to be told.
+    /// Part of the time between comparisons below which a stage stops too early for an estimate of its error.
     pub const EARLY: f64 = 0.4;
-    /// The part of it in which a stage that has stopped too early is to stop in the next run.
+    /// The part of it for the stop of such a stage in the next run.
     pub const IN_TIME: f64 = 0.8;
 }
 
@@ -483,15 +483,15 @@ pub mod trials {
     pub const MOST_RUNS: usize = 4;
     /// Part of the error asked for that a second run aims at.
     pub const AIM: f64 = 0.6;
-    /// An error of up to this multiple of what was asked for passes.
+    /// Multiple of the requested error that is still accepted.
     pub const WITHIN: f64 = 1.5;
     /// Ratio of the tolerances of the trial and the run: for a scheme of third order its steps are twice as long.
     pub const LOOSER: f64 = 8.0;
     /// Least and largest ratio of the tolerances of two runs in a row.
     pub const CHANGE: [f64; 2] = [0.01, 0.5];
-    /// A run of more than so many times the steps of the one before is given up: what it would follow no step was to resolve.
+    /// Ratio to the steps of the run before above which a run is aborted: its motion cannot be resolved.
     pub const MOST_LONGER: usize = 30;
-    /// A trial of more than twice the steps of its run and so many is given up: its longer steps do not follow the motion.
+    /// A trial with more than twice the steps of its run plus this number is aborted: its longer steps do not follow the motion.
     pub const FEW: usize = 100;
     /// Ratio of the tolerances where two runs have nothing in common.
     pub const LOST: f64 = 0.03;
@@ -504,22 +504,21 @@ pub mod trace {
     pub const MOST_NODES: usize = 20_000;
     /// Errors of steps add up to less than their sum: they fall at least with this power of it.
     pub const SLOPE: f64 = 0.8;
-    /// Number of steps for whose ends there is room from the first step on; memory that is not touched costs nothing.
+    /// Number of step ends with reserved memory; unused memory costs nothing.
     pub const USUAL_STEPS: usize = 1 << 16;
-    /// The factor between the errors of two runs that have met events, at most: that of steps twice as long, in which events leave errors of first
-    /// order.
+    /// Largest ratio of the errors of two runs with events: steps twice as long, with errors of first order.
     pub const EVENTFUL: f64 = 2.0;
-    /// Runs of nearly the same steps tell nothing of each other.
+    /// Runs with nearly equal steps are no measure of each other.
     pub const TELLING: f64 = 1.1;
-    /// Times at least: one of them may be that at which both happen to agree.
+    /// Least number of times, since both runs may agree by chance at one of them.
     pub const FEWEST: usize = 3;
 }
 
 pub mod modes_at_end {
-    /// Part of the forces that an equilibrium may leave out of balance; a state that rests by time integration leaves some.
+    /// Residual of an equilibrium, as a part of the forces; a state at rest by time integration has some.
     pub const BALANCED: f64 = 1e-3;
-    /// What moves nothing by more than this part of the largest coordinate, against its own stiffness, is rounding, as is this part of all loads
-    /// where nothing acts.
+    /// Forces that move nothing by more than this part of the largest coordinate are rounding. If no load acts, so are forces below this
+    /// part of all loads.
     pub const ROUNDING: f64 = 1e-12;
 }
 
@@ -540,7 +539,7 @@ pub mod redundant_constraints {
 }
 
 pub mod threads {
-    /// Number of nodes from which several threads pay in the loops over nodes.
+    /// Least number of nodes for several threads in loops over nodes.
     pub const NODES_WORTH_THREADS: usize = 2048;
 }
 
@@ -550,17 +549,17 @@ pub mod savings {
 }
 
 pub mod explained_mass_scaling {
-    /// Share of the mass of a part from which what is added is warned of: where it is spread, frequencies fall by 2.4 %; in a few elements at the
-    /// end of a cantilever it is 8 %. Guides to crash analysis draw the line there too, for each part.
+    /// Mass added by mass scaling, as a share of a part, that causes a warning. Spread over the part it lowers frequencies by 2.4 %, in a
+    /// few elements at the end of a cantilever by 8 %. Guides to crash analysis use this limit for each part.
     pub const MUCH: f64 = 0.05;
 }
 
 // Small motions.
 
 pub mod rest {
-    /// What is left of forces relative to their largest terms.
+    /// Largest residual force relative to the largest terms.
     pub const UNBALANCED: f64 = 1e-12;
-    /// A motion that forces would cause, relative to the size of the scene, in which it still rests.
+    /// Largest motion that forces may cause in a model at rest, relative to its size.
     pub const STILL: f64 = 1e-9;
 }
 
@@ -584,14 +583,13 @@ pub mod modal {
     pub const PROBE: usize = 12;
     /// Part of a shift below which an eigenvalue is zero, or next to it.
     pub const LOW: f64 = 1e-4;
-    /// By what part the eigenvalue up to which modes are counted moves where it meets one.
+    /// Relative shift of the bound for the number of modes if it meets an eigenvalue.
     pub const NEAR: f64 = 1e-7;
     /// Shifts that are tried.
     pub const SHIFTS: usize = 30;
     /// A shift within these multiples of the lowest frequency squared that is not zero serves as well as any other.
     pub const FITS: [f64; 2] = [0.03, 1e3];
-    /// Eigenvalues that are smaller than others by such a factor are zero, or next to it: with a shift at zero the others would have no more digits than
-    /// what is left of sixteen.
+    /// Eigenvalues smaller than others by this factor count as zero: with a shift at zero the others would lose too many of sixteen digits.
     pub const APART: f64 = 1e5;
     /// Squares of frequencies that lie farther apart lose digits.
     pub const FAR_APART: f64 = 1e12;
@@ -606,15 +604,15 @@ pub mod buckling {
     pub const WIDTH: usize = 2;
     /// Step of the first differences, as a displacement relative to the size of the scene and a rotation.
     pub const SMALL: f64 = 1e-4;
-    /// Step of the final differences, as such a motion at most, and as a part of the lowest factor. The cube of a rotation θ stretches and
-    /// shears a part of slenderness s by s² θ² of what the load does, which differences of second order would keep: those of sixth order
-    /// leave s² θ⁶, and rounding 1e-15 s²/θ.
+    /// Step of the final differences, as such a motion at most, and as a part of the lowest factor. A rotation θ stretches and shears a
+    /// part of slenderness s by s² θ² of the load's effect, which differences of second order would keep. Differences of sixth order keep
+    /// s² θ⁶, with a rounding error of 1e-15 s²/θ.
     pub const STEP: f64 = 3e-3;
     /// Factors farther from zero than the nearest by the inverse of this are rounding.
     pub const FARTHEST: f64 = 1e-8;
-    /// Factors of equal size that are taken one by one before the search is given up.
+    /// Number of equal factors found one by one before the search ends.
     pub const CLUSTER: usize = 200;
-    /// Largest motion, as that of [`STEP`], up to which bars are judged to be slack.
+    /// Largest motion, measured as for [`STEP`], for the check of slack bars.
     pub const MODERATE: f64 = 0.05;
     /// Searches for factors that pivots show and the iteration has not found.
     pub const SEARCHES: usize = 8;
@@ -623,7 +621,7 @@ pub mod buckling {
 pub mod shares {
     /// Energy of a part above this part of its terms without signs is no rounding, ...
     pub const CLEAR: f64 = 1e-6;
-    /// ... unless its motions are: this is the square of what they are of the largest anywhere.
+    /// ... unless the motions are rounding: the square of their ratio to the largest motion.
     pub const STILL: f64 = 1e-16;
 }
 
@@ -632,19 +630,19 @@ pub mod damped {
     pub const TOLERANCE: f64 = 1e-11;
     /// Starting vectors: pairs of equal roots are found together.
     pub const WIDTH: usize = 2;
-    /// Roots below this part of the shift are zero: those of motions without stiffness are double, and rounding splits a double root by
-    /// the square root of its size.
+    /// Roots below this part of the shift are zero. Motions without stiffness have double roots, which rounding splits by the square root
+    /// of its size.
     pub const ZERO: f64 = 3e-6;
-    /// Where motions have no stiffness, roots below this multiple of what the stiffness of rigid motions rounds to are theirs.
+    /// If motions have no stiffness, roots below this multiple of the rounding of rigid-body stiffness belong to them.
     pub const SPLIT: f64 = 4.0;
-    /// Part of the shift from which roots that count as zero may be others.
+    /// Limit of roots counted as zero, as a part of the shift, above which other roots may be among them.
     pub const DOUBTFUL: f64 = 0.1;
     /// A root grows where its real part is larger than this part of it.
     pub const GROWS: f64 = 1e-7;
-    /// Roots whose distance from the shift is larger than that of the nearest by the inverse of this are at infinity: motions that joints forbid,
-    /// or without mass, have such.
+    /// Roots farther from the shift than the nearest root by the inverse of this are infinite: they belong to motions restrained by joints,
+    /// or without mass.
     pub const INFINITE: f64 = 1e-10;
-    /// Modes for which there is room where a frequency is given.
+    /// Number of modes with room if a frequency is given.
     pub const UP_TO: usize = 100;
 }
 
@@ -661,9 +659,9 @@ pub mod gyroscopic {
 }
 
 pub mod pencil {
-    /// Gaps of a motion relative to its size from which it is one that joints forbid; those of others are rounding.
+    /// Gap of a motion relative to its size above which joints restrain the motion; smaller gaps are rounding.
     pub const FORBIDDEN: f64 = 1e-6;
-    /// Ratio of stiffness to mass, relative to the largest, that rounding leaves where nothing resists.
+    /// Ratio of stiffness to mass, relative to the largest, that is rounding in unresisted motions.
     pub const ROUNDING: f64 = 1e-12;
 }
 
@@ -688,31 +686,31 @@ pub mod modal_response {
 }
 
 pub mod direct_response {
-    /// What is left of the equations from which a solution is in doubt.
+    /// Residual of the equations above which a solution is in doubt.
     pub const DOUBTFUL: f64 = 1e-8;
     /// Penalties of joints are those of the stiffness and of the inertia at this multiple of the highest frequency, which no inertia below
     /// it cancels.
     pub const BEYOND: f64 = 2.0;
     /// Part of the least ratio of stiffness and inertia below which a motion without stiffness counts as one.
     pub const NEXT_TO_ZERO: f64 = 1e-6;
-    /// Solutions after which gaps of joints, of which each leaves a small part, have closed.
+    /// Number of solutions that close the gaps of joints; each reduces them to a small part.
     pub const CLOSINGS: usize = 3;
-    /// Part of the largest motion by which motions beside a frequency may differ where nothing resonates.
+    /// Relative difference of the motions on both sides of a frequency that is allowed without resonance.
     pub const SAME: f64 = 1e-4;
-    /// Part of a frequency by which it is left on either side where its own equations cannot be solved.
+    /// Relative shift of a frequency to both sides if its equations cannot be solved.
     pub const ASIDE: f64 = 1e-9;
-    /// Part of a frequency by which a natural one may differ to be the same.
+    /// Relative difference below which a natural frequency equals a given one.
     pub const SAME_FREQUENCY: f64 = 1e-6;
-    /// The ratio to the least motion from which one is looked at.
+    /// Ratio to the least motion above which a motion is checked for resonance.
     pub const LARGE: f64 = 1e6;
-    /// Part of a frequency by which it is left, and the part of the motion that remains there at a resonance without damping.
+    /// Relative shift of a frequency, and the part of the motion that remains there in a resonance without damping.
     pub const BESIDE_RESONANCE: [f64; 2] = [1e-6, 0.02];
 }
 
 pub mod damped_rest {
-    /// Parts of the stiffness of a mode below which what its damping force moves besides counts for nothing.
+    /// Static response to the damping force of a mode, as a part of the stiffness of the mode, below which it is neglected.
     pub const SMALL: f64 = 1e-9;
-    /// A motion of which this part of its size is left beside those before it is one of them.
+    /// A motion depends on earlier ones if less than this part of it is independent.
     pub const ALIKE: f64 = 1e-6;
     /// How often the damping forces of such motions are answered in turn.
     pub const ROUNDS: usize = 2;
@@ -721,9 +719,9 @@ pub mod damped_rest {
 pub mod dynamic_stiffness {
     /// Unknowns of a group.
     pub const MOST: usize = 3;
-    /// What may be left of a right-hand side, relative to its largest entry.
+    /// Residual of a right-hand side, relative to its largest entry, that ends refinement.
     pub const LEFT: f64 = 1e-14;
-    /// A part of a solution that is beyond what is read of it.
+    /// Change of a solution below the accuracy of results.
     pub const NEGLIGIBLE: f64 = 1e-6;
     /// Refinements of a solution.
     pub const REFINEMENTS: usize = 4;
@@ -732,9 +730,9 @@ pub mod dynamic_stiffness {
 // The system of equations.
 
 pub mod turning_body {
-    /// The part of the largest principal inertia that rounding leaves where there is none.
+    /// The rounding of a zero inertia, as a part of the largest principal inertia.
     pub const NEGLIGIBLE: f64 = 1e-12;
-    /// The part of the largest principal inertia by which rounding may make it exceed the sum of the two others, or differ from them.
+    /// The rounding of the largest principal inertia relative to the sum of the two others, and of differences between equal ones.
     pub const ROUNDING: f64 = 1e-9;
     /// The part of the largest principal inertia below which an axis follows the momentum in space in part only.
     pub const THIN: f64 = 0.1;
@@ -748,7 +746,7 @@ pub mod free_rotation {
 }
 
 pub mod masses {
-    /// An entry counts as zero below this fraction of what it was before others were subtracted from it.
+    /// Ratio to an entry before subtractions below which the remainder counts as zero.
     pub const NEGLIGIBLE: f64 = 1e-12;
     /// Number of corrections of the velocities of a node with restrained degrees of freedom.
     pub const CORRECTIONS: usize = 2;
@@ -759,14 +757,14 @@ pub mod energy {
     pub const ROUNDING: f64 = 1e-12;
     /// Of the largest energy, at least: a steady motion that keeps its speed to 3e-5 is as good as the results are.
     pub const OF_PEAK: f64 = 3e-3;
-    /// Times what has changed its form: a vibration that no step resolves is gone before its energy was stored once.
+    /// Multiple of the exchanged energy: an unresolved vibration dissipates before its energy was stored once.
     pub const GONE: f64 = 5.0;
-    /// Of the largest energy: what is less is rounding of it, in a stage in which nothing happens.
+    /// Part of the largest energy that is rounding in a stage without motion.
     pub const NOTHING_HAPPENS: f64 = 1e-9;
 }
 
 pub mod scale {
-    /// Part of a length at which forces make moments: where only forces act, moments are rounding of them.
+    /// Arm of forces, as a part of a length, for the scale of moments: if only forces act, moments are rounding of them.
     pub const ARM: f64 = 1e-2;
 }
 
@@ -776,11 +774,11 @@ pub mod shell_shear {
 }
 
 pub mod multipliers {
-    /// ε regularizes redundant constraint equations: rounding in a redundant equation is amplified by 1/ε, and an iteration
-    /// leaves the fraction ε of a gap.
+    /// ε regularizes redundant constraint equations: it amplifies rounding in a redundant equation by 1/ε, and each iteration reduces a gap
+    /// to the fraction ε.
     pub const REGULARIZATION: f64 = 1e-7;
-    /// ε where no equation is redundant. What an iteration leaves of gaps that go smoothly over a chain of N joints is ε/(ε + (π/2N)²): with
-    /// the other ε two thousand joints would leave a tenth, twenty thousand nearly all.
+    /// ε where no equation is redundant. In a chain of N joints an iteration reduces smooth gaps to the fraction ε/(ε + (π/2N)²). With the
+    /// other ε a tenth remains for two thousand joints, and nearly all for twenty thousand.
     pub const REGULARIZATION_OF_TREES: f64 = 1e-11;
 }
 
@@ -795,15 +793,15 @@ pub mod excitation {
 }
 
 pub mod penalties {
-    /// Ratio of masses or stiffnesses up to which a gap shrinks by 1e-3 or better in an iteration.
+    /// Ratio of masses or stiffnesses below which an iteration reduces a gap to 1e-3 or less.
     pub const MODERATE: f64 = 1e4;
-    /// Forces of joints whose factor is this part of the largest are rounding: such a joint bears nothing. And so are forces that are this part of
-    /// what a gap as large as the scene, or a turn of one, would be answered with.
+    /// Factor of a joint, as a part of the largest, below which its forces are rounding. Also the limit for forces relative to the reaction
+    /// to a gap of the size of the model, or to a rotation of one radian.
     pub const NOTHING: f64 = 1e-12;
     /// A moment of a joint that is this part of its force along the scene gives no measure of its stiffness, whatever the iteration has made of it.
     pub const FAINT: f64 = 1e-6;
-    /// The least ratio of the penalty factor of a joint to the stiffness that its own forces have, by which the two together are positive: arms
-    /// and directions make less of the factor.
+    /// Least ratio of the penalty factor of a joint to the stiffness of its forces: their sum is then positive, although arms and
+    /// directions reduce the effect of the factor.
     pub const FIRM: f64 = 100.0;
 }
 
@@ -818,25 +816,25 @@ pub mod independent_rows {
 }
 
 pub mod element_stability {
-    /// Largest square of the radius of gyration that is given to elements, over that of the distance of their nodes.
+    /// Largest squared radius of gyration for rotary inertia, over the squared distance of the nodes.
     pub const GYRATION: f64 = 1.0 / 8.0;
     /// Moments of inertia below this part of the largest are none.
     pub const NONE: f64 = 1e-12;
-    /// Bisections of the part of the largest squares of radii: what is too much is 2⁻¹⁶ of these.
+    /// Number of bisections for the part of the largest squared radii: the excess is 2⁻¹⁶ of them.
     pub const BISECTIONS: usize = 16;
-    /// Rotary inertia that lowers the square of the fastest frequency by less than this part of it is not given where mass has to be: it would
-    /// slow what bends for next to nothing.
+    /// Least relative reduction of the largest squared frequency by rotary inertia. Below it only mass is added, because rotary inertia
+    /// would slow bending without benefit.
     pub const OF_USE: f64 = 0.02;
 }
 
 pub mod slip_watch {
-    /// Part of the scene's length from which slip is a motion of the scene.
+    /// Part of the model's length above which slip is a visible motion.
     pub const OF_LENGTH: f64 = 1e-3;
-    /// Multiple of the stretch of a spring of friction from which slip is a motion of the scene.
+    /// Multiple of the stretch of a spring of friction above which slip is a visible motion.
     pub const OF_STRETCH: f64 = 10.0;
     /// Error, as a part of the largest slip, that a warning reports.
     pub const SEEN: f64 = 0.02;
-    /// Error, as a part of the largest slip, that the remedy of the warning leaves.
+    /// Error, as a part of the largest slip, with the remedy of the warning.
     pub const LEFT: f64 = 0.01;
 }
 
