@@ -168,7 +168,7 @@ pub struct Diagnostic {
     pub message: String,
     /// The place in the deck; `None` where the deck as a whole is meant.
     pub place: Option<Span>,
-    /// The line of another file that is meant. The excerpt replaces the place, which is then the entry of the deck that names the file.
+    /// The line of another file that is meant. The excerpt replaces the place, which then is only the deck entry with the name of the file.
     pub excerpt: Option<Box<Excerpt>>,
     /// The remedies: the first one stands at the caret, the others below the line.
     pub hints: Vec<String>,

@@ -140,7 +140,7 @@ impl Column {
         Column::scalar(name, meaning, Unit::Label)
     }
 
-    /// A number without axes, of its own kind.
+    /// A number without axes, and with a separate kind.
     pub const fn scalar(name: &'static str, meaning: &'static str, unit: Unit) -> Column {
         Column { name, meaning, unit, axes: Axes::None, sign: "", kind: name }
     }

@@ -100,7 +100,7 @@ fn free_of_control_group() -> Option<f64> {
     left.reduce(f64::min)
 }
 
-/// Bytes that the limit in the folder of one control group leaves; what its files hold in memory and nobody uses is given back on demand.
+/// Bytes below the limit of one control group. Cached files of the group count as free, because the system drops unused ones on demand.
 fn left_by_group(folder: &Path, [limit, used, spare]: [&str; 3]) -> Option<f64> {
     let number = |name: &str| -> Option<f64> { std::fs::read_to_string(folder.join(name)).ok()?.trim().parse().ok() };
     let stat = std::fs::read_to_string(folder.join("memory.stat")).unwrap_or_default();

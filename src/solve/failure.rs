@@ -344,8 +344,8 @@ impl fmt::Display for Failure {
 }
 
 impl Failure {
-    /// True if a shorter step would fail in the same way: after a signal, on an unstable path, and for contact multipliers, whose
-    /// convergence does not depend on the step.
+    /// True if a shorter step would fail in the same way: after a signal, on an unstable path, and for contact multipliers, which converge
+    /// at the same rate in all steps.
     pub fn is_final(&self) -> bool {
         matches!(self, Failure::Stopped | Failure::ContactNotClosed { .. } | Failure::Buckles(_))
     }

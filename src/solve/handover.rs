@@ -34,9 +34,9 @@ pub struct Handover {
     /// The unbalanced forces on each node at the end of the previous stage, if a motion continues under changed loads only. Schemes with
     /// equilibrium off the ends of steps cause them.
     pub(super) out_of_balance: Option<Vec<Force>>,
-    /// The unbalanced forces on each node due to the scheme at the end of the previous stage, if a motion continues with changed supports,
-    /// joints or contacts; empty otherwise. Schemes with equilibrium off the ends of steps would oscillate after a restart from equilibrium
-    /// at the end.
+    /// The unbalanced forces on each node due to the scheme at the end of the previous stage; empty unless a motion continues with changed
+    /// supports, joints or contacts. Schemes with equilibrium off the ends of steps would oscillate after a restart from equilibrium at the
+    /// end.
     pub(super) left_by_scheme: Vec<Force>,
     /// The data that load steps pass to later ones; `None` unless both stages are static.
     pub(super) load_steps: Option<LoadSteps>,

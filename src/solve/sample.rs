@@ -1,4 +1,4 @@
-//! Times inside steps for which the motion is evaluated.
+//! The times inside steps with an evaluation of the motion.
 
 use base::snapshot::{Keep, Snapshot};
 

@@ -1,5 +1,5 @@
 //! Single runs, and runs by a tolerance, see [`super::trials`]: the run itself, a trial with longer steps for its error, and further runs
-//! if the error is too large.
+//! while the error is too large.
 
 use super::control::{Schedule, comparison_times};
 use super::frame::{Observer, OtherRun};

@@ -454,8 +454,8 @@ pub mod start {
 pub mod initial_transient {
     /// Motions by such an acceleration in a step, as parts of the model's length and in radians, that stretch slender parts only a little.
     pub const LARGE: f64 = 1e-3;
-    /// Relative difference of an acceleration from that of an implicit step, above which the step does not resolve it. Above this
-    /// difference from the value before a jump it counts as jumping.
+    /// Relative difference of an acceleration from the acceleration of an implicit step, above which the step does not resolve it. Above
+    /// this difference from the value before a jump it counts as jumping.
     pub const UNRESOLVED: f64 = 0.5;
 }
 
@@ -800,7 +800,7 @@ pub mod penalties {
     pub const NOTHING: f64 = 1e-12;
     /// A moment of a joint that is this part of its force along the scene gives no measure of its stiffness, whatever the iteration has made of it.
     pub const FAINT: f64 = 1e-6;
-    /// Least ratio of the penalty factor of a joint to the stiffness of its forces: their sum is then positive, although arms and
+    /// Least ratio of the penalty factor of a joint to the stiffness of its forces. Their sum is then positive, although arms and
     /// directions reduce the effect of the factor.
     pub const FIRM: f64 = 100.0;
 }

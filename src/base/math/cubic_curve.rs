@@ -84,7 +84,7 @@ impl CubicCurve {
         &self.points
     }
 
-    /// The same curve, shifted to later times.
+    /// This curve, shifted to later times.
     #[must_use]
     pub fn later(mut self, by: f64) -> CubicCurve {
         self.points.iter_mut().for_each(|point| point[0] += by);

@@ -60,7 +60,7 @@ pub trait Number:
     const ZERO: Self;
     /// One for all.
     const ONE: Self;
-    /// The same number in all lanes.
+    /// Sets all lanes to one number.
     fn splat(x: f64) -> Self;
     /// The numbers of the elements.
     fn gather(of: impl FnMut(usize) -> f64) -> Self;

@@ -279,10 +279,10 @@ impl Polyhedron {
         best
     }
 
-    /// Calls `found` with each s at which another part of the surface becomes nearest to `from` + s `way`, in any order.
+    /// Calls `found` with each s where the nearest part of the surface to `from` + s `way` changes, in any order.
     ///
-    /// The nearest region of an edge is bounded by the planes through it along the normals of its two faces. That of a corner is bounded by
-    /// the planes through it across its edges, as far as between these normals.
+    /// The nearest region of an edge is bounded by the planes through it along the normals of its two faces. The nearest region of a corner
+    /// is bounded by the planes through it across its edges, as far as between these normals.
     pub fn region_changes(&self, from: &Vec3, way: &Vec3, found: &mut dyn FnMut(f64)) {
         let crossing = |at: &Vec3, normal: &Vec3| {
             let s = normal.dot(&(at - from)) / normal.dot(way);
@@ -326,7 +326,7 @@ impl Polyhedron {
     }
 }
 
-/// Directions in which the nearest point of a surface may move.
+/// The directions of motion of the nearest point on a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Freedom {
     /// It lies in a face.

@@ -235,7 +235,8 @@ pub fn pairs(n: usize) -> impl Iterator<Item = (f64, f64)> + Clone {
     })
 }
 
-/// Places and weights across the depth of a section that yields, whose stress has kinks: n is one of the table, or even and then [`pairs`].
+/// Places and weights across the depth of a yielding section, whose stress has kinks. n is an entry of the table, or even: then [`pairs`]
+/// is used.
 ///
 /// Sums of weights, w z² and, with 10 and 12 points, w |z| are exact: area, elastic and plastic moment. Places and weights make the
 /// largest error of M(κ) of an ideally plastic rectangle least, with axial forces from 0 to 0.6 N_p. Errors in parts of the plastic moment,

@@ -1,5 +1,5 @@
-//! The lasting part of the errors of steps. A vibration of amplitude `A` has the phase error φ A, φ = c ω³ Δt² T, at the end of a run of
-//! length T, but never much more than `A`. A Butterworth filter of third order over time, with its corner at φ = 1, gives φ A/√(1 + φ²):
+//! The lasting part of the errors of steps. A vibration of amplitude `A` at the end of a run of length T has the phase error φ A, φ = c ω³
+//! Δt² T, but never much more than `A`. A Butterworth filter of third order over time, with its corner at φ = 1, gives `φ A/√(1 + φ²)`:
 //! modes long out of phase count by their amplitude.
 
 use base::math::Vec6;

@@ -65,7 +65,7 @@ fn check_turns(cx: &Context, trial: &TrialMotion, step: &Step) -> Result<(), Fai
 }
 
 /// Refuses a step that turns a node of a shell too far against the mean of its element. Drilling rotations have almost no inertia, and
-/// their resistance falls with the angle. An iteration may therefore converge with a node turned about the normal by a right angle.
+/// their resistance decreases with the angle. An iteration may therefore converge with a node turned about the normal by a right angle.
 fn check_shells(cx: &Context, trial: &TrialMotion) -> Result<(), Failure> {
     let shells = || cx.system.groups.iter().filter(|group| group.kind.is_surface());
     let turn = |node: usize| angular(&cx.plan.dofs.of(node).mask(&trial.increments[node].q));

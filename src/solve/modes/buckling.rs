@@ -1,9 +1,9 @@
 //! Linear buckling: factors λ of the loads at which K + λK' is singular. K is the stiffness of the state without these loads.
 //!
 //! K' is the rate of the tangent with the loads: K(σ) of the linear response, follower loads and joint forces. Differences between the
-//! stresses of small loads and their opposite give K', in the geometry without loads. The deflection before buckling is neglected: the
-//! square of a rotation times the axial stiffness of a slender part counts as much as its product with other rotations, and only both
-//! together are small.
+//! stresses of small loads and their opposite give K', in the geometry without loads. The deflection before buckling is neglected. For
+//! slender parts the square of a rotation times the axial stiffness matters as much as its product with other rotations, and only their sum
+//! is small.
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;

@@ -2,8 +2,8 @@
 //!
 //! With z = (φ, s φ) the roots nearest to a shift σ are the largest eigenvalues 1/(s − σ) of
 //!   φ' = −(K + σ C + σ² M)⁻¹ (C φ + M (s φ + σ φ)),   (s φ)' = φ + σ φ',
-//! a real operator for a real shift (F. Tisseur & K. Meerbergen, SIAM Rev. 43 (2001)). The shift is positive, where motions that last or
-//! decay have no root, so motions without stiffness need no exception.
+//! a real operator for a real shift (F. Tisseur & K. Meerbergen, SIAM Rev. 43 (2001)). The shift is positive, where lasting and decaying
+//! motions have no root, so motions without stiffness are no exception.
 
 use super::fault::ModesFault;
 use super::gyroscopic::Gyroscopic;
@@ -129,8 +129,8 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response: None })
 }
 
-/// The motions without stiffness. Each is a root at zero, whatever its damping. The roots are multiple with too few vectors, of which a
-/// Krylov space holds some.
+/// The motions without stiffness. Each is a root at zero, whatever its damping. The roots are multiple. With too few vectors a Krylov space
+/// contains only some of them.
 fn free_modes(pencil: &mut Pencil, near: Near) -> Result<Vec<EigenMode>, ModesFault> {
     let up_to = near.zero.max(LOW.sqrt() * near.shift);
     let pairs = natural_pairs(pencil, ModeExtent::UpTo(up_to / TAU))?;

@@ -213,7 +213,7 @@ fn complete(pencil: &mut Pencil, Goal { wanted, below }: Goal) -> Result<Vec<(f6
             }
         };
         goal = found.len() + missing;
-        // Vectors that are not yet expanded may hold the part that new vectors would find.
+        // Unexpanded vectors may contain the same part as new vectors.
         if missing == 0 || !lanczos.start(pencil, missing) && lanczos.is_expanded() {
             let mut pairs = sorted(lanczos.into_pairs(), shift, wanted);
             pairs.retain(|(lambda, _)| below.is_none_or(|below| *lambda <= below * (1.0 + NEAR)));

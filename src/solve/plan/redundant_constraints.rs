@@ -70,7 +70,7 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     Some(dependent_rows(&loops, columns).into_iter().map(|row| rows[row]).collect())
 }
 
-/// The rows that may depend on each other. A joint with independent equations in degrees of freedom of its own, such as at the end of a
+/// The rows that may depend on each other. A joint whose independent equations concern separate degrees of freedom, such as at the end of a
 /// chain, does not affect dependence. Without it the next joint is at the end.
 fn without_branches(sparse: &[Vec<(usize, f64)>], joints: &[Range<usize>], columns: usize) -> Vec<usize> {
     let columns_of = |joint: &Range<usize>| -> BTreeSet<usize> {

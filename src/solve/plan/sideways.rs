@@ -1,4 +1,4 @@
-//! Motion out of the plane, which a plane motion omits, and in which a compressed structure may buckle.
+//! Motion out of the plane, which plane analyses omit: a compressed structure may buckle there.
 
 use super::Plan;
 use crate::system::assembly::Assembly;

@@ -1,4 +1,4 @@
-//! Targets of an equilibrium path that the plan omits, and which stay zero.
+//! Targets of an equilibrium path that stay zero because the plan omits their motion.
 
 use super::Plan;
 use super::dof_status::DofStatus;

@@ -41,8 +41,8 @@ pub struct ConstraintProjection {
 
 keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless, shares });
 
-/// The change of the joint forces due to the last projection of accelerations. With M a + Gᵀλ = f before and M δa + Gᵀδλ = 0, forces and
-/// accelerations at the end of a step have the order of the scheme. If equilibrium is written past the end of the step, linear
+/// The change of the joint forces due to the last projection of accelerations. With `M a + Gᵀλ = f` before and `M δa + Gᵀδλ = 0`, forces
+/// and accelerations at the end of a step have the order of the scheme. If equilibrium is written past the end of the step, linear
 /// interpolation of the forces to the end already has that order.
 #[derive(Default)]
 struct ForceChange {

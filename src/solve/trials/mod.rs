@@ -2,7 +2,7 @@
 //!
 //! The local error of a step can be estimated, but its effect on the end cannot. Tops and mechanisms magnify it, and errors of velocity
 //! grow into errors of position. A vibration out of phase errs at most by its amplitude. The difference to a trial run with longer steps is
-//! the error of the worse run, and a known multiple of the error of the better one (L. F. Richardson, 1911). If the error exceeds the
+//! the error of the worse run, and a known multiple of the error of the better run (L. F. Richardson, 1911). If the error exceeds the
 //! requested one, the run is repeated with a tolerance computed from it.
 
 mod trace;

@@ -20,7 +20,7 @@ pub struct Kind<M: 'static> {
     pub word: &'static str,
     /// Other words that choose it.
     pub aliases: &'static [&'static str],
-    /// Words of other programs, for which a message names the word of the deck.
+    /// Words of other programs, with the word of the deck for a message.
     pub guesses: &'static [&'static str],
     /// Its description in the words of the reference of the deck.
     pub about: &'static str,

@@ -161,8 +161,8 @@ impl Direct<'_> {
         self.so_far.resonances.push((frequency, mode));
     }
 
-    /// Looks for resonances that rounding makes very large instead of infinite: such a motion decreases within a fraction of its frequency
-    /// that no real damping allows.
+    /// Looks for resonances that are very large instead of infinite due to rounding. Their motion decreases within a smaller fraction of
+    /// the frequency than with any real damping.
     ///
     /// # Errors
     /// [`ModesFault::Stopped`] where a signal ends the search.

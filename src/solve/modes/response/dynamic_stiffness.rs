@@ -1,7 +1,7 @@
 //! The dynamic stiffness K + iωC − ω²M with the equations of joints, factorised at a frequency.
 //!
 //! A complex number a + ib stands as the real matrix [a −b; b a]. Real and imaginary parts of a group of unknowns form one group of the
-//! solver, so pivots are sought among both: at a resonance a real part may vanish entirely. Groups are of three unknowns at most.
+//! solver, so either may be a pivot: at a resonance a real part may vanish. Groups are of three unknowns at most.
 
 use super::excitation::C64;
 use super::matrices::Matrices;

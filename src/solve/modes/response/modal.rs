@@ -6,7 +6,7 @@
 //! the modes found,
 //!   x = Σ φ q + P (r + (ω² − s) S M r),   r = S f,   S = (K − s M)⁻¹.
 //! Moving supports carry the scene along statically by S; forces of inertia and damping remain. The damping ratio of modes refers to
-//! motions relative to the static motion with the supports. S leaves s/λ of the inertia of that motion.
+//! motions relative to the static motion with the supports. Inertia forces of that motion are computed by S with a relative error s/λ.
 
 use super::super::fault::ModesFault;
 use super::super::gyroscopic::Gyroscopic;
