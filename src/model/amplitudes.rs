@@ -31,7 +31,7 @@ pub(super) fn amplitudes<'d>(
     });
     let read: Vec<Amplitude> = read.collect();
     check_record_units(deck, records, report);
-    // Those of loads without one come behind them.
+    // The amplitudes of loads without one follow them.
     read.into_iter().chain(stage.iter().flat_map(CurrentStage::own_amplitudes)).collect()
 }
 
@@ -127,7 +127,7 @@ fn of_points_or_file<'d>(
     table(a, points, report)
 }
 
-/// A table at the scale of the deck, which jumps to zero at its ends where the deck says so.
+/// A table with the scale and shift of the deck, and with jumps to zero at its ends if the deck asks for them.
 fn table<'d>(
     a: &'d At<Table<words::Amplitude>>,
     mut points: Vec<[f64; 2]>,

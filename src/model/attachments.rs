@@ -1,4 +1,4 @@
-//! `[[attachments]]`: points and bodies that move with a body, nodes that move with a beam.
+//! `[[attachments]]`: points and bodies rigidly attached to a body, nodes rigidly attached to a beam.
 
 use super::data::Joint;
 use super::doubts::long_chains::hold_long_chains;
@@ -79,7 +79,7 @@ fn target<'d>(
     let takes = |part: &PartIndex| part.kind.takes_attachments();
     match scene.names.place(name) {
         Some(Place::Part(part)) if takes(&part) => Some(Target::Part(name, part)),
-        // The word that makes a beam rigid is enough: what is attached to it then goes with its body.
+        // A beam made rigid may be named as the target; the attachment is then to its body.
         Some(Place::Body(body)) if scene.names.rigid_part(body).as_ref().is_some_and(takes) => Some(Target::Body(body)),
         Some(place) => report.error(&name.span, format!("`{}` is {}, not a beam", name.value, place.kind())),
         None => {
@@ -113,7 +113,7 @@ impl<'d> Attacher<'_, 'd> {
         }
     }
 
-    /// Attaches by elimination what is attached to nothing yet, by multipliers the rest, unless the deck says which.
+    /// Attaches free nodes by elimination and attached ones by multipliers, unless the deck gives the method.
     fn attach(&mut self, spot: &Spot, master: usize, to: &str) {
         let first = self.nodes.master(spot.node);
         if first == Some(master) {
@@ -132,7 +132,7 @@ impl<'d> Attacher<'_, 'd> {
         }
     }
 
-    /// Joins a node to a point of its own on a master.
+    /// Joins a node by a joint to a new point on a master.
     fn join(&mut self, spot: &Spot, master: usize, to: &str) {
         let name = format!("{} on {to}", self.nodes.label(spot.node));
         let there = self.nodes.add_dependent(name.clone(), self.nodes.x(spot.node), master, spot.span);

@@ -1,4 +1,4 @@
-//! `[[bodies]]`: mass, inertia and shape of what is rigid, or the parts that make it up.
+//! `[[bodies]]`: mass, inertia and shape of rigid bodies, or their parts.
 
 use super::data::Body;
 use super::places::nodes::Nodes;
@@ -23,14 +23,14 @@ const ROUND_OFF: f64 = 1e-9;
 /// Round-off of a principal moment that is zero, relative to the largest.
 const NO_INERTIA: f64 = 1e-12;
 
-/// Bodies of the deck, then parts that are a body by themselves.
+/// Bodies of the deck, then rigid parts without a body in the deck.
 #[derive(Default)]
 pub(super) struct Bodies<'d> {
     /// The bodies.
     pub list: Vec<Body>,
-    /// The body that a part with `rigid = true` makes up by itself.
+    /// The body of each part with `rigid = true`.
     pub body_of: HashMap<PartIndex, usize>,
-    /// Bodies whose mass comes from parts: the body, its parts, and where the deck says so.
+    /// Bodies with the mass of parts: the body, its parts, and their place in the deck.
     pub of_parts: Vec<(usize, Vec<PartIndex>, &'d Span)>,
 }
 
@@ -125,18 +125,18 @@ pub(super) fn title(deck: &Deck, part: PartIndex) -> String {
     deck.part(part).map_or_else(String::new, |part| part.title())
 }
 
-/// True for a body whose shape tells where it is.
+/// True for a body whose shape defines its position.
 fn is_of_points(body: &words::Body) -> bool {
     let kind = body.shape.as_ref().and_then(|shape| shape.kind.as_ref());
     kind.is_some_and(|kind| kind.value.takes("points") || kind.value.takes("ends"))
 }
 
-/// What a body is made of.
+/// Mass, inertia and shape of a body.
 struct MassProperties {
     mass: f64,
     inertia: Mat3,
     shape: Arc<dyn SolidShape>,
-    /// The centre of mass, where the shape says where it is.
+    /// The centre of mass, if the shape defines it.
     center: Option<Vec3>,
 }
 
@@ -181,7 +181,7 @@ fn mass_properties<'d>(owner: &Owner<'d>, body: &'d words::Body, report: &mut Re
     }
 }
 
-/// Three or six values → matrix, which must be that of a real body.
+/// Converts three or six values to a matrix; it must be the inertia of a real body.
 pub(super) fn read_inertia(values: &At<Vec<f64>>, report: &mut Report) -> Option<Mat3> {
     let [xx, yy, zz, xy, yz, zx] = match values.as_slice() {
         &[xx, yy, zz] => [xx, yy, zz, 0.0, 0.0, 0.0],

@@ -1,4 +1,4 @@
-//! Deck → model, all errors together: the tables in the order in which each needs what the ones before it have made.
+//! Deck → model, with all errors reported together. Each table is read after the tables it depends on.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -77,17 +77,16 @@ pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
     (models.into_iter().next(), problems)
 }
 
-/// Reads a deck and builds the model of each of its stages, or the one of a deck without; everything there is to say about it, in the order
-/// of the deck.
+/// Reads a deck and builds the model of each of its stages (one without stages); diagnostics are in the order of the deck.
 pub fn read_stages(source: &Source) -> (Vec<Model>, Vec<Diagnostic>) {
     read_from(source, (&[], None))
 }
 
-/// Builds the model of the next stage anew, after stages that have ended at the times `reached`, of which not all were planned. What does
-/// not depend on times is that of the model that was `planned`.
+/// Rebuilds the model of the next stage, after stages with an early end at the times `reached`. Data independent of times are those of the
+/// `planned` model.
 ///
 /// # Errors
-/// The deck, or a file that it names, is no longer what it was.
+/// The deck, or one of its files, has changed.
 pub fn replan(source: &Source, reached: &[f64], planned: &Model) -> Result<Model, String> {
     let (models, said) = read_from(source, (reached, Some(planned)));
     let mut model = models.into_iter().next().ok_or_else(|| {
@@ -128,8 +127,7 @@ fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, 
     (models, problems)
 }
 
-/// The models of all stages of a deck, or of the next one, `planned` otherwise, after those that have ended; none if anything is wrong
-/// with any of them.
+/// Builds the models of all stages of a deck, or only of the next one with `planned` as its model so far. After errors there are none.
 fn build_stages(
     deck: &Deck,
     (reached, planned): (&[f64], Option<&Model>),
@@ -161,7 +159,7 @@ fn build_stages(
     (models, problems)
 }
 
-/// The models of all stages, or of the next one after the first few that have ended, and what there is to say about each.
+/// The models of all stages, or of the next one after `ended` stages, with the diagnostics of each.
 fn each_stage(
     sequence: &StageSequence,
     ended: usize,
@@ -181,8 +179,7 @@ fn each_stage(
     built.unzip()
 }
 
-/// Gives a contact the same stiffness in all stages, the largest that was chosen for any of them: what lies on it must not sink in or spring up
-/// between two of them.
+/// Gives a contact the same stiffness in all stages, the largest of them; otherwise bodies at rest on it would sink or rise between stages.
 fn share_contact_laws(models: &mut [Model]) {
     let chosen = models.iter().flat_map(|model| model.each::<Contact>()).filter(|contact| contact.chosen.is_some());
     let mut laws: Vec<Contact> = Vec::new();
@@ -281,7 +278,7 @@ fn connect<'d>(
     (JoinedNodes { masses, links, joints, amplitudes, topology: Topology::new(nodes, report) }, efforts)
 }
 
-/// What acts on a scene.
+/// Loads, supports, contacts and damping of the model.
 struct Acting<'d> {
     fields: AccelerationFields,
     actors: NamedActors<'d>,
@@ -304,7 +301,7 @@ fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, 
     Acting { fields, actors, turned, contacts, loads, damping }
 }
 
-/// What is computed and written.
+/// The requested computation and output.
 struct Questions {
     stage: Option<RunStage>,
     arc_length: Option<ArcLength>,
@@ -313,7 +310,7 @@ struct Questions {
     study: Option<Study>,
 }
 
-/// Reads the tables that say what is computed and written.
+/// Reads the tables for computation and output.
 fn ask<'d>(
     scene: &Scene<'d>,
     scheme: &Arc<dyn Scheme>,
@@ -330,12 +327,12 @@ fn ask<'d>(
     Questions { stage, arc_length, expects, selection, study }
 }
 
-/// Looks for what is odd about a scene without errors.
+/// Checks a scene without errors for suspicious input.
 fn check_sound(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, ties: Ties, report: &mut Report) {
     if report.has_errors() {
         return;
     }
-    // What one stage holds, another may let go.
+    // A later stage may release the restraints of this one.
     if scene.stage.is_none() {
         check_all_held(scene.deck, topology, report);
     }
@@ -396,7 +393,7 @@ fn points(deck: &Deck, nodes: &mut Nodes) {
     }
 }
 
-/// Looks for what is odd about the whole; returns what to record of the mesh.
+/// Checks the whole for suspicious input; returns the record of the mesh.
 fn check(
     scene: &Scene,
     scheme: &Arc<dyn Scheme>,
@@ -429,7 +426,7 @@ fn check(
     mesh
 }
 
-/// Follows the path of equilibria instead of the time, where the deck asks for it.
+/// Replaces the time steps by arc-length steps if the deck asks for them.
 fn lead_on(
     deck: &Deck,
     analysis: Analysis,
@@ -445,7 +442,7 @@ fn lead_on(
     }
 }
 
-/// Completes what only the whole model tells: the scheme of automatic steps, stable steps, nodes that nothing needs, and the list of all that are left.
+/// Completes the model with data of the whole: the scheme of automatic steps, stable steps, unused nodes, and the list of nodes.
 fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -> Model {
     if deck.integrator.is_none() && matches!(model.analysis.step_length, StepLength::ErrorControlled { .. }) {
         model.solution.scheme = choose_scheme(&model);

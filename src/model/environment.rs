@@ -1,4 +1,4 @@
-//! `[environment]` and `[damping]`: what acts on all of a scene.
+//! `[environment]` and `[damping]`: loads and damping on the whole model.
 
 use super::data::{BaseAcceleration, Damping, Loading, NodalDamping};
 use super::loads::Loads;
@@ -11,7 +11,7 @@ use base::math::Vec3;
 use deck::Deck;
 use mechanics::amplitude::Amplitude;
 
-/// What acts on all masses: gravity with the index of its amplitude, and the accelerations of the ground.
+/// Accelerations of all masses: gravity with the index of its amplitude, and the accelerations of the ground.
 #[derive(Default)]
 pub(super) struct AccelerationFields {
     pub gravity: Vec3,

@@ -15,7 +15,7 @@ use deck::parts::PartIndex;
 use deck::words::Table;
 use std::ops::Range;
 
-/// What expected values refer to.
+/// The data behind expected values.
 struct Expects<'a, 'd> {
     scene: &'a Scene<'d>,
     topology: &'a Topology,
@@ -23,7 +23,7 @@ struct Expects<'a, 'd> {
     report: &'a mut Report<'d>,
 }
 
-/// Reads `[[expect]]`: finds what each entry asks for, when, and within what tolerance.
+/// Reads `[[expect]]`: the quantity, the instant and the tolerance of each entry.
 pub(super) fn expects<'d>(
     scene: &Scene<'d>,
     topology: &Topology,
@@ -199,7 +199,7 @@ impl<'d> Expects<'_, 'd> {
         })
     }
 
-    /// The frequency at which a value is expected, or the extreme over all.
+    /// The frequency of an expected value, or the extreme over all.
     fn over_frequencies(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<OverFrequencies> {
         match (&expect.frequency, &expect.peak) {
             (Some(_), Some(peak)) => {
@@ -221,7 +221,7 @@ impl<'d> Expects<'_, 'd> {
         }
     }
 
-    /// Finds where the value is expected, and which columns there are.
+    /// Finds the place of the expected value, and its columns.
     fn expect_at(&mut self, name: &At<String>) -> Option<(ExpectAt, Vec<Column>)> {
         if name.value == "energy" {
             return Some((ExpectAt::Energy, quantities::ENERGY.to_vec()));
@@ -271,7 +271,7 @@ impl<'d> Expects<'_, 'd> {
         }
     }
 
-    /// The reactions at a node: of the directions in which supports hold or move it, or the point of its name that holds it.
+    /// The columns of reactions at a node: the directions restrained by supports, at the node or at the support point of its name.
     fn reactions(&self, node: usize) -> Vec<Column> {
         let list = &self.topology.list;
         let is_here = |held: usize| held == node || list[held].label == list[node].label;
@@ -329,7 +329,7 @@ impl<'d> Expects<'_, 'd> {
         Some((ExpectAt::Elements(from, from + count), columns))
     }
 
-    /// The name of the column that a word stands for.
+    /// The name of the column for a word.
     fn column(&mut self, columns: &[Column], quantity: &At<String>, name: &At<String>) -> Option<&'static str> {
         if let Some(column) = columns.iter().find(|column| column.name == quantity.value) {
             return Some(column.name);

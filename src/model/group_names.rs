@@ -1,7 +1,7 @@
-//! What names of the deck mean in the mesh: sets of nodes and of elements, of parts and of the assembly, may share a name.
+//! Names of the deck in the mesh: sets of nodes and of elements, of parts and of the assembly, may share a name.
 //!
 //! Lists of nodes mean sets of nodes, and parts are made of sets of elements. Outside parts the set of the assembly comes first, and
-//! sections belong to the sets of parts. Where two are left that differ, the deck says which: `node-set:Edge`, `STRIP-1.Edge`.
+//! sections belong to the sets of parts. If two different groups remain, the deck has to choose: `node-set:Edge`, `STRIP-1.Edge`.
 
 use super::report::Report;
 use crate::mesh::{GroupKind, Mesh, MeshGroup};
@@ -12,7 +12,7 @@ use std::collections::HashSet;
 /// Whether a group of a mesh is of a kind.
 type IsOfKind = fn(&Mesh, &MeshGroup) -> bool;
 
-/// Words before a name that say which kind of group it is.
+/// Prefixes for the kind of group.
 const KINDS: [(&str, IsOfKind); 4] = [
     ("node-set", |_, group| is_of_nodes(group)),
     ("element-set", |_, group| !is_of_nodes(group)),
@@ -36,9 +36,9 @@ pub enum GroupChoice {
 pub struct GroupPlace {
     /// As a list of nodes.
     pub nodes: GroupChoice,
-    /// As lines of which a beam is made, or on which a load acts.
+    /// The lines for a beam or for a load.
     pub lines: GroupChoice,
-    /// As faces of which a shell is made.
+    /// The faces for a shell.
     pub faces: GroupChoice,
 }
 
@@ -56,7 +56,7 @@ impl GroupChoice {
     }
 }
 
-/// What a name means; `None` where the mesh has no such group.
+/// The groups of a name; `None` if the mesh has none.
 pub fn place(mesh: &Mesh, name: &str) -> Option<GroupPlace> {
     let found = candidates(mesh, name);
     if found.is_empty() {
@@ -75,7 +75,7 @@ pub fn place(mesh: &Mesh, name: &str) -> Option<GroupPlace> {
     Some(GroupPlace { nodes: nodes(mesh, found.clone()), lines: with(false), faces: with(true) })
 }
 
-/// The meaning of a name of which there is a set of nodes.
+/// The groups of a name, if one is a set of nodes.
 pub fn set_of_nodes(mesh: &Mesh, name: &str) -> Option<GroupPlace> {
     let is_set = |&group: &u32| mesh.groups[group as usize].kind == GroupKind::Nodes;
     place(mesh, name).filter(|_| candidates(mesh, name).iter().any(is_set))
@@ -103,7 +103,7 @@ fn nodes_of(mesh: &Mesh, group: u32) -> HashSet<u32> {
     mesh.groups[group as usize].nodes.iter().copied().collect()
 }
 
-/// Those of a kind, or all where none is.
+/// The preferred groups, or all if none is preferred.
 fn preferred(groups: Vec<u32>, is_preferred: impl Fn(u32) -> bool) -> Vec<u32> {
     let some: Vec<u32> = groups.iter().copied().filter(|&group| is_preferred(group)).collect();
     if some.is_empty() { groups } else { some }
@@ -143,7 +143,7 @@ pub fn spelling(mesh: &Mesh, group: usize) -> String {
     format!("{kind}:{scope}{name}")
 }
 
-/// Names of all groups that a name may mean, each with what it holds: "`node-set:Edge` (3 nodes)".
+/// Names of all groups of a name with their size: "`node-set:Edge` (3 nodes)".
 fn spellings(mesh: &Mesh, name: &str) -> String {
     let said = |&group: &u32| {
         let of = &mesh.groups[group as usize];
@@ -155,13 +155,13 @@ fn spellings(mesh: &Mesh, name: &str) -> String {
     joined(&said.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
-/// Reports a name that means groups which differ.
+/// Reports a name of several different groups.
 pub fn ambiguous<T>(mesh: &Mesh, name: &At<String>, hint: &str, report: &mut Report) -> Option<T> {
     let message = format!("`{}` means several groups of the mesh: {}", name.value, spellings(mesh, name));
     report.error_with(&name.span, message, hint)
 }
 
-/// Notes which group a list of nodes takes where others of that name cover other nodes.
+/// Notes the group used for a list of nodes, if other groups of the name have other nodes.
 pub fn note_choice(mesh: &Mesh, name: &At<String>, taken: usize, report: &mut Report) {
     let nodes = nodes_of(mesh, taken as u32);
     if candidates(mesh, name).iter().all(|&other| nodes_of(mesh, other) == nodes) {
@@ -172,7 +172,7 @@ pub fn note_choice(mesh: &Mesh, name: &At<String>, taken: usize, report: &mut Re
     report.push(Diagnostic::note(message).at(&name.span).hint(hint));
 }
 
-/// Notes which group a part is made of where others of that name have other elements of the kind.
+/// Notes the group used for a part, if other groups of the name have other elements of the kind.
 pub fn note_part(mesh: &Mesh, name: &At<String>, taken: usize, faces: bool, report: &mut Report) {
     let of = |group: usize| -> HashSet<u32> {
         let elements = mesh.groups[group].elements.iter().copied();

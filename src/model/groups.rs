@@ -1,4 +1,4 @@
-//! Groups of the mesh that parts are made of: which elements they take, and which of the mesh are left over.
+//! Groups of the mesh used for parts: their elements, and the elements left over.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ use deck::Deck;
 pub(super) struct Groups<'d> {
     /// The nodes of the mesh.
     pub mesh: MeshNodes<'d>,
-    /// Groups that are parts, with what they are: "shell `roof`".
+    /// Groups used as parts, with their titles: "shell `roof`".
     parts: HashMap<usize, String>,
     /// True for each element that is in a part.
     taken: Vec<bool>,
@@ -108,7 +108,7 @@ impl<'d> Groups<'d> {
         Some((own, of))
     }
 
-    /// Warns of elements that are in no part and in no group that the deck names; returns what to record of the file.
+    /// Warns of elements outside all parts and named groups; returns the record of the file.
     pub fn finish(self, deck: &Deck, names: &Names, report: &mut Report) -> Option<MeshFile> {
         let (input, file) = (self.mesh.input?, deck.mesh.as_ref()?.file.as_ref()?);
         let mut used = self.taken.clone();
@@ -151,7 +151,7 @@ fn meant(mesh: &Mesh, name: &At<String>, faces: bool, report: &mut Report) -> Op
             report.lose_connections();
             group_names::ambiguous(mesh, name, "write the one that is meant", report)
         }
-        // What it has instead is said.
+        // The message names the group found instead.
         GroupChoice::None => place.groups().next().or_else(|| mesh.named(name).first().map(|&group| group as usize)),
     }
 }

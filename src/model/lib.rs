@@ -1,5 +1,5 @@
-//! What the deck means: nodes, bodies, elements, links, constraints, loads, as plain data in deck order.
-//! Built once from the deck, never changed; everything downstream borrows it.
+//! The model: nodes, bodies, elements, links, constraints and loads, as plain data in deck order. Built once from the deck, never changed;
+//! everything downstream borrows it.
 
 #![warn(missing_docs)]
 
@@ -45,7 +45,7 @@ mod stages;
 mod supports;
 mod values;
 
-/// Parts of the model by themselves, which tests look at.
+/// Internals of the model for tests.
 pub mod inner {
     pub use crate::beams::grading::cuts;
     pub use crate::contacts::mesh_edges::{MeshEdge, mesh_edges};

@@ -1,4 +1,4 @@
-//! `[materials.x]`: what a material is made of, and its law where it yields.
+//! `[materials.x]`: the constants of a material, and its law if it yields.
 
 use super::data::MassKind;
 use super::report::{Owner, Report};
@@ -47,8 +47,7 @@ impl<'d> Materials<'d> {
         report.find("material", self.table, name)
     }
 
-    /// The law of the material of a part; `Some(None)` where it is elastic or the part has none, `None` where it has
-    /// errors.
+    /// The law of a part's material; `Some(None)` for elastic material or none, `None` after errors.
     pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<MaterialLaw>> {
         let Some(name) = name else { return Some(None) };
         let index = self.table.position(name)?;

@@ -7,8 +7,8 @@ use std::collections::HashMap;
 /// Names that are listed; of the others, how many there are.
 const LISTED: usize = 4;
 
-/// Puts together what is said of several names at one place in the same words: the first message, then the next names and the
-/// count. The name is the first thing that a message quotes.
+/// Merges messages with the same words for several names at one place: the first message, then the next names and the count. The name is
+/// the first thing that a message quotes.
 pub(super) fn merge_diagnostics(problems: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let mut kept: Vec<(Diagnostic, Others)> = Vec::with_capacity(problems.len());
     let mut places: HashMap<Sameness, usize> = HashMap::new();
@@ -46,7 +46,7 @@ fn split(problem: &Diagnostic) -> (Option<Sameness>, String) {
     parts().map_or((None, String::new()), |(same, name)| (Some(same), name))
 }
 
-/// Names of which the same is said.
+/// The other names of one message.
 #[derive(Default)]
 struct Others {
     /// The first one, and the next few, each once.

@@ -46,7 +46,7 @@ impl Input {
     }
 }
 
-/// Reads a mesh with the files that it includes, and what there is to say about them.
+/// Reads a mesh with its included files; returns its diagnostics too.
 fn read(path: &str, bytes: Vec<u8>) -> Result<(Input, Vec<Diagnostic>), Vec<Diagnostic>> {
     let folder = Path::new(path).parent().unwrap_or(Path::new(""));
     let whole = match mesh::may_include(path) {
@@ -61,7 +61,7 @@ fn read(path: &str, bytes: Vec<u8>) -> Result<(Input, Vec<Diagnostic>), Vec<Diag
     Ok((Input { path: path.to_owned(), mesh, digest }, said))
 }
 
-/// Warnings about what the reader skipped: elements, then keywords; and its notes.
+/// Warnings for elements and keywords skipped by the reader, and its notes.
 fn said(mesh: &Mesh, text: &Text) -> Vec<Diagnostic> {
     let is_keyword = |skipped: &&mesh::Skipped| skipped.what.starts_with(['*', '$']);
     let (keywords, elements): (Vec<_>, Vec<_>) = mesh.skipped.iter().partition(is_keyword);
@@ -90,12 +90,12 @@ fn said(mesh: &Mesh, text: &Text) -> Vec<Diagnostic> {
     said
 }
 
-/// The mesh in the model: all its nodes, one after the other. Those that nothing names or uses leave the model in the end.
+/// The mesh in the model: all its nodes, one after the other. Unnamed unused nodes are removed from the model in the end.
 #[derive(Clone, Copy)]
 pub(super) struct MeshNodes<'d> {
-    /// The mesh that was read; `None` where the deck names none.
+    /// The mesh; `None` for a deck without one.
     pub input: Option<&'d Input>,
-    /// True where the deck names a mesh that could not be read.
+    /// True for a deck with an unreadable mesh.
     pub is_lost: bool,
     /// The model's node of the first one in the file.
     pub first: usize,

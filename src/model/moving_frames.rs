@@ -1,4 +1,4 @@
-//! The frames relative to which Rayleigh's α acts: supports that move a structure as a whole carry what damps it.
+//! The reference frames of Rayleigh's α: supports that move a structure as a whole move its damping too.
 
 use super::data::{DIRECTIONS, Joint, JointOrigin, MassKind, Model, MovingFrame, MovingFrames, Part, PrescribedMotion};
 use super::report::Report;
@@ -6,7 +6,7 @@ use deck::Deck;
 use mechanics::constraints::joint::ConstraintEquation;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Finds the frames of a model whose masses are damped, and warns where the supports of a structure move against each other.
+/// Finds the frames of a model with mass-proportional damping, and warns of structures with relative motion between supports.
 pub fn moving_frames(model: &Model, deck: &Deck, report: &mut Report) -> MovingFrames {
     if !(model.damping.mass_factor > 0.0 || model.parts.iter().any(|part| is_damped(model, part))) {
         return MovingFrames::default();
@@ -43,7 +43,7 @@ pub fn moving_frames(model: &Model, deck: &Deck, report: &mut Report) -> MovingF
         }
     }
     for node in 0..model.nodes.len() {
-        // A wall stands for itself.
+        // A wall has a separate frame.
         let own = structures.is_wall[node].then(|| Found::of(&held, &[node]).frame).flatten();
         if let Some(frame) = own {
             frames.of_node[node] = frames.list.len() as u32;
@@ -55,7 +55,7 @@ pub fn moving_frames(model: &Model, deck: &Deck, report: &mut Report) -> MovingF
     if frames.list.is_empty() { MovingFrames::default() } else { frames }
 }
 
-/// Warns at the factor that acts: that of the scene, otherwise the first one of a part.
+/// Places the warning at the active factor: that of the model, or else the first one of a part.
 fn warn(model: &Model, deck: &Deck, message: String, hint: &str, report: &mut Report) {
     let of_scene = deck.damping.as_ref().filter(|_| model.damping.mass_factor > 0.0);
     let place = of_scene.map(|damping| damping.mass_factor.as_ref().map_or(&damping.span, |at| &at.span));
@@ -71,11 +71,11 @@ struct Held<'m> {
     dof: usize,
     /// `None` at rest.
     motion: Option<&'m PrescribedMotion>,
-    /// True where an equation gives the rotation, beside another one that is free.
+    /// True for a rotation given by an equation, beside a free one.
     is_beside_free: bool,
 }
 
-/// All that supports hold: by restraints, and by equations where one rotation of a node is free.
+/// All restraints by supports: directly, or by equations if a rotation of the node is free.
 fn held(model: &Model) -> Vec<Held<'_>> {
     let constraints = &model.constraints;
     let given =
@@ -107,7 +107,7 @@ fn held(model: &Model) -> Vec<Held<'_>> {
     held
 }
 
-/// What the supports of one structure have in common.
+/// The common motion of the supports of one structure.
 struct Found {
     frame: Option<MovingFrame>,
     /// Two supports that move differently.
@@ -155,7 +155,7 @@ impl Found {
     }
 }
 
-/// Nodes that parts, attachments and joints connect, apart from walls: nodes whose place supports hold or move.
+/// Nodes connected by parts, attachments and joints. Walls separate structures: nodes with all translations restrained.
 struct Structures<'m> {
     model: &'m Model,
     parent: Vec<usize>,
@@ -220,7 +220,7 @@ impl<'m> Structures<'m> {
         supports
     }
 
-    /// Warns of joints that drive what α brakes: a drive moves what it carries against the ground.
+    /// Warns of drives on parts with mass-proportional damping: the damping acts against their motion relative to the ground.
     fn warn_of_drives(&mut self, deck: &Deck, report: &mut Report) {
         let damped = self.damped();
         let is_driven = |joint: &&Joint| {

@@ -1,5 +1,5 @@
-//! Which names a deck has, of what kind they are and where they are declared: points, bodies, sets, joints, parts and their
-//! edges, and groups of the mesh share one space of names.
+//! The names of a deck with their kinds and places: points, bodies, sets, joints, parts and their edges, and groups of the mesh share one
+//! name space.
 
 use std::collections::{HashMap, HashSet};
 
@@ -14,7 +14,7 @@ use deck::Deck;
 use deck::loads::Load;
 use deck::parts::{DeckPart, PartIndex};
 
-/// Names with a meaning of their own in lists of nodes and in `[[expect]]`.
+/// Names with a special meaning in lists of nodes and in `[[expect]]`.
 const RESERVED: [&str; 2] = ["all", "energy"];
 
 /// The names of a deck.
@@ -23,15 +23,15 @@ pub(super) struct Names<'d> {
     pub deck: &'d Deck,
     /// The mesh, whose groups have names too.
     pub mesh: MeshNodes<'d>,
-    /// The thing that each name stands for, and the place where it is declared.
+    /// The meaning of each name, and the place of its declaration.
     places: HashMap<&'d str, (Place, &'d Span)>,
     /// The node of each body.
     body_nodes: Vec<usize>,
-    /// The body that a part with `rigid = true` makes up by itself.
+    /// The body of each part with `rigid = true`.
     body_of: HashMap<PartIndex, usize>,
 }
 
-/// Sets that contain themselves, of which it is said: each takes a walk through all that it contains.
+/// Largest number of self-containing sets reported: each one costs a search through its members.
 const CIRCLES: usize = 50;
 
 impl<'d> Names<'d> {
@@ -53,7 +53,7 @@ impl<'d> Names<'d> {
         names
     }
 
-    /// Declares the names of a family of tables, of which some may have none.
+    /// Declares the names of a family of tables, some without a name.
     fn add_all(
         &mut self,
         family: impl Iterator<Item = Option<&'d At<String>>>,
@@ -67,7 +67,7 @@ impl<'d> Names<'d> {
         }
     }
 
-    /// Declares the name of a part, if it has one; of a part that is a body by itself it stands for that.
+    /// Declares the name of a part, if it has one; for a rigid part it means the body.
     fn add_part(&mut self, part: &DeckPart<'d>, report: &mut Report<'d>) {
         if let Some(name) = part.name() {
             let place = self.body_of.get(&part.at).map_or(Place::Part(part.at), |&body| Place::Body(body));
@@ -136,7 +136,7 @@ impl<'d> Names<'d> {
         }
     }
 
-    /// Reports members of sets that stand for nothing, and sets that hold themselves.
+    /// Reports unknown members of sets, and sets within themselves.
     fn check_sets(&self, report: &mut Report<'d>) {
         let entangled = self.entangled();
         let mut said = 0;
@@ -159,8 +159,7 @@ impl<'d> Names<'d> {
         })
     }
 
-    /// For each set, whether it contains itself or one that does: what is left when sets without inner sets are taken away, and
-    /// then those that have no others, until none is.
+    /// For each set, whether it contains itself or a set that does. Sets without inner sets are removed repeatedly; these remain.
     fn entangled(&self) -> Vec<bool> {
         let count = self.deck.sets.0.len();
         let (mut inner, mut outer) = (vec![0_usize; count], vec![Vec::new(); count]);
@@ -197,12 +196,12 @@ impl<'d> Names<'d> {
         false
     }
 
-    /// What a declared name stands for, without edges of shells and nodes of the mesh.
+    /// The meaning of a declared name, without edges of shells and nodes of the mesh.
     pub fn declared(&self, name: &str) -> Option<Place> {
         self.places.get(name).map(|(place, _)| *place)
     }
 
-    /// All declared names with what they stand for and where they are declared, in no order.
+    /// All declared names with their meaning and place, in no order.
     pub fn declarations(&self) -> impl Iterator<Item = (&'d str, Place, &'d Span)> {
         self.places.iter().map(|(name, (place, span))| (*name, *place, *span))
     }
@@ -215,18 +214,18 @@ impl<'d> Names<'d> {
         known
     }
 
-    /// What a name stands for, `mesh.17`, `shell.edge1` to `shell.edge4`, `node-set:root` and `STRIP-1.root` among them.
+    /// The meaning of a name, also for `mesh.17`, `shell.edge1` to `shell.edge4`, `node-set:root` and `STRIP-1.root`.
     pub fn place(&self, name: &str) -> Option<Place> {
         let node = || self.mesh.node(name).map(Place::Point);
         self.declared(name).or_else(node).or_else(|| self.edge(name)).or_else(|| self.group(name))
     }
 
-    /// The groups of the mesh that a name stands for.
+    /// The groups of the mesh for a name.
     fn group(&self, name: &str) -> Option<Place> {
         group_names::place(&self.mesh.input?.mesh, name).map(Place::Group)
     }
 
-    /// What a name stands for in a list of nodes. A part that has but the name of its elements leaves it to a set of nodes.
+    /// The meaning of a name in a list of nodes. For a part named after its group, a set of nodes has priority.
     fn node_place(&self, name: &str) -> Option<Place> {
         let place = self.place(name)?;
         let Place::Part(part) = place else { return Some(place) };
@@ -235,7 +234,7 @@ impl<'d> Names<'d> {
         Some(if is_group { set().map_or(place, Place::Group) } else { place })
     }
 
-    /// The edge that `shell.edge2` stands for.
+    /// The edge for a name like `shell.edge2`.
     fn edge(&self, name: &str) -> Option<Place> {
         let (surface, edge) = name.rsplit_once(".edge")?;
         let part = match self.declared(surface)? {
@@ -247,12 +246,12 @@ impl<'d> Names<'d> {
         (1..=edges).find(|k| edge == k.to_string()).map(|k| Place::Edge(part, k - 1))
     }
 
-    /// The part that is this body by itself.
+    /// The rigid part behind a body, if the body is one.
     pub fn rigid_part(&self, body: usize) -> Option<PartIndex> {
         self.body_of.iter().find(|(_, of)| **of == body).map(|(part, _)| *part)
     }
 
-    /// What a name stands for. A set or group of one node stands for that node.
+    /// The meaning of a name. A set or group of one node means that node.
     pub fn place_or_node(&self, name: &str, parts: &Parts) -> Option<Place> {
         self.place(name).map(|place| match place {
             Place::Set(_) | Place::Group(_) => match self.nodes_of(place, parts)[..] {
@@ -263,7 +262,7 @@ impl<'d> Names<'d> {
         })
     }
 
-    /// What a name stands for; a name that stands for nothing is an error.
+    /// The meaning of a name; an unknown name is an error.
     pub fn find(&self, name: &At<String>, report: &mut Report<'d>) -> Option<Place> {
         self.place(name).or_else(|| self.unknown_part(name, report))
     }
@@ -283,7 +282,7 @@ impl<'d> Names<'d> {
             .or_else(|| self.unknown("point, body or set", name, || self.known(|place| !self.is_part(place)), report))
     }
 
-    /// Reports a name that stands for nothing where nodes are wanted.
+    /// Reports an unknown name in a list of nodes.
     pub fn unknown<'n, T>(
         &self,
         what: &str,
@@ -347,12 +346,12 @@ impl<'d> Names<'d> {
         self.body_nodes[body]
     }
 
-    /// The surface that a name stands for, a rigid one and one made of the group of this name too.
+    /// The surface of a place, also a rigid one or one made of the named group.
     pub fn surface_of(&self, place: Place) -> Option<PartIndex> {
         self.part_of(place, |part| part.kind.is_surface())
     }
 
-    /// The beam or bar that a name stands for, likewise.
+    /// The beam or bar of a place, also a rigid one or one made of the named group.
     pub fn line_of(&self, place: Place) -> Option<PartIndex> {
         self.part_of(place, |part| part.kind.is_line())
     }
@@ -445,12 +444,12 @@ impl<'d> Names<'d> {
         names.chain(deck.parts().flat_map(|part| part.table.members()))
     }
 
-    /// Reports names in lists of nodes that mean several groups of the mesh: which is taken, or that the deck has to say it.
+    /// Reports names in lists of nodes with several groups in the mesh: the choice, or an error if the deck has to choose.
     pub fn check_groups(&self, report: &mut Report<'d>) {
         let Some(input) = self.mesh.input else { return };
         let mut seen = HashSet::new();
         let nodes = self.node_lists().map(|name| (name, self.node_place(name)));
-        // What touches is a part rather than a set of nodes.
+        // For contacts, a part has priority over a set of nodes.
         let touching = self.deck.contacts.iter().filter_map(|contact| contact.with.as_ref()).flat_map(|at| &at.values);
         let places = nodes.chain(touching.map(|name| (name, self.place(name))));
         for (name, place) in places.filter(|(name, _)| seen.insert(name.as_str())) {

@@ -1,4 +1,4 @@
-//! `[output]`: what is written, and how often.
+//! `[output]`: tables, nodes and times of output.
 
 use super::data::{Cadence, Model, Node, Output};
 use super::report::{Owner, Report};
@@ -21,7 +21,7 @@ pub(super) struct Selection {
     pub all_nodes: bool,
 }
 
-/// Reads `[output]`: which tables are written, on which nodes, and how often.
+/// Reads `[output]`: the tables, their nodes and their times.
 pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool, report: &mut Report<'d>) -> Selection {
     let units = scene.deck.units.as_ref().map(|units| units.label().to_owned());
     let Some(table) = &scene.deck.output else {
@@ -111,7 +111,7 @@ fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, repo
     nodes
 }
 
-/// True where the deck, in whichever stage, has something that may fail.
+/// True where a part of the deck may fail in any stage.
 fn may_fail(scene: &Scene) -> bool {
     scene.deck.links.iter().any(|link| link.failure.is_some())
         || scene.deck.materials.0.iter().any(|(_, material)| material.value.values.place("failure_strain").is_some())

@@ -1,4 +1,4 @@
-//! What the tables of deformable parts are read with.
+//! The context for reading the tables of deformable parts.
 
 use super::groups::Groups;
 use super::materials::Materials;
@@ -9,7 +9,7 @@ use super::report::Report;
 use super::sections::Sections;
 use deck::Deck;
 
-/// Names and materials are known; nodes, parts, sections and what is taken of the mesh grow from table to table.
+/// Names and materials are known; nodes, parts, sections and used mesh groups grow from table to table.
 pub(super) struct PartContext<'a, 'd> {
     /// The deck.
     pub deck: &'d Deck,
@@ -25,6 +25,6 @@ pub(super) struct PartContext<'a, 'd> {
     pub nodes: &'a mut Nodes,
     /// The parts so far.
     pub parts: Parts,
-    /// The report, to which errors go.
+    /// The report for errors.
     pub report: &'a mut Report<'d>,
 }

@@ -10,7 +10,7 @@ use deck::parts::PartIndex;
 use linear::available_memory;
 use mechanics::sections::Stiffness;
 
-/// The bytes that an element takes at least, with its nodes and its part of the matrix before that is factorised.
+/// Least memory of an element in bytes, with its nodes and its part of the matrix before factorization.
 const BYTES: f64 = 4e3;
 
 /// The parts and nodes that one table of the deck has become.
@@ -22,7 +22,7 @@ pub(super) struct PartEntry {
     pub edges: Vec<Vec<usize>>,
     /// Its parts in the list, none where it has errors.
     pub range: Range<usize>,
-    /// Half of its thickness, or another distance from its nodes at which it is in contact.
+    /// Contact radius: half of its thickness unless given.
     pub contact_radius: f64,
     /// Nodes of its elements where these have left the model because the part is rigid.
     pub rigid_elements: Option<Vec<Vec<usize>>>,
@@ -39,7 +39,7 @@ pub(super) struct Parts {
     entries: BTreeMap<PartIndex, PartEntry>,
     /// Elements that paths and patches have asked for so far.
     asked: usize,
-    /// The number of elements for which there is memory, once it has been looked at.
+    /// The number of elements that fit into memory, once determined.
     most: Option<f64>,
 }
 
@@ -49,7 +49,7 @@ impl Parts {
         self.entries.insert(at, PartEntry::default());
     }
 
-    /// Lists what a part that has been begun has become.
+    /// Lists the model parts made of one table.
     pub fn add(&mut self, at: PartIndex, made: impl IntoIterator<Item = Part>) {
         let first = self.list.len();
         self.list.extend(made);
@@ -66,12 +66,12 @@ impl Parts {
         self.entries.entry(at).or_default()
     }
 
-    /// All entries with what they belong to, in the order of the parts of the deck.
+    /// All entries with their part index, in deck order.
     pub fn entries(&self) -> impl Iterator<Item = (PartIndex, &PartEntry)> {
         self.entries.iter().map(|(at, entry)| (*at, entry))
     }
 
-    /// The parts that a table of the deck has become; none where it has errors.
+    /// The model parts made of one table; none after errors.
     pub fn of(&self, at: PartIndex) -> &[Part] {
         self.entry(at).map_or(&[], |entry| &self.list[entry.range.clone()])
     }
@@ -99,7 +99,7 @@ impl Parts {
         if self.asked as f64 <= most {
             return Some(());
         }
-        // This is said once: all that comes after is too many as well.
+        // Later parts exceed the limit too, so the error is reported once.
         if before as f64 <= most {
             let message = format!("with this the deck has {} elements", self.asked);
             let hint =

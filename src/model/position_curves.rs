@@ -1,5 +1,5 @@
-//! Tables of positions that a motion follows: straight lines between samples have no acceleration, so supports and joints that move as they say
-//! follow splines between the corners of the table.
+//! Tables of positions for prescribed motion: straight lines between samples have no acceleration. Supports and joints therefore follow
+//! splines between the corners of the table.
 
 use super::data::Analysis;
 use super::report::Report;
@@ -13,7 +13,7 @@ use deck::words::Maybe;
 use mechanics::amplitude::{Amplitude, Side};
 use std::collections::{BTreeSet, HashMap};
 
-/// A curve that leaves the values at both ends of a segment by this part of their range is told: eight samples of a period give 0.04.
+/// Overshoot of a curve for a note, relative to the range of the segment; eight samples per period give 0.04.
 const OVERSHOOT: f64 = 0.05;
 /// Velocities that jump by less than this part of the largest do not count.
 const FELT: f64 = 1e-2;
@@ -64,7 +64,7 @@ fn of_positions(deck: &Deck) -> BTreeSet<usize> {
     of_supports.chain(of_joints).flatten().filter_map(|name| deck.amplitudes.position(name)).collect()
 }
 
-/// Warns of velocities that jump within the run, and tells of a curve that overshoots.
+/// Warns of velocity jumps within the run, and notes an overshooting curve.
 fn check_corners(deck: &Deck, index: usize, (amplitude, analysis): (&Amplitude, &Analysis), report: &mut Report) {
     let (name, words) = &deck.amplitudes.0[index];
     let slack = 1e-9 * analysis.end_time;

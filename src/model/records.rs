@@ -78,7 +78,7 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<(Record, Vec<Diag
     Ok(Some((record, doubts)))
 }
 
-/// Tells of an offset that was subtracted, and of a column that may be part of a sequence.
+/// Notes a subtracted offset, and a column that may be part of a sequence.
 fn doubts(amplitude: &Amplitude, file: &str, series: &TimeSeries) -> Vec<Diagnostic> {
     let place = amplitude.columns.as_ref().map(|columns| &columns.span);
     let place = place.or(amplitude.file.as_ref().map(|file| &file.span));

@@ -1,6 +1,6 @@
-//! Everything there is to say about a deck. A [`Report`] collects it, table after table, and holds the checks that all tables
-//! share: keys that must be there, keys that have no meaning, numbers in their range. A table goes on after an error with what
-//! is sound, so that one mistake hides no other.
+//! Everything there is to say about a deck. A [`Report`] collects it, table after table, and holds the checks common to all tables:
+//! required keys, keys that do not apply, ranges of numbers. After an error the valid rest of a table is still read, so that one mistake
+//! hides no other.
 
 use base::diagnostic::{At, Diagnostic, Span};
 use base::math::Vec3;
@@ -25,12 +25,12 @@ impl<'d> Owner<'d> {
     }
 }
 
-/// What is wrong with a deck, collected while its model is built; it also reads keys that may be wrong.
+/// The errors and warnings of a deck during the build; it also reads keys with checks.
 pub(super) struct Report<'d> {
     deck: &'d Deck,
     problems: Vec<Diagnostic>,
-    /// False once something failed to say which nodes it connects. A point that nothing seems to be connected to may then be
-    /// connected by that, and is no error of its own.
+    /// False once something failed to say which nodes it connects. A point without a connection may then be connected by the unread table,
+    /// and is no separate error.
     connections_known: bool,
     /// Names that may still be compared with misspelt ones.
     searches: usize,
@@ -47,7 +47,7 @@ impl<'d> Report<'d> {
         Report { deck, problems: Vec::new(), connections_known, searches: SEARCHES }
     }
 
-    /// Reports an error and returns `None`, so that `return report.error(…)` leaves a table that cannot go on.
+    /// Reports an error and returns `None`, for `return report.error(…)`.
     pub fn error<T>(&mut self, place: &Span, message: impl Into<String>) -> Option<T> {
         self.push(Diagnostic::error(message).at(place));
         None
@@ -79,7 +79,7 @@ impl<'d> Report<'d> {
         self.problems.iter().any(Diagnostic::is_error)
     }
 
-    /// Everything reported so far, in the order in which it was found.
+    /// All diagnostics so far, in the order of reporting.
     pub fn into_problems(self) -> Vec<Diagnostic> {
         self.problems
     }
@@ -100,17 +100,17 @@ impl<'d> Report<'d> {
         self.problems.extend(later.into_iter().filter(Diagnostic::is_error));
     }
 
-    /// Notes that something which connects nodes could not say which.
+    /// Notes that the nodes of a connecting table are unknown.
     pub fn lose_connections(&mut self) {
         self.connections_known = false;
     }
 
-    /// True where everything that connects nodes could be read so far.
+    /// True if all connecting tables could be read so far.
     pub fn connections_known(&self) -> bool {
         self.connections_known
     }
 
-    /// True where a key is written but could not be read, which was reported when the deck was read.
+    /// True for a key in the deck that could not be read; the error is already reported.
     pub fn is_spoiled(&self, table: &Span, key: &str) -> bool {
         let here = |entry: &Option<Span>| entry.as_ref().is_none_or(|span| span == table);
         self.deck.spoiled.iter().any(|entry| entry.key == key && here(&entry.table))
@@ -121,8 +121,8 @@ impl<'d> Report<'d> {
         self.deck.spoiled.iter().any(|entry| entry.table.as_ref() == Some(table))
     }
 
-    /// The name of the `index`-th of the tables in a `list`, which must have one, or one by its place: "links.2"; and the table as messages
-    /// name it, by the `word` for such a thing.
+    /// The required name of the `index`-th table in a `list` ("links.2" without one), and its title for messages, with the `word` for its
+    /// kind.
     pub fn named(
         &mut self,
         (word, list, index): (&str, &str, usize),
@@ -145,7 +145,7 @@ impl<'d> Report<'d> {
         value.as_ref()
     }
 
-    /// [`Report::require`] for a key that names the nodes which its table connects.
+    /// [`Report::require`] for a key with the nodes connected by its table.
     pub fn require_nodes<T>(&mut self, owner: &Owner, key: &str, value: &'d Maybe<T>) -> Option<&'d At<T>> {
         if value.is_none() {
             self.lose_connections();
@@ -210,7 +210,7 @@ impl<'d> Report<'d> {
         Some(points.iter().map(|point| point.0).collect())
     }
 
-    /// Reports keys that are given but have no meaning for `what`; they come with the places where they stand.
+    /// Reports keys that do not apply to `what`, given with their places.
     pub fn reject_unused(&mut self, what: &str, keys: &[(&str, Option<&Span>)]) {
         for (key, place) in keys {
             if let Some(place) = place {
@@ -219,8 +219,8 @@ impl<'d> Report<'d> {
         }
     }
 
-    /// Reads a table that is one of several kinds by `read`, and reports what is wrong. Keys that mean nothing for `what`, a thing
-    /// of that kind, are an error.
+    /// Reads a table of one of several kinds with `read`, and reports its errors. Keys that do not apply to `what`, a thing of that kind,
+    /// are an error.
     pub fn read<M, T>(
         &mut self,
         owner: &Owner<'d>,
@@ -252,8 +252,7 @@ impl<'d> Report<'d> {
         self.searches > 0
     }
 
-    /// Reports a name that stands for nothing, with the nearest of those that are known. What could not be read may have this
-    /// name, so then nothing is said.
+    /// Reports an unknown name, with the nearest known one. If a table could not be read, it may have this name, so there is no error.
     pub fn unknown<'n, T>(
         &mut self,
         what: &str,

@@ -1,8 +1,8 @@
-//! Parts that are rigid: their elements leave the model, a body with their mass takes their place, and their nodes ride on it.
+//! Rigid parts: a body with their mass replaces their elements, and their nodes depend on it.
 //!
-//! Mass and inertia are integrals over the elements: a beam's mass lies on its axis with the rotary inertia of its section, a
-//! shell's ρh on its surface with ρh³/12 per area about every axis, as its nodes have it while it deforms. Consistent mass
-//! has the same inertia in rigid motion; lumped mass comes to it as elements get smaller.
+//! Mass and inertia are integrals over the elements. A beam has its mass on the axis with the rotary inertia of its section. A shell has ρh
+//! on its surface with ρh³/12 per area about every axis, as its nodes have in deformable shells. Consistent mass has the same inertia in
+//! rigid motion; lumped mass converges to it with smaller elements.
 
 use super::bodies::{Bodies, title};
 use super::data::{Body, MassIntegrals, Rigid};
@@ -20,8 +20,7 @@ use std::sync::Arc;
 /// Principal moments below this part of the largest are round-off.
 const ROUND_OFF: f64 = 1e-12;
 
-/// Gives bodies the mass of their parts, takes the elements of these out of the model and makes their nodes depend on the
-/// bodies.
+/// Gives bodies the mass of their parts, removes the parts' elements from the model and makes their nodes depend on the bodies.
 pub(super) fn rigid_bodies<'d>(
     deck: &'d Deck,
     has_inertia: bool,
@@ -99,7 +98,7 @@ impl<'d> Maker<'_, 'd> {
         Some(Rigid { body, parts, elements })
     }
 
-    /// A rigid part has no damping of its own: its mass is that of a body.
+    /// A rigid part has no damping: its mass is that of a body.
     fn reject_damping(&mut self, part: PartIndex) {
         let given = self.deck.part(part).and_then(|part| part.table.damping());
         if let Some(given) = given {
@@ -122,7 +121,7 @@ impl<'d> Maker<'_, 'd> {
         cells
     }
 
-    /// The shape of the elements as they are drawn, about the centre.
+    /// The shape of the elements for drawing, about the centre.
     fn faces(&self, cells: &[Vec<usize>], center: Vec3) -> ElementFaces {
         let (mut points, mut places) = (Vec::new(), HashMap::new());
         let mut place = |&node: &usize| {
@@ -135,7 +134,7 @@ impl<'d> Maker<'_, 'd> {
         ElementFaces { points, faces }
     }
 
-    /// A node goes with a body; one at the end of a rigid offset already goes with the point it hangs on.
+    /// Attaches a node to a body; a node at the end of a rigid offset is attached by the point it depends on.
     fn attach(&mut self, node: usize, master: usize, owner: &Owner) -> Option<()> {
         let mut node = node;
         while let Some(on) = self.nodes.master(node) {

@@ -1,5 +1,4 @@
-//! What the tables that act on a scene refer to: its names, bodies and parts, which no longer change. Lists of names become
-//! nodes here.
+//! The context of tables acting on the model: names, bodies and parts, all final. Lists of names become nodes here.
 
 use std::collections::{HashMap, HashSet};
 
@@ -16,11 +15,11 @@ use deck::Deck;
 use deck::words::Maybe;
 use deck::words::Names as List;
 
-/// Everything that names can refer to: the scene without what connects and loads it.
+/// All named things: the model without connections and loads.
 pub(super) struct Scene<'d> {
     /// The deck.
     pub deck: &'d Deck,
-    /// The stage that the deck is that of; `None` for a deck without stages.
+    /// The stage of this deck; `None` for a deck without stages.
     pub stage: Option<CurrentStage<'d>>,
     /// The analysis, on whose times loads and outputs depend.
     pub analysis: Analysis,
@@ -30,22 +29,22 @@ pub(super) struct Scene<'d> {
     pub bodies: Vec<Body>,
     /// The deformable parts.
     pub parts: Parts,
-    /// Indices of the curves that positions follow, by those of the tables through whose points they go.
+    /// Index of the spline for each table of positions, by the index of the table's amplitude.
     pub position_curves: HashMap<usize, usize>,
 }
 
 /// The kinds of names that a list may hold besides points, bodies and sets.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reach {
-    /// A list of points, bodies and sets alone: each node gets the whole load or mass, of which a beam would take many. (Shells are
-    /// lists of nodes like sets: their inner ones have no other name.)
+    /// A list of points, bodies and sets alone: each node gets the whole load or mass, and a beam would multiply it. (Shells are lists of
+    /// nodes like sets: their inner ones have no other name.)
     Nodes,
     /// A list that may hold beams and bars too.
     Parts,
 }
 
 impl<'d> Scene<'d> {
-    /// The amplitude that a motion by this quantity follows where the deck names the one of this index.
+    /// The amplitude of a motion by this quantity, for the amplitude named in the deck.
     pub fn amplitude_of_motion(&self, index: usize, history: History) -> usize {
         match history {
             History::Displacement => self.position_curves.get(&index).copied().unwrap_or(index),
@@ -58,7 +57,7 @@ impl<'d> Scene<'d> {
         self.names.nodes_of(place, &self.parts)
     }
 
-    /// The place that a name stands for. A set or group of one node stands for that node.
+    /// The place for a name. A set or group of one node means that node.
     pub fn place_or_node(&self, name: &str) -> Option<Place> {
         self.names.place_or_node(name, &self.parts)
     }
@@ -109,7 +108,7 @@ impl<'d> Scene<'d> {
         spots
     }
 
-    /// Says of a set or group that it covers no node, unless an error of what is in it has been said.
+    /// Reports a set or group without nodes, unless an error of its members is already reported.
     pub fn report_empty(&self, place: Place, name: &At<String>, report: &mut Report<'d>) {
         let members = match place {
             // This has been said.
@@ -130,7 +129,7 @@ impl<'d> Scene<'d> {
         }
     }
 
-    /// The name under which the deck knows a node that a set or a part brought in.
+    /// The name in the deck of a node from a set or a part.
     pub fn label(&self, node: usize, part: &'d At<String>) -> Label<'d> {
         let point = self.deck.points.0.get(node).map(|(name, _)| name);
         let body = || self.deck.bodies.get(node.checked_sub(self.deck.points.0.len())?)?.name.as_ref();

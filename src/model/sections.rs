@@ -26,12 +26,12 @@ pub(super) struct Sections<'a, 'd> {
 }
 
 impl<'a, 'd> Sections<'a, 'd> {
-    /// The sections of a deck, none of which has been computed yet.
+    /// The sections of a deck, none computed yet.
     pub fn new(deck: &'d Deck, materials: &'a Materials<'d>) -> Self {
         Sections { table: &deck.sections, materials, known: HashMap::new(), stiffnesses: Vec::new() }
     }
 
-    /// Fibres of a section of a material, both of which are sound.
+    /// Fibres of a section with a material; both are free of errors.
     pub fn fibres(&self, name: &'d At<String>, made_of: &'d At<String>, report: &mut Report<'d>) -> Option<Vec<Fibre>> {
         let (_, section) = report.find("section", self.table, name)?;
         let (_, material) = self.materials.find(made_of, report)?;
@@ -53,7 +53,7 @@ impl<'a, 'd> Sections<'a, 'd> {
         }
     }
 
-    /// Index of the stiffness of a beam that names a section and a material; `shear` is true where it deforms in shear.
+    /// Index of the stiffness for a beam's section and material; `shear` is true for a beam with shear deformation.
     pub fn beam_section(
         &mut self,
         owner: &Owner<'d>,
@@ -143,7 +143,7 @@ fn stiffness<'d>(
     }
 }
 
-/// The distance from its axis at which a beam of this section is in contact; 0 where the section does not say.
+/// The contact radius of a beam with this section; 0 if the section has no dimensions.
 pub(super) fn half_depth(section: &At<OneOf<words::Section>>) -> f64 {
     let Some(kind) = &section.kind else { return 0.0 };
     // Errors of the section are reported where its stiffness is needed.

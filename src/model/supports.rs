@@ -41,17 +41,17 @@ pub(super) fn supports<'d>(
     (named, together)
 }
 
-/// A direction that a support gives: with its motion, `None` for rest, and where the deck says so.
+/// A direction given by a support: with its motion (`None` for rest) and its place in the deck.
 type Given<'d> = (usize, Option<PrescribedMotion>, &'d Span);
 
 struct Supports<'a, 'd> {
     scene: &'a Scene<'d>,
     amplitudes: &'a [Amplitude],
     topology: &'a mut Topology,
-    /// The node that is restrained in place of each dependent node that is supported.
+    /// For each supported dependent node, the node restrained in its place.
     support_points: HashMap<usize, usize>,
     joints: &'a mut Vec<Joint>,
-    /// Nodes and directions that the support at hand moves.
+    /// Nodes and directions moved by the current support.
     moved: Vec<[usize; 2]>,
     /// The nodes whose rotations are given.
     rotations: GivenRotations<'d>,
@@ -92,7 +92,7 @@ impl<'d> Supports<'_, 'd> {
         }
     }
 
-    /// Restrains a node in the directions that are fixed or moved: itself where it is independent.
+    /// Restrains a node in the fixed or moved directions; dependent directions are restrained by a joint.
     fn restrain(&mut self, spot: &Spot<'d>, fixed: [bool; 6], motions: &[Given<'d>]) {
         let node = spot.node;
         let dependent: [bool; 6] = std::array::from_fn(|dof| self.topology.master_in(node, dof).is_some());
@@ -151,8 +151,8 @@ impl<'d> Supports<'_, 'd> {
         read
     }
 
-    /// Restrains a node, which `spot` names, in a direction; true where it was not before. Two supports may fix the same
-    /// direction; if one of them moves it, they contradict each other.
+    /// Restrains a node, named by `spot`, in a direction; returns true if it was free before. Two supports may fix the same direction; if
+    /// one of them moves it, they contradict each other.
     fn restrain_in(&mut self, spot: &Spot, node: usize, (dof, motion, place): Given) -> bool {
         match self.topology.restraint(node, dof) {
             Some(restraint) if restraint.motion.is_some() || motion.is_some() => {
@@ -169,7 +169,7 @@ impl<'d> Supports<'_, 'd> {
         }
     }
 
-    /// Supports a node in directions in which it depends on another: by a joint to a point of its own, which is restrained.
+    /// Supports a node in dependent directions, by a joint to a new restrained point.
     fn restrain_dependent(&mut self, spot: &Spot, given: &[Given]) {
         let support_point = *self.support_points.entry(spot.node).or_insert_with(|| {
             let (label, x) = (self.topology.label(spot.node).to_owned(), self.topology.x(spot.node));

@@ -1,4 +1,4 @@
-//! Values of the deck as the model takes them.
+//! Conversions of values from the deck.
 
 use super::data::DIRECTIONS;
 use base::diagnostic::Span;
@@ -29,7 +29,7 @@ macro_rules! keys {
 }
 pub(super) use keys;
 
-/// The word of a key that takes one of a few, or its default.
+/// The word of a key with a few choices, or its default.
 pub(super) fn chosen<T: Copy + Default>(value: &Maybe<T>) -> T {
     value.as_ref().map_or_else(T::default, |value| value.value)
 }

@@ -6,7 +6,7 @@ use deck::words::{Maybe, OneOrMany};
 /// A segment of fewer elements is all ends.
 const FEWEST: usize = 3;
 
-/// Reads the grading of each segment, `counts` of whose elements there are; 1 where the deck says nothing.
+/// Reads the grading of each segment; `counts` are the numbers of their elements. Default: 1.
 pub fn gradings(grading: &Maybe<OneOrMany<f64>>, counts: &[usize], cx: &mut PartContext) -> Option<Vec<f64>> {
     let Some(grading) = grading else { return Some(vec![1.0; counts.len()]) };
     let mut sound = Some(());
@@ -35,8 +35,8 @@ pub fn gradings(grading: &Maybe<OneOrMany<f64>>, counts: &[usize], cx: &mut Part
     Some((0..counts.len()).map(|segment| of(segment).value).collect())
 }
 
-/// The places where the `count` elements of a segment begin and end, as parts of its length. From either end to the middle each
-/// element is longer than the one before by the same factor; the first and the last are `grading` times as long as the longest.
+/// The places where the `count` elements of a segment begin and end, as parts of its length. From either end to the middle, the lengths of
+/// elements grow by a constant factor; the first and the last are `grading` times the longest.
 pub fn cuts(count: usize, grading: f64) -> Vec<f64> {
     let middle = (count - 1) / 2;
     let length = |element: usize| {

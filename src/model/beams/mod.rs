@@ -24,13 +24,13 @@ use std::collections::HashSet;
 /// Sine of the angle between orientation and axis below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
 
-/// Angle between the section axes of deck and file from which it is said: more than coordinates of four digits are off.
+/// Least angle between the section axes of deck and file for a note: above the rounding of coordinates of four digits.
 const TURNED: f64 = 1e-3;
 
-/// Part of a segment by which its node between may miss the middle.
+/// Largest distance of a segment's middle node from the middle, relative to the segment.
 const HALF_WAY: f64 = 1e-6;
 
-/// Reads `[[beams]]`: divides each path into elements, or takes those of a group of the mesh.
+/// Reads `[[beams]]`: divides each path into elements, or uses those of a group of the mesh.
 pub fn beams(cx: &mut PartContext) {
     for (index, beam) in cx.deck.beams.iter().enumerate() {
         let name = beam.name.as_ref().or(beam.group.as_ref());
@@ -92,7 +92,7 @@ struct Line<'b, 'd> {
     owner: &'b Owner<'d>,
     beam: &'d words::Beam,
     order: usize,
-    /// `None` where it is missing, which has been said.
+    /// `None` if it is missing; the error is already reported.
     orientation: Option<&'d At<Vector>>,
 }
 
@@ -249,7 +249,7 @@ impl<'d> Line<'_, 'd> {
         Some(made)
     }
 
-    /// Replaces the ends of a path by nodes that are rigidly attached to them, where the beam has offsets.
+    /// For a beam with offsets, replaces the ends of a path by nodes rigidly attached to them.
     fn offset_ends(&self, path: &mut [usize], cx: &mut PartContext) {
         let last = path.len() - 1;
         let offsets = [(0, "start", &self.beam.offset_start), (last, "end", &self.beam.offset_end)];
@@ -272,8 +272,7 @@ impl<'d> Line<'_, 'd> {
     }
 }
 
-/// Reads how the beam yields: `Some(None)` where its material is elastic, `None` where there are errors. `section` tells whether
-/// its section is sound.
+/// Reads the yield model of the beam: `Some(None)` for elastic material, `None` after errors. `section` tells whether its section is sound.
 fn yielding<'d>(
     owner: &Owner<'d>,
     beam: &'d words::Beam,

@@ -1,4 +1,4 @@
-//! Paths of beams and bars: points that follow one another, and the elements that each segment is cut into.
+//! Paths of beams and bars: successive points, and the division of each segment into elements.
 
 use crate::part_context::PartContext;
 use crate::report::Owner;

@@ -1,5 +1,5 @@
-//! Detects mesh edges between the contacts of capsules and cylinders on faces of a shell: their ends or rims touch the faces, and the nodes
-//! of the faces touch their surface.
+//! Detects mesh edges missed by contact of capsules and cylinders on faces of a shell. Only their ends or rims touch the faces, and only
+//! nodes touch their surface.
 
 use super::mesh_edges::{MeshEdge, mesh_edges};
 use super::points::Finder;

@@ -212,7 +212,7 @@ impl LawReader<'_, '_> {
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
             let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
             rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
-            // In an impact of a body on a deformable part, more than the mass of the node takes part.
+            // In an impact of a body on a deformable part, the effective mass exceeds that of the node.
             let taken = if is_body == other_is_rigid || !other.is_finite() { reduced } else { (own * other).sqrt() };
             mean = mean.max(if taken.is_finite() { taken } else { 0.0 });
             let reduced = 1.0 / (1.0 / own + 1.0 / least_other);

@@ -45,7 +45,7 @@ impl<'d> Finder<'_, 'd> {
             .collect()
     }
 
-    /// The lines of a body with a shape. A capsule is the line between its ends; a box or a hull has its corners and, for crossings, its
+    /// The lines of a body with a shape. A capsule is the line between its ends. A box or a hull has its corners and, for crossings, its
     /// edges; a cylinder has those of an inscribed prism. All of these are nodes that are rigidly attached to the body.
     fn lines_of_solid(&mut self, body: usize, name: &str, at: &'d At<String>) -> Option<Vec<Touch>> {
         self.scene.deck.bodies.get(body)?.shape.as_ref()?;

@@ -29,8 +29,8 @@ impl MeshEdge {
         (from - part.clamp(0.0, 1.0) * along).norm()
     }
 
-    /// Depth of a straight body in the edge at which its ends, `apart` from each other, touch the faces on both sides; `seen_from` is a
-    /// place on its side. The border stops it nowhere.
+    /// Largest depth of a straight body in the edge before its ends, `apart` from each other, touch the faces on both sides. `seen_from` is
+    /// a place on its side. The border stops it nowhere.
     pub fn sink(&self, seen_from: &Vec3, apart: f64) -> f64 {
         match self.is_border {
             true => f64::INFINITY,

@@ -21,7 +21,7 @@ pub fn is_augmented(contact: &Contact) -> bool {
 const MOST: f64 = 1e-4;
 
 /// Checks the keys of the method, of what touches by points alone or not, and returns the tolerance of the depth; `None` for springs alone.
-/// `size` is that of the touching bodies, `extent` that of the model.
+/// `size` is the size of the touching bodies, `extent` the extent of the model.
 pub fn tolerance(
     scene: &Scene,
     owner: &Owner,

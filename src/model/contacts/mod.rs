@@ -265,7 +265,7 @@ fn check_start(
     warn_closed(owner, least, size, at_rest, report);
 }
 
-/// Warns where the least gap at t = 0 is below the depth at rest under gravity; `size` is that of coordinates.
+/// Warns where the least gap at t = 0 is below the depth at rest under gravity; `size` is the magnitude of coordinates.
 fn warn_closed(owner: &Owner, least: f64, size: f64, at_rest: f64, report: &mut Report) {
     // Decks have some digits only.
     if least < -1e-6 * size && -least > 1.001 * at_rest {

@@ -67,7 +67,7 @@ pub struct FacetSurface {
 }
 
 impl FacetSurface {
-    /// True where one side touches the other, so that forces have a resultant; false for self-contact and for bodies among themselves.
+    /// True for contact between two sides, with a resultant of forces; false for self-contact and for bodies among themselves.
     pub fn has_sides(&self) -> bool {
         matches!(self.touchers, FacetTouchers::Others)
     }

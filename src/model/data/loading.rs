@@ -50,10 +50,10 @@ pub struct Load {
     pub follower: bool,
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
-    /// The element or coordinate of a load with this share; `None` for a load on the node alone. `None` for a load on the node alone.
+    /// The element or coordinate of a load with this share; `None` for a load on the node alone.
     pub along: Option<LoadAlong>,
-    /// False for moments without a direct action on the node: those of spread loads, which account for the shape between nodes and cancel
-    /// between neighbours, and residual moments of the last stage.
+    /// False for moments without a direct action on the node: moments of spread loads, cancelled by their neighbours, and residual moments
+    /// of the last stage.
     pub moment_counts: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Scenes in which nothing can move.
+//! Warning for models without free degrees of freedom.
 
 use crate::places::nodes::Topology;
 use crate::report::Report;

@@ -1,4 +1,4 @@
-//! Amplitudes whose times do not fit those of the run: tables that begin after it or end before it, and what acts only later.
+//! Amplitudes that do not fit the duration of the run: tables with a later start or an earlier end, and loads with a late start.
 
 use crate::doubts::usage::amplitudes_over_time;
 use crate::report::Report;
@@ -9,8 +9,8 @@ use mechanics::amplitude::Amplitude;
 /// Times are equal within this part of the run: tables are written with six digits or more.
 const SAME_TIME: f64 = 1e-6;
 
-/// Warns of tables that hold a value other than zero where they say nothing, unless the deck says that they are to, and of
-/// amplitudes that are zero for as long as the run lasts. The deck is sound.
+/// Warns of tables with nonzero values held beyond their ends, unless the deck asks for it, and of amplitudes that are zero for the whole
+/// run. The deck is sound.
 pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64, report: &mut Report) {
     let used = amplitudes_over_time(deck);
     let slack = SAME_TIME * end_time;

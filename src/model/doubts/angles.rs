@@ -1,4 +1,4 @@
-//! Angles in degrees where the deck takes radians.
+//! Angles in degrees in place of radians.
 
 use crate::report::Report;
 use base::diagnostic::Span;

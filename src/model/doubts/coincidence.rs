@@ -1,4 +1,4 @@
-//! When places count as one: the elements of parts as segments and faces, and what lies on them.
+//! The tolerance for coincident places, and the elements of parts as segments and faces.
 
 use crate::data::PartIndex;
 use crate::places::nodes::Topology;
@@ -77,7 +77,7 @@ pub fn lies_on(at: &Vec3, corners: &[Vec3], reach: f64) -> bool {
 
 /// True where a place lies on a segment or a triangle.
 fn lies_on_simplex(at: &Vec3, simplex: &[Vec3], reach: f64) -> bool {
-    /// Rounding takes this part of a triangle's edges for outside.
+    /// Tolerance of the edges of a triangle for rounding, relative to its size.
     const EDGE: f64 = 1e-6;
     let from = at - simplex[0];
     match simplex {

@@ -1,17 +1,16 @@
-//! Chains of bodies that hang one on the other: elimination couples each body of a chain with all before it, so long ones are held by
-//! multipliers, which couple neighbours alone.
+//! Chains of bodies by attachments: elimination couples each body of a chain with all before it. Long chains use multipliers, which couple
+//! only neighbours.
 
 use crate::data::{DependentNode, Joint};
 use crate::joints::equations;
 use crate::places::nodes::Nodes;
 use std::collections::HashSet;
 
-/// Hinges one behind the other up to which elimination is kept. Its time grows with the third power of their number; at thirty both
-/// take the same.
+/// Largest number of hinges in a chain for elimination. Its time grows with the third power of their number; at thirty both take the same.
 const MOST_HINGES: usize = 24;
 
-/// Replaces attachments of long chains among the `open` nodes, whose method the deck leaves open, by joints that hold the same directions.
-/// Attachments must not go round in a circle.
+/// Replaces attachments of long chains by joints in the same directions, for the nodes in `open` (no method in the deck). Attachments must
+/// not go round in a circle.
 pub fn hold_long_chains(nodes: &mut Nodes, open: &HashSet<usize>, joints: &mut Vec<Joint>) {
     let hangs = Hangs::of(nodes);
     let long: HashSet<usize> =
@@ -30,12 +29,12 @@ pub fn hold_long_chains(nodes: &mut Nodes, open: &HashSet<usize>, joints: &mut V
     }
 }
 
-/// True for an attachment that leaves the node some rotation of its own.
+/// True for an attachment with a free rotation.
 fn is_hinge(link: &DependentNode) -> bool {
     link.dofs[3..].contains(&false)
 }
 
-/// On what each node hangs: the node that depends on no other, and the hinges between the two.
+/// For each node the independent root of its chain, and the number of hinges up to it.
 struct Hangs {
     root: Vec<usize>,
     hinges: Vec<usize>,
@@ -46,7 +45,7 @@ impl Hangs {
         let count = nodes.list.len();
         let (mut root, mut hinges): (Vec<Option<usize>>, _) = (vec![None; count], vec![0; count]);
         for start in 0..count {
-            // Up to a node whose root is known, or that has no master, then down again.
+            // Goes up to a node with a known root or without a master, then down again.
             let (mut way, mut node) = (Vec::new(), start);
             while let (None, Some(index)) = (root[node], nodes.attachment(node)) {
                 way.push(index);

@@ -1,4 +1,4 @@
-//! What is odd about a deck that is otherwise sound: nothing in it, things nothing uses, what has no effect.
+//! Suspicious input in a valid deck: empty decks, unused tables, keys without effect.
 
 pub mod all_held;
 pub mod amplitude_ends;
@@ -46,7 +46,7 @@ pub fn check_content(deck: &Deck, report: &mut Report) {
 /// Warns of points, materials, sections and amplitudes that nothing uses.
 pub fn check_use(deck: &Deck, topology: &Topology, report: &mut Report) {
     let masters: HashSet<usize> = topology.dependents.iter().map(|dependent| dependent.master).collect();
-    // What is there in some stages only may be what connects a point.
+    // A point may be connected by tables of other stages.
     let ends = deck.links.iter().flat_map(|link| [&link.from, &link.to]).flatten();
     let ends = ends.chain(deck.joints.iter().flat_map(|joint| [&joint.from, &joint.to]).flatten());
     let elsewhere: HashSet<&str> = match deck.stages.is_empty() {
@@ -73,7 +73,7 @@ fn check_table<T>(what: &str, table: &Named<T>, used: &HashSet<&str>, report: &m
     }
 }
 
-/// Warns of what has no effect in a static analysis.
+/// Warns of input without effect in a static analysis.
 pub fn check_static(deck: &Deck, report: &mut Report) {
     let velocities = deck.bodies.iter().flat_map(|body| [span(&body.velocity), span(&body.angular_velocity)]).flatten();
     let places = velocities.chain(deck.initial.iter().map(|initial| &initial.span)).chain(span(&deck.damping));

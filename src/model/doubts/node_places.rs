@@ -1,4 +1,4 @@
-//! Where the deck names each node, for what is found out about a sound model.
+//! The place in the deck of each node, for warnings about valid models.
 
 use crate::names::Names;
 use crate::parts::Parts;
@@ -6,7 +6,7 @@ use crate::places::nodes::Topology;
 use crate::places::place::Place;
 use base::diagnostic::Span;
 
-/// Tells nodes where the deck names them: itself, the attachment that makes it depend on another, or its part.
+/// Sets the deck place of nodes: their names, the attachments of dependent nodes, or their parts.
 pub fn place_nodes(names: &Names, parts: &Parts, topology: &mut Topology) {
     let place = |span: &Span| Some([span.start, span.end]);
     for part in names.deck.parts() {
@@ -20,7 +20,7 @@ pub fn place_nodes(names: &Names, parts: &Parts, topology: &mut Topology) {
         let (node, place) = (dependent.node, dependent.place);
         topology.list[node].place = place;
     }
-    // Names of their own come before all others.
+    // The names of nodes have priority.
     for (_, named, span) in names.declarations() {
         match named {
             Place::Point(node) => topology.list[node].place = place(span),

@@ -11,7 +11,7 @@ use crate::places::nodes::Topology;
 use base::math::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Two parts of which the one lies on the other.
+/// Two parts, one lying on the other.
 pub struct Overlap {
     pub parts: [PartIndex; 2],
     /// How many edges of the first lie on the second.
@@ -20,8 +20,8 @@ pub struct Overlap {
 
 type Piece = (PartIndex, Vec<usize>);
 
-/// All pairs of parts of which edges lie on each other, with an end there that nothing holds to the other. Each pair once, by the
-/// part with more such edges.
+/// All pairs of parts with edges lying on each other, and an end there that is not connected to the other. Each pair once, by the part with
+/// more such edges.
 pub fn overlaps(topology: &Topology, ties: &mut Ties, tolerance: &Coincidence, pieces: &[Piece]) -> Vec<Overlap> {
     let pieces: Vec<&Piece> = pieces.iter().filter(|(part, _)| part.kind != PartKind::Bar).collect();
     if pieces.first().is_none_or(|(first, _)| pieces.iter().all(|(part, _)| part == first)) {

@@ -1,4 +1,4 @@
-//! Parts whose sections and thicknesses do not go with their lengths, and sections that no area has: slips of units or of digits.
+//! Sections and thicknesses out of proportion to lengths, and sections that no area has: slips of units or digits.
 
 use std::collections::HashMap;
 
@@ -13,10 +13,10 @@ use std::f64::consts::PI;
 
 /// Numbers of sections are rounded to three digits in tables; beyond this part an inequality is violated.
 const ROUNDING: f64 = 0.02;
-/// A beam may be a short piece of a longer one, so by itself it is implausible only where it is so many times as deep as long.
+/// Least ratio of depth to length for a warning; a beam may be a short piece of a longer one.
 const FAR: f64 = 10.0;
 
-/// Warns of what is thicker than it is wide or long. The deck is sound.
+/// Warns of parts thicker than they are wide or long. The deck is sound.
 pub fn check_proportions(scene: &Scene, nodes: &Nodes, report: &mut Report) {
     let connected = Connected::new(scene, nodes);
     for part in scene.deck.parts().filter(|part| part.at.kind.is_deformable()) {
@@ -64,7 +64,7 @@ fn length(line: &[usize], nodes: &Nodes) -> f64 {
     (nodes.x(last) - nodes.x(first)).norm()
 }
 
-/// Warns of sections that give area and moments which no area has.
+/// Warns of sections with area and moments that no area has.
 fn check_sections(scene: &Scene, report: &mut Report) {
     for (name, section) in &scene.deck.sections.0 {
         let number = |key: &str| section.values.numbers(key);

@@ -1,4 +1,4 @@
-//! Records whose unit is not that of the deck: the headers of data bases name it, and values are not converted.
+//! Records in other units than the deck: headers of data bases give the unit, and values are not converted.
 
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
@@ -12,7 +12,7 @@ use deck::words::Maybe;
 /// Records are scaled up and down for analyses of one strength after the other, seldom by more than this.
 const SCALING: f64 = 50.0;
 
-/// A place of the deck that takes a record as a motion.
+/// A use of a record as a motion in the deck.
 struct Use<'d> {
     amplitude: &'d Maybe<String>,
     quantity: MotionQuantity,
@@ -21,7 +21,7 @@ struct Use<'d> {
     place: &'d Span,
 }
 
-/// Warns of records that are taken as another quantity than theirs, and of those in another unit than the deck's that nothing converts.
+/// Warns of records used as another quantity than their own, and of records in other units than the deck without a conversion.
 pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut Report) {
     for used in uses(deck) {
         let Some(name) = used.amplitude else { continue };

@@ -35,7 +35,7 @@ impl Worst {
     }
 }
 
-/// Warns once for each shell of the deck and each way in which its elements are badly shaped.
+/// Warns once for each shell of the deck and each kind of badly shaped elements.
 pub fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Report) {
     for surface in deck.parts().filter(|part| part.at.kind.is_surface()) {
         let (mut long, mut flat) = (Worst::default(), Worst::default());
@@ -72,7 +72,7 @@ fn slivers(count: usize) -> String {
     if count == 1 { "a sliver among the elements".to_owned() } else { format!("{count} slivers among the elements") }
 }
 
-/// An angle near 180 with as many digits as tell it from 180.
+/// An angle near 180 with enough digits to differ from 180.
 fn degrees(angle: f64) -> String {
     let digits = (1..9).find(|&digits| (180.0 - angle) * 10.0_f64.powi(digits) > 0.9).unwrap_or(9);
     format!("{angle:.digits$}", digits = digits as usize)

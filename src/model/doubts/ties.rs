@@ -17,7 +17,7 @@ impl Ties {
     pub fn new(topology: &Topology, joints: &[Joint], linked: impl Iterator<Item = [usize; 2]>) -> Self {
         let count = topology.list.len();
         let mut ties = Ties { towards: (0..=count).collect(), linked: HashSet::new() };
-        // An attachment that leaves some directions free holds the others.
+        // Attachments with free directions join the two nodes too.
         for dependent in topology.dependents.iter().filter(|dependent| dependent.dofs[..3].contains(&true)) {
             ties.join(dependent.node, dependent.master);
         }
@@ -30,7 +30,7 @@ impl Ties {
         }
         for pair in linked {
             let groups = ties.groups(pair);
-            // What is linked to the ground is not linked to all else that rests on it.
+            // Links to the ground do not connect to other nodes on the ground.
             if groups[1] != ties.group(count) && groups[0] != ties.group(count) {
                 ties.linked.insert(groups);
             }

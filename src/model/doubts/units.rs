@@ -36,18 +36,18 @@ const STIFF: f64 = 4e9;
 const SOFT: f64 = 4.5e5;
 /// ... which hardly change their volume, or are light.
 const INCOMPRESSIBLE: f64 = 0.45;
-/// Strains at which materials yield: lead at 3e-4, steel at 1e-3, springs at 1e-2, rubber at 1. A smaller one makes a solid rigid before it flows.
+/// Yield strains of materials: lead 3e-4, steel 1e-3, springs 1e-2, rubber 1. A smaller one makes a solid rigid before it flows.
 const YIELD_STRAIN: [f64; 2] = [1e-5, 0.5];
 /// Young's moduli of what yields so, in Pa, ...
 const METAL: [f64; 2] = [1e9, 1.3e12];
-/// ... and the units in which they are written, in Pa: Pa, MPa, GPa, psi and ksi.
+/// ... and the units of their values, in Pa: Pa, MPa, GPa, psi and ksi.
 const PRESSURES: [f64; 5] = [1.0, 1e6, 1e9, 6894.76, 6.89476e6];
-/// A yield stress that is larger by this says that nothing yields.
+/// Factor on the yield stress above which nothing is meant to yield.
 const NEVER: f64 = 1e5;
 /// A hardening modulus below this part of Young's modulus has no effect.
 const NO_HARDENING: f64 = 2e-8;
 
-/// Warns of numbers that are implausible in the units that the deck names, and of those that do not go together in any.
+/// Warns of numbers implausible in the units of the deck, and of numbers inconsistent in any units.
 pub fn check_units(deck: &Deck, report: &mut Report) {
     let gravity = deck.environment.as_ref().and_then(|environment| environment.gravity.as_ref());
     let gravity = gravity.map(|g| At { value: vec3(g).norm(), span: g.span.clone() }).filter(|g| g.value > 0.0);
@@ -132,14 +132,15 @@ fn common(modulus: f64, density: f64) -> Option<&'static str> {
     COMMON.iter().find(|(_, e, rho)| is(*e, modulus) && is(*rho, density)).map(|(name, ..)| *name)
 }
 
-/// The unit of acceleration of a deck whose gravity is that of the Earth, as length and time in m and s; `None` for another gravity.
+/// The units of length and time, in m and s, of a deck with the gravity of the Earth; `None` for another gravity.
 fn earth(gravity: f64) -> Option<[f64; 2]> {
     // Metres, millimetres, centimetres, inches and feet with seconds, and millimetres with milliseconds.
     let units = [[1.0, 1.0], [1e-3, 1.0], [0.01, 1.0], [0.0254, 1.0], [0.3048, 1.0], [1e-3, 1e-3]];
     units.into_iter().find(|[length, time]| (9.78..=9.84).contains(&(gravity * length / (time * time))))
 }
 
-/// Without a label the gravity tells lengths and times: a common material in other units, or a speed of sound that no solid has, is a slip.
+/// Without a label, gravity defines the units of length and time. A common material in other units, or an impossible speed of sound, is
+/// then a slip.
 fn check_beside_gravity(name: &str, material: &Material, [length, time]: [f64; 2], report: &mut Report) {
     let (Some(modulus), Some(density)) = (&material.youngs_modulus, &material.density) else { return };
     let labels = [Units::Si, Units::MmTS, Units::MmKgS, Units::MmKgMs];

@@ -14,7 +14,7 @@ use crate::scene::Scene;
 use base::diagnostic::Span;
 use base::math::Vec3;
 
-/// Warns once for each pair of parts that touch where nothing holds them together. The deck is sound.
+/// Warns once for each pair of parts that touch without a connection. The deck is sound.
 pub fn check_unjoined(scene: &Scene, topology: &Topology, ties: Ties, report: &mut Report) {
     let pieces = pieces(scene);
     let Some(tolerance) = Coincidence::new(&pieces, topology) else { return };
@@ -64,7 +64,7 @@ struct Search<'a, 'd> {
     topology: &'a Topology,
     ties: Ties,
     tolerance: Coincidence,
-    /// A part to which each node belongs.
+    /// One of the parts of each node.
     of_node: Vec<Option<PartIndex>>,
     found: Vec<Touch>,
     /// Index in `found` by the names of the two and whether they meet between nodes.
@@ -72,8 +72,8 @@ struct Search<'a, 'd> {
 }
 
 impl Search<'_, '_> {
-    /// True for nodes that the deck or the mesh names and something acts on. Those in between are where a path is cut: two that
-    /// meet are paths that cross.
+    /// True for nodes that the deck or the mesh names and something acts on. Nodes in between divide a path; two of them coincide where
+    /// paths cross.
     fn is_end(&self, node: usize) -> bool {
         let named = self.topology.list[node].named || self.scene.names.mesh.id(node).is_some();
         named && (0..3).any(|dof| self.topology.is_connected(node, dof))
@@ -133,7 +133,7 @@ impl Search<'_, '_> {
     /// Notes that a node touches another one, or a part between its nodes.
     fn meet(&mut self, end: usize, node: usize, between: Option<PartIndex>) {
         let rests = |node: usize| (0..3).all(|dof| self.topology.restraint(node, dof).is_some());
-        // What stands still at one end of a link only touches what passes there.
+        // A fixed node outside all parts, such as the ground end of a link, may lie on a moving part.
         if rests(end) && self.of_node[end].is_none() {
             return;
         }
@@ -156,7 +156,7 @@ impl Search<'_, '_> {
         }
     }
 
-    /// "beam `a`", the part to which a node belongs; without one the body or point.
+    /// "beam `a`", the part of a node; or else its body or point.
     fn name(&self, node: usize, part: Option<PartIndex>) -> String {
         match part.or(self.of_node[node]) {
             Some(part) => title(self.scene.deck, part),

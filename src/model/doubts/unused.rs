@@ -1,4 +1,4 @@
-//! Nodes that nothing needs: those of a mesh that no part uses, the inside of rigid parts.
+//! Unused nodes: nodes of a mesh outside all parts, and inner nodes of rigid parts.
 
 use crate::data::{ArcLength, ExpectAt, LoadAlong, Model, StepLength, Stop, StopQuantity, When};
 use mechanics::elements::pressure::Face;

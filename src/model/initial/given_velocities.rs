@@ -1,4 +1,4 @@
-//! Which table gives which node its initial velocity: one, or several that agree.
+//! The table behind each node's initial velocity: one, or several that agree.
 
 use std::collections::HashMap;
 
@@ -11,12 +11,12 @@ use base::math::Vec3;
 use base::names::short;
 use mechanics::amplitude::{Amplitude, Side};
 
-/// Two values of the same velocity may differ by the rounding of formulas that give them twelve digits, and a prescribed motion from
-/// the velocity that the deck writes beside it by the rounding of six digits.
+/// Relative tolerance of two equal velocities: formulas give twelve digits (`SAME`). A prescribed motion and a velocity written beside it
+/// agree to six digits (`AS_WRITTEN`).
 const SAME: f64 = 1e-9;
 const AS_WRITTEN: f64 = 1e-6;
 
-/// What a table gives: a velocity or an angular velocity.
+/// The quantity of a table: a velocity or an angular velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum InitialQuantity {
     Velocity,
@@ -47,7 +47,7 @@ pub struct Giver<'d> {
     pub what: String,
     /// The place of the table.
     pub span: &'d Span,
-    /// True where its velocities take the place of those that earlier tables give.
+    /// True where its velocities replace those of earlier tables.
     pub replaces: bool,
 }
 
@@ -89,7 +89,7 @@ impl<'d> GivenVelocities<'d> {
         }
         let before = self.values.insert((node, quantity), (value, giver));
         let Some((old, earlier)) = before.filter(|_| !self.givers[giver].replaces) else { return };
-        // A node that moves with another one takes that one's velocity in the end.
+        // The velocity of a dependent node is replaced by its master's later.
         if (value - old).amax() <= SAME * value.amax().max(old.amax()) || follows(node, quantity, nodes) {
             return;
         }
@@ -127,8 +127,8 @@ impl<'d> GivenVelocities<'d> {
         }
     }
 
-    /// Warns of names whose nodes all get no velocity in a direction in which the table begun last gives them one: a support
-    /// holds or moves them there. A part of which the support is an end is as it should be.
+    /// Warns of names with nonzero velocities from the last table in a direction restrained by supports at all of their nodes. A support at
+    /// the end of a part is no error.
     pub fn report_dropped(
         &self,
         spots: &[Spot<'d>],
@@ -162,7 +162,7 @@ impl<'d> GivenVelocities<'d> {
         }
     }
 
-    /// Warns of names at which nothing takes up an angular velocity that is not zero.
+    /// Warns of names with an angular velocity but no rotational degree of freedom.
     pub fn report_without_rotation(&self, spots: &[Spot<'d>], nodes: &Nodes, report: &mut Report<'d>) {
         for spots in spots.chunk_by(|a, b| a.span == b.span) {
             let idle = |spot: &Spot| {
@@ -179,7 +179,7 @@ impl<'d> GivenVelocities<'d> {
     }
 }
 
-/// True for a node whose velocity follows from that of another one.
+/// True for a node with the velocity of its master.
 fn follows(node: usize, quantity: InitialQuantity, nodes: &Nodes) -> bool {
     nodes.master_in(node, quantity.first_dof()).is_some()
 }

@@ -83,7 +83,7 @@ impl<'d> Motions<'_, 'd> {
         }
     }
 
-    /// Reports a table that gives nothing, and keys that do not go together.
+    /// Reports empty tables and contradictory keys.
     fn check_keys(&mut self, owner: &Owner<'d>, initial: &'d At<Table<Initial>>) {
         let words = ["velocity", "angular_velocity", "normal_velocity"];
         let unread = words.iter().any(|key| self.report.is_spoiled(owner.span, key));
@@ -123,7 +123,7 @@ impl<'d> Motions<'_, 'd> {
         }
     }
 
-    /// Reports nodes that are named and depend on another one, and names whose nodes all depend on a node that is not named.
+    /// Reports named dependent nodes, and names with only nodes dependent on unnamed masters.
     fn moves_by_itself(&mut self, spots: &[Spot<'d>]) {
         for spot in spots.iter().filter(|spot| spot.direct) {
             if let Some(master) = self.topology.master_in(spot.node, 0) {
@@ -172,7 +172,7 @@ impl<'d> Motions<'_, 'd> {
         Some(PlaceFactor { amplitude, center: vec3_or_zero(&profile.center), direction: unit?, axis })
     }
 
-    /// The unit normal of shells at each node, zero where there is no shell, which is an error at a node of the list.
+    /// The unit normal of shells at each node, zero without a shell; that is an error for nodes of the list.
     fn normals(&mut self, spots: &[Spot<'d>]) -> Vec<Vec3> {
         let mut normals = vec![Vec3::zeros(); self.topology.list.len()];
         for part in &self.scene.parts.list {
@@ -191,7 +191,7 @@ impl<'d> Motions<'_, 'd> {
     }
 }
 
-/// What a table gives: the motion of a rigid body is both a velocity and an angular velocity.
+/// The quantities of a table; a rigid motion has both a velocity and an angular velocity.
 fn given(initial: &Initial) -> Vec<InitialQuantity> {
     let rigid = initial.about.is_some();
     let velocity = rigid || initial.velocity.is_some() || initial.normal_velocity.is_some();

@@ -1,4 +1,4 @@
-//! What acts along the coordinate of a joint: prescribed motion, a motor, a spring, a damper, stops, friction and what yields.
+//! Motion and efforts along the coordinate of a joint: prescribed motion, motor, spring, damper, stops, friction and hysteresis.
 
 use crate::data::{
     History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadAlong, LoadedCoordinate, Node, OwnDamping,
@@ -37,7 +37,7 @@ pub struct Joints {
 pub struct PlacedJoint<'v> {
     /// Its two ends.
     pub ends: [usize; 2],
-    /// True where it comes in a later stage, and finds its ends where they then are.
+    /// True for a joint of a later stage; its ends are then at their current positions.
     pub later: bool,
     /// Its axes as columns, global at t = 0.
     pub axes: Mat3,
@@ -53,13 +53,13 @@ pub struct Along<'a, 'd> {
     pub joint: &'d OneOf<words::Joint>,
     /// The scene.
     pub scene: &'a Scene<'d>,
-    /// The amplitudes, to which a motion without one adds another.
+    /// The amplitudes; motions without an amplitude add one.
     pub amplitudes: &'a mut Vec<Amplitude>,
     /// The problems.
     pub report: &'a mut Report<'d>,
 }
 
-/// What ties the coordinate of a joint to that of another.
+/// The coupling of a joint's coordinate with another one's.
 pub struct Gear<'d> {
     /// Name of the other joint.
     pub other: &'d At<String>,
@@ -67,11 +67,11 @@ pub struct Gear<'d> {
     pub ratio: f64,
 }
 
-/// What acts along the coordinate of a joint.
+/// Motion and efforts along the coordinate of a joint.
 pub struct ActsAlong<'d> {
     coordinate: Coordinate,
     motion: Option<PrescribedMotion>,
-    /// The joint to which it is geared, and the ratio.
+    /// The gear: the other joint and the ratio.
     pub gear: Option<Gear<'d>>,
     effort: Option<JointEffort>,
     law: CoordinateLaw,
@@ -83,7 +83,7 @@ pub struct ActsAlong<'d> {
 }
 
 impl<'d> Along<'_, 'd> {
-    /// Reads what acts along the coordinate; `None` where the joint has none.
+    /// Reads motion and efforts along the coordinate; `None` for a joint without one.
     pub fn read(mut self, kind: &JointKind) -> Option<ActsAlong<'d>> {
         let joint = self.joint;
         let Some(&own) = kind.make.coordinates.first() else {
@@ -110,12 +110,12 @@ impl<'d> Along<'_, 'd> {
         Some(ActsAlong { coordinate, motion, gear, effort, law, own_damping, stick, counted })
     }
 
-    /// True where the joint is not there from t = 0 on, or comes back: its coordinate has no beginning that the deck draws.
+    /// True for a joint absent at t = 0 or later: the deck does not define the origin of its coordinate.
     fn is_later(&self) -> bool {
         is_later(self.scene, self.joint)
     }
 
-    /// Reports keys of a joint that is not there from t = 0 on where they need a coordinate which the deck draws.
+    /// Reports keys that need the origin of the coordinate, for a joint absent at t = 0 or later.
     fn reject_if_later(&mut self) {
         if !self.is_later() {
             return;
@@ -128,7 +128,7 @@ impl<'d> Along<'_, 'd> {
         }
     }
 
-    /// True where results of the coordinate are asked for; that of a joint that comes later has no turns that could be counted.
+    /// True where results of the coordinate are requested; turns of a later joint cannot be counted.
     fn is_counted(&self) -> bool {
         if self.is_later() {
             return false;
@@ -155,7 +155,7 @@ impl<'d> Along<'_, 'd> {
         }
         let amplitude = self.amplitude(&motion.amplitude);
         let (scale, history) = self.quantity(motion)?;
-        // Stages that are static move on with time, by which a rate says where the joint is.
+        // Static stages advance in time, so rates define positions.
         let is_static = self.scene.analysis.is_static();
         if is_static && self.scene.stage.is_none() && history != History::Displacement {
             return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
@@ -208,7 +208,7 @@ impl<'d> Along<'_, 'd> {
         Some(first)
     }
 
-    /// Keys that contradict a prescribed motion, where they are written.
+    /// Keys in contradiction to a prescribed motion, with their places.
     fn against_motion(&self) -> Vec<(&'static str, &'d Span)> {
         let joint = self.joint;
         let keys = keys!(
@@ -257,7 +257,7 @@ impl<'d> Along<'_, 'd> {
             );
         }
         let hysteresis = self.hysteresis(coordinate);
-        // What yields has the stiffness in it.
+        // The hysteresis law includes the stiffness.
         let spring = self.report.not_negative("stiffness", &joint.stiffness, 0.0);
         CoordinateLaw {
             stiffness: if hysteresis.is_some() { 0.0 } else { spring },
@@ -302,7 +302,7 @@ impl<'d> Along<'_, 'd> {
         Some(Stops { limits: [low, high], stiffness: stiffness?, loss })
     }
 
-    /// What yields, by its yield moment or force, or by its backbone.
+    /// The hysteresis law, by its yield moment or force, or by its backbone.
     fn hysteresis(&mut self, coordinate: Coordinate) -> Option<Hysteresis> {
         let joint = self.joint;
         let (moment, force) = (("yield_moment", &joint.yield_moment), ("yield_force", &joint.yield_force));
@@ -411,7 +411,7 @@ impl<'d> Along<'_, 'd> {
 }
 
 impl ActsAlong<'_> {
-    /// Gives a joint its coordinate and what acts along it.
+    /// Gives a joint its coordinate, motion and efforts.
     pub fn set_up(
         mut self,
         placed: &PlacedJoint,

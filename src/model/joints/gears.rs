@@ -1,4 +1,4 @@
-//! Gears: joints whose coordinates are multiples of each other follow one number that they share.
+//! Gears: joints with proportional coordinates follow one common number.
 
 use crate::data::{Joint, JointDrive};
 use crate::joints::along::{Gear, is_later, size};
@@ -6,8 +6,8 @@ use crate::places::nodes::Nodes;
 use crate::report::Report;
 use crate::scene::Scene;
 
-/// Lets geared joints, known by their places in the list, follow the joint that their gears lead to. Where that one is driven they follow its
-/// drive, elsewhere a number that all of them share.
+/// Lets geared joints, known by their places in the list, follow the joint that their gears lead to. If that joint is driven, they follow
+/// its drive; otherwise they share a new number.
 pub fn connect<'d>(
     scene: &Scene<'d>,
     gears: &[(usize, Gear<'d>)],
@@ -35,12 +35,12 @@ pub fn connect<'d>(
     }
 }
 
-/// The place of the joint to which a gear leads, if it has a coordinate all the time.
+/// The index of the gear's other joint, if it has a coordinate in all stages.
 fn partner<'d>(scene: &Scene<'d>, gear: &Gear<'d>, joints: &[Joint], report: &mut Report<'d>) -> Option<usize> {
     let name = gear.other;
     let Some(other) = joints.iter().position(|joint| joint.name == name.value) else {
         let named = || scene.deck.joints.iter().filter_map(|joint| joint.name.as_ref());
-        // What is wrong with one that could not be made has been said.
+        // The errors of a joint that could not be made are already reported.
         return match named().any(|known| known.value == name.value) {
             true => None,
             false => report.unknown("joint", name, named().map(|known| known.value.as_str())),
@@ -63,7 +63,7 @@ fn partner<'d>(scene: &Scene<'d>, gear: &Gear<'d>, joints: &[Joint], report: &mu
     Some(other)
 }
 
-/// The last joint on the way over gears from one, and the coordinate of that one per its own; `None` where the way leads back to the first.
+/// The last joint of the chain of gears, and its coordinate per coordinate of the first; `None` for a closed loop.
 fn first(towards: &[Option<(usize, f64)>], index: usize) -> Option<(usize, f64)> {
     let (mut at, mut ratio) = (index, 1.0);
     for _ in 0..towards.len() {
@@ -73,8 +73,8 @@ fn first(towards: &[Option<(usize, f64)>], index: usize) -> Option<(usize, f64)>
     None
 }
 
-/// What the coordinate of a joint without a gear follows; where it is not driven, a number that is made for it: its coordinate, as a length
-/// of the size of the scene, so that efforts along it compare with forces.
+/// The drive of a joint without a gear. Without one, a free number is added: the coordinate as a length of the size of the scene, so that
+/// efforts along it compare with forces.
 fn drive_of(scene: &Scene, joint: &mut Joint, nodes: &mut Nodes) -> Option<JointDrive> {
     let coordinate = joint.coordinate.as_ref()?;
     if let Some(drive) = coordinate.drive {

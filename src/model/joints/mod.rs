@@ -18,7 +18,7 @@ use mechanics::constraints::joint::{ConstraintEquation, rotations, translations}
 use mechanics::constraints::joints::JointKind;
 use mechanics::state;
 
-/// Reads `[[joints]]`; what acts along their coordinates comes after the `links` of the deck, and motions without an amplitude add one.
+/// Reads `[[joints]]`. Links along their coordinates follow the `links` of the deck, and motions without an amplitude add one.
 pub fn joints<'d>(
     scene: &Scene<'d>,
     links: &mut ModelLinks,
@@ -45,7 +45,7 @@ pub fn joints<'d>(
         let acts = kind.map(|kind| Along { owner: &owner, joint, scene, amplitudes, report }.read(kind));
         let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
         let ends = [ends.0, ends.1];
-        // What comes later finds its ends where they then are.
+        // The ends of a later joint are at their current positions.
         let later = scene.stage.is_some_and(|stage| stage.comes_later(&joint.stages));
         let placed = PlacedJoint { ends, later, axes, values: &joint.values };
         let Some(equations) = joint_equations(&owner, kind, &placed, nodes, report) else { continue };
@@ -60,7 +60,7 @@ pub fn joints<'d>(
     joints
 }
 
-/// The constraint equations between two ends, of which messages speak as `owner`; with `later` they need not meet at t = 0.
+/// The constraint equations between two ends; messages name them as `owner`, and with `later` the ends need not meet at t = 0.
 fn joint_equations<'d>(
     owner: &Owner<'d>,
     kind: &JointKind,
@@ -85,8 +85,8 @@ fn joint_equations<'d>(
     Some((kind.make.equations)(&axes, &d, values))
 }
 
-/// How far the ends of a joint that meet are apart: `true` where as far as coordinates of six digits are, `false` where no
-/// farther than rounding. Farther is an error.
+/// Compares the distance of ends that should meet: `true` within the rounding of six digits, `false` within machine rounding. Farther is an
+/// error.
 fn is_rounded<'d>(owner: &Owner<'d>, [a, b]: [Vec3; 2], nodes: &Nodes, report: &mut Report<'d>) -> Option<bool> {
     /// Coordinates written with six digits are off by half a unit of the sixth, at either end.
     const SIX_DIGITS: f64 = 1e-5;
@@ -116,7 +116,7 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
         |node: usize| (0..6).all(|dof| nodes.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none()));
     let duration = scene.analysis.end_time - scene.analysis.begin;
     for joint in &scene.deck.joints {
-        // A joint is found by name: one may have been left out for what is wrong elsewhere, as in a mesh that could not be read.
+        // Joints are found by name, because a joint may be missing after errors elsewhere, such as an unreadable mesh.
         let named = |made: &&Joint| joint.name.as_ref().is_some_and(|name| name.value == made.name);
         let Some(made) = joints.iter().find(named) else { continue };
         let (ends, name) = (made.ends.map(|node| nodes.carrier(node)), &made.name);
@@ -141,9 +141,8 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
 /// The angle, or the part of the size of the scene, that counts as none over a whole run.
 const NOWHERE: f64 = 1e-9;
 
-/// The rate of a driven coordinate by the velocities that the deck gives both of its ends, and by its motion, where they differ. An
-/// end at rest may be taken along, unless it is fixed. A velocity that leads nowhere in the `duration` is rest, measured by the `extent` of
-/// the scene.
+/// The rate of a driven coordinate by the initial velocities of both ends, and by its motion, if they differ. An end at rest may be taken
+/// along, unless it is fixed. A velocity that leads nowhere in the `duration` is rest, measured by the `extent` of the scene.
 fn initial_rates(
     joint: &Joint,
     fixed: [bool; 2],
@@ -172,7 +171,7 @@ fn initial_rates(
     let moves = |node: &state::Node| node.v.amax() > nowhere * extent || node.omega.amax() > nowhere;
     let [_, given, _] = coordinate.lock.gap(&from, &to);
     let known = (moves(&from) || fixed[0]) && (moves(&to) || fixed[1]);
-    // The rate is the difference of what both ends have, which rounds.
+    // The rate is the difference of both ends' velocities, with their rounding.
     let size = |node: &state::Node| match coordinate.lock.is_rotational() {
         true => node.omega.amax(),
         false => node.v.amax() + node.omega.amax() * node.x.amax(),

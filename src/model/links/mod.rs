@@ -30,7 +30,7 @@ pub struct ModelLinks {
 }
 
 impl ModelLinks {
-    /// Adds what acts along the coordinate of a joint; returns its index.
+    /// Adds a link along the coordinate of a joint; returns its index.
     pub fn add_along(
         &mut self,
         joint: &str,
@@ -181,7 +181,7 @@ fn dashpot(link: &words::Link) -> Option<&Span> {
     }
 }
 
-/// The forces at which a link fails. Along a line there is no shear.
+/// The forces of a link at failure. Along a line there is no shear.
 fn failure<'d>(
     At { value: table, span }: &'d At<Table<words::Failure>>,
     is_bushing: bool,

@@ -1,4 +1,4 @@
-//! Links that are pulled to a force in a static stage, and then keep the length that was taken up.
+//! Links tightened to a force in a static stage, then locked at their length.
 
 use crate::data::{LinkKind, Load};
 use crate::report::{Owner, Report};
@@ -11,12 +11,12 @@ use mechanics::elements::link::LinkLaw;
 /// The pretension of a link in one stage.
 pub struct Pretension {
     force: f64,
-    /// The amplitude of the force where the stage pulls, `None` for that of loads without one; otherwise the length is kept.
+    /// The amplitude of the force in the stage of tightening (`None` for the default of loads); otherwise the length is locked.
     pulls: Option<Option<usize>>,
 }
 
 impl Pretension {
-    /// The force on the node that takes up the length; `None` where that is kept.
+    /// The force on the take-up node; `None` for a locked length.
     pub fn pull(&self, node: usize) -> Option<Load> {
         self.pulls.map(|amplitude| Load {
             node,

@@ -23,8 +23,8 @@ pub struct Loads {
     pub pressures: Vec<Pressure>,
 }
 
-/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Those with names are added to `actors`. The
-/// `efforts` of joints come after them.
+/// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Named loads are added to `actors`. The `efforts` of joints
+/// come after them.
 pub fn loads<'d>(
     scene: &Scene<'d>,
     efforts: Vec<Load>,
@@ -67,7 +67,7 @@ fn nodal_load<'d>(
     report: &mut Report<'d>,
 ) -> Vec<Load> {
     let owner = Owner::new("`[[loads]]`", &load.span);
-    // Of a load that names a part in place of nodes this alone is said.
+    // For a load with `part` in place of `at`, this is the only error to report.
     let names_part = load.part.is_some() && load.at.is_none();
     let spots = if names_part { Vec::new() } else { scene.spots(&owner, "at", &load.at, Reach::Nodes, report) };
     let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));

@@ -6,8 +6,8 @@ use base::math::{Vec3, quadrature};
 use mechanics::elements::beam;
 use mechanics::sections::Stiffness;
 
-/// Gauss points of an element, or of the part of it over which the load is linear: products of it with polynomials of the highest order
-/// are integrated exactly.
+/// Gauss points of an element, or of the linear piece of the load in it: products with polynomials of the highest order are integrated
+/// exactly.
 const POINTS: usize = 5;
 
 /// A load per length.
@@ -47,7 +47,7 @@ impl<'p> Line<'p> {
     }
 }
 
-/// True where each element of a part begins where the one before ends, so that there is a length along it.
+/// True for a part of consecutive elements, which has a length along it.
 pub fn is_chain(part: &Part) -> bool {
     (1..part.elements()).all(|element| part.nodes(element - 1).last() == part.nodes(element).first())
 }
@@ -66,7 +66,7 @@ impl LineLoad {
         loads
     }
 
-    /// Shares of the load on the nodes of one element by itself, whose profile is taken along it.
+    /// Shares of the load on the nodes of a single element, with the profile along it.
     pub fn over_element(&self, part: &Part, along: (usize, usize), scene: (&Topology, &[Stiffness])) -> Vec<Load> {
         Line::of(part, along.1, scene).map_or_else(Vec::new, |line| self.over(&line, [0.0, 1.0], along))
     }
@@ -115,7 +115,7 @@ impl LineLoad {
 }
 
 impl Line<'_> {
-    /// Adds to the shares of the nodes what a force at a fraction of the length does.
+    /// Adds the action of a force at a fraction of the length to the shares of the nodes.
     fn share(&self, at: f64, tangent: &Vec3, force: &Vec3, shares: &mut [[Vec3; 2]]) {
         let (lobatto, _) = quadrature::lobatto(self.nodes.len());
         for (share, weight) in shares.iter_mut().zip(quadrature::lagrange(lobatto, 2.0 * at - 1.0)) {

@@ -74,7 +74,7 @@ pub fn spread_load<'d>(
     (spread.forces.into_iter().map(load).chain(spread.shares).collect(), pressure)
 }
 
-/// What the load is spread over, by `at` or `part`.
+/// The names under the spread load, by `at` or `part`.
 fn names_of<'d>(load: &'d words::Load, owner: &Owner, report: &mut Report<'d>) -> Option<&'d At<Names>> {
     let (key, names) = if load.part.is_some() { ("part", &load.part) } else { ("at", &load.at) };
     if let (Some(_), Some(part)) = (&load.at, &load.part) {
@@ -146,7 +146,7 @@ struct Spread<'a, 'd> {
     /// Force per area.
     area: Vec3,
     pressure: f64,
-    /// The pressure acts on the faces as they are at the moment.
+    /// True where the pressure follows the deformed faces.
     follows: bool,
     scene: &'a Scene<'d>,
     topology: &'a Topology,
@@ -157,7 +157,7 @@ struct Spread<'a, 'd> {
     faces: Vec<Face>,
     /// Shares on the nodes of beams and bars.
     shares: Vec<Load>,
-    /// What has been loaded: a part named twice is so once, like nodes.
+    /// Places already loaded: a part named twice is loaded once, like nodes.
     seen: HashSet<Place>,
 }
 
@@ -208,8 +208,8 @@ impl<'d> Spread<'_, 'd> {
         }
     }
 
-    /// True where a set is one of beams, bars, shells and edges of these alone, each of which is loaded, or refused, by itself; what holds
-    /// nodes is the line between them.
+    /// True for a set of beams, bars, shells and their edges alone: each member is loaded or refused separately. A set with nodes is the
+    /// line between them.
     fn is_of_members(&self, set: Place) -> bool {
         let leaves = self.scene.names.leaves(set);
         let is_member = |leaf: &Place| matches!(leaf, Place::Part(_) | Place::Body(_) | Place::Edge(..));
@@ -276,7 +276,7 @@ impl<'d> Spread<'_, 'd> {
         }
     }
 
-    /// False where the load takes what only beams have, which is said.
+    /// False, with an error, where the load has keys for beams only.
     fn acts_on_edges(&self, name: &'d At<String>, report: &mut Report<'d>) -> bool {
         let words = self.words;
         let follower = words.follower.as_ref().filter(|follower| follower.value).map(|at| &at.span);
@@ -289,14 +289,14 @@ impl<'d> Spread<'_, 'd> {
         false
     }
 
-    /// True where one of two nodes, which a list brought in under a name, is loose.
+    /// True if one of two nodes of a list is not connected.
     fn is_loose(&self, pair: [usize; 2], name: &'d At<String>, report: &mut Report<'d>) -> bool {
         let spot = |node| Spot { node, name: self.scene.label(node, name), span: &name.span, direct: false };
         pair.iter().any(|&node| self.topology.is_loose(&spot(node), "this load", report))
     }
 
-    /// Distributes the force on a segment to its ends in equal halves. The edge of a shell bulges by ½ r (1 − r) L (θ_a − θ_b) in
-    /// its surface, on which the load does work too: moments about the normal at the ends, opposite to each other.
+    /// Distributes the force on a segment to its ends in equal halves. The edge of a shell bulges by ½ r (1 − r) L (θ_a − θ_b) in its
+    /// surface. The load does work on it too: opposite moments about the normal at the ends.
     fn along(&mut self, pair: [usize; 2]) {
         let Some(line) = self.line.as_ref().map(|line| line.force) else { return };
         let along = self.topology.x(pair[1]) - self.topology.x(pair[0]);
@@ -344,8 +344,7 @@ impl<'d> Spread<'_, 'd> {
     }
 }
 
-/// Pairs of nodes along which a load per length acts: the segments of a group, or edges of shells between nodes of a set,
-/// those at the border if there are any.
+/// Pairs of nodes under a load per length: the segments of a group, or edges of shells between nodes of a set. Border edges are preferred.
 fn line_of(
     scene: &Scene,
     place: Place,

@@ -3,7 +3,7 @@
 use base::math::Vec3;
 use std::collections::HashMap;
 
-/// Points by the cell in which they lie.
+/// Points sorted by grid cell.
 pub struct Cells {
     size: f64,
     origin: Vec3,
@@ -36,8 +36,8 @@ impl Cells {
         }
     }
 
-    /// Calls `visit` with points that may lie within `reach` of a segment or a face of three or four corners, some of them more
-    /// than once. What is large is cut first, so that its box holds few cells.
+    /// Calls `visit` with points that may lie within `reach` of a segment or a face of three or four corners, some of them more than once.
+    /// Large ones are cut first, so that their boxes hold few cells.
     pub fn visit_along(&self, corners: &[Vec3], reach: f64, visit: &mut impl FnMut(usize)) {
         if self.visit_if_small(corners, reach, visit) {
             return;
@@ -50,7 +50,7 @@ impl Cells {
 
     /// Halves a segment or triangle at the middle of its longest side until its pieces are small.
     fn visit_halves(&self, corners: &[Vec3], reach: f64, visit: &mut impl FnMut(usize)) {
-        /// The number of halvings that brings any length to rounding.
+        /// Number of halvings that reduces any length to rounding.
         const HALVINGS: usize = 60;
         let mut pieces = vec![(corners.to_vec(), 0)];
         while let Some((corners, halvings)) = pieces.pop() {

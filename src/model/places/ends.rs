@@ -19,7 +19,7 @@ pub struct EndTable<'b, 'd> {
     pub end: &'d Maybe<Table<words::End>>,
     /// The label of a new node.
     pub label: String,
-    /// True where what ends here acts on rotations too.
+    /// True where the element at this end acts on rotations too.
     pub rotations: bool,
     /// The place on a body where the deck says nothing; `None`: its centre.
     pub default: Option<Vec3>,

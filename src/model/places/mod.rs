@@ -1,4 +1,4 @@
-//! Where things are: nodes, and the names and frames by which tables of the deck say places.
+//! Positions: nodes, and the names and frames for places in the deck.
 
 pub mod axes;
 pub mod cells;

@@ -4,7 +4,7 @@ use crate::places::nodes::Nodes;
 use base::math::Vec3;
 use std::collections::HashSet;
 
-/// Nodes sorted along the axis in which they reach farthest, so that a search may stop where nothing nearer can come.
+/// Nodes sorted along the axis of their largest extent, so that a search can stop early.
 pub struct NodesAlongAxis {
     axis: usize,
     /// Coordinate along the axis, and node.
@@ -12,7 +12,7 @@ pub struct NodesAlongAxis {
 }
 
 impl NodesAlongAxis {
-    /// Sorts nodes along the global axis in which they extend farthest.
+    /// Sorts nodes along the global axis of their largest extent.
     pub fn new(of: &HashSet<usize>, nodes: &Nodes) -> Self {
         let (low, high) = of.iter().fold((Vec3::repeat(f64::MAX), Vec3::repeat(f64::MIN)), |(low, high), &node| {
             (low.inf(&nodes.x(node)), high.sup(&nodes.x(node)))

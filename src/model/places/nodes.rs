@@ -1,5 +1,4 @@
-//! The nodes of a scene as the tables of the deck bring them in: where they are, what acts on them, which of them depend on
-//! others and which are restrained.
+//! The nodes of a model as the tables add them: positions, connections, dependent nodes and restraints.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::{Deref, DerefMut};
@@ -15,9 +14,9 @@ use base::math::Vec3;
 pub struct Nodes {
     /// The nodes.
     pub list: Vec<Node>,
-    /// The directions in which an element, a mass, a body or a link acts on each node.
+    /// The directions of each node with an element, mass, body or link.
     connected: Vec<[bool; 6]>,
-    /// Nodes that depend on others, in the order in which they were attached.
+    /// Dependent nodes, in the order of attachment.
     pub dependents: Vec<DependentNode>,
     /// The index of each dependent node in `dependents`, and the place in the deck that made it depend.
     attachments: HashMap<usize, (usize, Span)>,
@@ -175,10 +174,10 @@ impl Nodes {
     }
 }
 
-/// Nodes after all parts, links, joints and attachments have connected them, so that what is loose can be told.
+/// The nodes after all parts, links, joints and attachments, so that unconnected ones can be detected.
 pub struct Topology {
     nodes: Nodes,
-    /// Everything that connects nodes could be read: a loose node is an error of its own.
+    /// True if all connecting tables could be read: an unconnected node then is a separate error.
     complete: bool,
 }
 
@@ -188,17 +187,17 @@ impl Topology {
         Topology { nodes, complete: report.connections_known() }
     }
 
-    /// True where everything that connects nodes could be read.
+    /// True if all connecting tables could be read.
     pub fn is_complete(&self) -> bool {
         self.complete
     }
 
-    /// True where something takes up a load or a motion of a node in a direction.
+    /// True where a load or a motion of a node in this direction has something to act on.
     pub fn is_taken(&self, node: usize, dof: usize) -> bool {
         self.is_connected(node, dof) || self.master_in(node, dof).is_some()
     }
 
-    /// Reports a point to which nothing is connected at all, while `what` acts on it.
+    /// Reports a point without any connection, under the action `what`.
     pub fn is_loose(&self, spot: &Spot, what: &str, report: &mut Report) -> bool {
         let loose = (0..6).all(|dof| !self.is_taken(spot.node, dof));
         if loose && self.complete {

@@ -1,9 +1,9 @@
-//! What a name of the deck can stand for.
+//! The meanings of a name in the deck.
 
 use crate::group_names::GroupPlace;
 use deck::parts::PartIndex;
 
-/// The thing that a name of the deck stands for.
+/// The meaning of a name in the deck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Place {
     /// A point by its node.
@@ -39,7 +39,7 @@ impl Place {
         }
     }
 
-    /// False for what only joins or touches nodes that stand elsewhere.
+    /// False for joints, links and contacts, which only connect existing nodes.
     pub fn has_nodes(self) -> bool {
         match self {
             Place::Part(part) => part.kind.is_deformable(),

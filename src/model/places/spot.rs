@@ -1,4 +1,4 @@
-//! A node that the deck names, and what messages call it.
+//! A node named in the deck, with its name for messages.
 
 use base::diagnostic::Span;
 use std::fmt;

@@ -1,12 +1,10 @@
-//! The scheme of automatic steps where the deck names none: an explicit one of high order where nothing is stiff, otherwise an
-//! implicit one.
+//! The default scheme of automatic steps: an explicit one of high order for models without stiff parts, otherwise an implicit one.
 
 use crate::data::{LinearSpring, Model};
 use mechanics::integrators::{Scheme, automatic_scheme};
 use std::sync::Arc;
 
-/// Largest phase ω T of the fastest vibration over a run for which explicit steps are worth their number: they resolve it with some two
-/// evaluations a radian.
+/// Largest phase ω T of the fastest vibration over a run for explicit steps; they need about two evaluations per radian.
 const PHASE: f64 = 3000.0;
 /// Largest number of constraint equations of joints, which explicit schemes solve by a dense matrix.
 const EQUATIONS: usize = 60;

@@ -13,8 +13,7 @@ use deck::Deck;
 use deck::analysis as words;
 use mechanics::amplitude::Amplitude;
 
-/// The steps along a path of equilibria, where the deck asks for them; `None`: the time leads on. A displacement to stop at must
-/// be an unknown, so supports are known.
+/// The arc-length steps of the deck; `None` for time steps. A displacement to stop at must be an unknown, so supports are known.
 pub fn control<'d>(
     scene: &Scene<'d>,
     amplitudes: &[Amplitude],
@@ -50,7 +49,7 @@ pub fn control<'d>(
     Some(ArcLength { first, stop, steps, growth })
 }
 
-/// The iteration along a path, which needs the tangent at hand: only it shows where the path goes.
+/// The iteration along a path, with the current tangent, which gives the direction of the path.
 pub fn iterate_along(deck: &Deck, iteration: Iteration) -> Iteration {
     match deck.iteration {
         Some(_) => Iteration { method: Method::TangentStiffness, update: Update::Iteration, ..iteration },
@@ -70,7 +69,7 @@ fn check_iteration(deck: &Deck, report: &mut Report) {
     }
 }
 
-/// A path goes on where loads and materials do; neither jumps nor rates of a time that may fall belong to it.
+/// A path needs continuous loads and materials: jumps and rates are refused, because time may decrease.
 fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, report: &mut Report) {
     for contact in &scene.deck.contacts {
         if contact.stiffness.as_ref().is_none_or(|at| at.value != 0.0) {
@@ -103,7 +102,7 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
             let message = format!("amplitude `{}` jumps, which arc-length control cannot follow", name.value);
             report.error_with::<()>(&amplitude.span, message, "let it rise over a finite time");
         }
-        // A velocity that turns leaves a motion that may not.
+        // The reversal of a velocity does not reverse the motion.
         let moves = |restraint: &Restraint| {
             let motion = restraint.motion.as_ref().filter(|motion| motion.amplitude == index);
             motion.is_some_and(|motion| motion.history != History::Displacement)

@@ -9,7 +9,7 @@ use base::diagnostic::At;
 use deck::analysis as words;
 use deck::words::Table;
 
-/// Reads a target displacement, at which some step is to end; it must be one of the unknowns.
+/// Reads a target displacement for the end of a step; it must be an unknown.
 pub fn displacement_target<'d>(
     what: &str,
     target: &'d At<Table<words::DisplacementTarget>>,

@@ -1,4 +1,4 @@
-//! What mass scaling of elements does not go with.
+//! Conflicts of mass scaling with other input.
 
 use crate::data::{FEWEST_STEPS, MassKind, SAFE, SAFE_WHERE_STRUCK, StepLength};
 use crate::report::Report;
@@ -9,9 +9,9 @@ use base::names::short;
 use deck::Deck;
 use mechanics::integrators::Scheme;
 
-/// The key that asks for it, in the table of the scheme.
+/// The key of mass scaling in the table of the scheme.
 pub const KEY: &str = "mass_scaling_step";
-/// Reports what a deck that asks for mass scaling cannot have, once all parts are known.
+/// Reports conflicts of mass scaling, once all parts are known.
 pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Report) {
     let (deck, parts) = (scene.deck, &scene.parts.list);
     let place = deck.integrator.as_ref().and_then(|integrator| integrator.values.place(KEY));
@@ -43,7 +43,7 @@ pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Repor
     check_length(scene, (step, place), report);
 }
 
-/// Reports a step that is longer than the motion, or than the steps that are taken.
+/// Reports a step longer than the motion or than the time steps.
 fn check_length(scene: &Scene, (step, place): (f64, &Span), report: &mut Report) {
     let (deck, analysis) = (scene.deck, &scene.analysis);
     // A stage may be shorter than the step that suits all.

@@ -113,8 +113,8 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     Analysis { step_length, least_step: least_step.unwrap_or(least), ..run }
 }
 
-/// The analysis by which other tables are checked where the deck does not tell its steps, or its end: no model comes of it. No time lies
-/// beyond an end that is not known.
+/// The analysis for checks of other tables if the deck lacks steps or an end; no model is built from it. No time lies beyond an end that is
+/// not known.
 fn unread(kind: AnalysisKind, end_time: Option<f64>) -> Analysis {
     let (end_time, step_length) = (end_time.unwrap_or(f64::MAX), StepLength::Fixed { step: 1.0 });
     Analysis { kind, begin: 0.0, end_time, stage: None, step_length, least_step: 1.0, plane: true }
@@ -177,7 +177,7 @@ pub fn can_be_kept(key: &str, tolerance: f64, scheme: &dyn Scheme, place: &Span,
     }
 }
 
-/// The scheme that a table like `[integrator]` asks for.
+/// The scheme of a table like `[integrator]`.
 pub fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Report<'d>) -> Arc<dyn Scheme> {
     let kind = integrator.kind.as_ref().map_or(SCHEMES[0], |kind| kind.value);
     let owner = Owner::new(format!("the scheme \"{}\"", kind.word), &integrator.span);
@@ -188,7 +188,7 @@ pub fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Rep
     report.read(&owner, &owner.what, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))
 }
 
-/// Checks that a scheme, named at `place`, goes with material that yields.
+/// Refuses yielding material with schemes that do not support it; `place` is the scheme's name in the deck.
 pub fn check_yielding(scheme: &dyn Scheme, place: &Span, yields: bool, report: &mut Report) {
     if yields && matches!(scheme.stepping(), Stepping::RungeKutta(_)) {
         let hint = "material that yields remembers the way it came: \"central-difference\" follows it, and implicit schemes do";
@@ -197,7 +197,7 @@ pub fn check_yielding(scheme: &dyn Scheme, place: &Span, yields: bool, report: &
     }
 }
 
-/// Reports what an explicit scheme cannot do, once all parts are known.
+/// Reports input unsuitable for an explicit scheme, once all parts are known.
 pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, parts: &[Part], report: &mut Report) {
     let Some(at) = deck.integrator.as_ref().and_then(|integrator| integrator.kind.as_ref()) else { return };
     if !analysis.is_dynamic() || !scheme.is_explicit() {

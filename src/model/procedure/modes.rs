@@ -1,7 +1,7 @@
 //! Modes: `kind = "modal"`, `"buckling"` and `"frequency-response"` of `[analysis]`.
 //!
-//! A deck of modes is a static analysis whose loads are those that act at t = 0, brought on in load steps of the program's own;
-//! modes are found about the equilibrium. The deck of a motion in time gives so the modes about the state in which it would rest.
+//! An analysis of modes begins with a static analysis under the loads at t = 0, with load steps chosen by the program; the modes are those
+//! about its equilibrium. For the deck of a dynamic analysis these are the modes about its state of rest.
 
 use crate::data::{Analysis, AnalysisKind, History, Model, ModesAsked, StepLength};
 use crate::procedure::extent::{count, extent};
@@ -13,7 +13,7 @@ use deck::Deck;
 use deck::analysis::{self as words, AnalysisKind as Word};
 use mechanics::amplitude::Amplitude;
 
-/// The static analysis in which loads are brought on ends at this time, as if it were their factor.
+/// End time of the static analysis, equal to the load factor.
 const END: f64 = 1.0;
 /// Load steps; they are halved where they fail.
 const STEP: f64 = 0.1;
@@ -73,7 +73,7 @@ fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
     }
 }
 
-/// Warns of what has no effect on modes.
+/// Warns of input without effect on modes.
 pub fn check_modal(deck: &Deck, report: &mut Report) {
     let Some(integrator) = &deck.integrator else { return };
     for place in span(&integrator.kind).into_iter().chain(integrator.values.places()) {
@@ -82,10 +82,10 @@ pub fn check_modal(deck: &Deck, report: &mut Report) {
     }
 }
 
-/// Replaces loads and motions by those that act at t = 0, without amplitudes, so that they grow over the static analysis.
+/// Replaces loads and motions by their values at t = 0, without amplitudes, so that they grow over the static analysis.
 pub fn hold_at_start(model: &mut Model) {
     let loading = &mut model.loading;
-    // What excites a response keeps its amplitude, which is zero over time.
+    // Harmonic loads of a response keep their amplitude, which is zero over time.
     let excites = model.analysis.response().is_some();
     let amplitudes = &loading.amplitudes;
     let at_start = |amplitude: &mut Option<usize>| match *amplitude {

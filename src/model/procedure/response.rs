@@ -114,7 +114,7 @@ fn in_range<'d>(range: &'d FrequencyRange, report: &mut Report<'d>) -> (Vec<f64>
     (spacing.between(from, to, steps as usize), around)
 }
 
-/// Checks that what is harmonic has a frequency, and that a frequency response has an excitation.
+/// Checks that harmonic amplitudes are used in a frequency response, and that a frequency response has an excitation.
 pub fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
     let responds = |kind: StageKind| kind == StageKind::FrequencyResponse;
     let stages_respond = whole.stages.iter().any(|stage| stage.kind.as_ref().is_some_and(|kind| responds(kind.value)));
@@ -150,7 +150,7 @@ pub fn names_harmonic(deck: &Deck, name: &str) -> bool {
     named.any(|(_, amplitude)| amplitude.kind.as_ref().is_some_and(|kind| is(&kind.value)))
 }
 
-/// Adds the frequencies at which something is expected to those that are computed.
+/// Adds the frequencies of expected values to the computed ones.
 pub fn add_expected(analysis: &mut data::Analysis, expects: &[Expect]) {
     let data::AnalysisKind::Response(response) = &mut analysis.kind else { return };
     for expect in expects {

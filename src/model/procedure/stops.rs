@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// The loads and motions that a deck names.
 pub type NamedActors<'d> = Vec<(&'d At<String>, Actors)>;
 
-/// The stage whose model is built, with what ends it; `None` for a deck without stages.
+/// The stage of the model with its stop condition; `None` for a deck without stages.
 pub fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut Report<'d>) -> Option<RunStage> {
     let current = scene.stage?;
     let actors = joined(actors, report);

@@ -1,5 +1,4 @@
-//! `[study]`: quantities, a ladder of steps, and what it is climbed with. Checked here with the rest of the deck; read by
-//! [`study`] alone.
+//! `[study]`: quantities, step lengths and schemes to compare. Checked here with the rest of the deck; read by [`study`] alone.
 
 pub use crate::data::{Choice, Quantity, Study};
 use crate::data::{Method, Node};
@@ -128,7 +127,7 @@ impl<'d> Reader<'_, 'd> {
             found.push((quantity, column.map_or_else(|| word.value.clone(), |(column, _)| column.value.clone())));
         }
         if let Some((_, values)) = listed.filter(|_| study.reference.is_some()) {
-            // A list given with the command leaves columns aside: they need only be what they say.
+            // With a list from the command, other columns need no check.
             for (_, word) in &study.columns.0 {
                 if !values.iter().any(|value| value.value == word.value) {
                     self.quantity(word);
@@ -282,7 +281,7 @@ impl<'d> Reader<'_, 'd> {
             if self.report.require(&owner, "scheme", &at.kind).is_none() {
                 continue;
             }
-            // Errors are said in the words of `[integrator]`; what a scheme is warned of, a study shows.
+            // Errors use the words of `[integrator]`; warnings about a scheme are dropped, because the study shows its results.
             let mark = self.report.mark();
             let mut scheme = read_scheme(at, self.report);
             self.report.forget_warnings_since(mark);
@@ -301,7 +300,8 @@ impl<'d> Reader<'_, 'd> {
             check_yielding(&*scheme, &at.span, yields, self.report);
             let choice = choice(&scheme, &entries);
             if choices.iter().any(|other| other.label == choice.label) {
-                // One that takes the parameters of `[integrator]` is another in each run of the study: in one of them it is its like.
+                // A scheme with the parameters of `[integrator]` differs between the runs of a study; it may equal another one in one of
+                // them.
                 if takes_own && own.is_some_and(|own| !self::entries(own).is_empty()) {
                     continue;
                 }

@@ -1,6 +1,6 @@
-//! Headers of data bases, recognized by what they say and not by the name of the file.
+//! Headers of data bases, recognized by their content, not by the file name.
 //!
-//! - PEER, .AT2, .VT2 and .DT2: lines of text, the unit after `UNITS OF`, and the number of values and the time between two of them, as
+//! - PEER, .AT2, .VT2 and .DT2: lines of text with the unit after `UNITS OF`. The number of values and their time step are written as
 //!   `NPTS= 5372, DT= .0100 SEC` or as `5372 0.0100 NPTS, DT`, in either order.
 //! - ESM and ITACA: lines `NDATA: 5372`, `SAMPLING_INTERVAL_S: 0.005` and `UNITS: cm/s^2` among others.
 //! - K-NET and KiK-net: lines `Sampling Freq(Hz) 100Hz` and `Scale Factor 3920(gal)/6182761`; the last line is `Memo.`.
@@ -29,7 +29,7 @@ pub struct Header {
     pub last_line: usize,
 }
 
-/// The number of lines in which a header is looked for.
+/// Largest number of lines of a header.
 const LONGEST: usize = 150;
 /// The line of CSMIP files before the accelerations of a channel.
 pub const ACCELERATIONS: &str = "POINTS OF ACCEL DATA EQUALLY SPACED AT";
@@ -66,7 +66,7 @@ fn is_text(words: &str) -> bool {
     words.contains(':') || words.as_bytes().windows(2).any(|pair| pair.iter().all(u8::is_ascii_alphabetic))
 }
 
-/// What the lines of a header have said so far.
+/// The data of a header found so far.
 #[derive(Default)]
 struct Found {
     count: Option<usize>,

@@ -1,8 +1,8 @@
 //! Records: a quantity over time in a text file, as instruments and data bases give them.
 //!
-//! Values follow one another along the lines, as the header of a data base or the deck says, or stand in columns between semicolons, commas, tabs
-//! or blanks, whichever the first line of numbers has. Lines that begin with `#`, `%` or `!` are comments; one line of names may come before
-//! the columns.
+//! Values follow one another along the lines, if the header of a data base or the deck says so. Otherwise they stand in columns, separated
+//! as in the first line of numbers: by semicolons, commas, tabs or blanks. Lines that begin with `#`, `%` or `!` are comments; one line of
+//! names may come before the columns.
 
 mod header;
 mod number;
@@ -29,7 +29,7 @@ pub enum RecordColumn {
 /// The part of a record that is wanted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordSelection {
-    /// The column of the time and that of the value, or that of the value alone; none where the file has no others.
+    /// The columns of time and value, or of the value alone; empty if the file has no others.
     pub columns: Vec<RecordColumn>,
     /// The time between two values, the first at 0; `None` where the file has the times or says their distance.
     pub time_step: Option<f64>,
@@ -46,7 +46,7 @@ pub struct TimeSeries {
     pub unit: Option<RecordUnit>,
     /// The offset of the instrument that was subtracted from all values, in their unit.
     pub offset: Option<f64>,
-    /// The number of values of a line, where they look like a sequence of which the column takes a part.
+    /// The number of values per line, if the lines look like one sequence and the column is only a part of it.
     pub sequence: Option<usize>,
 }
 
@@ -142,7 +142,7 @@ impl Jumps {
 
 struct Reader<'t> {
     text: Text<'t>,
-    /// What stands between columns; `None` for blanks.
+    /// The separator of columns; `None` for blanks.
     separator: Option<u8>,
     faults: Vec<Fault>,
     /// The number of columns of the first line of numbers.
@@ -150,7 +150,7 @@ struct Reader<'t> {
     /// The number of the last line that was read, comments included, and of empty ones before it.
     last: usize,
     blank: usize,
-    /// Where a file without names has a column that may be part of a sequence.
+    /// Statistics on a file without column names, to detect a column that is part of a sequence.
     jumps: Option<Jumps>,
 }
 
@@ -305,7 +305,7 @@ impl<'t> Reader<'t> {
         self.jumps = Some(Jumps { lines: jumps.lines + 1, along: jumps.along + along, across: jumps.across + across });
     }
 
-    /// A number of a line; what is wrong is noted.
+    /// A number of a line; errors are noted.
     fn number(&mut self, line: TextLine<'t>, place: usize) -> Option<f64> {
         let fault = match self.part(line, place) {
             Some(word) => match word.number() {
@@ -331,12 +331,12 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// What stands between the columns of a line: `None` for blanks.
+/// The separator of the columns of a line; `None` for blanks.
 fn separator(line: TextLine) -> Option<u8> {
     [b';', b',', b'\t'].into_iter().find(|separator| line.bytes.contains(separator))
 }
 
-/// Finds the wanted columns among `count`, some of which have names.
+/// Finds the selected columns among `count`; `names` may be empty.
 fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result<Places, String> {
     let wanted = if selection.time_step.is_some() { 1 } else { 2 };
     let of_file = match names {

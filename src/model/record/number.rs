@@ -32,7 +32,7 @@ fn begins_number(bytes: &[u8], at: usize) -> bool {
     bytes[at..end].contains(&b'.') || !bytes[number..at].contains(&b'.')
 }
 
-/// The parts of a word that begin at its start and where `begins` says.
+/// Splits a word at the positions accepted by `begins`.
 fn pieces<'t>(word: Word<'t>, begins: impl Fn(&[u8], usize) -> bool) -> impl Iterator<Item = Word<'t>> {
     let mut at = 0;
     std::iter::from_fn(move || {

@@ -4,7 +4,7 @@ use super::header::{ACCELERATIONS, Header};
 use super::number::{is_number_like, number, numbers};
 use base::text_file::{Fault, Text, TextLine};
 
-/// The largest number of errors of one file that are said.
+/// The largest number of errors reported per file.
 pub const MOST_FAULTS: usize = 10;
 
 /// Reads the values of a file row by row, `step` apart from t = 0 on. Without a header, lines of text before the numbers are skipped.
@@ -96,7 +96,7 @@ impl Rows {
     }
 }
 
-/// Reports a line of several words each of which has one comma between digits and no point.
+/// Reports a line of several words with decimal commas: one comma between digits and no point in each.
 fn decimal_commas(text: &Text, line: TextLine) -> Option<Fault> {
     let is_decimal = |bytes: &[u8]| {
         let parts: Vec<&[u8]> = bytes.split(|&byte| byte == b',').collect();

@@ -21,7 +21,7 @@ impl MotionQuantity {
         }
     }
 
-    /// The power of the time by which the length is divided.
+    /// The exponent of time in the denominator of the unit.
     pub fn power_of_time(self) -> i32 {
         match self {
             MotionQuantity::Displacement => 0,

@@ -1,4 +1,4 @@
-//! Triangles of order 1 that are too long for the curved surface that they stand for.
+//! Triangles of order 1 that are too long for a curved surface.
 
 use crate::data::{PartType, Shell};
 use crate::parts::Parts;
@@ -9,12 +9,12 @@ use base::names::short;
 use deck::Deck;
 use mechanics::elements::shell::SLENDER;
 
-/// The distance of the surface from a side over the thickness beyond which bending without stretching is stiff by more than a per cent or
-/// two: a pinched hemisphere is by 10 % at 1.5, and the error grows with the square.
+/// Limit of the distance between surface and chord, relative to the thickness. Beyond it, bending without stretching is more than 1 to 2 %
+/// too stiff; a pinched hemisphere is 10 % too stiff at 1.5, and the error grows with the square.
 const FAR: f64 = 0.6;
 
-/// Warns once for each shell of the deck whose triangles measure stretch along chords that lie far from the surface. Shorter ones measure it
-/// along arcs, and quadrilaterals do not lock.
+/// Warns once for each shell with triangles that measure stretch along chords far from the surface. Shorter ones measure it along arcs, and
+/// quadrilaterals do not lock.
 pub fn check_chords(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Report) {
     for surface in deck.parts().filter(|part| part.at.kind.is_surface()) {
         let (mut count, mut farthest) = (0, 0.0_f64);

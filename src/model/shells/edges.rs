@@ -6,22 +6,21 @@ use base::math::Vec3;
 use mechanics::elements::shell::{FLAT, Interpolation, Quadrilateral, Triangle};
 use std::collections::{HashMap, HashSet};
 
-/// Part of the normal of an edge in its surface, squared, that is free at a node taken to be held across the edge: that of an edge
-/// along the line of its support, up to the rounding of coordinates.
+/// Largest free part, squared, of the normal direction across an edge at a restrained node: rounding of coordinates for an edge along its
+/// line of support.
 const FREE: f64 = 1e-6;
 
 /// [`ShellElement::bulge`] of each element of a shell.
 pub type Bulges = Vec<[f64; 4]>;
 
-/// Sets [`ShellElement::bulge`]: nothing where both ends are held across the edge, by supports or by the same node, since what holds
-/// an edge at its ends holds it between them too, and nothing where the surface is curved along it, since drilling by bending
-/// alone would lock thin shells; otherwise the same part for all elements of the edge, so that a stress that passes through drives no
-/// rotation. Never more than the `most` of a shell, where these are given: an edge that any stage of a run holds straight is straight in
-/// all of them, or the stress in its elements would jump.
+/// Sets [`ShellElement::bulge`]. It is zero where supports or a common master restrain both ends across the edge, because they restrain the
+/// edge between them too. It is zero where the surface is curved along the edge, because drilling by bending alone would lock thin shells.
+/// Otherwise it is equal in all elements of the edge, so that a continuous stress drives no rotation. It never exceeds `most`, if given: an
+/// edge straight in any stage is straight in all of them, otherwise stress would jump between stages.
 pub fn set_bulges(parts: &mut [Part], topology: &Topology, most: &[Bulges]) {
     let (mut curved, mut of_quadrilaterals) = (HashSet::new(), HashSet::new());
     let mixed = parts.iter().filter_map(Shell::of).any(|shell| shell.corners == 3);
-    // Those of second order have curved sides of their own.
+    // Elements of second order have curved sides already.
     for shell in parts.iter().filter_map(Shell::of).filter(|shell| shell.order == 1) {
         for element in &shell.elements {
             let edges = (0..shell.corners).map(|a| (a, element.edge(a, shell.corners)));
@@ -74,8 +73,8 @@ pub fn least_bulges(models: &[Model]) -> Option<Vec<Bulges>> {
     differ.then_some(least)
 }
 
-/// True for an edge along which the surface of an element is flat: it rises over its chord, or its ends turn against each other over its
-/// length, by less than [`FLAT`] thicknesses.
+/// True for an edge along a flat part of the surface: its rise over the chord, and the turn of its ends times its length, are below
+/// [`FLAT`] thicknesses.
 fn is_flat(topology: &Topology, element: &ShellElement, ends: [usize; 2], thickness: f64) -> bool {
     let along = topology.x(element.nodes[ends[1]]) - topology.x(element.nodes[ends[0]]);
     let [n, m] = ends.map(|a| element.normals[a]);
@@ -97,7 +96,7 @@ fn is_held(topology: &Topology, node: usize, direction: &Vec3) -> bool {
     free.sum::<f64>() <= FREE * direction.norm_squared()
 }
 
-/// The node that a node follows in its displacements: itself where it follows none.
+/// The node with the same displacements at the end of the chain of masters; an independent node is its own carrier.
 fn carrier(topology: &Topology, mut node: usize) -> usize {
     while let Some(master) = topology.master_in(node, 0)
         && (1..3).all(|dof| topology.master_in(node, dof) == Some(master))

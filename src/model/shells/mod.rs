@@ -26,7 +26,7 @@ const MOST_ELEMENTS: u64 = 10_000;
 const MOST_IN_ALL: usize = 1_000_000;
 const DEFAULT_LAYERS: usize = 8;
 
-/// Reads `[[shells]]`: divides each patch into elements, or takes those of a group of the mesh.
+/// Reads `[[shells]]`: divides each patch into elements, or uses those of a group of the mesh.
 pub fn shells(cx: &mut PartContext) {
     let mut edges = Edges::default();
     for (index, shell) in cx.deck.shells.iter().enumerate() {
@@ -161,7 +161,7 @@ fn of_group<'d>(
     Some(shells)
 }
 
-/// The number of edges at which a face with straight sides meets one with sides of second degree.
+/// The number of edges between faces with straight sides and faces with sides of second degree.
 fn edges_of_two_orders(faces: &[&mesh::MeshElement]) -> usize {
     let edges = |order: usize| {
         let of = faces.iter().filter(move |face| face.kind.order() == order);
@@ -230,7 +230,7 @@ fn folds(element: &ShellElement, corners: usize, nodes: &Nodes) -> bool {
     })
 }
 
-/// Reads what a shell is made of: plate, density, how it yields, and axis 1 of its results.
+/// Reads the properties of a shell: plate, density, yield model, and axis 1 of its results.
 fn plate<'d>(
     owner: &Owner<'d>,
     shell: &'d words::Shell,
@@ -291,7 +291,7 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
     Some([n, m])
 }
 
-/// Reads how the shell yields: `Some(None)` where its material is elastic, `None` where there are errors.
+/// Reads the yield model of the shell: `Some(None)` for elastic material, `None` after errors.
 fn layers<'d>(owner: &Owner<'d>, shell: &'d words::Shell, cx: &mut PartContext<'_, 'd>) -> Option<Option<LayerModel>> {
     // Errors of the material have been reported.
     let Some(law) = cx.materials.yielding_of(&shell.material)? else {

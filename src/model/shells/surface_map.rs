@@ -10,7 +10,7 @@ use deck::shells as words;
 use deck::words::{Maybe, Table};
 use std::f64::consts::{PI, TAU};
 
-/// Part of its radius by which corners typed with four digits may miss a sphere.
+/// Largest distance of a corner from a sphere, relative to its radius: corners typed with four digits.
 const ROUND: f64 = 1e-3;
 
 /// A patch's map from (s, t) ∈ [0, 1]², corners at (0, 0), (1, 0), (1, 1), (0, 1).

@@ -1,4 +1,4 @@
-//! What is reported of stages: tables that name them, and what goes with some kinds of them only.
+//! Checks of stages: tables that name them, and input for some kinds of stages only.
 
 use super::current::CurrentStage;
 use super::sequence::{StageSequence, buckles, name_of, responds};
@@ -12,7 +12,7 @@ use deck::stages::StageKind;
 use deck::words::{Maybe, Names};
 use std::collections::{HashMap, HashSet};
 
-/// Reports what is wrong with the stages of a deck, and with the tables that name them.
+/// Reports errors of the stages of a deck, and of the tables that name them.
 pub fn check<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     check_rest(sequence, report);
     check_initial(sequence, report);
@@ -23,7 +23,7 @@ pub fn check<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     check_expected(sequence, report);
 }
 
-/// Reports what goes with a run without stages only.
+/// Reports input for runs without stages only.
 fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     if let Some(study) = &sequence.whole.study {
         report.error::<()>(&study.span, "a study does not go over stages");
@@ -79,7 +79,7 @@ fn check_masses<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     }
 }
 
-/// Reports what first acts in a stage of modes and has no meaning there, or nothing that a buckling stage seeks the factor of.
+/// Reports input without meaning in a stage of modes, and buckling stages without loads to scale.
 fn check_new<'d>(sequence: &StageSequence<'d>, index: usize, report: &mut Report<'d>) {
     let stage = &sequence.stages[index];
     let before = sequence.before(index);
@@ -135,8 +135,8 @@ fn check_initial<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     }
 }
 
-/// Reports tables of one name in stages apart: what a stage finds of the one before is known by its name. Two in one stage are
-/// reported with the names of that stage.
+/// Reports equal names of tables in separate stages, because data are carried over between stages by name. Two in one stage are reported
+/// with the names of that stage.
 fn check_tables<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     let mut known: HashMap<&str, Vec<&Maybe<Names>>> = HashMap::new();
     for (name, stages) in sequence.whole.staged() {

@@ -56,7 +56,7 @@ impl<'d> CurrentStage<'d> {
 
     /// The index of the amplitude of a load with these `stages` that has none.
     pub fn own_amplitude(&self, stages: &Maybe<Names>) -> usize {
-        // What comes with a buckling stage is what it seeks the factor of, whatever becomes of it later.
+        // A buckling stage scales the loads that first act in it, also if they act later.
         if buckles(self.table()) && self.is_new(stages) {
             return self.amplitude_of_stage();
         }
@@ -111,13 +111,13 @@ impl<'d> CurrentStage<'d> {
         self.sequence.stages[self.sequence.first(stages)].kind != StageKind::Dynamic
     }
 
-    /// The time at which the clock of an amplitude starts.
+    /// The zero time of an amplitude.
     pub fn clock(&self, stage: &Maybe<String>) -> f64 {
         let named = stage.as_ref().and_then(|name| self.sequence.position(name));
         named.map_or(0.0, |index| self.sequence.stages[index].begin)
     }
 
-    /// True where the stage before is dynamic like this one, and nothing else holds, joins, touches or loads the scene than in that one.
+    /// True if the stage before is dynamic like this one, with the same supports, joints, contacts and loads.
     pub fn goes_on(&self) -> bool {
         self.is_like_before(|index| self.sequence.held(index))
     }
@@ -218,8 +218,8 @@ impl<'d> CurrentStage<'d> {
         all.filter(|(_, expect)| here(expect)).map(|(index, _)| index).collect()
     }
 
-    /// The stage as `[analysis]` of its deck; its time counts from the beginning of the stage, and is that which the deck gives: steps that
-    /// fit into it still do after rounding, and after a stop.
+    /// The stage as `[analysis]` of its deck. Its time counts from the beginning of the stage with the duration of the deck, so that steps
+    /// fit into it exactly, also after a stop.
     fn analysis(&self) -> Analysis {
         let PlannedStage { table, kind, duration, .. } = &self.sequence.stages[self.index];
         let has_modes = self.has_modes();

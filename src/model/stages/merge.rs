@@ -1,8 +1,8 @@
-//! What is said of the decks of several stages, each of which is a deck of its own.
+//! Merges the diagnostics of the decks of several stages.
 
 use base::diagnostic::Diagnostic;
 
-/// What is said of the decks of several stages: each thing once, and in which stages where not in all.
+/// Merges the diagnostics of the decks of several stages: each one once, with its stages unless it holds for all.
 pub fn merge(of_stages: Vec<(String, Vec<Diagnostic>)>) -> Vec<Diagnostic> {
     let count = of_stages.len();
     let mut all: Vec<(Diagnostic, Vec<String>)> = Vec::new();

@@ -1,4 +1,4 @@
-//! The stages of a deck, one after the other: their times, and which tables are there in which of them.
+//! The stages of a deck in order: their times, and the tables active in each.
 
 use crate::report::{Owner, Report};
 use crate::shells::edges::Bulges;
@@ -15,16 +15,16 @@ use mechanics::amplitude::{Amplitude, StraightLines};
 pub struct StageSequence<'d> {
     /// The deck with all that is there in any stage.
     pub whole: &'d Deck,
-    /// True after stages of which one has ended before its time: what the deck expects later is missed then, but no error.
+    /// True after a stage with an early end: expected values after it are then skipped without an error.
     pub is_shortened: bool,
-    /// The most that each edge of each shell may bulge; empty where only the stage itself holds edges straight.
+    /// Upper bounds for the bulge of each edge of each shell; empty if each stage decides alone.
     pub bulges: Vec<Bulges>,
     /// They themselves.
     pub stages: Vec<PlannedStage<'d>>,
 }
 
-/// A stage of less than this part of the time at its end is lost in the rounding of times: events that are no farther than 1e-9 of it apart
-/// are one, and a stage needs sixteen at which runs are compared.
+/// Least duration of a stage, relative to the time at its end, against rounding of times. Events within 1e-9 of that time count as one, and
+/// a comparison of runs needs sixteen of them in a stage.
 const SHORTEST: f64 = 1e-7;
 
 /// A stage with its times, which are those of the run.
@@ -34,7 +34,7 @@ pub struct PlannedStage<'d> {
     pub kind: StageKind,
     pub begin: f64,
     pub duration: f64,
-    /// The time at which it has ended, or will if nothing stops it.
+    /// Its end time, past or planned.
     pub end: f64,
 }
 
@@ -44,7 +44,7 @@ impl PlannedStage<'_> {
         !matches!(self.kind, StageKind::Static | StageKind::Dynamic)
     }
 
-    /// True where an expected value, of a mode, at a frequency or at a time, can be read: the peak over frequencies where it names the stage.
+    /// True if the stage can give an expected value, of a mode, at a frequency or at a time; a peak over frequencies must name the stage.
     pub fn reads(&self, expect: &Expect) -> bool {
         let responds = self.kind == StageKind::FrequencyResponse;
         match (expect.mode.is_some(), expect.frequency.is_some()) {
@@ -124,7 +124,7 @@ impl<'d> StageSequence<'d> {
         }
     }
 
-    /// The time at which a stage ends if nothing but time stops it.
+    /// The planned end time of a stage, without stops by quantities.
     fn end_of(&self, table: &'d At<Table<Stage>>, begin: f64, duration: f64, report: &mut Report<'d>) -> f64 {
         let end = begin + duration;
         let Some(time) = table.stop.as_ref().and_then(|stop| stop.time.as_ref()) else { return end };
@@ -158,29 +158,29 @@ impl<'d> StageSequence<'d> {
         stages.as_ref().is_none_or(|names| names.values.iter().any(|name| name.value == self.stages[index].name))
     }
 
-    /// The first stage in which time passes and a table with these `stages` is there, or the first of all where it is there.
+    /// The first stage with time and with a table of these `stages`, or else the first with the table.
     pub fn first(&self, stages: &Maybe<Names>) -> usize {
         let there = |index: &usize| self.holds(*index, stages);
         self.in_time().find(there).or_else(|| (0..self.stages.len()).find(there)).unwrap_or(0)
     }
 
-    /// The stages in which time passes.
+    /// The stages with time, without stages of modes.
     pub fn in_time(&self) -> impl DoubleEndedIterator<Item = usize> {
         (0..self.stages.len()).filter(|&index| !self.stages[index].has_modes())
     }
 
-    /// The last stage before this one in which time has passed.
+    /// The last stage with time before this one.
     pub fn before(&self, index: usize) -> Option<usize> {
         self.in_time().rfind(|&before| before < index)
     }
 
-    /// Which tables that may be limited to stages are there in one, in the order of the deck.
+    /// For each table with `stages`, in deck order, whether it is active in one stage.
     pub fn held(&self, index: usize) -> Vec<bool> {
         self.whole.staged().iter().map(|(_, stages)| self.holds(index, stages)).collect()
     }
 
-    /// The functions of time of loads without an amplitude, one for each stage in which they may first act: over a static stage they grow,
-    /// and stay at what they have reached.
+    /// The functions of time for loads without an amplitude, one per stage of their first action: a static stage ramps them up, then they
+    /// stay constant.
     pub fn own_amplitudes(&self) -> impl Iterator<Item = Amplitude> {
         self.stages.iter().map(|stage| {
             let planned = stage.begin + stage.duration;
@@ -206,7 +206,7 @@ pub fn responds(table: &Stage) -> bool {
     table.kind.as_ref().is_some_and(|kind| kind.value == StageKind::FrequencyResponse)
 }
 
-/// The keys of a stage in which time passes.
+/// The keys of a stage with time.
 fn keys_of_time(table: &Stage) -> [(&'static str, Option<&Span>); 6] {
     keys!(table; duration, time_step, error_tolerance, least_step, stop, iteration)
 }

@@ -1,4 +1,4 @@
-//! What several rotations of a node mean that supports give together.
+//! The meaning of several rotations of a node given together by supports.
 
 use crate::data::{DIRECTIONS, GivenTurn, History, Joint, JointCoordinate, JointDrive, PrescribedMotion, Restraint};
 use crate::places::nodes::Topology;
@@ -15,7 +15,7 @@ use mechanics::constraints::given_angle::GivenAngle;
 use mechanics::constraints::joint::ConstraintEquation;
 use std::collections::{BTreeMap, HashMap};
 
-/// What the deck says about the rotations of a node.
+/// The rotations of a node in the deck.
 struct NodeRotations<'d> {
     /// The node's name in the deck, and where it stands.
     name: String,
@@ -40,7 +40,7 @@ pub fn given_turns(turned: &[TurnedNode], restraints: &[Restraint]) -> Vec<Given
     turned.iter().filter_map(of).collect()
 }
 
-/// The nodes whose rotations supports give, with what the deck says about them.
+/// The nodes with rotations given by supports, and their input.
 #[derive(Default)]
 pub struct GivenRotations<'d>(BTreeMap<usize, NodeRotations<'d>>);
 
@@ -50,13 +50,13 @@ pub struct TurnSetting<'a, 'd> {
     pub amplitudes: &'a [Amplitude],
     pub topology: &'a mut Topology,
     pub joints: &'a mut Vec<Joint>,
-    /// The node that is restrained in place of each dependent node that is supported.
+    /// For each supported dependent node, the node restrained in its place.
     pub support_points: HashMap<usize, usize>,
     pub report: &'a mut Report<'d>,
 }
 
 impl<'d> GivenRotations<'d> {
-    /// Notes what a support says about the rotations of a node.
+    /// Notes the key `rotation` of a support for a node.
     pub fn note(&mut self, spot: &Spot<'d>, rotation: Option<&'d At<Rotation>>, report: &mut Report<'d>) {
         let new = NodeRotations { name: spot.name.to_string(), span: spot.span, rotation };
         let known = self.0.entry(spot.node).or_insert(new);
@@ -70,8 +70,9 @@ impl<'d> GivenRotations<'d> {
         }
     }
 
-    /// Gives rotations of one node that move together their meaning: all three are prescribed at once; where one is free the others are
-    /// equations. What is at rest, or turns about one axis while the others are held, needs no more. Returns the nodes of the first sort.
+    /// Interprets moving rotations of one node together: if all three are given, they are prescribed at once; beside a free one, the others
+    /// are equations. Rotations at rest, or one moving with the others restrained, need no interpretation. Returns the nodes of the first
+    /// sort.
     pub fn take(self, mut setting: TurnSetting<'_, 'd>, named: &mut NamedActors) -> Vec<TurnedNode> {
         let mut together = Vec::new();
         for (node, of) in self.0 {
@@ -130,7 +131,7 @@ impl<'d> TurnSetting<'_, 'd> {
         }
     }
 
-    /// Reports a rotation beside a free one that does not begin at zero: what the node carries starts undisplaced.
+    /// Reports a rotation beside a free one with a nonzero start value, because the node starts undisplaced.
     fn check_begin(&mut self, turning: &NodeRotations<'d>, dof: usize, motion: &PrescribedMotion) {
         let analysis = &self.scene.analysis;
         let begins = analysis.is_dynamic() && analysis.begin == 0.0;

@@ -79,7 +79,7 @@ fn offsets(text: &Text, draft: &mut Draft, assembly: &Blocks) -> Result<Offsets,
     Ok(Offsets { instances: (0..count).map(|at| at * step).collect(), root })
 }
 
-/// True where a node or an element of the assembly has a number that an instance may have too.
+/// True where a node or an element of the assembly may have the number of an instance's.
 fn has_numbers_of_instances(assembly: &Blocks) -> bool {
     let root = &assembly.root;
     if assembly.instances.len() > 1 {

@@ -2,7 +2,7 @@
 
 use crate::mesh::data::CellShape;
 
-/// Types by shape. The deck decides the kind of a group, so a membrane or a plane element is a face like a shell, and a truss a line like a
+/// Types by shape. The deck decides the kind of a group: a membrane or plane element is a face like a shell, and a truss is a line like a
 /// beam. Axisymmetric elements are none: they stand for rings.
 const SHAPES: &[(CellShape, &[&str])] = &[
     (
