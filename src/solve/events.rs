@@ -8,10 +8,10 @@ use mechanics::materials::Dissipation;
 use mechanics::state::State;
 use model::StepLength;
 
-/// Watches for events in runs that estimate the error of their steps. Nothing is looked at in other runs.
+/// Watches for events in runs that estimate the error of their steps. Other runs are not watched.
 #[derive(Default)]
 pub struct Events {
-    /// The branches at the beginning; `None` where nothing is looked at.
+    /// The branches at the beginning; `None` if the run is not watched.
     branches: Option<usize>,
     /// What was dissipated before.
     spent: Dissipation,

@@ -1,4 +1,4 @@
-//! The failures of steps, with the names of what failed.
+//! The failures of steps, with the names of the parts concerned.
 
 use super::no_convergence::NoConvergence;
 use super::warning::Instability;
@@ -10,7 +10,7 @@ use base::snapshot::{keep, keep_either};
 use model::{DIRECTIONS, Model};
 use std::fmt;
 
-/// A step that was given up.
+/// A failed step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Failure {
     /// Nothing resists at this degree of freedom: a pivot vanishes, or a motion strains no element.
@@ -290,7 +290,7 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
     widest
 }
 
-/// The message of a direction without mass that is not held.
+/// The message of an unrestrained massless direction.
 fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, open: Option<&str>) -> String {
     let what = if rotation { "inertia" } else { "mass" };
     let [x, y, z] = direction.map(|component| to_digits(component, 3));
@@ -368,7 +368,7 @@ impl Failure {
         }
     }
 
-    /// The message without the list of the largest residuals or gaps: what happened, and the remedy.
+    /// The message without the list of the largest residuals or gaps: the event and the remedy.
     fn message(&self) -> String {
         match self {
             Failure::Singular { label, direction, open, .. } => {

@@ -20,7 +20,7 @@ pub struct Frame<'a> {
     pub dt: f64,
     /// The effort of the step; at a time inside it, the effort of this time.
     pub effort: Effort,
-    /// Number of negative pivots of the last matrix, less those of multipliers; arc length only.
+    /// Number of negative pivots of the last matrix without those of multipliers; arc length only.
     pub negative_pivots: Option<usize>,
     /// True if the output cadence selects this step, and always at t = 0 and for the last step. The last step before a failure is shown
     /// once more for it, with no iterations.
@@ -29,7 +29,7 @@ pub struct Frame<'a> {
     pub drawn: bool,
     /// True for the last step of the run.
     pub last: bool,
-    /// True at a time inside the step, which goes on.
+    /// True at a time inside an unfinished step.
     pub inside: bool,
     /// True at a time for the comparison of runs; quantities are then computed as for tables.
     pub compared: bool,
@@ -88,8 +88,7 @@ pub trait Observer {
         false
     }
 
-    /// Receives all that the run needs to go on from the last accepted step, or, at its end, to be made longer. An error is one of
-    /// input/output.
+    /// Receives all data to resume the run from the last accepted step, or to extend it at its end. An error is one of input/output.
     fn on_checkpoint(&mut self, _run: &[u8], _at_end: bool) -> std::io::Result<()> {
         Ok(())
     }

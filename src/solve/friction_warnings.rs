@@ -21,7 +21,7 @@ pub struct ContactThrows {
 
 keep!(ContactThrows: Default { name, speed, slid, stiffness, step });
 
-/// Slip begins anew with a speed that it should not have.
+/// Slip begins again with a velocity that it should not have.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SlipBegins {
     /// The name of the contact or joint.

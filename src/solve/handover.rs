@@ -64,7 +64,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
     let &EndedStage { cx, state, .. } = before;
     let from = NodeMap::new(cx.model, model);
     carry_velocities(&from, (cx.model, state), model);
-    // Out-of-plane motion that has begun goes on, whether or not anything excites it now.
+    // Out-of-plane motion continues, whether or not anything still excites it.
     model.analysis.plane &= cx.system.plane.is_some();
     let mut system = System::new(model)?;
     if system.plane != cx.system.plane && model.analysis.plane {
@@ -98,7 +98,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
     Ok((system, handover))
 }
 
-/// Lets no stage be plane unless all are: the history of yielding in a plane motion has no components out of the plane.
+/// Makes no stage plane unless all are: the history of yielding in a plane motion has no components out of the plane.
 ///
 /// # Errors
 /// As for [`System::new`].
@@ -328,8 +328,8 @@ fn rest(state: &mut State) {
     (state.work.damping_power, state.work.accelerations, state.work.step) = (0.0, 0.0, 0.0);
 }
 
-/// Adds loads that balance the residual forces and fade to zero over the stage; true if there are any. All that is not zero is held,
-/// however small beside other forces: a soft part may be moved by it.
+/// Adds loads that balance the residual forces and fade to zero over the stage; true if there are any. All nonzero forces are balanced,
+/// however small beside other forces: they may move a soft part.
 fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> bool {
     let mut forces = Forces::new(system, state.nodes.len());
     let mut loading = Loading::default();

@@ -78,16 +78,15 @@ impl LinearSystem {
         }
     }
 
-    /// Solves for the correction that answers a residual and the gaps of joints.
+    /// Solves for the correction due to a residual and the gaps of joints.
     #[inline]
     pub fn solve(&mut self, multipliers: &Multipliers, residual: &Residual, correction: &mut Correction) {
         correction.values.copy_from_slice(&residual.values);
         self.solve_augmented(multipliers, &mut correction.values);
     }
 
-    /// Solves for nodal unknowns and multipliers together. `rhs` holds the forces on the nodal unknowns and becomes the
-    /// correction. Its last entries, those of the multipliers, are written from the gaps and become δλ/s, ready for
-    /// [`Multipliers::add`].
+    /// Solves for nodal unknowns and multipliers together. `rhs` holds the forces on the nodal unknowns and becomes the correction. Its
+    /// last entries belong to the multipliers: they are written from the gaps and become δλ/s, ready for [`Multipliers::add`].
     #[inline]
     pub fn solve_augmented(&mut self, multipliers: &Multipliers, rhs: &mut [f64]) {
         let directions = rhs.len() - multipliers.gaps.len();

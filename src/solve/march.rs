@@ -35,7 +35,7 @@ pub struct March<'r, 'a> {
     pub begins_from: Option<&'r [Node]>,
     /// Where between its events the run is.
     pub place: RunPosition,
-    /// True where it does not begin, but goes on from a checkpoint.
+    /// True if the run resumes from a checkpoint.
     pub resumes: bool,
     /// The search that may start further runs of the model.
     pub search: &'r mut dyn Keep,

@@ -7,7 +7,7 @@ use std::ops::{AddAssign, Range};
 /// Number of nodes in a chunk: their increments stay in the cache from one loop to the next.
 const NODES: usize = 512;
 
-/// A range of nodes, with the ranges of what belongs to them in ascending lists.
+/// A range of nodes, with the ranges of their entries in ascending lists.
 pub struct NodeChunk {
     /// The nodes.
     pub nodes: Range<usize>,

@@ -168,12 +168,12 @@ impl Recorder {
         self.breakage.count()
     }
 
-    /// The same, to be taken from a checkpoint.
+    /// The mutable initial energy, for checkpoints.
     pub fn initial_energy_mut(&mut self) -> &mut Option<f64> {
         &mut self.initial_energy
     }
 
-    /// The effort without that of the stages before.
+    /// The effort without the previous stages.
     pub fn own(&self) -> Counts {
         let Counts { steps, iterations, factorizations, solves, cuts } = self.before;
         Counts {
@@ -185,7 +185,7 @@ impl Recorder {
         }
     }
 
-    /// Adds the work of the solver in this stage to that of the stages before.
+    /// Adds the work of the solver in this stage to the work of the previous stages.
     pub fn count_work(&mut self, ws: &Workspace) {
         self.counts.factorizations = self.before.factorizations + ws.factorizations;
         self.counts.solves = self.before.solves + ws.solves;
@@ -219,7 +219,7 @@ impl Recorder {
         let began = (due || drawn).then(Instant::now);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let (excitation, begins) = (&cx.excitation, step.dt == 0.0);
-        // The balance is that of the ends of steps, wherever tables are due.
+        // The balance uses the ends of steps, even if tables are due inside.
         let instead = std::mem::take(&mut self.looked_inside) && self.wanted.has(Wanted::ENERGY);
         let watched = match () {
             () if instead => Wanted::ENERGY.at_every_step(),

@@ -52,7 +52,7 @@ pub struct Run<'a> {
     /// The watch that may end the stage early.
     pub(super) stop_watch: Option<StopWatch>,
     stop: &'a AtomicBool,
-    /// The checkpoint that the run goes on from; `None` once it does.
+    /// The checkpoint that the run resumes from; `None` afterwards.
     pub(super) checkpoint: Option<Snapshot>,
 }
 
@@ -86,7 +86,7 @@ impl<'a> Run<'a> {
         self.handover = handover;
     }
 
-    /// Lets the run go on from a checkpoint that [`Observer::on_checkpoint`] has received from a run of the same scene.
+    /// Resumes the run from a checkpoint that [`Observer::on_checkpoint`] has received from a run of the same model.
     pub fn resume(&mut self, checkpoint: Vec<u8>) {
         self.checkpoint = Some(Snapshot::of(checkpoint));
     }
@@ -162,7 +162,7 @@ impl<'a> Run<'a> {
         self.once(&mut Unseen(observer), &schedule, &mut NoSearch).0
     }
 
-    /// Prepares for a run by this tolerance, whose counts begin anew.
+    /// Prepares for a run by this tolerance, with counts from zero.
     pub(super) fn follow(&mut self, tolerance: f64, longest: Option<f64>) {
         let ws = &mut self.workspace;
         (ws.factorizations, ws.solves) = (0, 0);
@@ -182,8 +182,8 @@ impl<'a> Run<'a> {
         self.recorder.counts
     }
 
-    /// Prepares the model of the next stage for the state at the end of this one, and builds its system; the counts are those of all
-    /// stages before.
+    /// Prepares the model of the next stage for the state at the end of this one, and builds its system; `counts` include all previous
+    /// stages.
     ///
     /// # Errors
     /// As for [`System::new`], and if the history of a part does not match.

@@ -13,7 +13,7 @@ pub struct Sample {
     pub compared: bool,
 }
 
-/// Times to look at inside steps, in order.
+/// Times of evaluations inside steps, in order.
 pub struct Samples<'s> {
     coming: &'s [Sample],
 }

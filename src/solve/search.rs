@@ -44,7 +44,7 @@ keep!(Search { under_way, error, pieces, compared, before, judged, between });
 /// The runs of a search.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum UnderWay {
-    /// One whose results may be those of the deck.
+    /// A run whose results may be final.
     Main,
     /// One with longer steps that tells the error of the one before it.
     Trial,
@@ -80,7 +80,7 @@ impl Run<'_> {
         }
     }
 
-    /// Runs with steps that follow a tolerance until the error is the one asked for.
+    /// Runs with steps that follow a tolerance until the requested error is met.
     fn within(&mut self, asked: f64, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         let mut search = self.begin_search(asked);
         loop {
@@ -125,7 +125,7 @@ impl Run<'_> {
         search
     }
 
-    /// Makes a run that may be the last, or the rest of it. Returns what ends the search, if anything does.
+    /// Makes a run that may be the last, or the rest of it. Returns the outcome if it ends the search.
     fn main_run(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
         let times = comparison_times(search.between).chain(search.compared.iter().copied());
@@ -176,8 +176,8 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Judges the run that has come to its end by another one. Returns what ends the search, if it is good enough, and prepares for a
-    /// further one else.
+    /// Judges the run that has come to its end by another one. Returns the outcome if the run is good enough, and otherwise prepares for a
+    /// further run.
     fn judge(
         &mut self,
         search: &mut Search,
@@ -257,8 +257,8 @@ impl Run<'_> {
         observer.begin_trial();
     }
 
-    /// Runs with longer steps, unseen, for the sake of the error of the run before, and judges that. Returns what ends the search, if
-    /// anything does.
+    /// Runs with longer steps, unseen, for the sake of the error of the run before, and judges that. Returns the outcome if it ends the
+    /// search.
     fn trial(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
         let times = comparison_times(search.between).chain(search.compared.iter().copied());

@@ -1,6 +1,6 @@
-//! Watches slip that begins anew under friction. The exact slip begins with zero velocity, but the spring of friction releases with the
-//! velocity F/√(k m) and the step adds h F/m. The following slip is too long by this velocity times its duration. Nothing is looked at
-//! without friction.
+//! Watches slip under friction that begins again after rest. The exact slip begins with zero velocity, but the spring of friction releases
+//! with the velocity F/√(k m) and the step adds h F/m. The following slip is too long by this velocity times its duration. Models without
+//! friction are not watched.
 
 use super::context::Context;
 use super::friction_warnings::SlipBegins;
@@ -75,7 +75,7 @@ struct Phase {
 keep!(Phase: Default { along, counts, steps, last, first, duration, length, speed, error });
 
 impl SlipWatch {
-    /// Watches the springs of friction of a scene that moves.
+    /// Watches the springs of friction of a dynamic model.
     pub fn new(cx: &Context) -> SlipWatch {
         let rubbing = if cx.is_dynamic() { friction_places(cx.system) } else { Vec::new() };
         let throws = Throw::of_contacts(cx, &rubbing);
@@ -83,7 +83,7 @@ impl SlipWatch {
         SlipWatch { springs: rubbing.into_iter().map(spring).collect(), throws }
     }
 
-    /// Takes account of a step of length `dt` to this state, from the history `before`.
+    /// Records a step of length `dt` to this state, from the history `before`.
     #[inline]
     pub fn note(&mut self, cx: &Context, before: &[f64], state: &State, dt: f64) {
         for spring in &mut self.springs {
@@ -168,8 +168,8 @@ impl Spring {
 }
 
 impl Phase {
-    /// Takes account of a step that slips by `length`; returns by how much the error of the phase has grown. The speed at its beginning follows
-    /// from its second and third step, since the first may slip in part.
+    /// Records a step that slips by `length`; returns the growth of the error of the phase. The speed at its beginning follows from its
+    /// second and third step, since the first may slip in part.
     fn follow(&mut self, length: f64, dt: f64) -> f64 {
         let speed = length / dt;
         self.steps = (self.steps + 1).min(4);

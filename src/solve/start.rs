@@ -118,7 +118,7 @@ fn update_history(cx: &Context, ws: &mut Workspace, state: &mut State) {
     std::mem::swap(&mut state.history, &mut ws.history);
 }
 
-/// Writes the rates of dependent nodes from those of their masters; nothing is displaced.
+/// Writes the rates of dependent nodes from their masters; nothing is displaced.
 pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: &mut [Node]) {
     for (increment, node) in ws.trial.increments.iter_mut().zip(&*nodes) {
         let (d, dd) = (stack(&node.v, &node.omega), stack(&node.a, &node.alpha));
@@ -193,7 +193,7 @@ pub fn add_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State, ma
         solve_accelerations(cx, ws, state);
     }
     cx.system.remember_joint_loads(state, 0.0);
-    // Algorithmic accelerations equal those of equilibrium after a start or a jump.
+    // Algorithmic accelerations equal the accelerations of equilibrium after a start or a jump.
     for (acceleration, node) in state.algorithmic_accelerations.iter_mut().zip(&state.nodes) {
         *acceleration = stack(&node.a, &node.alpha);
     }
@@ -229,8 +229,8 @@ fn solve_accelerations(cx: &Context, ws: &mut Workspace, state: &mut State) {
 /// # Errors
 /// [`Failure::Singular`] where a mass matrix cannot be inverted.
 pub fn factor_mass(cx: &Context, ws: &mut Workspace, now: &Configuration) -> Result<Vec<usize>, Failure> {
-    // A direction without mass may lie oblique to the axes: that of a thin rod, or of an arm with a point mass at its
-    // end. It shows as a vanishing pivot.
+    // A massless direction may be oblique to the axes, as for a thin rod, or for an arm with a point mass at its end. It shows as a
+    // vanishing pivot.
     let mut oblique: Vec<usize> = Vec::new();
     loop {
         let weights =

@@ -44,7 +44,7 @@ pub fn start_stage(cx: &Context, ws: &mut Workspace, handover: &Handover) -> Res
     Ok(state)
 }
 
-/// Lets supports hold and move, then finds accelerations and reactions.
+/// Applies the supports, then finds accelerations and reactions.
 fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut State) -> Result<(), Failure> {
     let before = state.nodes.clone();
     give_rates(cx, ws, state);
@@ -64,7 +64,7 @@ fn balance(cx: &Context, ws: &mut Workspace, handover: &Handover, state: &mut St
                 ws.warnings.add(Warning::InitialVelocities { change });
             }
         }
-        // Impulses and projections leave other forces, without those of velocities.
+        // Impulses and projections have overwritten the residual, without forces from velocities.
         balance_forces(cx, ws, state);
         subtract(&mut ws.forces.on_nodes, &handover.left_by_scheme);
         let algorithmic = state.algorithmic_accelerations.clone();
@@ -94,7 +94,7 @@ fn subtract(from: &mut [Force], forces: &[Force]) {
     }
 }
 
-/// Lets algorithmic accelerations jump by what accelerations do, from nodes `before`: they belong to another instant.
+/// Adds the jump of accelerations to algorithmic accelerations, from nodes `before`: these belong to another instant.
 fn go_on_algorithmic(state: &mut State, (before, algorithmic): (&[Node], &[Vec6])) {
     let jumps = state.nodes.iter().zip(before).map(|(now, then)| stack(&(now.a - then.a), &(now.alpha - then.alpha)));
     let all = state.algorithmic_accelerations.iter_mut().zip(algorithmic);

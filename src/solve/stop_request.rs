@@ -1,4 +1,4 @@
-//! The request to end a run, and how long the step under way may go on after it.
+//! The request to end a run, and the time limit of the current step after it.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -169,12 +169,12 @@ impl StopWatch {
         self.side * (self.stop.value - self.quantity(cx, state))
     }
 
-    /// True where this is as good as nothing.
+    /// True if this distance is negligible.
     pub fn is_met(&self, left: f64) -> bool {
         left.abs() <= MET * self.size
     }
 
-    /// Takes account of a step that has been taken; with `reached` it is the last.
+    /// Records a completed step; with `reached` it is the last.
     pub fn accept(&mut self, cx: &Context, state: &State, reached: bool) {
         if let StopQuantity::Work(_) = self.stop.quantity {
             self.work = self.quantity(cx, state);

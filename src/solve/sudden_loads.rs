@@ -33,7 +33,7 @@ impl SuddenLoads {
         SuddenLoads { from, to, jump }
     }
 
-    /// Copies those of another step of the same scene without allocating.
+    /// Copies the loads of another step of the same model without allocating.
     pub fn copy_from(&mut self, other: &SuddenLoads) {
         let SuddenLoads { from, to, jump } = other;
         (self.from, self.to, self.jump.field) = (*from, *to, jump.field);

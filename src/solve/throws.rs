@@ -46,7 +46,7 @@ impl Throw {
         groups.into_iter().filter_map(of).collect()
     }
 
-    /// Takes account of one of its springs in a step; `touched`: at the start.
+    /// Records one of its springs in a step; `touched` is its state at the start.
     pub fn meet(&mut self, slip: &Slip, touched: bool) {
         let (touches, [met, parts, apart]) = &mut self.step;
         let [before, after] = slip.approach;
@@ -59,7 +59,7 @@ impl Throw {
         *apart = apart.max(slip.apart);
     }
 
-    /// Takes account of all of them, after a step of length `dt`.
+    /// Records all of its springs, after a step of length `dt`.
     pub fn end_step(&mut self, dt: f64) {
         let (touches, [met, parts, apart]) = std::mem::take(&mut self.step);
         if touches {

@@ -1,6 +1,6 @@
 //! All thresholds of the solution, each with its reason: limits for small and large values, and numbers of trials.
 //!
-//! A module for each file that asks.
+//! Each module belongs to one file of the solution.
 
 // The step and its iteration.
 
@@ -35,7 +35,7 @@ pub mod convergence_tolerance {
     pub const DIGITS: f64 = 1e-8;
     /// The iteration adds little to the error of the step, for its own is of one sign where matrices are kept.
     pub const PART: f64 = 0.01;
-    /// Forces follow the motion: those of stiff parts are far from it long before the motion is, and no step builds on them.
+    /// Forces follow the motion: in stiff parts they converge long after the motion, and no step depends on them.
     pub const PART_OF_FORCES: f64 = 0.1;
     /// A thousandth of a twelfth, rounded: errors of one sign add up.
     pub const PART_OF_FIRST: f64 = 1e-4;
@@ -147,7 +147,8 @@ pub mod line_search {
 }
 
 pub mod rotated_matrix {
-    /// An angle φ spoils the matrix of a tree by about φ² EA L²/EI beside what bends it; below this the contraction does not show it.
+    /// An angle φ changes the matrix of a tree by about φ² EA L²/EI relative to its bending stiffness; below this value the contraction is
+    /// not affected.
     pub const NEGLIGIBLE: f64 = 1e-3;
     /// A model that needs fewer matrices than this needs no rotated ones.
     pub const MANY: usize = 8;
@@ -230,7 +231,7 @@ pub mod jump {
     /// Part of `½ |Δf| |Δq|` above which a step is in doubt and taken in two halves. It is halved again, until the path is smooth or
     /// clearly jumps, if the first half misses more than half of the work. In a jump one of the halves misses all of the work.
     pub const DOUBTFUL: f64 = 0.2;
-    /// The work of forces along this part of the model's length is rounding, as is that of moments along this angle.
+    /// The work of forces along this part of the model's length is rounding, and so is the work of moments along this angle.
     pub const NOTHING: f64 = 1e-12;
     /// Motions below this part of the model's length are no jumps; their energy may be rounding.
     pub const STILL: f64 = 1e-6;
@@ -256,7 +257,7 @@ pub mod stability {
 }
 
 pub mod out_of_plane {
-    /// Largest number of parts that may turn about their own axes, each held by a spring.
+    /// Largest number of parts that may turn about their own axes, each restrained by a spring.
     pub const MOST_HELD: usize = 8;
 }
 
@@ -278,14 +279,14 @@ pub mod strain {
     pub const LARGE: f64 = 0.05;
     /// Limits for the truncated series of logarithmic strain: at stretches of 1.34 and 0.75 forces are wrong by a hundredth.
     pub const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
-    /// How often in a run strains are looked at: plastic ones do not go away.
+    /// Number of checks of strains in a run: plastic strains do not disappear.
     pub const LOOKS: f64 = 100.0;
 }
 
 pub mod drift {
     /// The drift, in radians, that causes a warning.
     pub const NOTICED: f64 = 1e-3;
-    /// How often in a run rotations are looked at.
+    /// Number of checks of rotations in a run.
     pub const LOOKS: f64 = 100.0;
 }
 
@@ -423,7 +424,7 @@ pub mod critical_step {
     /// Largest rotation of a body in a step, in radians: no stiffness limits tops and mechanisms. The error θ²/24 of the
     /// angle that central differences have in an oscillation is 6.5e-4 in a full turn.
     pub const TURN: f64 = 0.05;
-    /// A limit longer by this factor is that of another mode.
+    /// A limit longer by this factor belongs to another mode.
     pub const LONGER: f64 = 1.05;
     /// A limit shorter by this factor counts as a cutback.
     pub const SHORTER: f64 = 0.95;
@@ -445,7 +446,7 @@ pub mod start {
     /// The largest change of initial velocities, relative to the largest velocity, that joints may require without a word: a deck gives
     /// its numbers with some digits only.
     pub const DIGITS: f64 = 1e-5;
-    /// The part of the size of the scene that counts as no way over a whole run.
+    /// The part of the size of the model that counts as no motion over a whole run.
     pub const NOWHERE: f64 = 1e-9;
     /// A factor on masses that reduces accelerations below rounding.
     pub const FIXED: f64 = 1e20;
@@ -481,7 +482,7 @@ pub mod search {
 pub mod trials {
     /// Largest number of runs, the trial aside.
     pub const MOST_RUNS: usize = 4;
-    /// Part of the error asked for that a second run aims at.
+    /// Part of the requested error that a second run aims at.
     pub const AIM: f64 = 0.6;
     /// Multiple of the requested error that is still accepted.
     pub const WITHIN: f64 = 1.5;
@@ -677,7 +678,8 @@ pub mod modal_response {
     pub const ZERO: f64 = 1e-6;
     /// Terms of damping between modes below this part of the largest couple nothing.
     pub const COUPLED: f64 = 1e-12;
-    /// Of the highest mode: what answers as a spring is then at least twice as fast, and wrong by a tenth at most.
+    /// Part of the highest frequency found up to which results are good: a missing mode is then at least twice as fast, and wrong by a
+    /// tenth at most.
     pub const NEAR: f64 = 0.5;
     /// Part of the stiffness of a mode below which inertia and damping leave none of it: natural frequencies are known to this.
     pub const NOTHING_LEFT: f64 = 1e-8;
@@ -688,8 +690,8 @@ pub mod modal_response {
 pub mod direct_response {
     /// Residual of the equations above which a solution is in doubt.
     pub const DOUBTFUL: f64 = 1e-8;
-    /// Penalties of joints are those of the stiffness and of the inertia at this multiple of the highest frequency, which no inertia below
-    /// it cancels.
+    /// Penalties of joints use the stiffness and the inertia at this multiple of the highest frequency, so no inertia at lower frequencies
+    /// cancels them.
     pub const BEYOND: f64 = 2.0;
     /// Part of the least ratio of stiffness and inertia below which a motion without stiffness counts as one.
     pub const NEXT_TO_ZERO: f64 = 1e-6;
@@ -712,7 +714,7 @@ pub mod damped_rest {
     pub const SMALL: f64 = 1e-9;
     /// A motion depends on earlier ones if less than this part of it is independent.
     pub const ALIKE: f64 = 1e-6;
-    /// How often the damping forces of such motions are answered in turn.
+    /// Number of times that the damping forces of such motions are applied.
     pub const ROUNDS: usize = 2;
 }
 

@@ -1,4 +1,4 @@
-//! Warnings of a run about its results, which may not or not fully answer the deck.
+//! Warnings of a run about its results.
 
 use super::friction_warnings::{ContactThrows, SlipBegins};
 use base::names::{short, to_digits};
@@ -16,14 +16,14 @@ pub enum Warning {
     },
     /// The error of steps that follow a tolerance exceeds the requested error.
     StepError {
-        /// The error asked for, relative to the largest motion.
+        /// The requested error, relative to the largest motion.
         asked: f64,
         /// The estimated error; `None` where it could not be found.
         estimate: Option<f64>,
     },
     /// Shorter steps bring runs with events no nearer to each other.
     RunsPart {
-        /// The error asked for, relative to the largest motion.
+        /// The requested error, relative to the largest motion.
         asked: f64,
         /// The difference of the last two runs, likewise.
         difference: f64,
@@ -94,7 +94,7 @@ pub enum Warning {
     },
     /// Steps that do not resolve a contact throw off a resting body.
     ContactThrows(ContactThrows),
-    /// Slip begins anew with a speed that it should not have.
+    /// Slip begins again with a velocity that it should not have.
     SlipBegins(SlipBegins),
     /// The critical time step is below the value that mass scaling gave to elements.
     ScaledStep {
@@ -150,7 +150,7 @@ pub struct Instability {
 
 keep!(Instability: Default { time, already, certain, modes, seen, label, direction });
 
-/// The error that steps leave, beside the one asked for.
+/// The message of an error of the steps above the requested one.
 fn step_error(asked: f64, estimate: Option<f64>) -> String {
     let asked = short(asked);
     match estimate.map(short) {
@@ -348,7 +348,7 @@ impl Warnings {
         self.warnings.iter().any(is_of_kind)
     }
 
-    /// Adds the depth of a contact, or keeps it where it is relatively deeper than the one known.
+    /// Adds the penetration of a contact, or keeps it if it is relatively deeper than the known one.
     pub fn deepen(&mut self, contact: &str, depth: f64, size: f64) {
         let known = self.warnings.iter_mut().find_map(|known| match known {
             Warning::DeepContact { name, depth, size } => Some((name, depth, size)),
@@ -364,7 +364,7 @@ impl Warnings {
         }
     }
 
-    /// Adds the strain of a shell, logarithmic or not, or keeps it where it is larger than the one known.
+    /// Adds the strain of a shell, logarithmic or not, or keeps it if it is larger than the known one.
     pub fn stretch(&mut self, shell: &str, (strain, logarithmic): (f64, bool)) {
         let known = self.warnings.iter_mut().find_map(|known| match known {
             Warning::LargeStrain { name, strain, logarithmic } => Some((name, strain, logarithmic)),
@@ -380,7 +380,7 @@ impl Warnings {
         }
     }
 
-    /// Adds the drift of a rotation, or keeps it where it is larger than the one known.
+    /// Adds the drift of a rotation, or keeps it if it is larger than the known one.
     pub fn drift(&mut self, node: &str, fixed: &'static str, size: f64) {
         let known = self.warnings.iter_mut().find_map(|known| match known {
             Warning::RotationDrifts { label, direction, drift } => Some((label, direction, drift)),
@@ -427,14 +427,14 @@ impl Warnings {
 /// Limits of checks, or slow algorithms, which a run reports in its log; they do not question results.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Remark {
-    /// Motion out of the plane is not held there, as at t = 0 alone: buckling out of the plane is judged as if it were.
+    /// Nothing restrains motion out of the plane at these places at t = 0: buckling is judged as if supports did.
     JudgedAsHeld {
         /// Nodes and directions.
         places: Vec<(String, &'static str)>,
     },
     /// Hardly anything holds the scene in its plane: buckling out of it is not judged.
     NotHeld {
-        /// A node that is not held, and the direction.
+        /// An unrestrained node, and the direction.
         place: (String, &'static str),
     },
     /// A plane scene has joints: buckling out of it is not judged.

@@ -38,7 +38,7 @@ pub struct Workspace {
     pub reach: f64,
     /// The data that load steps pass to later ones.
     pub load_steps: LoadSteps,
-    /// The matrix of the step: its tangent, or that of masses and joints.
+    /// The matrix of the step: its tangent, or the matrix of masses and joints.
     pub matrix: LinearSystem,
     /// Number of factorizations so far.
     pub factorizations: usize,
@@ -50,7 +50,7 @@ pub struct Workspace {
     pub joint_violation: f64,
     /// The warnings of the run so far.
     pub warnings: Warnings,
-    /// Slip that begins anew.
+    /// Slip that begins again after rest.
     slips: SlipWatch,
     /// The computed part of a frequency response.
     pub response: ResponseSoFar,

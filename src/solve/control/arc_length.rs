@@ -29,7 +29,7 @@ pub struct ArcLengthController {
     begin: f64,
     /// Length of the first step, once it is known.
     unit: Option<f64>,
-    /// Length of the next step over that of the first, and the least such ratio.
+    /// Ratio of the next step length to the first one, and the least allowed ratio.
     size: f64,
     least: f64,
     /// Cutbacks before the current step, and those due to a sharp bend.

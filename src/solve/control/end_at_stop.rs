@@ -11,8 +11,8 @@ use mechanics::state::State;
 /// Takes a step from a state to a time.
 pub type TakeStep<'s> = dyn FnMut(&Context, &mut Workspace, &mut State, f64) -> Result<StepReport, Failure> + 's;
 
-/// Takes account of the step between two times that has been taken. A step that passes the stop value is repeated up to the value. Returns
-/// the report of the step, and its length where it is the last.
+/// Checks the completed step between two times for the stop value. A step that passes the stop value is repeated up to the value. Returns
+/// the report of the step, and its length if it is the last step.
 ///
 /// # Errors
 /// The step cannot be repeated, for example after a signal; the state is that at its start.

@@ -41,12 +41,12 @@ impl ErrorMeasure {
         self.begun.is_none()
     }
 
-    /// Notes that the trial steps from this time on have been taken.
+    /// Records that the trial steps from this time on are complete.
     pub fn begin(&mut self, time: f64) {
         self.begun = Some(time);
     }
 
-    /// Takes account of the motion of a trial step.
+    /// Includes the motion of a trial step in the reference.
     pub fn look_ahead(&mut self, model: &Model, state: &State) {
         self.ahead = self.with(self.ahead, model, state);
     }

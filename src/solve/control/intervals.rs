@@ -174,7 +174,7 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
         }));
     }
     if model.analysis.step_length.is_automatic() {
-        // Steps must not miss what begins and ends within one, and error estimates hold for smooth motion.
+        // Steps must not miss events that begin and end within one step, and error estimates hold only for smooth motion.
         let motions = model
             .constraints
             .restraints

@@ -71,7 +71,7 @@ impl Targets {
         &mut self.0[index]
     }
 
-    /// Notes the sides of the targets on which the path starts.
+    /// Records the side of each target on which the path starts.
     pub fn start(&mut self, cx: &Context, ws: &Workspace, state: &State) {
         for target in &mut self.0 {
             let (from, _) = target.ends_of_motion(cx, ws, state, state.time);

@@ -42,7 +42,7 @@ impl EventLimit {
         slips != self.flows[1] || yields != self.flows[0] && kinks::yields_at_once(cx.system)
     }
 
-    /// Takes account of a step that stands.
+    /// Records the flow of an accepted step.
     pub fn accept(&mut self, [before, after]: [&State; 2]) {
         self.flows = flows(before, after);
     }

@@ -23,7 +23,7 @@ pub struct Accelerations {
     pub masses: Option<Masses>,
     /// The constraint equations of joints between such bodies.
     pub schur: Option<ConstraintSchur>,
-    /// The difference between the accelerations found and those of the trial motion, by node.
+    /// The difference between the computed accelerations and the accelerations of the trial motion, by node.
     pub missing: Vec<Vec6>,
     /// Small motions by node that a coupled mass matrix is applied to.
     pub operand: Vec<Vec6>,
@@ -97,7 +97,7 @@ impl Accelerations {
     /// no joint is found.
     ///
     /// # Errors
-    /// [`Failure::Singular`] or [`Failure::ConstraintsViolated`] where masses or joints leave no answer.
+    /// [`Failure::Singular`] or [`Failure::ConstraintsViolated`] if the system of masses or joints is singular.
     pub fn solve(&mut self, cx: &Context, ws: &mut Workspace, state: &State, joints: bool) -> Result<(), Failure> {
         ws.solves += 1;
         let Accelerations { masses: Some(masses), schur, missing, .. } = self else {

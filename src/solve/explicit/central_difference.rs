@@ -275,8 +275,7 @@ impl CentralDifferenceStepper {
         self.check_stability(dt)
     }
 
-    /// Writes the velocities and accelerations at the end of the step; those of freely turning bodies from their
-    /// angular momentum.
+    /// Writes the velocities and accelerations at the end of the step; for freely turning bodies from their angular momentum.
     fn set_end_rates(&mut self, cx: &Context, ws: &mut Workspace, state: &State, dt: f64) {
         let Accelerations { masses, schur, missing, .. } = &self.accelerations;
         if let Some(schur) = schur {

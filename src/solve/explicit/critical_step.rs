@@ -248,7 +248,7 @@ impl CriticalStep {
         Ok(())
     }
 
-    /// The longest stable step by power iteration, where it is shorter than `longest`.
+    /// The longest stable step by power iteration, if shorter than `longest`.
     fn power_iteration(
         &mut self,
         cx: &Context,
@@ -340,7 +340,7 @@ impl CriticalStep {
         accelerations.solve(cx, ws, state, false)
     }
 
-    /// The products φ·φ, φ·ψ and ψ·ψ in the norm of the masses, with φ the mode and ψ the accelerations that answer it.
+    /// The products φ·φ, φ·ψ and ψ·ψ in the norm of the masses, with φ the mode and ψ the accelerations that it causes.
     fn mass_products(&self, cx: &Context, ws: &mut Workspace, accelerations: &mut Accelerations) -> [f64; 3] {
         let Accelerations { masses, missing, operand, .. } = accelerations;
         let (mode, answer) = (&self.mode, &*missing);

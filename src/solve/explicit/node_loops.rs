@@ -100,7 +100,7 @@ pub fn end_step(cx: &Context, ws: &mut Workspace, (masses, missing): (&Masses, &
             let chart = Chart::new(&angular(&increment.q));
             let (d, dd) = chart.vector_rates(&motion.omega, &motion.alpha);
             (increment.d, increment.dd) = (stack(&motion.v, &d), stack(&motion.a, &dd));
-            // Positions and rotations are those of the trial motion, as prescribed ones are.
+            // Positions and rotations already have their trial values, including prescribed ones.
             while let Some(&i) = held.next_if(|&&i| restraints[i].node <= node) {
                 if restraints[i].node == node {
                     prescribe(increment, restraints[i].dof, &given[i]);

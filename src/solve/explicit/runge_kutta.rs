@@ -94,7 +94,7 @@ impl RungeKuttaStepper {
         self.accept(cx, ws, state, to)
     }
 
-    /// Evaluates all stages; the trial motion is then that of the end of the step, not yet accepted.
+    /// Evaluates all stages; the trial motion is then the motion at the end of the step, not yet accepted.
     ///
     /// # Errors
     /// See [`Failure`].

@@ -1,4 +1,4 @@
-//! Elements and links that fail in a run and carry no force from then on.
+//! Elements and links that fail in a run and exert no force afterwards.
 
 use crate::context::Context;
 use crate::system::System;
@@ -19,7 +19,7 @@ pub struct Broken {
     pub place: Vec3,
 }
 
-/// All elements and links that have failed so far. Nothing is looked at where nothing can fail.
+/// All elements and links that have failed so far. Models without possible failures are not watched.
 #[derive(Default)]
 pub struct Breakage {
     /// Indices of the groups whose elements may fail.

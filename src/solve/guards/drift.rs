@@ -10,8 +10,8 @@ use base::math::rotation;
 use mechanics::state::State;
 use model::DIRECTIONS;
 
-/// Notes the largest drift at the end of a step that passes one of a hundred equal parts of the run. A later stage begins with rotations that
-/// are no drift.
+/// Records the largest drift at the end of a step that passes one of a hundred equal parts of the run. A later stage begins with rotations
+/// that are no drift.
 pub struct DriftGuard;
 
 impl Guard for DriftGuard {

@@ -42,7 +42,7 @@ pub trait Guard {
         Ok(())
     }
 
-    /// With the motion at the end of the step and what materials and contacts have dissipated, before the state becomes it.
+    /// With the motion at the end of the step and the dissipation of materials and contacts, before it becomes the state.
     ///
     /// # Errors
     /// Why the step is not taken.
@@ -62,7 +62,7 @@ pub trait Guard {
     /// Forgets earlier runs of the same scene.
     fn begin_run(&mut self) {}
 
-    /// Keeps what changes from step to step.
+    /// Saves the variables that change from step to step.
     fn keep(&mut self, _snapshot: &mut Snapshot) {}
 }
 

@@ -48,7 +48,7 @@ impl Guards {
         self.0.iter_mut().try_for_each(|guard| at(guard.as_mut()))
     }
 
-    /// Tells all of them.
+    /// Calls all guards.
     pub fn tell(&mut self, mut of: impl FnMut(&mut dyn Guard)) {
         self.0.iter_mut().for_each(|guard| of(guard.as_mut()));
     }

@@ -1,6 +1,6 @@
 //! Directions without mass in a dynamic analysis: the forces on them must restrain them at every instant, since inertia does not. A node
 //! without mass at the end of a spring moves across it as rounding pleases, and one in the middle of a compressed chain buckles at once.
-//! Neither has a motion to compute. Directions are those of the tangent, whatever axes they lie oblique to.
+//! Neither has a motion to compute. Directions come from the tangent and may be oblique to the axes.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -21,7 +21,7 @@ pub struct MasslessNodes {
     clusters: Vec<Cluster>,
     /// The tangent of an element; its memory serves for all.
     K: Vec<f64>,
-    /// True once the scene has been found held before anything moves.
+    /// True once the initial configuration has been found restrained.
     started: bool,
 }
 

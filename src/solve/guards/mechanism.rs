@@ -81,7 +81,7 @@ struct Strains<'a> {
 }
 
 impl Strains<'_> {
-    /// Adds those of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes.
+    /// Adds the energy and forces of an element with the tangent `K`, row-major with `d` degrees of freedom for each of its nodes.
     fn add(&mut self, K: &[f64], nodes: &[usize], d: usize, is_unilateral: bool) {
         // Translation as a whole strains no element, unless one of its nodes is a number and no place; without it motions have the digits of
         // strains.

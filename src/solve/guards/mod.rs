@@ -1,4 +1,4 @@
-//! Guards: what refuses a step, or warns of it, at named points.
+//! Guards, which refuse steps or warn of them at named points.
 
 pub mod breakage;
 pub mod contacts;

@@ -91,7 +91,7 @@ impl OutOfPlane {
         true
     }
 
-    /// Holds by springs what nothing holds out of the plane at t = 0. Returns where.
+    /// Restrains parts that are free out of the plane at t = 0 by springs. Returns where.
     ///
     /// # Errors
     /// A node that is free to leave the plane: a structure without restraint out of its plane is meant to be plane.

@@ -75,7 +75,7 @@ struct Found {
     /// The number of negative eigenvalues, where they were counted.
     negative: Option<usize>,
     instability: Option<Instability>,
-    /// True where it is unstable only because material softens.
+    /// True if it is unstable only because material softens.
     softens: bool,
     /// True if a contact slips under arc-length control, which is not judged.
     slips: bool,
@@ -180,8 +180,8 @@ impl Stability {
 }
 
 impl Guard for Stability {
-    /// Notes the first increments, and whether later tangents have negative eigenvalues. The first is left out: prescribed motion strains the
-    /// elements beside it alone until it is answered.
+    /// Records the first increments, and whether later tangents have negative eigenvalues. The first tangent is omitted: until the first
+    /// correction, prescribed motion strains only the adjacent elements.
     fn at_iterate(&mut self, cx: &Context, ws: &Workspace, _step: &Step, iterate: &Iterate) -> Result<(), Failure> {
         if self.path.is_some() {
             return Ok(());
@@ -222,7 +222,7 @@ impl Guard for Stability {
         }
     }
 
-    /// Takes account of the equilibrium at the end of the step. Along a path of given arc length it is judged here, for nothing refuses it.
+    /// Records the equilibrium at the end of the step. Along a path of given arc length it is judged here, for nothing refuses it.
     fn after_step(&mut self, cx: &Context, ws: &mut Workspace, taken: &Taken) {
         let Taken { state, from, grows } = *taken;
         if from == 0.0 && cx.system.plane.is_some() && !cx.system.joints.is_empty() {

@@ -168,7 +168,7 @@ impl Tangent<'_> {
         Some(Instability { time, already, certain, modes, seen: to, label, direction })
     }
 
-    /// Adds to the diagonal what rounding may have taken from it.
+    /// Adds possible rounding errors to the diagonal.
     fn add_rounding(&mut self) {
         let solver = &mut self.matrix.solver;
         for row in 0..self.dofs.nodal_dofs().len() {

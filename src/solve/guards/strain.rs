@@ -7,7 +7,7 @@ use crate::warning::Warnings;
 use crate::workspace::Workspace;
 use mechanics::state::State;
 
-/// Notes the largest strain at the end of a step that passes one of a hundred equal parts of the run.
+/// Records the largest strain at the end of a step that passes one of a hundred equal parts of the run.
 pub struct StrainGuard;
 
 impl Guard for StrainGuard {

@@ -71,7 +71,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
         AnalysisKind::Buckling(count) => count,
         _ => 1,
     };
-    // The balance of a stage's state is judged with that of other modes.
+    // The equilibrium of a stage's state is checked together with other modes.
     let rests = is_stage || multipliers_at_rest(at, (&mut *linear.0, &mut *linear.1)).is_some();
     let mut pencil = Pencil::new(*at, linear);
     let K = pencil.matrix(weights(0.0, 0.0));

@@ -143,8 +143,8 @@ fn free_modes(pencil: &mut Pencil, near: Near) -> Result<Vec<EigenMode>, ModesFa
     Ok(modes.filter(is_free).map(as_complex).collect())
 }
 
-/// The eigenvalues of as many roots as are asked for, without those that joints forbid and those at infinity. Where these take the places of others the
-/// search is for more.
+/// The wanted number of eigenvalues, without infinite ones and those of motions that joints restrain. Where these take the places of others
+/// the search is for more.
 fn allowed(
     pencil: &mut Pencil,
     gyroscopic: &Gyroscopic,
@@ -170,7 +170,7 @@ fn allowed(
     }
 }
 
-/// The eigenvalues 1/(s − σ) of the roots nearest to the shift, as many as are asked for.
+/// The wanted number of eigenvalues 1/(s − σ) of the roots nearest to the shift.
 fn nearest(
     pencil: &mut Pencil,
     gyroscopic: &Gyroscopic,

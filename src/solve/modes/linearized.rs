@@ -76,7 +76,7 @@ impl Linearized<'_> {
         self.plan.dofs.nodal_dofs().len()
     }
 
-    /// The small motions of all nodes, dependent ones included, for those of the unknowns.
+    /// The small motions of all nodes, dependent ones included, from the motions `x` of the unknowns.
     pub fn motions(&self, nodes: &[Node], x: &[f64]) -> Vec<Vec6> {
         let mut motions: Vec<Vec6> = self.plan.dofs.each_node().iter().map(|rows| rows.gather(x)).collect();
         self.system.project(nodes, &mut motions);

@@ -1,9 +1,8 @@
 //! Small motions about a state: natural modes, buckling loads and the frequency response of the scene linearized there.
 //!
 //! [`find`] computes modes or the response of a state under the loads that hold it. It knows neither files nor the history of the state.
-//! The matrices are those of a step from the same assembly: K with K(σ), follower loads, joints and contacts, M as in the motion. A Krylov
-//! space of the factorized matrix gives the eigenvalues. The signs of its pivots give their number (Sylvester's law of inertia), so none is
-//! missed.
+//! The matrices come from the assembly of steps: K with K(σ), follower loads, joints and contacts, M as in the motion. A Krylov space of
+//! the factorized matrix gives the eigenvalues. The signs of its pivots give their number (Sylvester's law of inertia), so none is missed.
 
 mod buckling;
 mod damped;

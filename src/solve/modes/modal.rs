@@ -2,8 +2,8 @@
 //!
 //! Lanczos' method on (K − σM)⁻¹M finds the eigenvalues nearest to the shift σ below all of them. The shift is zero if K is positive
 //! definite, otherwise negative, so motions without stiffness are found like all others. The number of modes is the number of negative
-//! pivots of K − sM with s just above the last mode (T. Ericsson & A. Ruhe, Math. Comp. 35 (1980)); where one is missing, the search goes
-//! on with new vectors.
+//! pivots of K − sM with s just above the last mode (T. Ericsson & A. Ruhe, Math. Comp. 35 (1980)); if one is missing, the search continues
+//! with new vectors.
 
 use super::fault::ModesFault;
 use super::linearized::Linearized;
@@ -96,7 +96,7 @@ pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<V
     Ok(pairs)
 }
 
-/// The doubt of a scene that has fewer modes than are asked for.
+/// The warning of a model with fewer modes than wanted.
 pub(super) fn fewer(found: usize, count: usize) -> String {
     format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
 }

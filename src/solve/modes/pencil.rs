@@ -89,8 +89,8 @@ impl<'a> Pencil<'a> {
         self.solver.matrix(self.unknowns)
     }
 
-    /// The rows and columns of the equations of joints, and what their penalties add to the unknowns of nodes, with penalties as for
-    /// K + s M.
+    /// The rows and columns of the equations of joints, and the terms of their penalties at the unknowns of nodes, with the penalties for
+    /// `K + s M`.
     pub fn joints_at(&mut self, s: f64) -> Sparse {
         let all = self.at.plan.dofs.unknowns();
         if all == self.unknowns {
@@ -132,7 +132,7 @@ impl<'a> Pencil<'a> {
         }
     }
 
-    /// Counts the eigenvalues below `s`, which lies above some of them, by factors of K − sM in place of those of the shift.
+    /// Counts the eigenvalues below `s`, which lies above some of them, by factors of K − sM instead of the factors at the shift.
     ///
     /// # Errors
     /// The row of a pivot that vanishes.

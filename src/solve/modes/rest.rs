@@ -36,7 +36,7 @@ pub fn multipliers_at_rest(at: &Linearized, linear: (&mut Solver, &mut Assembly)
     pencil.factor(shift).ok()?;
     let x: Vec<_> = pencil.nodes.iter().map(|node| node.x).collect();
     let length = x.iter().map(|at| (at - x[0]).norm()).fold(0.0, f64::max);
-    // Regularised equations leave a small part of what joints carry to the next solution.
+    // Regularized equations need a further solution for a small part of the joint forces.
     let mut moved = Vec::new();
     for _ in 0..4 {
         moved = pencil.balance(&r);
@@ -47,7 +47,7 @@ pub fn multipliers_at_rest(at: &Linearized, linear: (&mut Solver, &mut Assembly)
     (largest.fold(0.0, f64::max) <= STILL * length).then(|| pencil.forces.multipliers.values.clone())
 }
 
-/// The stiffness of each unknown of nodes against its own motion, the others held: the sizes of the diagonal of K.
+/// The stiffness of each unknown of nodes against its motion with the others restrained: the magnitudes of the diagonal of K.
 pub fn own_stiffnesses(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Vec<f64> {
     let K = Pencil::new(*at, linear).matrix(weights(0.0, 0.0));
     let own = |row: usize| K.row(row).filter(|(column, _)| *column == row).map(|(_, value)| value).sum::<f64>().abs();

@@ -43,7 +43,7 @@ keep!(ResponseSoFar { rows, worst, resonances });
 pub struct Search<'s> {
     /// Response found so far; a complete response moves its rows there.
     pub so_far: &'s mut ResponseSoFar,
-    /// Tells whether a checkpoint is due.
+    /// Returns whether a checkpoint is due.
     pub pauses: &'s mut dyn FnMut() -> bool,
 }
 

@@ -137,7 +137,7 @@ impl Plan {
         Ok((solver, assembly))
     }
 
-    /// Like the above with room for pairs of elements that wander.
+    /// Like the above, with room for pairs of elements with changing partners.
     ///
     /// # Errors
     /// As for [`Plan::build`].
@@ -212,7 +212,7 @@ fn structure(system: &System, dofs: &DofMap) -> Structure {
     structure_with(system, dofs, &[])
 }
 
-/// Like the above with room for pairs of elements that wander.
+/// Like the above, with room for pairs of elements with changing partners.
 fn structure_with(system: &System, dofs: &DofMap, partners: &[(usize, Partners)]) -> Structure {
     let sizes: Vec<usize> = dofs.each().iter().map(NodeRows::count).collect();
     grouped(&sizes, connectivity(system, sizes.len(), partners), system.joints.len())

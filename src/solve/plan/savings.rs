@@ -1,4 +1,4 @@
-//! Operations avoided by the omissions of a plan: the matrix with each of them undone, against that of the plan.
+//! Operations avoided by the omissions of a plan: the matrix without each of them, compared with the matrix of the plan.
 
 use super::dof_status::DofStatus;
 use super::{Plan, grouped};

@@ -15,8 +15,7 @@ pub struct Convergence {
     stagnant: usize,
 }
 
-/// The size of a correction relative to the motion of the step, and the residual that it answers relative to the
-/// forces.
+/// The size of a correction relative to the motion of the step, and the residual before it relative to the forces.
 #[derive(Debug, Clone, Copy)]
 struct Correction {
     size: f64,
@@ -26,11 +25,11 @@ struct Correction {
 /// The judgement on a correction.
 #[derive(Debug, Clone, Copy)]
 pub struct Judgement {
-    /// Ratio of size or residual to that of the correction before, the larger; the usual one without one before.
+    /// The larger ratio of size or residual to the previous correction; the usual contraction for the first one.
     pub contraction: f64,
     /// True where there was a correction before.
     pub seen: bool,
-    /// True where it is larger than the correction before.
+    /// True if the correction is larger than the previous one.
     pub grows: bool,
     /// Number of corrections whose residual did not fall.
     stagnant: usize,
@@ -56,8 +55,8 @@ impl Convergence {
         (self.last, self.stagnant) = (None, 0);
     }
 
-    /// Judges a correction of this relative size, which answered this relative residual. With `quadratic`, its matrix is that of the
-    /// iterate: the residual of a short correction is of second order in it.
+    /// Judges a correction of this relative size after this relative residual. With `quadratic`, its matrix was formed for the iterate: the
+    /// residual after a short correction is of second order in it.
     pub fn judge(&mut self, size: f64, residual: f64, quadratic: bool) -> Judgement {
         let contraction = match self.last {
             _ if self.exact => 0.0,

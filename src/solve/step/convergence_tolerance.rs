@@ -23,7 +23,7 @@ pub struct ConvergenceTolerance {
     pub tolerance: f64,
     /// Relative tolerance of the residual.
     pub residual: f64,
-    /// The least and the largest tolerance; the largest is that of the deck.
+    /// The least and the largest tolerance; the largest is the tolerance of the deck.
     bounds: [f64; 2],
     /// The contraction seen last; none is carried from step to step where every step is iterated to the digits of the deck.
     contraction: Option<f64>,
@@ -71,7 +71,7 @@ impl ConvergenceTolerance {
         tolerance.max(least).min(most)
     }
 
-    /// Takes account of a correction.
+    /// Records the contraction of a correction.
     pub fn note(&mut self, judgement: &Judgement) {
         if !self.carries {
             return;

@@ -48,7 +48,7 @@ impl Correction {
         size
     }
 
-    /// Shortens the correction to what may still lie on the way to the equilibrium; returns whether it did. A flat membrane resists
+    /// Shortens the correction to a length that may still lead to the equilibrium; returns whether it did. A flat membrane resists
     /// pressure only by its bending stiffness until it has moved. Its first correction is far too long, and each later one reduces it by
     /// only a third.
     pub fn shorten(&mut self, cx: &Context) -> bool {
@@ -61,7 +61,7 @@ impl Correction {
         is_long
     }
 
-    /// Adds the correction to the increments and the multipliers. Returns its size and that of the increments.
+    /// Adds the correction to the increments and the multipliers. Returns its size and the size of the increments.
     pub fn add_to(&self, cx: &Context, trial: &mut TrialMotion, multipliers: &mut Multipliers) -> (Size, Size) {
         let (mut correction, mut motion) = (Size::default(), Size::default());
         for &node in &cx.independent_nodes {
@@ -103,8 +103,8 @@ pub fn relative(cx: &Context, correction: Size, motion: Size) -> f64 {
 
 /// True if a correction changes only the last digits of positions, whose magnitude is `reach`. The iteration must have stopped contracting
 /// as well, for increments and accelerations have more digits than positions. Axial stiffness turns rounding of positions into forces, and
-/// bending answers these with corrections larger by the slenderness squared. With a `fresh` matrix the limit is wider by four digits, and
-/// the limit of rotations follows positions over the model's length.
+/// these cause bending corrections larger by the slenderness squared. With a `fresh` matrix the limit is wider by four digits, and the
+/// limit of rotations follows positions over the model's length.
 pub fn is_rounding(cx: &Context, reach: f64, correction: Size, fresh: bool) -> bool {
     let (translation, rotation) = if fresh {
         (SLENDER * ROUNDING * reach, SLENDER * ROUNDING * (reach / cx.length).max(1.0))

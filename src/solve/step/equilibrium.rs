@@ -46,7 +46,7 @@ impl EquilibriumSolver {
         })
     }
 
-    /// Forgets what earlier runs of the same scene have taught the iteration.
+    /// Discards the statistics of earlier runs of the same model.
     pub fn begin_run(&mut self, cx: &Context) {
         (self.newton, self.grows) = (Newton::new(cx), true);
         self.guards.tell(|guard| guard.begin_run());
@@ -131,8 +131,8 @@ impl EquilibriumSolver {
         self.newton.equilibrate(cx, ws, &mut self.guards, step, path)
     }
 
-    /// Finds an equilibrium inside a completed step, like [`EquilibriumSolver::find`]. The statistics of matrices and contraction stay
-    /// those of the steps.
+    /// Finds an equilibrium inside a completed step, like [`EquilibriumSolver::find`]. The statistics of matrices and contraction are not
+    /// changed.
     ///
     /// # Errors
     /// See [`Failure`].

@@ -76,7 +76,7 @@ impl<'a> Implicit<'a> {
     ) -> Result<Option<StepReport>, Failure> {
         match &mut self.stages {
             Stages::RungeKutta(stages) => stages.look_inside(&mut self.solver, cx, ws, step, (state, time)).map(Some),
-            // Steps of other schemes end wherever something is looked at.
+            // Steps of other schemes end at every time of evaluation.
             Stages::One | Stages::Composite(_) => Ok(None),
         }
     }

@@ -21,7 +21,7 @@ pub struct Peak {
     released: bool,
     /// True if no loads act in the current step, and the supports are either unmoved or moved far enough to cause visible stresses.
     unloaded: bool,
-    /// True where the last equilibrium had no forces but those of rounding.
+    /// True if the last equilibrium had only forces of rounding size.
     pub unstressed: bool,
     /// True once an equilibrium had others.
     pub stressed: bool,
@@ -49,7 +49,7 @@ pub struct LoadSteps {
 keep!(LoadSteps: Default { stored, doubtful, peak, works, sudden, careful });
 
 impl LoadSteps {
-    /// Copies those of another step; nothing is allocated where both have sudden loads.
+    /// Copies the data of another step; nothing is allocated if both have sudden loads.
     pub fn copy_from(&mut self, other: &LoadSteps) {
         let LoadSteps { stored, doubtful, peak, works, sudden, careful } = other;
         (self.stored, self.doubtful, self.peak, self.works, self.careful) =
@@ -66,7 +66,7 @@ impl LoadSteps {
 pub struct Works {
     loads: f64,
     supports: f64,
-    /// The largest sum of their magnitudes: what supports do to loads may leave nothing of either.
+    /// The largest sum of their magnitudes; supports and loads may cancel each other.
     pub largest: f64,
     /// The sum of the works of single loads and supports in all steps, without signs; works that cancel count twice.
     pub gross: f64,
@@ -77,7 +77,7 @@ pub struct Works {
 keep!(Works { loads, supports, largest, gross, sudden });
 
 impl Works {
-    /// Adds those of a step, and the sum of their terms without signs.
+    /// Adds the works of a step, and the sum of their terms without signs.
     pub fn add(&mut self, [loads, supports]: [f64; 2], gross: f64) {
         self.gross += gross;
         self.loads += loads;

@@ -1,5 +1,4 @@
-//! The equilibrium iteration: residual, matrix where it is due, solution, correction, until the remaining error is
-//! below the tolerance.
+//! The equilibrium iteration: residual, matrix when due, solution and correction, until the remaining error is below the tolerance.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -219,7 +218,7 @@ impl Newton {
         self.matrix.solve(cx, ws)
     }
 
-    /// Adds the correction, relaxed where material yields, to the increments. Returns its size and that of the increments.
+    /// Adds the correction, relaxed where material yields, to the increments. Returns its size and the size of the increments.
     fn correct(&mut self, cx: &Context, ws: &mut Workspace, progress: &mut StepProgress) -> (Size, Size) {
         let Workspace { correction, trial, forces, load_steps, .. } = ws;
         progress.unjudged |= load_steps.careful && correction.shorten(cx);
@@ -230,7 +229,7 @@ impl Newton {
         (plain.map_or(size, |plain| plain.or_not_finite(size)), motion)
     }
 
-    /// Judges a correction by its size, the motion of the step and the residual that it answers.
+    /// Judges a correction by its size, the motion of the step and the residual before it.
     ///
     /// # Errors
     /// [`Failure::NotFinite`] where the correction is not a number.
@@ -286,7 +285,7 @@ impl Newton {
         progress.unjudged = false;
     }
 
-    /// Goes back to the prediction before a step is cut, to go on with a fresh matrix in every iteration.
+    /// Returns to the prediction before a step is cut, and uses a fresh matrix in every iteration from then on.
     ///
     /// # Errors
     /// That was done already.
@@ -330,7 +329,7 @@ impl Newton {
     fn arrive(&mut self, ws: &mut Workspace, found: Result<StepReport, Failure>) -> Result<StepReport, Failure> {
         let unheld = self.matrix.unheld();
         let found = found.map_err(|failure| match failure {
-            // The matrix with the forces of joints in it says best what these do not hold.
+            // The matrix with joint forces identifies unrestrained parts best.
             Failure::Stopped | Failure::Singular { .. } => failure,
             _ => unheld.unwrap_or(failure),
         });

@@ -37,7 +37,8 @@ pub fn excite(cx: &Context, ws: &mut Workspace, from: f64, to: f64, instant: f64
     }
 }
 
-/// Writes the predicted increments of a step, what rotations of bodies start from, and the multipliers of the last step as a first guess.
+/// Writes the predicted increments of a step, start values for the rotations of bodies, and the multipliers of the last step as a first
+/// guess.
 pub fn predict(cx: &Context, ws: &mut Workspace, step: &Step) {
     ws.trial.predict(cx, step.state, &step.stage);
     ws.reach = reach(cx, step.state);

@@ -24,13 +24,13 @@ pub struct StepProgress {
     pub predicted: bool,
     /// True where the time of the step is given, not found.
     pub has_given_time: bool,
-    /// True if the current correction says nothing about convergence: it was shortened, or answers a linearized residual.
+    /// True if the current correction says nothing about convergence: it was shortened, or belongs to a linearized residual.
     pub unjudged: bool,
     /// Number of corrections still needed at the contraction seen last.
     pub remaining: f64,
     /// True where a tangent of a load step behind the first had negative eigenvalues.
     pub passes_unstable: bool,
-    /// Relative error of the time where it is unknown; loads are curves over it.
+    /// Relative error of the time if the time is unknown; loads are curves over it.
     time_error: f64,
 }
 

@@ -211,7 +211,7 @@ impl ConstraintProjection {
         }
     }
 
-    /// Reactions to inertia and joints alone: those of the first call are subtracted from those of the second.
+    /// Reactions to inertia and joints alone. The second call subtracts the reactions of the first.
     fn on_restraints(&mut self, cx: &Context, nodes: &[Node]) {
         self.bare.residual(&Configuration::of(nodes), &self.loading, &mut self.forces);
         let restraints = &cx.model.constraints.restraints;

@@ -135,7 +135,7 @@ impl StageStepper {
         terms.fold(Vec6::zeros(), |sum, (stage, weight)| sum + self.rates[stage * moving + index][1] * *weight)
     }
 
-    /// Notes the motion at the start of the step, and its power.
+    /// Records the motion at the start of the step, and its power.
     fn begin(&mut self, cx: &Context, ws: &mut Workspace, state: &State, to: f64) {
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
             let [v, a] = rates_of(&state.nodes[node]);

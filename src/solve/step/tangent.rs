@@ -157,7 +157,7 @@ impl IterationMatrix {
         self.has_yielded
     }
 
-    /// Solves for the correction that answers the residual and the gaps of joints.
+    /// Solves for the correction due to the residual and the gaps of joints.
     ///
     /// # Errors
     /// [`Failure::Singular`] if the matrix is stabilized and the correction moves unrestrained parts too far.

@@ -17,7 +17,7 @@ pub struct Stage<'s> {
     pub start_rates: Option<&'s [[Vec6; 2]]>,
     /// Replacements for the accelerations of turning bodies there: rate of angular momentum, and angular acceleration in body axes.
     pub turning: Option<&'s [[Vec3; 2]]>,
-    /// Predicted increments by node that stand in place of those of the scheme.
+    /// Predicted increments by node that replace the predictions of the scheme.
     pub prediction: Option<&'s [Vec6]>,
 }
 
@@ -29,8 +29,7 @@ impl<'s> From<&'s Coefficients> for Stage<'s> {
 }
 
 impl Stage<'_> {
-    /// The velocity and the acceleration of a node at the start of the step as the scheme uses them; `own` are those of
-    /// the state.
+    /// The velocity and the acceleration of a node at the start of the step as used by the scheme; `own` are the values of the state.
     #[inline]
     pub fn start_rates(&self, cx: &Context, state: &State, node: usize, own: [Vec6; 2]) -> [Vec6; 2] {
         if let Some(rates) = self.start_rates {
@@ -109,7 +108,7 @@ impl TrialMotion {
         self.turning.clear();
     }
 
-    /// Writes the predicted increments, and what rotations of bodies start from.
+    /// Writes the predicted increments, and the start values for the rotations of bodies.
     pub fn predict(&mut self, cx: &Context, state: &State, stage: &Stage) {
         for &node in &cx.independent_nodes {
             self.increments[node].q = match stage.prediction {
@@ -152,7 +151,7 @@ impl TrialMotion {
         }
     }
 
-    /// Writes the increments at the end of a step from those of `at_instant`, the instant of equilibrium.
+    /// Writes the increments at the end of a step from `at_instant`, the increments at the instant of equilibrium.
     pub fn finish(&mut self, cx: &Context, at_instant: &TrialMotion, state: &State, stage: &Stage) {
         let bodies: &[TurningBody] = if stage.scheme.turning.is_some() { cx.system.turning_bodies() } else { &[] };
         let mut bodies = bodies.iter().peekable();

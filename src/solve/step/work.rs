@@ -37,7 +37,7 @@ impl Power {
             let restraints = cx.model.constraints.restraints.iter().enumerate().zip(&ws.prescribed.instant);
             let power = |((i, restraint), given): ((usize, &Restraint), &Prescribed)| {
                 let &Restraint { node, dof, .. } = restraint;
-                // A moment does its power at the angular velocity, and the rates of increments are those of a rotation vector.
+                // The power of a moment uses the angular velocity, but the rates of increments are rates of a rotation vector.
                 let rate = if cx.excitation.is_turned(i) { ws.trial.nodes[node].omega[dof - 3] } else { given.v };
                 -ws.forces.on_nodes[node][dof] * rate
             };
@@ -87,7 +87,7 @@ impl WorkQuadrature {
         }
     }
 
-    /// Adds the work of the step to that of the run.
+    /// Adds the work of the step to the work of the run.
     pub fn add_to(&self, work: &mut Work) {
         work.external += self.external;
         work.damping += self.damping;

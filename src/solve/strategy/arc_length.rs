@@ -1,9 +1,9 @@
 //! A step whose load is unknown: equilibrium r(q, t) = 0 and one equation more. With K = −∂r/∂q each correction is
 //!   δq = a + δt b,   K a = r,   K b = ∂r/∂t,
 //! two substitutions with one factorization. The added equation gives δt exactly: the length of the motion |Δq + δq| = ℓ, without the load
-//! (M. A. Crisfield, Comput. Struct. 13 (1981); E. Ramm, 1981), or a displacement that is given. Of the two roots of the first the one that
-//! goes on: along the last step at the start of a step (Y. T. Feng et al., Eng. Comput. 12 (1995)), whatever the sign of det K, along the
-//! motion so far afterwards.
+//! (M. A. Crisfield, Comput. Struct. 13 (1981); E. Ramm, 1981), or a prescribed displacement. The arc length has two roots, and the one that
+//! continues the path is used. At the start of a step it goes along the last step, whatever the sign of det K (Y. T. Feng et al., Eng.
+//! Comput. 12 (1995)); afterwards it goes along the motion so far.
 
 use crate::context::Context;
 use crate::failure::Failure;
@@ -38,7 +38,7 @@ pub struct PathCondition<'c> {
 }
 
 impl PathCondition<'_> {
-    /// Adds to the correction what meets the condition, and moves the end of the step.
+    /// Completes the correction such that it meets the condition, and moves the end of the step.
     ///
     /// # Errors
     /// [`Failure::NoEquilibriumOnArc`] and [`Failure::NoLoadIncrement`], as for [`ArcLengthConstraint::close`].
@@ -82,8 +82,7 @@ pub struct StepMotion {
     short: bool,
 }
 
-/// Scalar products of motions, rotations as rotation vectors of the step: D is the motion so far, ahead the direction
-/// to go on.
+/// Scalar products of motions, with rotations as rotation vectors of the step: D is the motion so far, `ahead` the direction of the path.
 #[derive(Default)]
 struct Products {
     DD: f64,

@@ -21,7 +21,7 @@ pub struct Branch {
     pub parent: usize,
     /// The master where the branch is an arm.
     pub master: Option<usize>,
-    /// Group and number of the element, where it is none.
+    /// Group and number of the element, if the branch is not an arm.
     element: [usize; 2],
 }
 
@@ -38,7 +38,7 @@ impl Branch {
     }
 }
 
-/// Trees of beams and rigid arms, each held in place at one node or at none.
+/// Trees of beams and rigid arms, each restrained at one node or at none.
 pub struct BeamTrees {
     /// The trees that nothing holds, by their ranges of [`BeamTrees::nodes`].
     pub free: Vec<Range<usize>>,

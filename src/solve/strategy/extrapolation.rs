@@ -46,7 +46,7 @@ impl StressExtrapolation {
         }
     }
 
-    /// Forgets what led to nothing.
+    /// Discards the iterates of a failed step.
     pub fn forget(&mut self) {
         (self.last.known, self.of_equilibrium.known, self.trusted) = (false, false, true);
     }

@@ -8,7 +8,7 @@ use crate::system::Prescribed;
 use crate::tolerances::linearized_prediction::PART;
 use crate::workspace::Workspace;
 
-/// Room for the residual a little ahead of a prediction, where it is differentiated.
+/// Room for the residual at a small distance from a prediction, for its derivative.
 pub struct LinearizedPrediction(Vec<f64>);
 
 impl LinearizedPrediction {

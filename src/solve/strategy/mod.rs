@@ -1,4 +1,4 @@
-//! Strategies of the iteration: when a matrix is renewed, and what becomes of a correction before it is added.
+//! Strategies of the iteration: the renewal of the matrix, and changes of a correction before it is added.
 
 pub mod anderson;
 pub mod arc_length;

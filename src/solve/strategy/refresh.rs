@@ -1,4 +1,4 @@
-//! Decides when the matrix is formed and factorized anew.
+//! Decides when the matrix is renewed.
 
 use crate::context::Context;
 use crate::step::convergence::Judgement;
@@ -38,7 +38,7 @@ keep!(Refresh {
 /// The advice after a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advice {
-    /// The iteration goes on.
+    /// The iteration continues.
     GoOn,
     /// The old matrix has misled: the iteration goes back to the prediction with a fresh one.
     Restart,
@@ -107,7 +107,7 @@ impl Refresh {
         Refresh { update, eager: 0, wanted: false, ..self.clone() }
     }
 
-    /// Notes that a matrix has been formed for this step length.
+    /// Records a new matrix for this step length.
     pub fn done(&mut self, dt: f64) {
         self.dt = Some(dt);
         self.baseline = None;
@@ -115,8 +115,8 @@ impl Refresh {
         self.wanted = false;
     }
 
-    /// Takes account of a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the
-    /// earlier matrix no longer contracts; observed contractions set the limit of this size.
+    /// Records a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the earlier
+    /// matrix no longer contracts; observed contractions set the limit of this size.
     pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
         if self.update != Update::Auto || self.method == Method::InitialLoad {
             return;
@@ -153,8 +153,7 @@ impl Refresh {
         Advice::GoOn
     }
 
-    /// Counts an accepted step. A matrix is worth renewing once the iterations that it has cost beyond those of a fresh
-    /// one would have paid for it.
+    /// Counts an accepted step. Renewing a matrix pays once its excess iterations over a fresh one cost as much as the renewal.
     pub fn accepted(&mut self, iterations: usize) {
         self.fresh_matrix_required = false;
         let baseline = *self.baseline.get_or_insert(iterations);

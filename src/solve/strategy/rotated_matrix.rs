@@ -3,9 +3,9 @@
 //! Beams in a tree, with the bodies on them, are strained by differences of displacements along their lengths, in axes that turn with them.
 //! A motion x in the configuration of the matrix becomes the motion x′ = 𝒯 x of the current configuration with the same strains. Rotations
 //! turn with their nodes, and at each Gauss point u′ − θ×r′ turns with the section. Displacements are summed from the restrained node, or
-//! about the centre of mass, so every iteration keeps resultant forces and momenta. With K the old matrix, 𝒯 K⁻¹ 𝒯ᵀ answers a residual. The
-//! stiffness of stretching and shear is then exact, however far the tree has turned and bent, and the stiffness of bending nearly so.
-//! Masses do not follow the change of shape; as always, the contraction of the iteration shows this error.
+//! about the centre of mass, so every iteration keeps resultant forces and momenta. With K the old matrix, 𝒯 K⁻¹ 𝒯ᵀ gives the correction
+//! for a residual. The stiffness of stretching and shear is then exact, however far the tree has turned and bent, and the stiffness of
+//! bending nearly so. Masses do not follow the change of shape; as always, the contraction of the iteration shows this error.
 
 use crate::context::Context;
 use crate::strategy::beam_trees::{BeamTrees, MOST_NODES};
@@ -116,12 +116,13 @@ impl RotatedMatrix {
         self.matrices += 1;
     }
 
-    /// Begins to count matrices anew: after a step that was given up, old matrices must not lead as far as they can.
+    /// Counts matrices from zero: after a failed step, old matrices must not be used for long.
     pub fn rest(&mut self) {
         self.matrices = 0;
     }
 
-    /// Takes the residual `r` at the configuration `nodes` to that of the matrix, 𝒯ᵀ r. Returns false where they are the same.
+    /// Transforms the residual `r` from the configuration `nodes` to the configuration of the matrix, 𝒯ᵀ r. Returns false where they are
+    /// the same.
     pub fn take_back(&mut self, nodes: &[Node], r: &mut [f64]) -> bool {
         if std::mem::take(&mut self.fresh) || self.matrices < MANY {
             return false;
@@ -148,7 +149,7 @@ impl RotatedMatrix {
             self.take_branch_back(k);
         }
         for &(node, master) in self.masters.iter().rev() {
-            // Spins of a rigid body are those of its master; arms are branches that have their say in displacements alone.
+            // Spins of a rigid body equal the spin of its master; arms contribute as branches only to displacements.
             let arm = self.arm_before(node, master, nodes);
             let (f, m, of_now) = (self.before.u[node], self.before.theta[node], self.now.theta[node]);
             self.before.u[master] += f;
@@ -193,7 +194,7 @@ impl RotatedMatrix {
         }
     }
 
-    /// Displacements of the outer nodes of a branch from those of the inner one.
+    /// Displacements of the outer nodes of a branch from the inner node.
     fn carry_branch_along(&mut self, k: usize) {
         let branch = self.trees.branches[k];
         let (of, parent, master) = (branch.nodes(), branch.parent, branch.master);

@@ -9,7 +9,7 @@ use nalgebra::Quaternion;
 /// The most Gauss points: one less than nodes.
 pub const MOST_POINTS: usize = MOST_NODES - 1;
 
-/// The Lagrange polynomials of n Lobatto nodes at n − 1 Gauss points, and integrals of those of the points.
+/// The Lagrange polynomials of n Lobatto nodes at n − 1 Gauss points, and integrals of the polynomials of the points.
 pub struct LineShape {
     /// Number of points.
     pub points: usize,

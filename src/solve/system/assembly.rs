@@ -28,7 +28,7 @@ const CHUNK: usize = 256;
 pub struct Assembly {
     /// Destinations of the elements, by group.
     groups: Vec<Vec<Destination>>,
-    /// Pairs of the groups whose elements wander, in the order of those.
+    /// Pairs of the groups with changing partners, in the order of the groups.
     wanderers: Vec<WanderingPairs>,
     /// Destinations of the matrices of nodes: inertia, nodal damping, follower loads, arms of dependent nodes.
     nodes: Vec<(usize, Destination)>,

@@ -4,9 +4,9 @@ use super::dependents::independent_nodes;
 use super::equations::System;
 use mechanics::elements::Partners;
 
-/// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by
-/// their independent nodes. `nodes` counts the joints too: their multipliers are nodes after all others;
-/// `partners` are pairs of elements that wander.
+/// The connectivity of the nodes: one list for each element, joint and nodal matrix, with dependent nodes replaced by their independent
+/// nodes. `nodes` counts the joints too, whose multipliers are nodes after all others; `partners` are pairs of elements with changing
+/// partners.
 pub fn connectivity(system: &System, nodes: usize, partners: &[(usize, Partners)]) -> Vec<Vec<usize>> {
     let independent = independent_nodes(&system.rigid_links, nodes);
     let mut connectivity = coupled(system, nodes, &independent);

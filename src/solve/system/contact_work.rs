@@ -17,7 +17,7 @@ use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node, State};
 
 /// The excess e of the work of the mean contact forces in a load step from `state` to `trial`, a time `dt` later. `history` is that at the
-/// end, already written. Contacts with multipliers are left out, since those of the start of the step are no longer known.
+/// end, already written. Contacts with multipliers are omitted, because their multipliers at the start of the step are no longer known.
 pub fn excess_of_mean(system: &System, state: &State, (trial, dt): (&[Node], f64), history: &mut [f64]) -> f64 {
     let mut taken = 0.0;
     let mut F: Vec<Force> = vec![[0.0; 6]; trial.len()];

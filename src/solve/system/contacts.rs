@@ -76,7 +76,7 @@ impl System {
         self.contacts < self.groups.len()
     }
 
-    /// The groups whose elements wander, with their numbers.
+    /// The groups of elements with changing partners, with their numbers.
     pub fn wandering_groups(&self) -> impl Iterator<Item = (usize, &Group, &dyn Wandering)> {
         let contacts = self.groups.iter().enumerate().skip(self.contacts);
         contacts.filter_map(|(number, group)| Some((number, group, group.wandering()?)))

@@ -94,7 +94,7 @@ impl Followers {
 /// An arm of a node: its translations follow rotations of an independent node.
 struct Arm {
     node: usize,
-    /// Number of the independent node among those of the node.
+    /// Number of the independent node in the list of the node.
     independent: usize,
     /// The first of the three rows of the node's translations in the local matrix, and of the independent node's rotations.
     translations: usize,
@@ -108,7 +108,7 @@ pub struct Arms(Vec<Arm>);
 /// The place of a local matrix with dependent nodes among [`Arms`].
 pub struct Projection {
     arms: Range<usize>,
-    /// Number of rows of the projected matrix: those of the local one, then rotations that it does not have.
+    /// Number of rows of the projected matrix: the rows of the local one, then additional rotations.
     width: usize,
 }
 

@@ -109,7 +109,7 @@ impl<'a> Destinations<'a> {
         Destination { projection, entries, blocks: [0; 2] }
     }
 
-    /// The blocks of a matrix whose rows are those of different nodes with six unknowns each.
+    /// The blocks of a matrix whose rows belong to different nodes with six unknowns each.
     fn whole_blocks(&mut self, rows: &[(usize, usize)]) -> Option<[u32; 2]> {
         let is_whole = |six: &[(usize, usize)]| (0..6).all(|i| six.get(i) == Some(&(six[0].0, i)));
         if !rows.chunks(6).all(is_whole) {

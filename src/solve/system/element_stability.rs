@@ -50,8 +50,8 @@ fn about(axes: &Mat3, S: &Mat3) -> Vec3 {
     Vec3::from_fn(|i, _| axes.column(i).dot(&(S * axes.column(i))))
 }
 
-/// Principal axes (columns) and moments of an inertia tensor; moments that are rounding are zero. Where all axes are principal they are
-/// those of `S`.
+/// Principal axes (columns) and moments of an inertia tensor; moments that are rounding are zero. If all axes are principal, the axes of
+/// `S` are used.
 fn principal(J0: &Mat3, S: &Mat3) -> (Mat3, Vec3) {
     if *J0 == Mat3::identity() * J0[(0, 0)] {
         return (S.symmetric_eigen().eigenvectors, J0.diagonal());
@@ -132,8 +132,8 @@ impl ElementModes {
         K.symmetric_eigenvalues().max()
     }
 
-    /// The stiffness of rotations where translations answer with κ = `limit`: K_rr + K_rt (κ M_t − K_tt)⁻¹ K_tr. `None` if translations
-    /// alone exceed the limit.
+    /// The stiffness of rotations with the response of translations at κ = `limit`: K_rr + K_rt (κ M_t − K_tt)⁻¹ K_tr. `None` if
+    /// translations alone exceed the limit.
     fn condensed(&self, limit: f64) -> Option<DMatrix<f64>> {
         let (turns, moves): (Vec<usize>, Vec<usize>) =
             (0..self.masses.len()).partition(|&i| self.masses[i].1.is_some());

@@ -218,8 +218,7 @@ impl Balance {
         missing <= self.damping && self.raised < 0.5 * missing
     }
 
-    /// Takes account of the external work of a step. Energies are summed at some steps only, and by then the work may
-    /// have been given back.
+    /// Records the external work of a step. Energies are summed at some steps only, and by then the work may have been given back.
     pub fn update_work(&mut self, external: f64) {
         let external = external - self.before[1];
         self.external = self.external.max(external.abs());
@@ -246,7 +245,7 @@ impl Balance {
         self.lost
     }
 
-    /// Takes account of the energies of a step.
+    /// Records the energies of a step.
     pub fn update(&mut self, energy: &Energy) {
         let stored = energy.strain + energy.links + energy.contact;
         let sizes = energy.strain.abs() + energy.links.abs() + energy.contact.abs();
@@ -276,8 +275,7 @@ impl Balance {
 /// The elastic energy of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartEnergy {
-    /// The part's index in [`Model::parts`]; a shell with triangles and quadrilaterals has that of the first of the
-    /// two.
+    /// The part's index in [`Model::parts`]; for a shell with triangles and quadrilaterals the index of the first of the two.
     pub part: usize,
     /// Elastic energy.
     pub strain: f64,

@@ -27,7 +27,7 @@ use std::ops::Range;
 
 /// Everything that acts on the nodes: elements, masses, constraints, loads and damping. It is constant over a run.
 pub struct System {
-    /// Groups of like elements; those of contacts stand last.
+    /// Groups of like elements, contacts last.
     pub groups: Vec<Group>,
     /// Number of history variables of all elements.
     pub history: usize,
@@ -234,7 +234,7 @@ impl System {
     }
 
     /// Sums forces as [`System::residual`] does and writes the history variables at `now` into `history`, as [`System::update_history`]
-    /// does for the whole of the way, with each material computed once. Returns what is dissipated.
+    /// does for the whole of the way, with each material computed once. Returns the dissipation.
     pub fn advance(
         &self,
         now: &Configuration,
@@ -435,7 +435,7 @@ impl System {
     }
 
     /// True if the loads have a potential (see [`Load::has_potential`](model::Load::has_potential)), so that the tangent is symmetric and
-    /// its eigenvalues decide about stability. Pressure counts as if all edges were held.
+    /// its eigenvalues decide about stability. Pressure counts as if all edges were restrained.
     pub fn loads_have_potential(&self, normal: Option<usize>) -> bool {
         self.loads.iter().all(|load| load.has_potential(normal))
     }

@@ -124,7 +124,7 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// Writes the loads at time `t` into `loading`; at a jump those of `side`.
+    /// Writes the loads at time `t` into `loading`; at a jump the values on this `side`.
     pub fn loading(&self, t: f64, side: Side, loading: &mut Loading) {
         loading.factors.clear();
         let factor = |amplitude: Option<usize>| match amplitude {
@@ -180,8 +180,8 @@ impl<'a> Excitation<'a> {
         }
     }
 
-    /// Writes the prescribed motion at time `t` into `out`, in the order of the model's restraints; where velocities and accelerations jump
-    /// those of `side`. A static analysis has displacements but no rates, or dampers would act in it.
+    /// Writes the prescribed motion at time `t` into `out`, in the order of the model's restraints; at jumps of velocities and
+    /// accelerations the values on this `side`. A static analysis has displacements but no rates, or dampers would act in it.
     pub fn prescribed(&self, t: f64, side: Side, out: &mut Vec<Prescribed>) {
         let dynamic = self.model.analysis.kind == AnalysisKind::Dynamic;
         out.clear();

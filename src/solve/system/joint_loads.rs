@@ -9,7 +9,7 @@ use model::Model;
 
 /// A joint whose friction grows with its load.
 pub struct JointLoad {
-    /// The number of its first constraint equation, and how many it has without that of a drive.
+    /// The number of its first constraint equation, and the number of its equations without a drive.
     equations: [usize; 2],
     /// Index among the joints of the system.
     joint: usize,

@@ -87,7 +87,7 @@ impl System {
         self.transfer_to_masters(nodes, forces);
     }
 
-    /// Tells for each node whether any mass acts on its translations and any inertia on its rotations.
+    /// Returns for each node whether its translations have mass and its rotations have inertia.
     pub fn has_mass(&self, nodes: usize) -> Vec<[bool; 2]> {
         let mut has_mass = vec![[false; 2]; nodes];
         self.inertias.iter().for_each(|inertia| has_mass[inertia.node] = [inertia.mass > 0.0, inertia.rotary]);
@@ -187,9 +187,8 @@ pub(super) fn stiffnesses(
     }
 }
 
-/// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number.
-/// `projections` are those of the nodes onto independent nodes; with `weights.stiffness` the matrix holds the derivative of the
-/// joint's forces.
+/// Forms the matrix of each joint, row-major over its nodes and its multipliers, and hands it to `add` with its number. `projections` map
+/// the nodes to independent nodes; with `weights.stiffness` the matrix holds the derivative of the joint's forces.
 pub(super) fn tangents(
     system: &System,
     nodes: &[Node],

@@ -103,7 +103,7 @@ impl MassDamping {
         !self.frames.is_empty()
     }
 
-    /// Writes the small motions of the frames at all nodes, from those of all nodes.
+    /// Writes the small motions of the frames at all nodes, from the motions of all nodes.
     pub fn carry(&self, nodes: &[Node], moved: &[Vec6]) -> Vec<Vec6> {
         let at = |node: usize| nodes[node].x;
         let of = |node: usize| [linear(&moved[node]), angular(&moved[node])];

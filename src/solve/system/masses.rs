@@ -25,7 +25,7 @@ pub struct MassBlock {
     pub node: usize,
     /// True for each degree of freedom that is an unknown.
     pub free: [bool; 6],
-    /// Mass, with that of all rigidly attached nodes.
+    /// Mass, including all rigidly attached nodes.
     pub mass: f64,
     /// Mean moment of inertia about the centre of mass.
     mean_inertia: f64,
@@ -33,7 +33,7 @@ pub struct MassBlock {
     body: Box<BodyInertia>,
 }
 
-/// The inertia of a block, apart from what every loop over blocks reads.
+/// The inertia of a block, apart from the data read by every loop over blocks.
 #[derive(Debug, Clone)]
 struct BodyInertia {
     /// Vector from the node to the centre of mass, in axes fixed to the node that were global at t = 0, like those of
@@ -75,8 +75,8 @@ pub struct NodeRates {
 }
 
 impl NodeRates {
-    /// The rates at the end of a step of length `dt` by the mean of the accelerations; `missing` is the difference of those of the trial
-    /// motion `now`.
+    /// The rates at the end of a step of length `dt` by the mean of the accelerations; `missing` is the difference to the accelerations of
+    /// the trial motion `now`.
     #[inline]
     pub fn mean(start: &Node, now: &Node, missing: &Vec6, dt: f64) -> NodeRates {
         let (a, alpha) = (now.a + linear(missing), now.alpha + angular(missing));

@@ -12,7 +12,7 @@ pub struct Multipliers {
     pub gaps: Vec<f64>,
     /// s: the penalty factors. Assembly of the tangent writes them.
     pub(super) penalties: Vec<f64>,
-    /// ε, that of the system.
+    /// ε of the system.
     regularization: f64,
 }
 
@@ -29,7 +29,7 @@ impl Multipliers {
         self.regularization == REGULARIZATION
     }
 
-    /// Copies multipliers and penalty factors; the gaps belong to a configuration and are computed anew.
+    /// Copies multipliers and penalty factors; the gaps belong to a configuration and are recomputed.
     pub fn copy_from(&mut self, other: &Multipliers) {
         self.values.copy_from_slice(&other.values);
         self.penalties.copy_from_slice(&other.penalties);
@@ -57,8 +57,8 @@ impl Multipliers {
         }
     }
 
-    /// Updates λ ← λ + s c with the gaps c that a solution has left: the penalty carries them, and equilibrium holds with the
-    /// sum. An iteration finds it in its next residual; a single solution must take it in.
+    /// Updates λ ← λ + s c with the remaining gaps c of a solution: the penalty supports this part, and equilibrium holds with the sum. An
+    /// iteration finds it in its next residual; a single solution must take it in.
     #[inline]
     pub fn add_gaps(&mut self) {
         for ((value, s), c) in self.values.iter_mut().zip(&self.penalties).zip(&self.gaps) {

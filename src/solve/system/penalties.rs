@@ -61,8 +61,8 @@ impl Diagonals {
         }
     }
 
-    /// Measures the rounding of what forces on dependent nodes add to the stiffness of their masters: under an even load on a rigid part their sum
-    /// is zero. Beside inertia, where the scene is not `at_rest`, no entry counts as rounding.
+    /// Measures the rounding of the stiffness of masters due to forces on dependent nodes: under an even load on a rigid part their sum is
+    /// zero. Beside inertia, where the scene is not `at_rest`, no entry counts as rounding.
     pub fn round(&mut self, system: &System, nodes: &[Node], on_dependents: &[Vec3], at_rest: bool) {
         self.rounding.fill(0.0);
         if system.joints.is_empty() || !at_rest {
@@ -89,7 +89,7 @@ impl Diagonals {
 
     /// The penalty factors for translations and rotations of the `j`-th joint if it alone supports weights. Then nothing at its ends
     /// resists translations, so rotational stiffness stems only from forces at arms; or all stiffness is below that of the joint forces. No
-    /// other stiffness then tells what these would overturn. `None` for other joints. `values`: the matrix.
+    /// other stiffness then indicates how large a restraint these forces require. `None` for other joints. `values`: the matrix.
     fn firm(&self, j: usize, values: &[f64]) -> Option<[f64; 2]> {
         let places = &self.joints[j].0;
         let on_nodes = places.iter().map(|place| self.on_nodes[place.independent]);

@@ -13,7 +13,7 @@ pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) ->
     if model.analysis.plane { that_holds(model, inertias, rigid_links) } else { None }
 }
 
-/// The same, whatever the deck keeps.
+/// Like [`normal`], whether or not the deck keeps out-of-plane motion.
 pub fn that_holds(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
     (0..3).rev().find(|&n| is_plane(model, inertias, rigid_links, n))
 }

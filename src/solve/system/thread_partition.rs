@@ -86,7 +86,7 @@ pub(super) fn run(groups: &[Group], now: &Configuration, memory: Option<GroupMem
     }
 }
 
-/// Writes the forces of partitions, which are those of `groups`, and their history.
+/// Writes the forces of partitions, which belong to `groups`, and their history.
 pub(super) fn run_partitions(
     parts: &mut [Partition],
     groups: &[Group],
@@ -117,7 +117,7 @@ pub(super) fn run_partitions(
     }
 }
 
-/// Sums what groups dissipate in the order of [`sum`].
+/// Sums the dissipation of groups in the order of [`sum`].
 pub(super) fn sum_spent(spent: &[Dissipation]) -> Dissipation {
     match spent {
         [] => Dissipation::default(),

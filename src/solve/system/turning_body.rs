@@ -17,8 +17,8 @@
 //! J. C. Simo, K. K. Wong, Int. J. Numer. Meth. Engng 31 (1991).
 //!
 //! Other bodies turn like all other nodes: with restrained or driven rotations, in plane motion, with equal principal inertias, or with
-//! impossible ones. Point masses and bodies that carry masses of dependent nodes do too, because the node is then not the centre of the
-//! turning mass. The rule would dissipate more energy than the rule of other nodes.
+//! impossible ones. Point masses and bodies with masses of dependent nodes do too, because the node is then not the centre of the turning
+//! mass. The rule would dissipate more energy than the rule of other nodes.
 
 use super::inertia::{ConsistentMass, Inertia};
 use crate::tolerances::turning_body::{NEGLIGIBLE, PASSES, ROUNDING, THIN};

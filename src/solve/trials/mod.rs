@@ -57,7 +57,7 @@ impl StepError {
         }
     }
 
-    /// Takes account of another run.
+    /// Adds the effort of another run.
     pub fn add(&mut self, effort: Counts) {
         self.others += 1;
         let sum = &mut self.effort;
@@ -94,8 +94,7 @@ impl StepError {
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(self.tolerance * factor)
     }
 
-    /// The tolerance of a further run where the trial did not come to its end: its steps, and maybe those of the run, do not follow the
-    /// motion.
+    /// The tolerance of a further run if the trial failed: its steps, and maybe the steps of the run, do not follow the motion.
     pub fn without_trial(&self) -> f64 {
         self.tolerance * LOST
     }

@@ -127,7 +127,7 @@ impl Kept {
         self.times += 1;
     }
 
-    /// Notes whether the run has met events.
+    /// Records whether the run has met events.
     pub fn with_events(self, met_events: bool) -> Kept {
         Kept { met_events, ..self }
     }

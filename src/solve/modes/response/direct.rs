@@ -57,7 +57,7 @@ pub fn response(
     if excitation.is_nothing() {
         return Err(ModesFault::NothingExcites);
     }
-    // The shift is next to zero, where parts held by joints alone have no vanishing pivot.
+    // The shift is close to zero, where parts supported only by joints have no vanishing pivot.
     let shift = -NEXT_TO_ZERO * pencil.least_ratio();
     let unstable = !unsymmetric && is_unstable(&mut pencil, shift);
     let matrices = Matrices::of(&mut pencil, &gyroscopic);
@@ -82,7 +82,7 @@ pub fn response(
     Ok(found)
 }
 
-/// True where the lowest mode grows. Where equations of joints are redundant, signs of pivots below the shift may be those of rounding alone.
+/// True where the lowest mode grows. If equations of joints are redundant, rounding may determine signs of pivots below the shift.
 fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
     pencil.factor(shift).is_ok_and(|below| below > 0)
         && natural_pairs(pencil, ModeExtent::Count(1)).map_or(true, |pairs| {
@@ -155,7 +155,7 @@ impl Direct<'_> {
         }
     }
 
-    /// Notes a frequency of unlimited motion.
+    /// Records a frequency of unlimited motion.
     fn note(&mut self, frequency: f64) {
         let mode = self.natural.iter().position(|natural| (natural - frequency).abs() <= SAME_FREQUENCY * frequency);
         self.so_far.resonances.push((frequency, mode));

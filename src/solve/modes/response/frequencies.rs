@@ -3,7 +3,7 @@
 use crate::tolerances::frequencies::{FAR, NEAR};
 use model::ResponseAsked;
 
-/// The frequencies asked for, and those around these natural ones that lie in the range.
+/// The wanted frequencies, and those around these natural ones that lie in the range.
 pub fn frequencies(asked: &ResponseAsked, natural: &[f64]) -> Vec<f64> {
     let mut all = asked.frequencies.clone();
     let Some(around) = asked.resonances else { return all };

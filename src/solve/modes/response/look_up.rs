@@ -1,9 +1,9 @@
-//! The look at what may end a search between two frequencies.
+//! The check for the end of a search between two frequencies.
 
 use super::super::fault::ModesFault;
 use super::super::linearized::Linearized;
 
-/// Ends the search between two frequencies where it is to end, or to pause once it has come on.
+/// Ends the search between two frequencies after a signal, or for a pause once it has made progress.
 ///
 /// # Errors
 /// [`ModesFault::Stopped`].

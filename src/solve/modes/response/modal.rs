@@ -5,8 +5,8 @@
 //! dampers add motions to these modes ([`super::damped_rest`]). With the shift s, for which K − sM is factorized, and the projection P off
 //! the modes found,
 //!   x = Σ φ q + P (r + (ω² − s) S M r),   r = S f,   S = (K − s M)⁻¹.
-//! Moving supports carry the scene along statically by S; forces of inertia and damping remain. The damping ratio of modes refers to
-//! motions relative to the static motion with the supports. Inertia forces of that motion are computed by S with a relative error s/λ.
+//! Moving supports move the model statically by S; forces of inertia and damping remain. The damping ratio of modes refers to motions
+//! relative to the static motion with the supports. Inertia forces of that motion are computed by S with a relative error s/λ.
 
 use super::super::fault::ModesFault;
 use super::super::gyroscopic::Gyroscopic;
@@ -97,7 +97,7 @@ pub fn response(
 fn truncation((natural, extent): (&[f64], ModeExtent), unknowns: usize, highest: f64, spins: bool) -> Option<String> {
     let (last, all) = match extent {
         ModeExtent::UpTo(frequency) => (frequency, false),
-        // Fewer than were asked for are all that there are.
+        // If fewer modes than wanted were found, there are no others.
         ModeExtent::Count(count) => (natural.last().copied().unwrap_or_default(), natural.len() < count),
     };
     if all || natural.len() >= unknowns || !(spins || highest > NEAR * last) {

@@ -7,7 +7,7 @@ use base::names::short;
 use mechanics::elements::contact::{ConvexBody, Facet, FacetTouchers};
 use model::{CarriedSurface, Contact, Model, TouchedSurface};
 
-/// Adds lines about contacts. Parts may pass a monitor unseen: its gaps are those of its points, and its line says so.
+/// Adds lines about contacts. Parts may pass a monitor unnoticed, because its gaps are only the gaps of its points; its line reports this.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for contact in model.each::<Contact>() {
         text.add("contact", contact_in_words(model, contact));

@@ -11,7 +11,7 @@ pub struct Explanation {
     pub omitted: Vec<String>,
     /// Operations avoided by the omissions, if countable.
     pub avoided: Vec<String>,
-    /// Notes that the reader of a result must know.
+    /// Notes for readers of the results.
     pub notes: Vec<String>,
 }
 

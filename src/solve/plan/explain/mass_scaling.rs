@@ -10,7 +10,7 @@ use model::Model;
 /// Number of parts that are listed.
 const LISTED: usize = 5;
 
-/// Adds lines about what mass scaling adds.
+/// Adds lines about mass scaling.
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     let Some(scaling) = system.mass_scaling() else { return };
     mass_added(scaling).into_iter().for_each(|(label, line)| text.add(label, line));

@@ -1,4 +1,4 @@
-//! The solution of a step in words: the iteration, the matrix, and when it is formed anew.
+//! The solution of a step in words: the iteration, the matrix, and when the matrix is renewed.
 
 use super::explanation::Explanation;
 use crate::plan::Plan;

@@ -32,7 +32,7 @@ pub struct CoordinateSpring {
 }
 
 impl CoordinateSpring {
-    /// Coordinate and effort; `memory` is that of the last step, `dt` the time since.
+    /// Coordinate and effort; `memory` is the history of the last step, `dt` the time since then.
     pub fn state(&self, nodes: &[Node], memory: &[f64], dt: f64) -> CoordinateState {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let [q, rate, _] = self.lock.gap(a, b);

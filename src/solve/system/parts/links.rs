@@ -56,7 +56,7 @@ impl Assembled for Link {
                 LinkElement::Joint(spring) => joints.push(spring),
             }
         }
-        // Links of joints come after those of the deck, and so does their history.
+        // Links of joints come after the links of the deck, and so does their history.
         vec![
             (Box::new(Links::new(lines)), 0),
             (Box::new(Links::new(taken_up)), 0),
@@ -167,7 +167,7 @@ impl LinkElement {
         }
     }
 
-    /// The place of its block among those of links.
+    /// The place of its block among the blocks of links.
     fn kind(&self) -> usize {
         match self {
             LinkElement::Line(line) => usize::from(line.is_taken_up()),
@@ -177,8 +177,7 @@ impl LinkElement {
     }
 }
 
-/// The next history variables of each kind of link, among those of all links: lines come first, those that are
-/// pretensioned after the others, then bushings, then joints.
+/// The next history variables of each kind of link, among all links: first lines, then pretensioned lines, then bushings, then joints.
 struct Slots([usize; 4]);
 
 impl Slots {
@@ -199,7 +198,7 @@ impl Slots {
     }
 }
 
-/// The places of the history variables of a link among those of all groups.
+/// The places of the history variables of a link among the history of all groups.
 pub fn history_of(links: &[LinkElement], groups: &[Group], link: usize) -> std::ops::Range<usize> {
     let first = groups.iter().find(|group| is_shared(group)).map_or(0, |group| group.history.start);
     let mut next = Slots::before_kinds(links);

@@ -1,4 +1,4 @@
-//! The parts of a scene in the equation of motion: a file for each kind, which answers the questions of [`Assembled`].
+//! The parts of a model in the equation of motion: a file for each kind, which implements [`Assembled`].
 
 mod assembled;
 mod bars;
