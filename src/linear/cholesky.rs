@@ -35,7 +35,7 @@ pub struct Cholesky {
     place: Vec<u32>,
     /// The external row at each position in the order of elimination.
     external: Vec<u32>,
-    /// Where entries lie in `values`.
+    /// The places of entries in `values`.
     triangle: LowerTriangle,
     fronts: Fronts,
     /// The lower triangle, and the spare place at the end. Written by assembly.

@@ -131,7 +131,7 @@ impl Stacks {
 /// A symmetric matrix to be factored.
 #[derive(Clone, Copy)]
 pub(super) struct Matrix<'a> {
-    /// Where its entries lie.
+    /// The places of its entries.
     pub triangle: &'a LowerTriangle,
     pub values: &'a [f64],
     /// As L Lᵀ, not as L D Lᵀ.

@@ -11,7 +11,7 @@ pub(super) struct Graph {
     pub first: Vec<usize>,
     /// Group of each external row.
     pub group: Vec<u32>,
-    /// So many groups at the end hold Lagrange multipliers: they are eliminated after their neighbours.
+    /// Number of groups at the end that hold Lagrange multipliers; these are eliminated after their neighbours.
     pub multipliers: usize,
     /// Positions of the other groups; empty if unknown.
     pub positions: Vec<[f64; 3]>,

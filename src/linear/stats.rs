@@ -1,4 +1,4 @@
-//! What a factorisation costs.
+//! The cost of a factorization.
 
 /// Size and operations of a factorisation, known from the structure alone.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -117,7 +117,7 @@ pub struct Derived {
     pub contact_touches: Vec<ContactTouch>,
     /// Largest accumulated plastic strain of each element of all beams, bars and shells in deck order.
     pub plastic_strains: Vec<f64>,
-    /// Whether each of these elements has failed, likewise; empty where none can.
+    /// True for each of these elements that has failed; empty if none can fail.
     pub failed: Vec<bool>,
     /// Elements and links that failed in the step.
     pub broken: Vec<Broken>,

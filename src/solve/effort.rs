@@ -2,7 +2,7 @@
 
 use base::snapshot::keep;
 
-/// What a step took.
+/// The effort of a step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Effort {
     /// Iterations.

@@ -13,7 +13,7 @@ use model::StepLength;
 pub struct Events {
     /// The branches at the beginning; `None` if the run is not watched.
     branches: Option<usize>,
-    /// What was dissipated before.
+    /// The dissipation before the run or stage.
     spent: Dissipation,
     met: bool,
 }

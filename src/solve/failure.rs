@@ -92,7 +92,7 @@ pub enum Failure {
     ContactNotClosed {
         /// The name of the contact.
         name: String,
-        /// By how much it is out, over the tolerance.
+        /// Its penetration or slip error over the tolerance.
         out: f64,
     },
     /// The ends of a bushing have turned against each other by half a turn.

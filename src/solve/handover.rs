@@ -118,7 +118,7 @@ pub fn share_plane<'m>(stages: impl Iterator<Item = &'m mut Model>) -> Result<()
     Ok(())
 }
 
-/// Where the nodes of a scene were in the one before.
+/// The nodes and joints of the previous stage by those of the new one.
 struct NodeMap {
     /// The node of the scene before, for each of the new one.
     old: Vec<Option<usize>>,
@@ -317,7 +317,7 @@ fn recount(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) ->
     changed
 }
 
-/// Takes away all motion.
+/// Sets all velocities and accelerations to zero.
 fn rest(state: &mut State) {
     let zero = Vec3::zeros();
     for node in &mut state.nodes {

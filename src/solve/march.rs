@@ -33,7 +33,7 @@ pub struct March<'r, 'a> {
     pub stop: &'a AtomicBool,
     /// The nodes at the end of the stage before; `None` at t = 0.
     pub begins_from: Option<&'r [Node]>,
-    /// Where between its events the run is.
+    /// The position of the run between its events.
     pub place: RunPosition,
     /// True if the run resumes from a checkpoint.
     pub resumes: bool,

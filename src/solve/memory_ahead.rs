@@ -35,7 +35,7 @@ impl Run<'_> {
         (state + 2 * size_of::<f64>() * modes * cx.plan.dofs.unknowns()) as f64
     }
 
-    /// How many of the matrices that come later are there at once: a new one with room for other pairs in contact is made beside the old one.
+    /// Number of later matrices in memory at once: a new one with room for other contact pairs is made beside the old one.
     pub fn copies_ahead(&self) -> f64 {
         if self.context.system.wandering_groups().next().is_some() { 2.0 } else { 1.0 }
     }

@@ -38,7 +38,7 @@ pub struct Recorder {
     pub growth: EnergyGrowth,
     /// Mechanical energy at t = 0, where energies are summed.
     initial_energy: Option<f64>,
-    /// What has failed.
+    /// Failed elements and links.
     breakage: Breakage,
     /// Events that reduce the order of the error of steps.
     pub events: Events,
@@ -102,7 +102,6 @@ pub struct AcceptedStep<'s> {
 }
 
 impl AcceptedStep<'_> {
-    /// What it took.
     fn effort(&self) -> Effort {
         let StepReport { iterations, factorizations, residual, .. } = *self.report;
         Effort { iterations, refactorizations: factorizations, residual, cuts: self.cuts }

@@ -276,7 +276,7 @@ impl<'a> Run<'a> {
         Some((beyond.copysign(missed), energy.max(works.largest).max(0.5 * works.gross).max(left)))
     }
 
-    /// What was not judged.
+    /// The remarks on omitted checks.
     pub fn remarks(&self) -> &[Remark] {
         self.workspace.warnings.remarks()
     }

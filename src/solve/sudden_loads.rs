@@ -10,7 +10,7 @@ use base::snapshot::keep;
 pub struct SuddenLoads {
     from: f64,
     to: f64,
-    /// By how much loads jump at its start.
+    /// The jump of the loads at its start.
     jump: Loading,
 }
 

@@ -7,7 +7,7 @@
 pub mod iteration {
     /// Residual of balanced forces, below which open joints cause the failure.
     pub const BALANCED: f64 = 1e-3;
-    /// By how much longer an iteration may be whose corrections are shortened.
+    /// Factor on the limit of iterations whose corrections are shortened.
     pub const LONGER: usize = 4;
     /// Residual beyond a limit load is the excess load; a larger part of the forces shows lost iterates.
     pub const NEAR_LIMIT: f64 = 0.1;
@@ -738,7 +738,7 @@ pub mod turning_body {
     pub const ROUNDING: f64 = 1e-9;
     /// The part of the largest principal inertia below which an axis follows the momentum in space in part only.
     pub const THIN: f64 = 0.1;
-    /// How often a rate is put into the acceleration that it depends on: each time the error shrinks by a third of the turn of a step.
+    /// Number of passes between a rate and the acceleration that depends on it: each reduces the error by a third of the turn of a step.
     pub const PASSES: usize = 2;
 }
 
@@ -757,7 +757,7 @@ pub mod masses {
 pub mod energy {
     /// Some thousand times the rounding of a position, which steps add up.
     pub const ROUNDING: f64 = 1e-12;
-    /// Of the largest energy, at least: a steady motion that keeps its speed to 3e-5 is as good as the results are.
+    /// Least reference energy, as a part of the largest energy: errors of the other results exceed a loss of 3e-5 of the speed.
     pub const OF_PEAK: f64 = 3e-3;
     /// Multiple of the exchanged energy: an unresolved vibration dissipates before its energy was stored once.
     pub const GONE: f64 = 5.0;

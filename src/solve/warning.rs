@@ -37,7 +37,7 @@ pub enum Warning {
     DeepContact {
         /// The name of the contact.
         name: String,
-        /// The largest depth.
+        /// The largest penetration.
         depth: f64,
         /// The smallest dimension of the touching and the touched bodies.
         size: f64,
@@ -71,7 +71,7 @@ pub enum Warning {
     BeginsClosed {
         /// The name of the contact.
         name: String,
-        /// How deep.
+        /// The penetration.
         depth: f64,
     },
     /// A yielding shell is stretched beyond the range of its strain measure.
@@ -129,7 +129,7 @@ keep_either!(Warning {
     15 => SlipBegins(what),
 });
 
-/// Where and how an equilibrium becomes unstable.
+/// The time and the mode of an instability.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Instability {
     /// Time of buckling in the first mode, estimated between the ends of a step; the start of the step if it was already unstable.
@@ -329,7 +329,7 @@ impl fmt::Display for Warning {
 pub struct Warnings {
     warnings: Vec<Warning>,
     remarks: Vec<Remark>,
-    /// Of central differences, the sums over all steps of (ω Δt)² v² and of v² by modes: they tell whether steps resolve the motion.
+    /// For central differences, the sums of (ω Δt)² v² and of v² by modes over all steps, which show whether steps resolve the motion.
     pub(super) resisted: [f64; 2],
 }
 

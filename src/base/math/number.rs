@@ -52,7 +52,7 @@ pub trait Number:
     + AddAssign
     + SubAssign
 {
-    /// What comparisons give.
+    /// The result of comparisons.
     type Mask: Mask;
     /// The number of elements.
     const COUNT: usize;

@@ -401,7 +401,7 @@ fn planes(points: &[Vec3], flat: f64) -> Vec<(Vec3, Vec<usize>)> {
         for j in i + 1..count {
             for k in j + 1..count {
                 let n = (points[j] - points[i]).cross(&(points[k] - points[i]));
-                // Of three points nearly in line the plane is not known.
+                // Three points nearly in line define no plane.
                 let longest = (points[j] - points[i]).norm().max((points[k] - points[i]).norm());
                 if n.norm() <= flat * longest {
                     continue;

@@ -16,7 +16,7 @@ pub trait FollowTolerance {
 /// Finds steps that are too long for an event inside them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct EventLimit {
-    /// Whether material flows, and whether something slips, in the step that was taken last.
+    /// True if material flows, and if contacts slip, in the last accepted step.
     flows: [bool; 2],
 }
 

@@ -32,7 +32,7 @@ pub fn check_scaled_step(
     let Some(node) = cx.independent_nodes.iter().copied().max_by(|a, b| energy(a).total_cmp(&energy(b))) else {
         return;
     };
-    // Of a mode of unit inner product the stiffness is the square of its frequency, 4/Δt².
+    // A mode of unit inner product has the squared frequency 4/Δt² as stiffness.
     let stiffness = cx.independent_nodes.iter().map(energy).sum::<f64>() * (2.0 / longest).powi(2);
     let (label, cause) = (cx.model.nodes[node].label.clone(), cause(cx, ws, state, (mode, stiffness)));
     ws.warnings.add(Warning::ScaledStep { wanted, longest, label, cause });

@@ -24,7 +24,7 @@ pub struct Broken {
 pub struct Breakage {
     /// Indices of the groups whose elements may fail.
     groups: Vec<usize>,
-    /// Whether each of their elements has failed.
+    /// True for each of their elements that has failed.
     failed: Vec<bool>,
     /// Elements and links that failed in the last step.
     new: Vec<Broken>,

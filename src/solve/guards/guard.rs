@@ -26,7 +26,7 @@ pub trait Guard {
         Ok(())
     }
 
-    /// Where an equilibrium has been found, of a stage of the step too.
+    /// After each equilibrium, including those of stages of the step.
     ///
     /// # Errors
     /// Why it is not taken.
@@ -34,7 +34,7 @@ pub trait Guard {
         Ok(())
     }
 
-    /// Where the equilibrium is the last of the step, before anything is carried to its end.
+    /// After the last equilibrium of the step, before the motion is extrapolated to the end of the step.
     ///
     /// # Errors
     /// Why the step is not taken.

@@ -1,4 +1,4 @@
-//! Whether bushings still know their moments at the end of a step, and supports the rotations that they give.
+//! Checks that the moments of bushings and the prescribed rotations of supports are still defined at the end of a step.
 
 use crate::context::Context;
 use crate::failure::Failure;

@@ -118,7 +118,7 @@ fn light_dofs(cx: &Context) -> Vec<[bool; 6]> {
 /// The clusters of these degrees of freedom.
 fn clusters(cx: &Context, light: &[[bool; 6]]) -> Vec<Cluster> {
     let is_light = |node: usize| light[node].contains(&true);
-    // Of joined nodes each points to one before it, the first to itself.
+    // Each joined node points to an earlier one, and the first to itself.
     let mut leader: Vec<usize> = (0..light.len()).collect();
     let find = |leader: &[usize], mut node: usize| {
         while leader[node] != node {

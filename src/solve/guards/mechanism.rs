@@ -69,7 +69,7 @@ pub fn strains_elements(
     strains.energy.abs() > ENERGY * strains.terms || strains.largest > FORCE
 }
 
-/// What a motion strains.
+/// The energy and the forces of elements under a motion.
 struct Strains<'a> {
     motions: &'a [Vec6],
     length: f64,

@@ -51,7 +51,7 @@ impl MechanismWatch {
         let count = if self.is_due { mechanism::open_elements(cx.system, now) } else { 0 };
         match self.searched {
             Some(known) if count > known => {
-                // Where nothing was open before, it may have opened as the last step ended.
+                // If no part was open before, it may have opened at the end of the last step.
                 let before = (known > 0).then(|| state.configuration());
                 self.opened = mechanism::opened_part(cx.model, cx.system, before.as_ref(), now).or(self.opened.take());
             }

@@ -8,7 +8,7 @@
 //!
 //! The tangent of slipping contacts is not symmetric: a penetration larger by δ increases the friction by μ k δ, but a slip causes no
 //! normal force. Its symmetric part may have negative eigenvalues although no motion grows; without negative eigenvalues no motion grows.
-//! So these only raise the suspicion, which the determinant of the whole tangent settles.
+//! They therefore only raise a suspicion, and the determinant of the whole tangent decides.
 
 use crate::context::Context;
 use crate::failure::Failure;

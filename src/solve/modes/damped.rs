@@ -22,7 +22,7 @@ use linear::{Factorization, Solver, Sparse};
 use model::ModeExtent;
 use std::f64::consts::TAU;
 
-/// Where roots are looked for.
+/// The range of the search for roots.
 #[derive(Clone, Copy)]
 struct Near {
     /// The shift σ.

@@ -45,7 +45,7 @@ pub struct Plan {
     /// search.
     pub redundant_constraints: Option<Vec<usize>>,
     nodes: Vec<dof_status::NodeStatus>,
-    /// Where nodes are at the start.
+    /// Positions of the nodes at the start.
     places: Vec<[f64; 3]>,
 }
 

@@ -15,7 +15,7 @@ use mechanics::state::State;
 
 /// Takes load steps of a static analysis, and time steps of one stage or several.
 pub struct Implicit<'a> {
-    /// What takes their stages.
+    /// The solver of their stages.
     pub solver: EquilibriumSolver,
     stages: Stages<'a>,
 }

@@ -288,7 +288,7 @@ impl Newton {
     /// Returns to the prediction before a step is cut, and uses a fresh matrix in every iteration from then on.
     ///
     /// # Errors
-    /// That was done already.
+    /// It was required already.
     fn require_fresh_matrix(
         &mut self,
         cx: &Context,

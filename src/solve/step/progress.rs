@@ -1,4 +1,4 @@
-//! How far the iteration of a step has come.
+//! The progress of the iteration of a step.
 
 use crate::context::Context;
 use crate::guards::guard::Iterate;

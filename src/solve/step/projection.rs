@@ -229,7 +229,7 @@ impl ConstraintProjection {
         multipliers.iter_mut().zip(&self.change.multipliers).for_each(|(value, change)| *value += change);
     }
 
-    /// How the reactions change with the accelerations projected last, in the order of the model's restraints.
+    /// The change of the reactions due to the last projection of accelerations, in the order of the model's restraints.
     pub fn reaction_changes(&self) -> &[f64] {
         &self.change.reactions
     }

@@ -11,9 +11,9 @@ use model::Restraint;
 /// The power at an instant of a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Power {
-    /// Of loads and prescribed motion.
+    /// Power of loads and prescribed motion.
     pub external: f64,
-    /// Of viscous damping.
+    /// Power of viscous damping.
     pub damping: f64,
 }
 

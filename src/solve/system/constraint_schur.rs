@@ -22,9 +22,9 @@ pub struct ConstraintSchur {
     /// The translations, and the rotations, of each joint. Their diagonals are raised by a common value, so that the loads shared by
     /// redundant equations do not depend on the axes of the equations.
     alike: Vec<Range<usize>>,
-    /// How much loads of each equation weigh where redundant ones share them.
+    /// Weights of the loads of equations that redundant ones share.
     weights: Vec<f64>,
-    /// By how much the diagonal of a sparse system is raised.
+    /// The increase of the diagonal of a sparse system.
     raised: Vec<f64>,
     /// The equations solved for in a dense system with possibly redundant equations.
     independent: Option<IndependentRows>,

@@ -47,7 +47,7 @@ impl<'o> Trace<'o> {
         Trace { observer, kept: Kept { power: power as i32, between, ..Kept::default() } }
     }
 
-    /// What was kept.
+    /// The kept data.
     pub fn into_kept(self) -> Kept {
         self.kept
     }

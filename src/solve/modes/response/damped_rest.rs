@@ -38,7 +38,7 @@ pub fn rest_motions(
             let mut answer = force.clone();
             pencil.solve(&mut answer);
             remove(pencil, &mut answer);
-            // Of a mode of mass 1 this is a part of its stiffness, at its own frequency.
+            // For a mode of mass 1 this is a part of its stiffness, at its frequency.
             let size = dot(&answer, &times(&shifted, &answer));
             if size > SMALL || round > 0 {
                 add(&mut found, answer, size, &shifted);

@@ -137,7 +137,7 @@ struct Space<'p> {
     /// True where Ĉ is diagonal to rounding.
     diagonal: bool,
     shift: f64,
-    /// By mode, the damping by its ratio times s/λ; 0 of motions without stiffness, which have none.
+    /// By mode, the damping by its ratio times s/λ; 0 for motions without stiffness, which have no ratio.
     carried: Vec<f64>,
 }
 
@@ -181,7 +181,7 @@ impl<'p> Space<'p> {
         Space { pairs, rest, damping, diagonal: !coupled, shift, carried }
     }
 
-    /// What a force does.
+    /// The response to a force: its modal parts, and the static and the first inertia term of the rest.
     fn part(&mut self, pencil: &mut Pencil, force: &[f64]) -> Part {
         let modal = self.shapes().map(|phi| dot(phi, force)).collect();
         let mut first = force.to_vec();

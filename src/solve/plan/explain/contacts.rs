@@ -45,7 +45,7 @@ fn contact_in_words(model: &Model, contact: &Contact) -> String {
     }
 }
 
-/// What touches what.
+/// The touching and the touched bodies in words.
 fn sides_in_words(model: &Model, contact: &Contact) -> String {
     let touching = touching_in_words(contact);
     let faces = match &contact.surface {

@@ -29,7 +29,7 @@ pub fn explain(response: &ResponseAsked, model: &Model) -> String {
     )
 }
 
-/// What is harmonic.
+/// The harmonic excitation in words.
 fn excitation(model: &Model) -> String {
     let loading = &model.loading;
     let harmonic = |i: Option<usize>| i.is_some_and(|i| loading.amplitudes[i].harmonic_phase().is_some());

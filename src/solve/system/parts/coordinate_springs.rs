@@ -27,7 +27,7 @@ pub struct CoordinateSpring {
     pub lock: ConstraintEquation,
     /// Its laws.
     pub law: CoordinateLaw,
-    /// What drives the joint.
+    /// The drive of the joint.
     pub drive: Option<Drive>,
 }
 

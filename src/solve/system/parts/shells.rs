@@ -73,7 +73,7 @@ impl Assembled for Shell {
         let sides = (0..corners).map(|k| (corner(k + 1) - corner(k)) / parts);
         let squares: Mat3 = sides.map(|side| 0.5 * side * side.transpose()).sum();
         let across = squares.symmetric_eigen();
-        // Of the three the least is that along the normal. Turns about the normal bulge the longer side.
+        // The least of the three belongs to the normal. Turns about the normal bulge the longer side.
         let normal = across.eigenvectors.column(across.eigenvalues.imin()).into_owned();
         let long = across.eigenvalues.max();
         let short = across.eigenvalues.sum() - long - across.eigenvalues.min();
