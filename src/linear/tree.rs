@@ -118,7 +118,7 @@ impl Layout {
 }
 
 impl StackSizes {
-    /// The data for both.
+    /// The sizes that suffice for both.
     pub fn max(self, other: StackSizes) -> StackSizes {
         StackSizes {
             stacks: [0, 1].map(|level| self.stacks[level].max(other.stacks[level])),

@@ -346,7 +346,7 @@ pub struct NearestPart {
     pub along: f64,
     /// The normal of this face.
     pub normal: Vec3,
-    /// What part it is.
+    /// The kind of the part, by the directions in which its nearest point may move.
     pub free: Freedom,
 }
 
