@@ -70,8 +70,8 @@ use deck::read::ROOT;
 use mechanics::amplitude::Amplitude;
 use mechanics::integrators::{Scheme, Stepping};
 
-/// Reads a deck and builds its model; everything there is to say about it, in the order of the deck. Of a deck with stages it is the model of
-/// the first.
+/// Reads a deck and builds its model; everything there is to say about it, in the order of the deck. Of a deck with stages it is the model
+/// of the first.
 pub fn read(source: &Source) -> (Option<Model>, Vec<Diagnostic>) {
     let (models, problems) = read_stages(source);
     (models.into_iter().next(), problems)
@@ -198,8 +198,8 @@ fn share_contact_laws(models: &mut [Model]) {
     }
 }
 
-/// The model the deck describes, with the mesh and the records it names, and everything there is to say about it. `None` if any of that is an
-/// error.
+/// The model the deck describes, with the mesh and the records it names, and everything there is to say about it. `None` if any of that is
+/// an error.
 pub fn build(deck: &Deck, input: Option<&Input>, records: &[Option<Record>]) -> (Option<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
     if !report.is_spoiled(&ROOT, "stages") {
@@ -336,7 +336,7 @@ fn check_sound(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, tie
     if scene.stage.is_none() {
         check_all_held(scene.deck, topology, report);
     }
-    // Of several stages the times are those of all.
+    // With several stages the amplitudes cover all of them.
     if scene.stage.is_none() && !scene.analysis.has_modes() {
         check_amplitude_ends(scene.deck, amplitudes, scene.analysis.end_time, report);
     }

@@ -34,7 +34,7 @@ pub enum GroupChoice {
 /// The groups that a name of the deck means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct GroupPlace {
-    /// As a list of nodes.
+    /// The nodes for a list.
     pub nodes: GroupChoice,
     /// The lines for a beam or for a load.
     pub lines: GroupChoice,

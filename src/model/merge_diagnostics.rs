@@ -51,7 +51,7 @@ fn split(problem: &Diagnostic) -> (Option<Sameness>, String) {
 struct Others {
     /// The first one, and the next few, each once.
     names: Vec<String>,
-    /// Besides the first.
+    /// Number of names without the first.
     count: usize,
 }
 

@@ -48,7 +48,7 @@ impl GivenAngle {
         GivenAngle { axis, measure }
     }
 
-    /// The same, zero at the rotation that the node now has.
+    /// The angle measured from the current rotation of the node.
     pub fn from_here(&self, a: &Node) -> GivenAngle {
         let R = a.R();
         let back = |v: &Vec3| R.tr_mul(v);

@@ -76,8 +76,8 @@ pub trait Mechanics: Elements {
         let each = K.chunks_mut(length).enumerate();
         each.for_each(|(k, K)| self.tangent(first + k, now, rate_weight, moduli, K));
     }
-    /// The elastic tangent of element `e` in the configuration `now`, with the stresses at the node positions `stressed`: geometric
-    /// stiffness without large displacements. By default all is that of the nodes `stressed`.
+    /// The elastic tangent of element `e` in the configuration `now`, with the stresses at the node positions `stressed`:
+    /// it separates the effect of stresses from that of displacements. By default all is that of the nodes `stressed`.
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
         self.tangent(e, &Configuration { nodes: stressed, lead: None, ..*now }, 0.0, Moduli::Elastic, K);
     }

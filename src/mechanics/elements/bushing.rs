@@ -79,7 +79,7 @@ impl Bushing {
     /// True if the ends turn by more than 2 rad in a step of length `dt` from `start` to `end`. The rotations at both ends then do not
     /// define the number of full turns.
     pub fn turns_too_far(&self, start: &[Node], end: &[Node], dt: f64) -> bool {
-        /// In radians. Half a turn is the limit; velocities at the ends of a step tell the angle between to a part of it only.
+        /// In radians. The margin to half a turn is for the error of the angle found from the velocities at the ends of a step.
         const LIMIT: f64 = 2.0;
         if !self.spring.resists() {
             return false;
@@ -88,7 +88,7 @@ impl Bushing {
             let [a, b] = self.nodes.map(|n| &nodes[n]);
             self.axes.tr_mul(&a.R().tr_mul(&(b.omega - a.omega)))
         };
-        // Of what vibrates from step to step the mean is the rotation all the same.
+        // The mean of both spins is the rotation also for vibrations from step to step.
         let spun = 0.5 * dt * (spin(start) + spin(end));
         let rotations = [start, end].map(|nodes| self.relative_rotation(nodes));
         self.spring.step_angle(&rotations, &spun) > LIMIT

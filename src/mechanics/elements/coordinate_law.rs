@@ -22,7 +22,7 @@ pub struct CoordinateLaw {
     pub stops: Option<Stops>,
     /// Dry friction.
     pub friction: Option<JointFriction>,
-    /// What yields.
+    /// Hysteresis of a plastic hinge or yielding damper.
     pub hysteresis: Option<Hysteresis>,
 }
 
@@ -33,7 +33,7 @@ pub struct JointFriction {
     pub limit: f64,
     /// Increase of the limit per transverse force of the joint.
     pub per_load: f64,
-    /// By how much it gives before it slips.
+    /// Displacement at the slip limit.
     pub stick: f64,
 }
 
@@ -52,12 +52,12 @@ pub struct Stops {
     pub limits: [f64; 2],
     /// Effort per coordinate beyond.
     pub stiffness: f64,
-    /// What an impact loses.
+    /// Energy loss of an impact.
     pub loss: Loss,
 }
 
 /// Memory of every joint: coordinate and rate at the end of the last step, speed of the last landing on a stop, impact power, and anchor of
-/// friction. Anchors of what yields come after them.
+/// friction. The anchors of the hysteresis follow.
 pub const MEMORY: usize = 5;
 /// Place of the rate.
 pub const RATE: usize = 1;
@@ -96,7 +96,8 @@ impl CoordinateLaw {
         MEMORY + self.hysteresis.as_ref().map_or(0, Hysteresis::memory)
     }
 
-    /// The spring of friction a time `dt` after the last step, the load going on as it has changed, but not below zero or to more than twice.
+    /// The spring of friction a time `dt` after the last step, the load going on as it has changed, but not below zero or to more than
+    /// twice.
     pub fn friction_after(&self, dt: f64, memory: &[f64]) -> Option<DryFriction> {
         let load = self.load_memory().map_or(0.0, |place| {
             let [load, rate] = [memory[place], memory[place + 1]];

@@ -52,7 +52,7 @@ impl RotationalSpring {
             [true, ..] => 2,
             [_, true, _] => 0,
             [.., true] => 1,
-            // Of three different stiffnesses the softest axis will turn farthest.
+            // With three different stiffnesses the softest axis turns farthest.
             _ => stiffness.imin(),
         };
         RotationalSpring::AboutAxis { axis, stiffness }

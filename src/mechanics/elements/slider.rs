@@ -22,9 +22,9 @@ pub struct CoordinateState {
     pub by_q: f64,
     /// ∂f/∂q̇.
     pub by_rate: f64,
-    /// What springs store.
+    /// Energy stored in the springs.
     pub energy: f64,
-    /// The way of the anchor of friction.
+    /// The displacement of the anchor of friction.
     pub slip: f64,
     /// Dissipation by impact, per time.
     pub impact_power: f64,

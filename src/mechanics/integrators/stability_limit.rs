@@ -24,7 +24,7 @@ mod tests {
     use base::math::rotation::RotationUpdate;
     use nalgebra::Matrix3;
 
-    /// Of the step of ẍ + γ ẋ + κ x = 0 with Δt = 1, on (x, v, a).
+    /// The largest eigenvalue of the step of ẍ + γ ẋ + κ x = 0 with Δt = 1, on (x, v, a).
     fn largest_eigenvalue(stiffness: f64, damping: f64) -> f64 {
         let unit = |j: usize| std::array::from_fn(|i| if i == j { 1.0 } else { 0.0 });
         let columns = [0, 1, 2].map(|j| {

@@ -30,7 +30,7 @@ pub struct MaterialHistory<T, const N: usize> {
     pub overstress: Option<T>,
 }
 
-/// What a material answers.
+/// The response of a material point.
 #[derive(Debug, Clone, Copy)]
 pub struct PointResponse<T, const N: usize> {
     /// Stress.
@@ -74,7 +74,7 @@ impl<T: Number> Spent<T> {
         add(&mut self.eroded, more.eroded);
     }
 
-    /// That of one point.
+    /// The energies of one point.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> Dissipation {
         let of = |part: Option<T>| part.map_or(0.0, |part| part.lane(lane));

@@ -25,7 +25,7 @@ pub struct Solid {
 
 /// Drawing and contact points of a body: points about the centre of mass in body axes.
 pub trait SolidShape: fmt::Debug + Send + Sync {
-    /// What is drawn.
+    /// The outline for drawing.
     fn outline(&self) -> Outline;
 
     /// `between`: how many points are asked for between corners or rims.

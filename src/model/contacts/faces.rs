@@ -107,7 +107,7 @@ fn faces<'d>(
     Some((faces, points))
 }
 
-/// Of each solid, the points that are its corners, by number.
+/// For each solid, the numbers of the points at its corners.
 fn corners_of(solids: &[CarriedSurface], points: &[ContactPoint], finder: &Finder) -> Vec<Vec<usize>> {
     let root = |node: usize| finder.topology.root(node);
     let is_corner =

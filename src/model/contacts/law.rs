@@ -173,7 +173,7 @@ impl LawReader<'_, '_> {
         self.gravity.norm() * self.meeting(opposite, &points, &levers).mean / stiffness
     }
 
-    /// The stiffness by what touches, or why none can be chosen.
+    /// The stiffness by the touching bodies, or the reason for having none.
     fn chosen_stiffness(
         &self,
         contact: &words::Contact,

@@ -17,11 +17,11 @@ pub fn is_augmented(contact: &Contact) -> bool {
     contact.method.as_ref().is_some_and(|at| at.value == ContactMethod::AugmentedLagrangian)
 }
 
-/// The largest tolerance, over the size of what touches.
+/// The largest tolerance, relative to the size of the touching bodies.
 const MOST: f64 = 1e-4;
 
-/// Checks the keys of the method, of what touches by points alone or not, and returns the tolerance of the depth; `None` for springs alone.
-/// `size` is the size of the touching bodies, `extent` the extent of the model.
+/// Checks the keys of the method, and returns the tolerance of the depth; `None` for springs alone. `by_points` is true for contact by
+/// points. `size` is the size of the touching bodies, `extent` the extent of the model.
 pub fn tolerance(
     scene: &Scene,
     owner: &Owner,

@@ -121,8 +121,8 @@ fn of_shape<'d>(
     })
 }
 
-/// The solids in contact by volume with a surface: its node, and whether only cylinders. Multipliers act at points, so planes and cylinders
-/// then have contact by points. Multipliers, which are those of points, leave planes and cylinders to these.
+/// For a surface that solids touch with their full shape: its node, and whether only cylinders do. Multipliers act at points, so planes
+/// and cylinders then have contact by points.
 fn in_full(node: usize, surface: &Surface, by_points: bool) -> Option<OnConvex> {
     let (is_plane, is_cylinder) =
         (matches!(surface.shape, SurfaceShape::Plane(_)), matches!(surface.shape, SurfaceShape::Cylinder(_)));

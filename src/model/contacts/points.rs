@@ -66,7 +66,7 @@ pub fn connect_touching_points(scene: &Scene, nodes: &mut Nodes) {
 /// The lines of a surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SurfaceLines {
-    /// It is made of something else.
+    /// A surface without lines.
     None,
     /// Beams and bars from node to node. Others touch them with theirs.
     Axes,
@@ -74,7 +74,7 @@ pub enum SurfaceLines {
     FreeEdges,
 }
 
-/// A surface in contact by volume with convex solids.
+/// A surface that convex solids touch with their full shape.
 #[derive(Debug, Clone, Copy)]
 pub struct OnConvex {
     /// The node that carries it.
@@ -86,7 +86,7 @@ pub struct OnConvex {
 /// The names of what `points` do not divide.
 #[derive(Default)]
 struct Undivided<'n> {
-    /// What touches with lines.
+    /// Names with contact by lines.
     lines: Vec<&'n str>,
     /// Bodies that touch with all of their surface.
     solids: Vec<&'n str>,
@@ -100,7 +100,7 @@ pub struct Finder<'a, 'd> {
     pub topology: &'a mut Topology,
     /// The report for errors.
     pub report: &'a mut Report<'d>,
-    /// The surface, if it is a convex shape with contact by volume.
+    /// The surface, if convex solids touch it with their full shape.
     pub on_convex: Option<OnConvex>,
     /// The lines of the surface.
     pub on_lines: SurfaceLines,
@@ -113,7 +113,7 @@ pub struct Finder<'a, 'd> {
 }
 
 impl<'a, 'd> Finder<'a, 'd> {
-    /// Finds what touches anything but convex shapes and lines.
+    /// A finder for contact by points.
     pub fn new(scene: &'a Scene<'d>, topology: &'a mut Topology, report: &'a mut Report<'d>) -> Self {
         let (convex, sight) = (Vec::new(), Sight::default());
         let (on_convex, on_lines, divides) = (None, SurfaceLines::None, false);
@@ -357,7 +357,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         nodes.iter().map(|&node| self.contact_point(Touch::node(node, radius), Some(radius), friction)).collect()
     }
 
-    /// The lines of elements, by the nodes of each, as what touches.
+    /// The lines of elements, by the nodes of each, as touching lines.
     pub fn lines_at(&self, elements: &[Vec<usize>], radius: f64, contact: &words::Contact) -> Vec<ContactPoint> {
         let friction = contact.coefficients().sticking > 0.0;
         let lines = elements.iter().flat_map(|nodes| lines_of(nodes, radius));

@@ -34,7 +34,7 @@ pub struct Meets<'a, 'd> {
     pub topology: &'a Topology,
     /// The magnitude of gravity.
     pub gravity: f64,
-    /// What the points meet.
+    /// The side opposite to the points.
     pub opposite: Opposite<'a>,
     /// The points.
     pub points: &'a [ContactPoint],
@@ -159,7 +159,7 @@ impl Meets<'_, '_> {
         }
     }
 
-    /// The deck with what begins in any stage.
+    /// The deck with the tables of all stages.
     fn whole_deck(&self) -> &Deck {
         self.scene.stage.map_or(self.scene.deck, |stage| stage.sequence.whole)
     }

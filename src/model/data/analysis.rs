@@ -11,7 +11,7 @@ use std::sync::Arc;
 /// The kind of the analysis, its time and its steps.
 #[derive(Debug, Clone)]
 pub struct Analysis {
-    /// What is computed.
+    /// The kind of computation.
     pub kind: AnalysisKind,
     /// Time at the beginning: 0, or where the stage before ends.
     pub begin: f64,

@@ -14,7 +14,7 @@ pub struct Contact {
     pub surface: TouchedSurface,
     /// The points.
     pub points: Vec<ContactPoint>,
-    /// Boxes, hulls, cylinders and capsules in contact by volume, with the convex surface or with each other.
+    /// Boxes, hulls, cylinders and capsules that touch the convex surface or each other with their full shape.
     pub convex: Vec<ConvexBody>,
     /// The pairs of these, by number in ascending order, that do not touch each other: a joint holds them together.
     pub joined: Vec<[usize; 2]>,
@@ -29,7 +29,7 @@ pub struct Contact {
     pub chosen: Option<String>,
 }
 
-/// What points touch.
+/// The touched surface.
 #[derive(Debug, Clone)]
 pub enum TouchedSurface {
     /// A shape.
@@ -56,11 +56,11 @@ pub struct FacetSurface {
     pub facets: Vec<Facet>,
     /// True where these are the free edges of a shell in place of its faces.
     pub is_of_edges: bool,
-    /// What touches them.
+    /// The bodies that touch the facets.
     pub touchers: FacetTouchers,
     /// The boxes, hulls, cylinders and capsules whose surface the nodes of the facets touch.
     pub solids: Vec<CarriedSurface>,
-    /// Of each of these, the points that are its corners, by number.
+    /// For each of these, the numbers of the points at its corners.
     pub corners: Vec<Vec<usize>>,
     /// The nodes of the facets, where there are such bodies.
     pub back: Vec<ContactPoint>,

@@ -64,7 +64,7 @@ fn curved_lattice<F: CurvedFace<N>, const N: usize>(
     places: &mut Vec<NodeWeights>,
 ) {
     let mut own = Vec::new();
-    // Of the lines between its nodes, those inside belong to the element alone.
+    // Inner lines between its nodes belong to the element alone.
     let mut inside = HashSet::new();
     let round: Vec<usize> = curved_faces::ring(N).collect();
     let pair = |a: usize, b: usize| [a.min(b), a.max(b)];

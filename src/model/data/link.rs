@@ -54,7 +54,7 @@ pub enum LinkKind {
     Joint {
         /// The equation whose violation is the coordinate.
         lock: ConstraintEquation,
-        /// What acts along it.
+        /// The law along the coordinate.
         law: CoordinateLaw,
     },
 }

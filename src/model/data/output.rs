@@ -41,11 +41,11 @@ pub struct Output {
 /// The times of output to histories or fields; t = 0 and the end are always among them.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Cadence {
-    /// They are written every so many accepted steps.
+    /// Every so many accepted steps.
     Steps(usize),
-    /// They are written at multiples of this time, which steps hit exactly.
+    /// At multiples of this time; steps hit them exactly.
     Interval(f64),
-    /// They are written at the first step that ends this time or more after the one before.
+    /// At the first step that ends this time or more after the last output.
     Apart(f64),
 }
 

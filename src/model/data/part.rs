@@ -92,7 +92,7 @@ pub fn quantities_of(kind: PartKind) -> Vec<Column> {
 pub trait PartType: Into<Part> {
     /// The part as this type; `None` where it is of another kind.
     fn of(part: &Part) -> Option<&Self>;
-    /// The same, to be changed.
+    /// The part as this type, mutable.
     fn of_mut(part: &mut Part) -> Option<&mut Self>;
 }
 

@@ -37,7 +37,7 @@ pub struct LinearSpring {
 pub struct LineElement {
     /// Axes of its section (columns, global at t = 0); `None` where it has none.
     pub axes: Option<Mat3>,
-    /// Of an element of two nodes that bends like the exact beam: 12 EI/(GA h²), the parts of shear in deflections along y and z.
+    /// For a two-node element with exact bending: the shear numbers 12 EI/(GA h²) of deflections along y and z.
     pub shear: Option<[f64; 2]>,
 }
 

@@ -71,7 +71,7 @@ fn check_sections(scene: &Scene, report: &mut Report) {
         let (&[area], &[y, z]) = (number("area"), number("moments")) else { continue };
         let product = number("product_moment").first().copied().unwrap_or(0.0);
         let place = section.values.place("moments").unwrap_or(&name.span);
-        // Of all areas of one size an ellipse has the smallest determinant of second moments, (A²/4π)².
+        // Among areas of one size an ellipse has the smallest determinant of second moments, (A²/4π)².
         let least = (area * area / (4.0 * PI)).powi(2);
         if y * z - product * product < (1.0 - ROUNDING) * least {
             let round = area * area / (4.0 * PI);

@@ -38,7 +38,7 @@ const SOFT: f64 = 4.5e5;
 const INCOMPRESSIBLE: f64 = 0.45;
 /// Yield strains of materials: lead 3e-4, steel 1e-3, springs 1e-2, rubber 1. A smaller one makes a solid rigid before it flows.
 const YIELD_STRAIN: [f64; 2] = [1e-5, 0.5];
-/// Young's moduli of what yields so, in Pa, ...
+/// Young's moduli of such materials, in Pa, ...
 const METAL: [f64; 2] = [1e9, 1.3e12];
 /// ... and the units of their values, in Pa: Pa, MPa, GPa, psi and ksi.
 const PRESSURES: [f64; 5] = [1.0, 1e6, 1e9, 6894.76, 6.89476e6];

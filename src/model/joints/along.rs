@@ -24,7 +24,7 @@ use mechanics::elements::coordinate_law::{CoordinateLaw, JointFriction, Stops};
 use mechanics::elements::hysteresis::Hysteresis;
 use std::collections::HashSet;
 
-/// What `[[joints]]` make.
+/// The result of `[[joints]]`.
 #[derive(Default)]
 pub struct Joints {
     /// The joints in deck order.

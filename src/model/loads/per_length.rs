@@ -14,11 +14,11 @@ const POINTS: usize = 5;
 pub struct LineLoad {
     /// Force per length.
     pub force: Vec3,
-    /// Its components are those in section axes at t = 0.
+    /// True for components in section axes at t = 0.
     pub local: bool,
-    /// It is one per length seen along the force.
+    /// True for a force per length projected along the force.
     pub projected: bool,
-    /// It turns with the sections.
+    /// True for a load that turns with the sections.
     pub follower: bool,
     /// Factors by fractions of the length of the part; straight between them, zero outside.
     pub profile: Vec<[f64; 2]>,

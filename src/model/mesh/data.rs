@@ -150,7 +150,7 @@ pub struct MeshGroup {
 /// A note on a part of the file read in an unexpected way.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MeshNote {
-    /// What was found.
+    /// The part of the file.
     pub what: String,
     /// The meaning for the mesh.
     pub meaning: String,

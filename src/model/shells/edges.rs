@@ -112,7 +112,7 @@ pub struct Edge {
     pub normal: Vec3,
     /// See [`set_bulges`].
     pub bulge: f64,
-    /// Of a curved edge its nodes, one end, the other and that between, and the part of it from −1 to 1.
+    /// For a curved edge its nodes (one end, the other, the middle), and the range of its coordinate within −1 to 1.
     pub curve: Option<([usize; 3], [f64; 2])>,
 }
 

@@ -122,9 +122,9 @@ impl<'d> CurrentStage<'d> {
         self.is_like_before(|index| self.sequence.held(index))
     }
 
-    /// True where it is so but for the loads.
+    /// True if this holds except for the loads.
     pub fn loads_alone_change(&self) -> bool {
-        // They stand last among all that a stage may have.
+        // Loads come last in the list of tables with stages.
         let others = self.sequence.whole.loads.len();
         let without_loads = |index| {
             let mut held = self.sequence.held(index);

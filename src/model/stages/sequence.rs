@@ -13,13 +13,13 @@ use mechanics::amplitude::{Amplitude, StraightLines};
 
 /// The stages of a deck, one after the other.
 pub struct StageSequence<'d> {
-    /// The deck with all that is there in any stage.
+    /// The deck with the tables of all stages.
     pub whole: &'d Deck,
     /// True after a stage with an early end: expected values after it are then skipped without an error.
     pub is_shortened: bool,
     /// Upper bounds for the bulge of each edge of each shell; empty if each stage decides alone.
     pub bulges: Vec<Bulges>,
-    /// They themselves.
+    /// The stages.
     pub stages: Vec<PlannedStage<'d>>,
 }
 

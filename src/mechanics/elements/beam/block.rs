@@ -34,7 +34,7 @@ type Stress<'a, T> = dyn FnMut(usize, &GaussPoint<T>) -> [LaneVec3<T>; 2] + 'a;
 /// Internal forces and moments on the nodes of a pack, global components, from the motion `motion` of the nodes and the stress resultants
 /// `stress`.
 ///
-/// It is compiled once for all sections, which `stress` hides at the cost of a call.
+/// The function is compiled once for all sections; `stress` hides their type at the cost of a call.
 #[inline(never)]
 fn forces_of<T: Number, const N: usize>(
     pack: &Pack<T, N>,

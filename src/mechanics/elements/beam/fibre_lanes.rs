@@ -18,7 +18,7 @@ struct FibrePack {
 }
 
 impl FibreLanes {
-    /// Those of a section.
+    /// Packs the fibres of a section.
     pub fn new(fibres: &[Fibre]) -> Self {
         let pack = |fibres: &[Fibre]| {
             let at = |lane: usize| &fibres[lane.min(fibres.len() - 1)];

@@ -2,7 +2,7 @@
 //!
 //! The strains of a fibre are ε = Γ₁ + z κ₂ − y κ₃ and, where shear enters the yield condition, γ_a = s_a·(Γ₂, Γ₃, κ₁). The stiffness of
 //! the elastic section less that of the elastic fibres acts beside them; with elastic shear it includes all of shear and torsion. It is
-//! reduced with the intact area of the fibres. An element with a section of failed fibres only is severed and has no force.
+//! proportional to the area of intact fibres. An element with a section of failed fibres only is severed and has no force.
 
 use super::fibre_lanes::FibreLanes;
 use super::fibre_sum::FibreSum;

@@ -34,7 +34,7 @@ pub(super) struct Beam<const N: usize, S> {
     pub section: S,
 }
 
-/// As many elements as a [`Number`] has lanes, or fewer: lanes beyond the last repeat it.
+/// A pack of at most as many elements as a [`Number`] has lanes; lanes beyond the last element repeat it.
 pub(super) struct Pack<'a, T, const N: usize> {
     /// The number of elements.
     pub count: usize,

@@ -18,7 +18,7 @@ struct Pair<T> {
 
 /// Second derivatives by pairs of nodes.
 struct Pairs<T, const N: usize> {
-    /// Of a symmetric matrix those by q and q, and by x and x, for a ≤ b alone.
+    /// The blocks by pairs of nodes; a symmetric matrix has q by q and x by x for a ≤ b alone.
     of: [[Pair<T>; N]; N],
     /// Rows of q by x, transposed, of a matrix that is not symmetric.
     q_x: Option<[[[Quat<T>; 3]; N]; N]>,
@@ -102,7 +102,8 @@ impl<T: Number, const N: usize> Pairs<T, N> {
         }
     }
 
-    /// The Hessian by positions and rotations, x and δθ of each node: δq_a = ½ δθ q_a at fixed q_a. Where it is symmetric one half is a copy.
+    /// The Hessian by positions and rotations, x and δθ of each node: δq_a = ½ δθ q_a at fixed q_a. Where it is symmetric one half is a
+    /// copy.
     #[inline(always)]
     fn project(&self, all: bool, q: &[Quat<T>; N]) -> [[[[T; 6]; N]; 6]; N] {
         let mut E = [[[T::ZERO; 4]; 3]; N];

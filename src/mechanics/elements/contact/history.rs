@@ -15,12 +15,12 @@ const DAMPING_POWER: usize = 6;
 /// The inset, or the lift where there are multipliers.
 const SHIFT: usize = 7;
 const KEY: usize = 8;
-/// Here friction begins.
+/// First index of friction.
 pub(super) const FRICTION_FORCE: usize = 9;
 const SLIP_SPEED: usize = 10;
-/// Here the numbers of friction begin that are each kind's own.
+/// First index of the numbers of friction specific to the kind of pair.
 pub(super) const OWN: usize = 11;
-/// Of points the anchor, and then the rotations of nodes, four numbers each.
+/// First index of the rotations of a point's nodes (four numbers each), after its anchor.
 const ROTATIONS: usize = OWN + 3;
 
 /// Number of history variables of a pair; `own` of them are specific to its kind.
@@ -28,7 +28,7 @@ pub(super) fn width(law: &ContactLaw, own: usize) -> usize {
     if law.friction > 0.0 { OWN + own } else { FRICTION_FORCE }
 }
 
-/// The numbers of friction of a point that are its own, `rotations` being those kept of its nodes.
+/// Number of history variables specific to the friction of a point, with `rotations` stored rotations.
 pub(super) fn of_points(rotations: usize) -> usize {
     ROTATIONS - OWN + 4 * rotations
 }

@@ -44,7 +44,7 @@ impl ContactLaw {
     }
 
     /// The initial friction and slip speed of an unknown pair under a normal force: a body sliding at t = 0 has been sliding, so its spring
-    /// is stretched. Not what slides no faster than its weight makes it.
+    /// is stretched. Slip speeds up to `floor` count as sticking.
     pub(super) fn begun(&self, force: f64, slip: &Vec3) -> (Vec3, f64) {
         let speed = slip.norm();
         match speed > self.floor {

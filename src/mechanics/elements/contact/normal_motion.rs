@@ -12,7 +12,7 @@ impl ContactLaw {
     pub(super) fn press(&self, depth: f64, inset: f64, rate: f64, old: PairMemory) -> NormalForce {
         let speed = match old.is_known() {
             true if old.gap() <= 0.0 => old.impact_speed().max(rate),
-            // It is faster now than in the last state where something presses from rest.
+            // A body pressed from rest is faster now than in the last state.
             true => old.rate().max(rate),
             false => rate,
         };
@@ -169,7 +169,7 @@ fn impact(duration: f64, (gap, rate): (f64, f64), dt: f64, old: PairMemory, new:
             ((old.rate() + closed * (rate - old.rate())).max(0.0), 0.0)
         }
         (true, false) => (rate.max(0.0), 0.0),
-        // The point is faster than at the landing where something presses.
+        // A point pressed by a force may be faster than at its landing.
         (true, true) => (old.impact_speed().max(new.rate()), old.age() + dt),
         (false, true) => (old.impact_speed(), 0.0),
         // The point touched at the instant of equilibrium: the acceleration of that is carried on.

@@ -15,7 +15,7 @@ pub struct PairSide<'a> {
 }
 
 impl<'a> PairSide<'a> {
-    /// What one node carries.
+    /// A side carried by one node.
     pub(super) fn of_node(node: &'a usize) -> Self {
         PairSide { nodes: std::slice::from_ref(node), shares: &[1.0] }
     }

@@ -65,7 +65,7 @@ impl Surface {
         Surface { center: Vec3::zeros(), axes, shape }
     }
 
-    /// The convex shape in the axes of the surface, if convex solids touch it by volume.
+    /// The convex shape in the axes of the surface, if convex solids touch it with their full shape.
     pub fn as_convex(&self) -> Option<ConvexShape> {
         self.shape.as_convex()
     }

@@ -17,7 +17,7 @@ use std::ops::{Add, Mul};
 pub struct Camber<T>(pub [[[T; 3]; 3]; 3]);
 
 impl Camber<f64> {
-    /// Of chords.
+    /// Stretch along chords.
     pub const NONE: Self = Camber([[[0.0; 3]; 3]; 3]);
 
     /// `J`: x,ξ and x,η at the centre by the axes of the slopes; `inverse`: its inverse.

@@ -27,6 +27,6 @@ impl<T: Copy + Add<Output = T> + AddAssign + Mul<Output = T>, const N: usize> Ed
 }
 
 impl<const N: usize> EdgeBending<f64, N> {
-    /// Of edges that stay straight.
+    /// Straight edges.
     pub const NONE: Self = EdgeBending([[0.0; N]; 3]);
 }

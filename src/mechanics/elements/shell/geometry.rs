@@ -28,8 +28,8 @@ const UNEVEN: f64 = 1e-2;
 /// bulging edges and stretch along chords; others have straight edges and stretch along arcs.
 pub const FLAT: f64 = 0.5;
 
-/// Length over thickness above which stretch is measured along chords on any surface. A side that is under pressure from a strain ε across
-/// buckles from ε (ℓ/h)² of some 5 on, and metals strain by 2e-3 before they yield.
+/// Length over thickness above which stretch is measured along chords on any surface. A side compressed by a strain ε buckles
+/// above ε (ℓ/h)² of about 5, and metals yield at a strain of 2e-3.
 pub const SLENDER: f64 = 50.0;
 
 /// Thickness and elastic constants of a group of elements.
@@ -64,8 +64,8 @@ pub struct ShellGeometry<'a> {
     pub nodes: &'a [usize],
     /// Unit normals at the nodes at t = 0, which are the directors there.
     pub normals: &'a [Vec3],
-    /// The fraction of the bulge of each edge (from each node to the next) with stress: [`Interpolation::BULGE`], equal in all elements of
-    /// an edge, or zero for a straight edge.
+    /// The fraction of the bulge of each edge (from each node to the next) in the strain: [`Interpolation::BULGE`], equal in all elements
+    /// of an edge, or zero for a straight edge.
     pub bulge: [f64; 4],
 }
 

@@ -17,7 +17,7 @@ impl<const P: usize, const E: usize, T: Number> InPlane<P, E, T> {
     /// All zero.
     pub const ZERO: Self = InPlane { membrane: [T::ZERO; E], bending: [T::ZERO; P] };
 
-    /// Those of one element.
+    /// The numbers of one element.
     #[inline(always)]
     pub fn lane(&self, lane: usize) -> InPlane<P, E> {
         InPlane { membrane: self.membrane.map(|of| of.lane(lane)), bending: self.bending.map(|of| of.lane(lane)) }

@@ -21,8 +21,8 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const FLEXIBILITY: f64;
     /// Edges bend between their nodes instead, see [`super::edge_bubbles`].
     const EDGES_BEND: bool;
-    /// The fraction of the bulge of an edge with stress: 1, or the optimum of the triangle in bending. Elements that share an edge take the
-    /// same.
+    /// The fraction of the bulge of an edge in the strain: 1, or the optimum of the triangle in bending. Elements that share an edge take
+    /// the same.
     const BULGE: f64;
     /// The point (ξ, η) whose tangents give the axes of the plane.
     const CENTRE: [f64; 2];

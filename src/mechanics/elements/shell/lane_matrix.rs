@@ -29,7 +29,7 @@ pub(super) fn complete<const N: usize>(H: &mut LaneMatrix<N>) {
     for i in 0..3 {
         for b in 1..N {
             for j in 0..3 {
-                // Of positions the half with a ≤ b stands.
+                // Blocks of positions are filled for a ≤ b only.
                 let column = |a: usize| if a <= b { H[a][i][b][j] } else { H[b][j][a][i] };
                 let first = Lanes::ZERO - product(|a| column(a + 1), N - 1);
                 H[0][i][b][j] = first;

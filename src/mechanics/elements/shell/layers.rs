@@ -59,7 +59,7 @@ pub struct Layers {
     variables: usize,
     /// ∂stress/∂strain of a layer that does not yield.
     stiffness: [[f64; 3]; 3],
-    /// Of all layers.
+    /// The thickness of all layers together.
     thickness: f64,
     /// Strain of the reference surface is logarithmic, see [`Stretch`].
     logarithmic: bool,
@@ -90,7 +90,7 @@ struct PointPack<const P: usize, const E: usize, T> {
 
 /// The strain at a point of the reference surface.
 struct PointState<T> {
-    /// Of Green, or logarithmic.
+    /// Green's strain, or logarithmic strain.
     strain: [T; 3],
     curvature: [T; 3],
     /// `None` where strain is Green's.

@@ -37,7 +37,7 @@ pub type Triangles<S = StiffnessPack<3, 7, Lanes>> = Shells<Triangle, 3, 2, 3, 7
 pub(super) struct Shell<const N: usize, const V: usize, const P: usize, const E: usize> {
     /// Nodes, counter-clockwise about the normal.
     pub nodes: [usize; N],
-    /// Their positions from that of the first.
+    /// Positions of the nodes, relative to the first.
     pub X: [Vec3; N],
     /// Directors at t = 0.
     pub D: [Vec3; N],
@@ -67,7 +67,7 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
     pub nodes: [[usize; N]; LANES],
     /// Director and tangents of each node at t = 0.
     pub axes: [[LaneVec3; 3]; N],
-    /// Of [`Shell`], like those that follow.
+    /// `slopes` of [`Shell`]; the next three fields are its fields too.
     pub slopes: [[Lanes; N]; V],
     pub arc: [[Lanes; 2]; 2],
     pub camber: Camber<Lanes>,

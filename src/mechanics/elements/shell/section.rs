@@ -80,7 +80,7 @@ impl<const E: usize> Drilling<E> {
 }
 
 impl<const E: usize, T: Number> Drilling<E, T> {
-    /// Those of some elements.
+    /// Packs several elements.
     pub fn gather<'a>(of: impl Fn(usize) -> &'a Drilling<E>) -> Self {
         Drilling {
             stiffness: T::gather(|lane| of(lane).stiffness),
@@ -156,7 +156,7 @@ fn in_upper<T: Copy, const R: usize>(upper: &[T], i: usize, j: usize) -> T {
 }
 
 impl<const P: usize, const E: usize, T: Number> StiffnessPack<P, E, T> {
-    /// Those of some elements.
+    /// Packs several elements.
     pub fn gather<'a>(of: impl Fn(usize) -> &'a ShellStiffness<P, E>) -> Self {
         StiffnessPack {
             N: upper::<T, E>(|i, j| T::gather(|lane| of(lane).N[i][j])),

@@ -58,7 +58,7 @@ fn jacobian(tangents: &[Vec3; 2], t: &[Vec3; 2]) -> [[[f64; 2]; 2]; 2] {
 }
 
 impl<const N: usize, const V: usize> ElementSurface<N, V> {
-    /// Of an element with its corners at `X`.
+    /// The surface of an element with its corners at `X`.
     pub fn new<K: Interpolation<N, V, P>, const P: usize>(X: [Vec3; N]) -> Self {
         let v = NodalVectors::slopes(&K::SLOPES, &X);
         let axes = axes::<K, N, V, P>(&v);

@@ -93,7 +93,7 @@ impl<const N: usize, const P: usize, const E: usize> Rows<N, P, E> {
     #[inline(always)]
     fn add_membrane<K: Interpolation<N, V, P>, const V: usize>(&self, C: impl Fn(usize) -> Lanes, row: &mut Row<N>) {
         for m in 0..P {
-            // Of products of slopes only the first depend on rotations, by the curvature.
+            // Only the first three products of slopes depend on rotations, by the curvature.
             if K::CAMBERED && m < 3 {
                 row.add(C(m), &self.membrane[m]);
             } else {

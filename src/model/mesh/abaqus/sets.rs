@@ -49,9 +49,9 @@ pub enum Member {
 pub struct Set {
     /// The name as the file first spells it.
     pub name: String,
-    /// What it is of.
+    /// The kind of its members.
     pub kind: SetKind,
-    /// What it holds.
+    /// The members.
     pub members: Vec<Member>,
 }
 

@@ -44,7 +44,7 @@ impl ConvexPose<'_> {
 }
 
 impl PolyhedronPose<'_> {
-    /// Of boxes the 15 axes, to both sides at once.
+    /// Boxes: the 15 axes, to both sides at once.
     fn look_along_boxes(&self, own: &Vec3, other: &Vec3, search: &mut AxisSearch) {
         let reach = |axis: &Vec3| {
             let own: f64 = (0..3).map(|k| own[k] * self.Q.column(k).dot(axis).abs()).sum();

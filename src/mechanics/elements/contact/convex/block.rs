@@ -20,7 +20,7 @@ pub struct ConvexPairs {
     pub(in crate::elements::contact) law: ContactLaw,
     /// The one that is touched.
     other: CarriedConvex,
-    /// Those that touch it.
+    /// The touching solids.
     touching: Vec<ConvexBody>,
     /// The node of each of these, then the carrier of the other.
     nodes: Vec<[usize; 2]>,

@@ -29,7 +29,7 @@ pub(super) struct Bore {
 }
 
 impl Bore {
-    /// Of a radius, in coordinates about an origin that is given from the axis.
+    /// A bore with a radius, in coordinates about `origin`, given from the axis.
     pub fn new(radius: f64, origin: &Vec3) -> Self {
         let rho = origin.x.hypot(origin.y);
         Bore { radius, origin: *origin, excess: (rho - radius) * (rho + radius) }

@@ -20,14 +20,14 @@ use base::math::{Mat3, Vec3, angular, linear, stack};
 
 /// Most corners of a face, and most faces, of the solid common to a cylinder and a box, most hulls, or the side of another cylinder.
 const FEW: (usize, usize) = (24, 28);
-/// The same of others.
+/// Room for other pairs.
 const MANY: (usize, usize) = (40, 128);
 
 /// A cylinder and something else, in the axes of the cylinder.
 pub(super) struct CylinderPose<'a> {
     cylinder: &'a RoundCylinder,
     against: Against<'a>,
-    /// Centre of that.
+    /// Centre of the other.
     y: Vec3,
     /// Columns: axes of the other; a cylinder lies along the third.
     Q: Mat3,
@@ -41,7 +41,7 @@ pub(super) struct CylinderPose<'a> {
     is_own: bool,
 }
 
-/// What a cylinder touches.
+/// The solid touched by a cylinder.
 #[derive(Clone, Copy)]
 enum Against<'a> {
     Polyhedron(&'a Polyhedron),

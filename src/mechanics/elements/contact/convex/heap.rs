@@ -21,7 +21,7 @@ pub struct ConvexHeap {
     others: Vec<CarriedConvex>,
     /// The pairs that do not touch, in ascending order.
     joined: Vec<[usize; 2]>,
-    /// Their nodes.
+    /// The nodes of the solids.
     pub(super) involved: Vec<usize>,
     /// No pair farther apart than this is remembered; lists hold while nothing has moved by more.
     pub(super) margin: f64,

@@ -7,7 +7,7 @@ use crate::state::Node;
 /// Least distance between solids, except the pairs `joined`; negative for overlap, infinite with fewer than two solids.
 pub fn heap_gap(solids: &[ConvexBody], joined: &[[usize; 2]], nodes: &[Node]) -> f64 {
     let mut least = f64::INFINITY;
-    // In the order of a coordinate: what begins farther than the nearest so far ends the search.
+    // Solids are searched in the order of a coordinate; the search ends beyond the least gap so far.
     let low = |one: &ConvexBody| nodes[one.node].x.x - one.shape.reach();
     let mut order: Vec<(usize, &ConvexBody)> = solids.iter().enumerate().collect();
     order.sort_by(|a, b| low(a.1).total_cmp(&low(b.1)));

@@ -214,7 +214,7 @@ impl<'a> ConvexPair<'a> {
         Some((at, force))
     }
 
-    /// What acts.
+    /// The forces of the pair on its nodes.
     pub fn action(&self, at: &PairKinematics, acting: &PairForce) -> PairAction<'a> {
         let (F, m) = at.global(&acting.W);
         let k = self.law.stiffness;

@@ -1,6 +1,6 @@
 //! Two cylinders: their separating axis, and the prism in place of one of them where the other touches it.
 //!
-//! Nineteen sides of the prism cover the zone of contact, narrow in its middle; the arcs rise above them by at most a hundredth of the
+//! Nineteen sides of the prism cover the zone of contact, narrow in its middle; the arcs differ from them by at most a hundredth of the
 //! depth. Behind them the prism is a box. Where the two meet over more than a part of the round, as end on end, it has 32 sides. All sides
 //! lie as far out as the arcs do on average.
 

@@ -24,7 +24,7 @@ pub(super) struct FacetTouch {
     pub inset: f64,
     /// The slot of its memory.
     pub slot: Option<usize>,
-    /// Of a line that touches, the share of its second end in its nearest point.
+    /// For a touching line, the share of its second end in its nearest point.
     pub share: Option<f64>,
     /// For a line, the neighbouring line and the slot whose memory continues here after the contact has passed their common node.
     pub from: Option<(usize, usize)>,

@@ -64,7 +64,7 @@ fn axes(pair: &FacetPair, place: &PairPlace, nodes: &[Node]) -> [Vec3; 2] {
     let n = &place.n;
     let u = nodes[pair.facet.nodes[1]].relative_position(&nodes[pair.facet.nodes[0]]);
     let along = (u - n.dot(&u) * n).try_normalize(1e-9 * u.norm());
-    // Of lines end to end any direction will do.
+    // For lines end to end any direction serves.
     let along = along.unwrap_or_else(|| n.cross(&Vec3::ith(n.iamin(), 1.0)).normalize());
     [along, n.cross(&along)]
 }

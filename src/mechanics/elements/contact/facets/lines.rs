@@ -46,7 +46,7 @@ pub(super) struct LineHessian {
 }
 
 impl LineHessian {
-    /// Of a pair of lines, where they are.
+    /// The second derivative for a pair of lines at their current place.
     pub fn new(pair: &FacetPair, place: &PairPlace, nodes: &[Node]) -> LineHessian {
         let s = pair.point.weights[1];
         let t = place.W[1];
@@ -60,7 +60,7 @@ impl LineHessian {
         let free = [s > 0.0 && s < 1.0, place.at.region == Region::Edge(0)];
         let zero = [Vec3::zeros(); 4];
         let (A, inverse) = match free {
-            // Of parallel lines one point slides.
+            // For parallel lines only one of the two nearest points moves.
             [true, true] if determinant > PARALLEL * uu * vv => {
                 ([by_s, by_t], [[vv / determinant, uv / determinant], [uv / determinant, uu / determinant]])
             }

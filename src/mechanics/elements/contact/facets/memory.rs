@@ -30,7 +30,7 @@ impl PairMemory<'_> {
         self.key().signum()
     }
 
-    /// Of two lines the stretch along the line that is touched, and across it.
+    /// For two lines, the stretch of friction along the touched line, and across it.
     pub(super) fn stretch(self) -> [f64; 2] {
         [self.0[OWN], self.0[OWN + 1]]
     }

@@ -177,7 +177,7 @@ impl<'a> FacetPair<'a> {
         R * log(&renormalise(&(now * memory.rotation(k).conjugate())))
     }
 
-    /// What acts.
+    /// The forces of the pair on its nodes.
     pub fn action<'b>(&'b self, place: &'b PairPlace, force: &'b PairForceOnPoint, nodes: &[Node]) -> PairAction<'b> {
         let (point, k) = (&*self.point, self.law.stiffness);
         let x = nodes[point.nodes[0]].x + place.x;

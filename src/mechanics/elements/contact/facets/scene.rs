@@ -49,7 +49,7 @@ pub struct FacetScene {
     pub(super) is_inner: bool,
     /// All nodes that take part, in ascending order.
     pub(super) involved: Vec<usize>,
-    /// Those that friction turns.
+    /// The nodes with moments from friction.
     pub(super) turned: Vec<usize>,
     /// Length as a fraction of the mean facet size: closer pairs are remembered, and lists hold while no node moves farther.
     pub(super) margin: f64,

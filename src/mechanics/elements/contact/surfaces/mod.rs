@@ -38,7 +38,7 @@ macro_rules! surfaces {
         })),+];
 
         impl SurfaceShape {
-            /// The convex shape for contact by volume; a hull without its rounding.
+            /// The convex shape for contact of full shapes; a hull without its rounding.
             pub fn as_convex(&self) -> Option<ConvexShape> {
                 let about = |half: f64, radius: f64| {
                     ConvexShape::Spherocylinder(Spherocylinder { half: Vec3::z() * half, radius })

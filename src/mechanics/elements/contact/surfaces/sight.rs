@@ -6,7 +6,7 @@ use super::kind::Touched;
 /// The part of a tube that is always ignored.
 const HOLE: &str = "the hole of the tube, into which nothing goes";
 
-/// The shape of what touches.
+/// The shape of a touching body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Toucher {
     /// A sphere, or a point with its contact radius.
@@ -57,7 +57,8 @@ impl Toucher {
             (Toucher::Cylinder | Toucher::Tube, SurfaceShape::Cylinder(_)) if by_points => {
                 Some("ends and side of the cylinder between its points")
             }
-            // Boxes, hulls and capsules touch a plane with their corners or ends, whatever else lies on it, and the others with all of both.
+            // Boxes, hulls and capsules touch a plane with their corners or ends, whatever else lies on it, and the others with all of
+            // both.
             (
                 Toucher::Box | Toucher::Hull | Toucher::Capsule | Toucher::Cylinder,
                 SurfaceShape::Plane(_)

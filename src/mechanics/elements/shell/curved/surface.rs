@@ -38,7 +38,7 @@ pub struct CurvedSurface<const N: usize> {
 }
 
 impl<const N: usize> CurvedSurface<N> {
-    /// Of an element with its nodes at `X`.
+    /// The surface of an element with its nodes at `X`.
     pub fn new<K: CurvedFace<N>>(X: [Vec3; N]) -> Self {
         let centre = if K::CORNERS == 3 { [1.0 / 3.0; 2] } else { [0.0; 2] };
         let [a, b] = tangents::<K, N>(&X, centre);
