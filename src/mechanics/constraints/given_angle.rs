@@ -69,8 +69,8 @@ impl GivenAngle {
         }
     }
 
-    /// True if the angle is ambiguous after a step: the rotation vector is near half a turn, the second angle of a sequence near a right
-    /// angle, or either has passed it.
+    /// True if the angle is ambiguous after a step: the rotation vector near half a turn, the second angle of a sequence near a right
+    /// angle, or either past it.
     pub fn is_lost(&self, [before, after]: [&Node; 2], b: &Node) -> bool {
         const HALF_TURN: f64 = 3.0; // radians, of π
         const RIGHT_ANGLE: f64 = 0.05; // the cosine of 1.52 of π/2 radians

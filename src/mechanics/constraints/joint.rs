@@ -165,8 +165,8 @@ impl ConstraintEquation {
         }
     }
 
-    /// The equation that locks the distance from the first to the second node along an axis, relative to t = 0; its violation is that
-    /// distance. `d` is x_a − x_b at t = 0.
+    /// The equation that locks the distance from the first to the second node along an axis, relative to t = 0, with this distance as its
+    /// violation. `d` is x_a − x_b at t = 0.
     pub fn distance_along(e: &Vec3, d: &Vec3) -> ConstraintEquation {
         ConstraintEquation::BodyAxis { e: -e, at: -d.dot(e) }
     }

@@ -70,8 +70,8 @@ impl Bushing {
         Quaternion::from_parts(Q.w, self.axes.tr_mul(&Q.imag()))
     }
 
-    /// True if the ends have rotated too far, in total or in this step, for the moment to be defined: near half a turn of a rotation vector
-    /// or of the swing of an axis.
+    /// True if the moment is undefined after the rotation of the ends, in total or in this step: near half a turn of a rotation vector or
+    /// of the swing of an axis.
     pub fn is_turned_over(&self, start: &[Node], end: &[Node]) -> bool {
         self.spring.is_turned_over(&self.relative_rotation(start), &self.relative_rotation(end))
     }

@@ -66,8 +66,8 @@ pub struct Stiffness {
     pub inertia_per_length: Mat3,
 }
 
-/// The shear stiffness of a beam without shear deformation, relative to that of its section: the remaining shear deflection is below the
-/// mesh error, and rounding costs at most four digits.
+/// The shear stiffness of a beam without shear deformation, relative to that of its section. The remaining shear deflection is below the
+/// mesh error; rounding costs at most four digits.
 const RIGID_IN_SHEAR: f64 = 1e4;
 
 impl Stiffness {

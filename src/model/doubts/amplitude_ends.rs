@@ -9,7 +9,7 @@ use mechanics::amplitude::Amplitude;
 /// Times are equal within this part of the run: tables are written with six digits or more.
 const SAME_TIME: f64 = 1e-6;
 
-/// Warns of tables with nonzero values held beyond their ends, unless the deck asks for it, and of amplitudes that are zero for the whole
+/// Warns of tables with nonzero values held beyond their ends, unless the deck asks for it, and of amplitudes equal to zero for the whole
 /// run. The deck is sound.
 pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64, report: &mut Report) {
     let used = amplitudes_over_time(deck);

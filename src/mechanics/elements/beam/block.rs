@@ -13,7 +13,7 @@ use base::math::lanes::{LANES, Lanes};
 use base::math::number::{LaneVec3, Number};
 use base::math::{Mat3, Vec3};
 
-/// Least number of elements for which computing eight side by side is faster; the results are bitwise the same.
+/// Least number of elements for computing eight side by side; the results are bitwise the same.
 const WORTH_A_PACK: usize = 6;
 
 /// Stress resultants of one element.

@@ -1,5 +1,4 @@
-//! Kinematics of a beam, for one element or for eight side by side: strains, strain rates and their derivatives at a Gauss point from the
-//! motion of the nodes.
+//! Kinematics of a beam, for one element or for eight side by side: strains, strain rates and their derivatives at a Gauss point.
 
 use super::quaternion::{Quat, dot, left, right_unit, rotation, vector};
 use super::section::{BeamSection, BeamStiffness};

@@ -2,8 +2,8 @@
 //!
 //! A tangential spring from an anchor to the point resists up to μN; beyond that the anchor slips (return mapping). A sticking contact
 //! therefore never creeps, in contrast to laws with friction proportional to the slip speed. The anchor is kept in the frame of the surface
-//! and turns with it. For a rolling ball of radius r the displacement of its material at the contact counts, p − r φ × n; φ is the rotation
-//! relative to the surface since the stored one.
+//! and turns with it. For a rolling ball of radius r the displacement of its material at the contact counts, p − r φ × n; φ is the relative
+//! rotation since the stored one.
 
 use super::surfaces::kind::ClosestPoint;
 use base::math::{Mat3, Vec3, skew};

@@ -14,7 +14,7 @@ pub struct ContactLaw {
     pub friction: f64,
     /// Coulomb's coefficient at a high slip speed.
     pub kinetic: f64,
-    /// Rate at which the coefficient falls with the slip speed, time per length; infinite for an immediate drop.
+    /// Slope of the fall of the coefficient with the slip speed, time per length; infinite for an immediate drop.
     pub decay: f64,
     /// Approach speed above which the steps resolve a landing as an impact.
     pub floor: f64,
@@ -43,8 +43,8 @@ impl ContactLaw {
         self.kinetic + (self.friction - self.kinetic) * (-self.decay * slip_speed).exp()
     }
 
-    /// The initial friction and slip speed of an unknown pair under a normal force: a body sliding at t = 0 has been sliding, so its spring
-    /// is stretched. Slip speeds up to `floor` count as sticking.
+    /// The initial friction and slip speed of an unknown pair under a normal force: a body sliding at t = 0 has a stretched spring. Slip
+    /// speeds up to `floor` count as sticking.
     pub(super) fn begun(&self, force: f64, slip: &Vec3) -> (Vec3, f64) {
         let speed = slip.norm();
         match speed > self.floor {

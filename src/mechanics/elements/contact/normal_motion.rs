@@ -19,8 +19,7 @@ impl ContactLaw {
         normal_force(self.stiffness, &self.loss, depth, inset, rate, speed)
     }
 
-    /// True where a pair apart at the last state lands in a step of length `dt` that is too long for the impact: see
-    /// [`ContactLaw::resolution`].
+    /// True where a pair apart at the last state lands in a step of length `dt`, too long for the impact: see [`ContactLaw::resolution`].
     pub(super) fn lands_unresolved(&self, old: PairMemory, depth: f64, dt: f64) -> bool {
         let fast = 3.0 * self.floor;
         dt > self.resolution && (!old.is_known() || old.rate() > fast || depth > fast * 2.0 * self.resolution)
@@ -83,7 +82,7 @@ pub(super) fn lost(law: &ContactLaw, old: PairMemory, way: f64) -> Dissipation {
     Dissipation { friction: let_go(law, old), impact, ..Dissipation::default() }
 }
 
-/// Writes the friction force and the slip speed after `part` of the way from the last state to the one with the force `pull` and the slip
+/// Writes the friction force and the slip speed after `part` of the way from the last state; its end has the force `pull` and the slip
 /// `slip`, a time `dt` later. Returns the dissipation of slip that began under the force `begin`.
 pub(super) fn update_slip(
     [pull, slip, begin]: [f64; 3],

@@ -73,7 +73,7 @@ pub trait PairBlock: ElementBlock {
     /// Calls `act` with the action in each touching pair.
     fn each_action(&self, now: &Configuration, act: &mut dyn FnMut(&PairAction));
 
-    /// True where `is` holds for the memory of a pair near at the end of the last step; `history` is that of the block.
+    /// True where `is` holds for the memory of a pair near at the end of the last step; `history` belongs to the block.
     fn any_memory(&self, history: &[f64], is: &mut dyn FnMut(PairMemory) -> bool) -> bool;
 
     /// True where a step from `start` to `now` must be shorter: a body passes through another, or an impact is not resolved (see

@@ -24,7 +24,7 @@ pub(super) const SHEAR_FACTOR: f64 = 5.0 / 6.0;
 /// curved surface causes such drilling.
 const UNEVEN: f64 = 1e-2;
 
-/// Turn of a surface along an edge times its length, relative to the thickness, up to which an element counts as flat. Flat elements have
+/// Largest turn of a surface along an edge times its length, relative to the thickness, for an element to count as flat. Flat elements have
 /// bulging edges and stretch along chords; others have straight edges and stretch along arcs.
 pub const FLAT: f64 = 0.5;
 

@@ -14,7 +14,7 @@ pub trait Interpolation<const N: usize, const V: usize, const P: usize>: Send + 
     const VALUES: [[f64; N]; N];
     /// Area of the domain of (ξ, η).
     const AREA: f64;
-    /// The factor α by which bending within an element of a curved surface adds to its shear flexibility. The factor on the strain of an
+    /// The factor α of the additional shear flexibility from bending within an element of a curved surface. The factor on the strain of an
     /// edge is h/√(h² + α ℓ²), with ℓ its length, at most the width of the element across it (Lyly, Stenberg & Vihinen 1993; MacNeal 1978
     /// for beams). Without it distorted coarse meshes of thin quadrilaterals lock. Flat surfaces need none, and constant shear stays exact
     /// there. The factor scales with x²/(1 + x²), x the turn of the surface along an edge times its length over the thickness.

@@ -1,7 +1,7 @@
 //! A segment about which one of two solids is round, against the other: a capsule or a sphere against anything convex.
 //!
-//! At s on the segment the two overlap by p(s) = r − d(s), d the distance from the other's core. The depth is that of two polyhedra
-//! ([`super::volume`]) for the strip 0 ≤ z ≤ p(s): D = √(6 V), V the variance of z less its linear part. It is p/√2 for a segment along a
+//! At s on the segment the two overlap by p(s) = r − d(s), d the distance from the other's core. The depth is defined by the strip 0 ≤ z ≤
+//! p(s) as for two polyhedra ([`super::volume`]): D = √(6 V), V the variance of z less its linear part. It is p/√2 for a segment along a
 //! face and p/2 for one standing on its end. With four times the stiffness of a point, a lying capsule is thus as stiff as two spheres at
 //! its ends, a standing one as one sphere. A sphere has p/2.
 //!

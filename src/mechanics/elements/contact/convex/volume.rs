@@ -7,8 +7,8 @@
 //! for springs at the corners. D and its gradient are continuous wherever the two overlap, for any bounding faces and edges; no feature has
 //! to be chosen or remembered.
 //!
-//! Growth at x by the motion of a face changes S by ((x − c)(x − c)ᵀ − S)/V and D by q(x) = 6/(D V (tr S⁻¹)²) (|S⁻¹(x − c)|² − tr S⁻¹). So
-//! ∂D is a sum of q over the moving faces.
+//! Growth at x by the motion of a face changes S by ((x − c)(x − c)ᵀ − S)/V. It changes D by q(x) = 6/(D V (tr S⁻¹)²) (|S⁻¹(x − c)|² − tr
+//! S⁻¹). So ∂D is a sum of q over the moving faces.
 
 use super::depth::Depth;
 use super::overlap::{Faces, faces};

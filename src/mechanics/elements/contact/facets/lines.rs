@@ -7,8 +7,7 @@
 //!  ∂f_s/∂x = c u + σ g,   ∂f_t/∂x = −c v − τ g,   ∂²f/∂x² = c c I − A M⁻¹ Aᵀ,   M = [u·u −u·v; −u·v v·v]
 //! ```
 //!
-//! A holds the first two for each of s and t that is not at an end, σ and τ are ∓1 at the ends of their own line, and ∂²d = (∂²f − ∂d
-//! ∂d)/d.
+//! A holds the first two for s and t unless at an end; σ and τ are ∓1 at the ends of their own line, and ∂²d = (∂²f − ∂d ∂d)/d.
 
 use super::facet::{Facet, Region};
 use super::pair::{FacetPair, PairPlace};

@@ -1,4 +1,4 @@
-//! Memory of a point and a facet beyond that of all pairs: the facet and the side of the point, or the positions of the ends of two lines.
+//! Additional memory of a point and a facet: the facet and the side of the point, or the positions of the ends of two lines.
 
 use crate::elements::contact::history::{OWN, PairMemory, PairMemoryMut};
 use base::math::Vec3;

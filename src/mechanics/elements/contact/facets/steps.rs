@@ -77,7 +77,7 @@ fn passes_any(of: &FacetContacts, way: f64, start: &[Node], now: &Configuration)
     is_missed
 }
 
-/// True where a contact slides over more than a facet in one step, so that its friction would restart from zero.
+/// True where contacts slide over more than a facet in one step, so that friction would restart from zero.
 fn forgets(of: &FacetContacts, now: &Configuration) -> bool {
     if of.law.friction == 0.0 || of.is_of_balls {
         return false;

@@ -14,8 +14,8 @@ use std::array::from_fn;
 use std::marker::PhantomData;
 use std::sync::LazyLock;
 
-/// Drilling stiffness of each node, relative to the drilling stiffness of the element over its number of nodes: it keeps a node under a
-/// moment from turning about its normal during iteration. Ten times more stiffens coarse meshes of very thin twisted surfaces.
+/// Drilling stiffness of each node, relative to that of the element over its number of nodes. It keeps a node under a moment from turning
+/// about its normal during iteration. Ten times more stiffens coarse meshes of very thin twisted surfaces.
 const OF_NODES: f64 = 0.1;
 
 static OF_SIX: LazyLock<[[[f64; 6]; 2]; 6]> = LazyLock::new(|| SixNodes::NODES.map(SixNodes::slopes));

@@ -1,7 +1,7 @@
 //! The triangle of six nodes: strains along a side are taken at three places, two on that side and one inside, transverse shear there too.
 //!
 //! At these places an interpolated displacement of third degree has the exact slope along the side. Its error is spanned by f(r), f(s),
-//! f(t) and r s t, with f(r) = r(r − ½)(r − 1) and t = 1 − r − s, whose slopes vanish there. In-plane strains are interpolated to first
+//! f(t) and r s t, with f(r) = r(r − ½)(r − 1) and t = 1 − r − s; their slopes vanish there. In-plane strains are interpolated to first
 //! degree. The space of the shears is that of Bathe, Brezzi, Cho & Fortin (1989),
 //!   γ_r = a₁ + b₁ r + c₁ s + s (d r + e s),    γ_s = a₂ + b₂ r + c₂ s − r (d r + e s),
 //! met on the sides and, by least squares, inside. Lee & Bathe add a seventh and an eighth shear at the centre; then thin cylinders and
