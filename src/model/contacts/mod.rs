@@ -173,7 +173,7 @@ fn of_facets<'d>(
     Some(found)
 }
 
-/// The pairs of boxes and hulls, by number, connected by joints or in one body.
+/// The pairs of convex solids, by number, connected by joints or in one body.
 fn joined(convex: &[ConvexBody], joints: &[Joint], topology: &Topology) -> Vec<[usize; 2]> {
     let place: HashMap<usize, usize> = convex.iter().enumerate().map(|(k, one)| (topology.root(one.node), k)).collect();
     let of_root = |node: usize| place.get(&topology.root(node)).copied();
@@ -183,7 +183,7 @@ fn joined(convex: &[ConvexBody], joints: &[Joint], topology: &Topology) -> Vec<[
     pairs.collect::<BTreeSet<_>>().into_iter().collect()
 }
 
-/// The least gap of points from facets, or of balls, boxes and hulls among themselves, at t = 0.
+/// The least gap of points from facets, or of balls and convex solids among themselves, at t = 0.
 fn gap_at_start(found: &Contact, faces: &FacetSurface, topology: &Topology) -> f64 {
     let nodes: Vec<Node> = topology.list.iter().map(|node| Node::at_rest(node.x)).collect();
     let of_points = Opposite::Facets(&faces.facets).gap(&found.points, topology);
