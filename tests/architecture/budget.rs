@@ -13,7 +13,7 @@ const BUDGET: [(&str, usize); 10] = [
     ("results", 8150),
     ("study", 4000),
     ("sweep", 1500),
-    ("program", 4350),
+    ("program", 4400),
 ];
 
 #[test]
