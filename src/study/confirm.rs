@@ -35,7 +35,7 @@ mod tests {
 
     /// What two families say of each other whose errors fall with the square of the step, and whose limits are a factor apart.
     fn confirmed(factor: f64) -> Reference {
-        let other = StudyLine { family: Family::Composite, ..StudyLine::plain("bathe") };
+        let other = StudyLine { family: Family::Composite, scheme: "bathe".to_owned(), ..StudyLine::plain("bathe") };
         let steps = vec![0.04, 0.02, 0.01];
         let grid = StudyGrid::of_steps(vec![StudyLine::plain("newmark"), other], steps.clone(), 1.0, 25);
         let run = |line: usize, dt: f64| {
