@@ -69,7 +69,9 @@ fn take(forecast: &mut Option<Forecast>, run: &Run, model: &Model) -> Result<(),
 fn add_memory(text: &mut Explanation, forecast: Option<&Forecast>, source: &Source) -> Result<(), Exit> {
     let Some(forecast) = forecast else { return Ok(()) };
     text.computed.push(("memory", forecast.in_words()));
-    forecast.judge().map(|doubt| doubt.into_iter().for_each(|doubt| show(&[Diagnostic::warning(doubt)], source)))
+    forecast
+        .judge()
+        .map(|warning| warning.into_iter().for_each(|warning| show(&[Diagnostic::warning(warning)], source)))
 }
 
 /// Writes the matrices of the scene; says what was written.

@@ -76,7 +76,7 @@ impl Forecast {
     }
 
     /// Compares the forecast with what the process may still take. Where it is too little even for a forecast that is too high by its own
-    /// error, the run is refused; a doubt is returned as a warning.
+    /// error, the run is refused; a warning is returned as a warning.
     ///
     /// # Errors
     /// The memory will end before the run does; the reason has been shown.
@@ -114,7 +114,7 @@ fn sum(parts: &[(&'static str, f64)]) -> f64 {
     parts.iter().map(|(_, bytes)| bytes).sum()
 }
 
-/// Forecasts the memory of a run that has been made, and refuses one for which there is too little; a doubt is returned, and shown unless
+/// Forecasts the memory of a run that has been made, and refuses one for which there is too little; a warning is returned, and shown unless
 /// `quiet`.
 ///
 /// # Errors
@@ -126,11 +126,11 @@ pub fn require_memory(
 ) -> Result<Option<Diagnostic>, Exit> {
     let Some(mut forecast) = forecast else { return Ok(None) };
     forecast.take(run, loaded.model.nodes.len()).map_err(too_large)?;
-    let doubt = forecast.judge()?.map(Diagnostic::warning);
+    let warning = forecast.judge()?.map(Diagnostic::warning);
     if !quiet {
-        show(doubt.as_slice(), &loaded.source);
+        show(warning.as_slice(), &loaded.source);
     }
-    Ok(doubt)
+    Ok(warning)
 }
 
 #[cfg(test)]
@@ -139,16 +139,16 @@ mod tests {
 
     /// 1000 MB, of which 300 are to come, against more than that, less by less than the error of a forecast, and less by more.
     #[test]
-    fn doubts_are_warned_of_and_want_is_refused() {
+    fn too_little_memory_is_warned_of_or_refused() {
         let forecast = Forecast { planned: 7e8, data: 0.0, parts: vec![("all", 1e9)], ahead: 3e8 };
         let with = |free: f64, granted: f64| forecast.weigh(free, &|bytes| bytes <= granted);
         assert_eq!(with(1.1e9, 3e8), Ok(None));
-        let doubt = with(0.9e9, 3e8).unwrap().unwrap();
+        let warning = with(0.9e9, 3e8).unwrap().unwrap();
         assert!(
-            doubt.starts_with(
+            warning.starts_with(
                 "the run needs about 1.0 GB of memory, and it can have 900 MB. Run it where it can have 1.3 GB"
             ),
-            "{doubt}"
+            "{warning}"
         );
         assert!(with(0.7e9, 3e8).is_err());
         assert!(with(1.1e9, 2.5e8).unwrap().unwrap().contains("`ulimit -v`"));

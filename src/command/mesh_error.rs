@@ -91,12 +91,12 @@ impl Observer for Coarser<'_> {
         Ok(())
     }
 
-    fn begin_trial(&mut self) {
-        self.judged.expectations.begin_trial();
-        self.judged.bars.begin_trial();
+    fn begin_comparison(&mut self) {
+        self.judged.expectations.begin_comparison();
+        self.judged.bars.begin_comparison();
     }
 
-    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_comparison(&mut self, frame: &Frame) -> io::Result<()> {
         self.judged.expectations.on_other_mesh(&self.expectations, frame);
         self.judged.bars.on_other_mesh(&mut self.bars, frame)
     }

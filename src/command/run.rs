@@ -283,8 +283,8 @@ impl Job<'_> {
         let mesh = self.mesh_error_of(&outcome, run, &mut watchers);
 
         told.remarks.iter().try_for_each(|remark| watchers.log.say(&format!("note: {remark}")))?;
-        let doubts = std::mem::take(&mut told.warnings);
-        let of_run = self.warnings_of(doubts, watchers.files.empty_fields(), mesh.as_ref());
+        let warnings = std::mem::take(&mut told.warnings);
+        let of_run = self.warnings_of(warnings, watchers.files.empty_fields(), mesh.as_ref());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
         let energy = (!told.energy.is_empty()).then(|| told.energy.join("\n"));
@@ -400,7 +400,7 @@ impl Job<'_> {
         Some(tell_mesh_error(source, model, like, Judged { expectations, bars }))
     }
 
-    /// The warnings about the deck. Notes are left out, for they doubt nothing.
+    /// The warnings about the deck. Notes are left out, for they question no result.
     fn warnings_of_deck(&self) -> impl Iterator<Item = &str> {
         self.loaded.warnings.iter().filter(|said| said.is_warning()).map(|warning| warning.message.as_str())
     }
@@ -408,7 +408,7 @@ impl Job<'_> {
     /// The warnings about the results of a run and about its files, after showing them.
     fn warnings_of(
         &self,
-        doubts: Vec<String>,
+        warnings: Vec<String>,
         of_files: Vec<String>,
         mesh: Option<&Result<ReportedMesh, String>>,
     ) -> Vec<String> {
@@ -417,7 +417,7 @@ impl Job<'_> {
             Ok(told) => Some(format!("the error of the mesh is that of a part only: {}", of_file(&told.unchanged))),
             Err(why) => Some(why.clone()),
         });
-        let of_run: Vec<String> = doubts.into_iter().chain(of_files).chain(of_mesh).collect();
+        let of_run: Vec<String> = warnings.into_iter().chain(of_files).chain(of_mesh).collect();
         if !self.quiet {
             of_run.iter().for_each(|text| show(&[Diagnostic::warning(text)], &self.loaded.source));
         }

@@ -20,7 +20,7 @@ use solve::{Counts, Handover, Outcome, Run, StepError};
 /// What the stages of a run, or its only one, have left to be told at the end.
 #[derive(Default)]
 pub struct StagesTold {
-    /// Doubts about the results.
+    /// Warnings about the results.
     pub warnings: Vec<String>,
     /// What was not judged.
     pub remarks: Vec<String>,
@@ -109,8 +109,8 @@ impl StagesTold {
             "" => String::new(),
             name => format!("stage `{name}`: "),
         };
-        let doubts = run.warnings().iter().map(ToString::to_string);
-        self.warnings.extend(doubts.map(|text| format!("{stage}{text}")));
+        let warnings = run.warnings().iter().map(ToString::to_string);
+        self.warnings.extend(warnings.map(|text| format!("{stage}{text}")));
         self.remarks.extend(run.remarks().iter().map(|remark| format!("{stage}{remark}")));
         if !stage.is_empty() && model.analysis.has_modes() {
             (self.counts, self.observing) = (run.counts(), self.observing + run.observing());

@@ -167,14 +167,14 @@ impl Observer for Watchers {
         self.expectations.times_to_compare().into_iter().chain(of_bars).collect()
     }
 
-    fn begin_trial(&mut self) {
-        self.expectations.begin_trial();
-        self.bars.iter_mut().for_each(Observer::begin_trial);
+    fn begin_comparison(&mut self) {
+        self.expectations.begin_comparison();
+        self.bars.iter_mut().for_each(Observer::begin_comparison);
     }
 
-    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
-        self.expectations.on_trial(frame)?;
-        self.bars.iter_mut().try_for_each(|bars| bars.on_trial(frame))
+    fn on_comparison(&mut self, frame: &Frame) -> io::Result<()> {
+        self.expectations.on_comparison(frame)?;
+        self.bars.iter_mut().try_for_each(|bars| bars.on_comparison(frame))
     }
 
     fn on_other_run(&mut self, other: Option<OtherRun>) {

@@ -1,6 +1,6 @@
 //! `[amplitudes.x]`: functions of time.
 
-use super::doubts::record_units::check_record_units;
+use super::plausibility::record_units::check_record_units;
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;

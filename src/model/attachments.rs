@@ -1,12 +1,12 @@
 //! `[[attachments]]`: points and bodies rigidly attached to a body, nodes rigidly attached to a beam.
 
 use super::data::Joint;
-use super::doubts::long_chains::hold_long_chains;
 use super::joints::equations;
 use super::places::nearest_nodes::NodesAlongAxis;
 use super::places::nodes::Nodes;
 use super::places::place::Place;
 use super::places::spot::Spot;
+use super::plausibility::long_chains::hold_long_chains;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use base::diagnostic::{At, Diagnostic};

@@ -14,22 +14,11 @@ use super::data::{
     Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, Iteration, Joint, Load, Mass, MeshFile, Model,
     Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
 };
-use super::doubts::all_held::check_all_held;
-use super::doubts::amplitude_ends::check_amplitude_ends;
-use super::doubts::angles::check_angles;
-use super::doubts::node_places::place_nodes;
-use super::doubts::proportions::check_proportions;
-use super::doubts::slivers::check_slivers;
-use super::doubts::ties::Ties;
-use super::doubts::units::check_units;
-use super::doubts::unjoined::check_unjoined;
-use super::doubts::unused::drop_unused;
-use super::doubts::{check_content, check_static, check_use};
 use super::environment::{AccelerationFields, damping, environment};
 use super::expects::expects;
 use super::groups::Groups;
 use super::initial::initial;
-use super::joints::along::Joints;
+use super::joints::coordinate::Joints;
 use super::joints::{check_joints, joints};
 use super::links::{ModelLinks, links};
 use super::loads::{Loads, loads};
@@ -43,9 +32,20 @@ use super::output::{Selection, output, write_all_nodes};
 use super::part_context::PartContext;
 use super::parts::Parts;
 use super::places::nodes::{Nodes, Topology};
+use super::plausibility::all_held::check_all_held;
+use super::plausibility::amplitude_ends::check_amplitude_ends;
+use super::plausibility::angles::check_angles;
+use super::plausibility::node_places::place_nodes;
+use super::plausibility::proportions::check_proportions;
+use super::plausibility::slivers::check_slivers;
+use super::plausibility::ties::Ties;
+use super::plausibility::units::check_units;
+use super::plausibility::unjoined::check_unjoined;
+use super::plausibility::unused::drop_unused;
+use super::plausibility::{check_content, check_static, check_use};
 use super::position_curves::position_curves;
 use super::procedure::choose_scheme::choose_scheme;
-use super::procedure::control::{control, iterate_along};
+use super::procedure::control::{control, path_iteration};
 use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start};
 use super::procedure::response::{add_expected, check_harmonic};
@@ -61,8 +61,8 @@ use super::shells::chords::check_chords;
 use super::shells::edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::stages::{self, CurrentStage, StageSequence};
+use super::supports::given_rotations::{TurnedNode, given_turns};
 use super::supports::supports;
-use super::supports::turns::{TurnedNode, given_turns};
 use super::values::vec3;
 use base::diagnostic::{Diagnostic, Source};
 use deck::Deck;
@@ -232,7 +232,7 @@ fn model<'d>(
     let (nodes, dependents, restraints) = topology.into_parts();
     let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };
     add_expected(&mut analysis, &asked.expects);
-    let (analysis, iteration) = lead_on(deck, analysis, procedure.iteration, asked.arc_length);
+    let (analysis, iteration) = with_arc_length(deck, analysis, procedure.iteration, asked.arc_length);
     let links = links.list.into_iter().map(Part::from);
     let model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
@@ -427,7 +427,7 @@ fn check(
 }
 
 /// Replaces the time steps by arc-length steps if the deck asks for them.
-fn lead_on(
+fn with_arc_length(
     deck: &Deck,
     analysis: Analysis,
     iteration: Iteration,
@@ -437,7 +437,7 @@ fn lead_on(
         None => (analysis, iteration),
         Some(arc_length) => {
             let step_length = StepLength::ArcLength(arc_length);
-            (Analysis { step_length, ..analysis }, iterate_along(deck, iteration))
+            (Analysis { step_length, ..analysis }, path_iteration(deck, iteration))
         }
     }
 }

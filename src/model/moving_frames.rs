@@ -121,9 +121,9 @@ impl Found {
         if !here().any(|held| held.motion.is_some()) {
             return found;
         }
-        let turning = here().find(|held| held.dof >= 3 && held.motion.is_some());
+        let driven_rotation = here().find(|held| held.dof >= 3 && held.motion.is_some());
         let mut frame = MovingFrame { translation: [None; 3], rotation: None };
-        let source = turning.map(|held| held.node);
+        let source = driven_rotation.map(|held| held.node);
         if let Some(node) = source {
             let own = || here().filter(|other| other.node == node && other.dof >= 3);
             // A held rotation beside a free one has a rate where its axis turns with the others.

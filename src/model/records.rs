@@ -36,8 +36,8 @@ impl Record {
 pub fn load_records(deck: &Deck, folder: &Path) -> (Vec<Option<Record>>, Vec<Diagnostic>) {
     let mut problems = Vec::new();
     let all = deck.amplitudes.0.iter().map(|(_, amplitude)| match load(amplitude, folder) {
-        Ok(Some((record, doubts))) => {
-            problems.extend(doubts);
+        Ok(Some((record, warnings))) => {
+            problems.extend(warnings);
             Some(record)
         }
         Ok(None) => None,
@@ -73,32 +73,32 @@ fn load(amplitude: &Amplitude, folder: &Path) -> Result<Option<(Record, Vec<Diag
     let columns = amplitude.columns.iter().flat_map(|columns| &columns.values).map(|at| column(&at.value)).collect();
     let selection = RecordSelection { columns, time_step: time_step.map(|step| step.value), rows };
     let series = record::read(&path, &bytes, &selection).map_err(|found| at_file(found, &file.span))?;
-    let doubts = doubts(amplitude, &file.value, &series);
+    let warnings = warnings_of(amplitude, &file.value, &series);
     let record = Record { path, points: series.points, unit: series.unit, digest: Sha256::digest(&bytes).into() };
-    Ok(Some((record, doubts)))
+    Ok(Some((record, warnings)))
 }
 
 /// Notes a subtracted offset, and a column that may be part of a sequence.
-fn doubts(amplitude: &Amplitude, file: &str, series: &TimeSeries) -> Vec<Diagnostic> {
+fn warnings_of(amplitude: &Amplitude, file: &str, series: &TimeSeries) -> Vec<Diagnostic> {
     let place = amplitude.columns.as_ref().map(|columns| &columns.span);
     let place = place.or(amplitude.file.as_ref().map(|file| &file.span));
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     if let Some((offset, unit)) = series.offset.zip(series.unit.as_ref()) {
         let message = format!(
             "the mean of the record `{file}`, {} {}, is subtracted: its instrument has an offset",
             short(offset),
             unit.name
         );
-        doubts.push(Diagnostic::note(message));
+        warnings.push(Diagnostic::note(message));
     }
     if let Some(count) = series.sequence {
         let message = format!(
             "`columns` takes one of the {count} values of each line of `{file}`, and the values along its lines look like one sequence"
         );
         let hint = "`rows = true` reads them one after the other; `rows = false` says that columns are meant";
-        doubts.push(Diagnostic::warning(message).hint(hint));
+        warnings.push(Diagnostic::warning(message).hint(hint));
     }
-    doubts.into_iter().map(|doubt| place.iter().fold(doubt, |doubt, place| doubt.at(place))).collect()
+    warnings.into_iter().map(|warning| place.iter().fold(warning, |warning, place| warning.at(place))).collect()
 }
 
 /// Errors of a file, with the place of its name in the deck.

@@ -1,6 +1,6 @@
 //! `[[supports]]`: directions whose motion is given.
 
-pub mod turns;
+pub mod given_rotations;
 
 use super::data::{Actors, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
@@ -13,9 +13,9 @@ use super::values::chosen;
 use base::diagnostic::{At, Span};
 use deck::supports as words;
 use deck::words::Table;
+use given_rotations::{GivenRotations, TurnSetting, TurnedNode};
 use mechanics::amplitude::Amplitude;
 use std::collections::HashMap;
-use turns::{GivenRotations, TurnSetting, TurnedNode};
 
 /// Restrains nodes, and adds the joints that hold dependent nodes to their supports. Returns the motions by the names of their supports, and the
 /// nodes whose rotations are given together.

@@ -224,7 +224,7 @@ impl Observer for Expectations {
         self.watches.iter().filter_map(|watch| Some(watch.sample?.time)).collect()
     }
 
-    fn begin_trial(&mut self) {
+    fn begin_comparison(&mut self) {
         for watch in &mut self.watches {
             watch.unseen.clear();
             if let Some(sample) = &mut watch.sample {
@@ -233,7 +233,7 @@ impl Observer for Expectations {
         }
     }
 
-    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_comparison(&mut self, frame: &Frame) -> io::Result<()> {
         for watch in &mut self.watches {
             watch.read(watch.value(frame), frame.state.time, self.end_time);
         }
@@ -243,7 +243,7 @@ impl Observer for Expectations {
     fn on_other_run(&mut self, other: Option<OtherRun>) {
         for watch in &mut self.watches {
             watch.step_error = match other {
-                Some(OtherRun::Trial(apart)) => watch.told_by(watch.sample, &watch.unseen, apart, self.end_time),
+                Some(OtherRun::Comparison(apart)) => watch.told_by(watch.sample, &watch.unseen, apart, self.end_time),
                 Some(OtherRun::Before(apart)) => watch.told_by(watch.before.0, &watch.before.1, apart, self.end_time),
                 None => None,
             };

@@ -205,7 +205,7 @@ pub struct ReportedPartMass {
     /// Number of elements that are given mass, ...
     pub heavier: usize,
     /// ... of those that are given rotary inertia, ...
-    pub turning: usize,
+    pub rotary: usize,
     /// ... and of all.
     pub elements: usize,
     /// Mass without what is added.
@@ -221,9 +221,9 @@ pub struct ReportedPartMass {
 impl From<&MassScaling> for ReportedMasses {
     fn from(scaling: &MassScaling) -> ReportedMasses {
         let part = |told: &ScaledPart| {
-            let ScaledPart { elements, heavier, turning, mass, added, factor, .. } = *told;
+            let ScaledPart { elements, heavier, rotary, mass, added, factor, .. } = *told;
             let (part, share) = (told.name.clone(), told.share());
-            ReportedPartMass { part, heavier, turning, elements, mass, added, share, factor }
+            ReportedPartMass { part, heavier, rotary, elements, mass, added, share, factor }
         };
         ReportedMasses {
             critical_step: scaling.critical_step,

@@ -66,15 +66,15 @@ impl TableReader {
         let is_text = |field: &[u8]| {
             !field.is_empty() && std::str::from_utf8(field).is_ok_and(|text| text.trim().parse::<f64>().is_err())
         };
-        let mut leads = true;
+        let mut heads = true;
         let columns = self.header.iter().zip(fields(row).map(Some).chain(std::iter::repeat(None)));
         Ok(columns
             .map(|(column, field)| {
                 if is_when(column) {
                     return false;
                 }
-                leads = leads && field.is_some_and(is_text);
-                leads
+                heads = heads && field.is_some_and(is_text);
+                heads
             })
             .collect())
     }

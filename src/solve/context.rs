@@ -101,16 +101,17 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
 
 /// The prescribed degrees of freedom of nodes at the end of a joint, and of the masters of such nodes.
 fn driving(model: &Model, system: &System) -> Vec<usize> {
-    let mut leads = vec![false; model.nodes.len()];
-    system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| leads[node] = true);
-    system.joints.iter().filter_map(|joint| joint.drive).for_each(|drive| leads[drive.node] = true);
+    let mut at_joints = vec![false; model.nodes.len()];
+    system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| at_joints[node] = true);
+    system.joints.iter().filter_map(|joint| joint.drive).for_each(|drive| at_joints[drive.node] = true);
     // The order is reversed, for dependent nodes come after their masters.
     for dependent in system.rigid_links.iter().rev() {
-        leads[dependent.master] |= leads[dependent.node];
+        at_joints[dependent.master] |= at_joints[dependent.node];
     }
     let is_turned = |i: usize| model.constraints.turns.iter().any(|turn| turn.restraints.contains(&i));
-    let moves =
-        |(i, restraint): &(usize, &Restraint)| leads[restraint.node] && (restraint.motion.is_some() || is_turned(*i));
+    let moves = |(i, restraint): &(usize, &Restraint)| {
+        at_joints[restraint.node] && (restraint.motion.is_some() || is_turned(*i))
+    };
     model.constraints.restraints.iter().enumerate().filter(moves).map(|(i, _)| i).collect()
 }
 

@@ -72,11 +72,11 @@ pub trait Observer {
         Vec::new()
     }
 
-    /// Forgets earlier trial runs: another begins.
-    fn begin_trial(&mut self) {}
+    /// Forgets earlier comparison runs: another begins.
+    fn begin_comparison(&mut self) {}
 
-    /// Receives a frame of a trial run at a time of comparison. An error is one of input/output.
-    fn on_trial(&mut self, _: &Frame) -> std::io::Result<()> {
+    /// Receives a frame of a comparison run at a time of comparison. An error is one of input/output.
+    fn on_comparison(&mut self, _: &Frame) -> std::io::Result<()> {
         Ok(())
     }
 
@@ -100,8 +100,8 @@ pub trait Observer {
 /// Another run of the scene, with longer steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum OtherRun {
-    /// The trial, which [`Observer::on_trial`] has received; its errors are larger by this factor.
-    Trial(f64),
+    /// The comparison run, which [`Observer::on_comparison`] has received; its errors are larger by this factor.
+    Comparison(f64),
     /// The run before [`Observer::restart`], likewise.
     Before(f64),
 }

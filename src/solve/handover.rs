@@ -16,7 +16,7 @@ use mechanics::constraints::joint::ConstraintEquation;
 use mechanics::constraints::rigid_link::RigidLink;
 use mechanics::elements::Force;
 use mechanics::state::{Increment, Node, State};
-use model::{AnalysisKind, Joint, Load, Model, count_along};
+use model::{AnalysisKind, Joint, Load, Model, set_coordinate_equations};
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -313,7 +313,7 @@ fn recount(from: &NodeMap, before: &Model, nodes: &[Node], model: &mut Model) ->
         coordinate.lock = lock;
         springs.extend(coordinate.spring.map(|spring| (spring, lock)));
     }
-    count_along(model.each_mut(), &springs);
+    set_coordinate_equations(model.each_mut(), &springs);
     changed
 }
 
@@ -362,7 +362,7 @@ fn hold_back(model: &mut Model, system: &System, state: &State, length: f64) -> 
         moment: -Vec3::new(of[3], of[4], of[5]),
         follower: false,
         amplitude: Some(amplitude),
-        along: None,
+        origin: None,
         moment_counts: moment_is_felt(of, scale, length),
     }));
     let ends = [[state.time, 1.0], [model.analysis.end_time, 0.0]];

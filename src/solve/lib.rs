@@ -15,6 +15,8 @@ mod explicit;
 mod failure;
 mod frame;
 mod friction_warnings;
+mod global_error;
+mod global_error_control;
 mod guards;
 mod handover;
 mod initial_transient;
@@ -32,7 +34,6 @@ mod recorder;
 mod report;
 mod run;
 mod sample;
-mod search;
 mod slip_watch;
 mod start;
 mod start_of_stage;
@@ -45,7 +46,6 @@ pub mod system;
 mod throws;
 mod time_stepper;
 mod tolerances;
-mod trials;
 mod warning;
 mod workspace;
 
@@ -54,6 +54,7 @@ pub mod inner {
     pub use crate::context::{Context, at_rest};
     pub use crate::control::COMPARISONS;
     pub use crate::explicit::CentralDifferenceStepper;
+    pub use crate::global_error::Kept;
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
     pub use crate::strategy::anderson::Anderson;
@@ -61,7 +62,6 @@ pub mod inner {
     pub use crate::sudden_loads::SuddenLoads;
     pub use crate::system::inner::*;
     pub use crate::tolerances::rotated_matrix::MANY;
-    pub use crate::trials::Kept;
     pub use crate::workspace::Workspace;
 }
 
@@ -71,10 +71,10 @@ pub use derived::{Derived, Wanted};
 pub use effort::Effort;
 pub use failure::{Failure, NamedResidual};
 pub use frame::{Frame, Observer, OtherRun};
+pub use global_error::StepError;
 pub use guards::breakage::Broken;
 pub use guards::contacts::settling_energy;
 pub use handover::{Handover, share_plane};
 pub use outcome::{Counts, Outcome};
 pub use run::Run;
-pub use trials::StepError;
 pub use warning::{Warning, Warnings};

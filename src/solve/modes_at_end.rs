@@ -8,7 +8,7 @@ use super::outcome::Outcome;
 use super::recorder::AcceptedStep;
 use super::report::StepReport;
 use super::warning::Warning;
-use crate::modes::{Linearized, Modes, ModesFault, Search, find, multipliers_at_rest, own_stiffnesses};
+use crate::modes::{Linearized, Modes, ModesFault, ResponseProgress, find, multipliers_at_rest, own_stiffnesses};
 use crate::system::{Loading, Side};
 use crate::tolerances::modes_at_end::{BALANCED, ROUNDING};
 use model::PrescribedMotion;
@@ -142,13 +142,13 @@ fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
         }
     }
     let at = Linearized { model: cx.model, system: cx.system, plan: cx.plan, state, loading, factored, stop };
-    let search = Search { so_far: &mut ws.response, pauses: &mut || observer.wants_checkpoint(false) };
-    let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly), search);
+    let progress = ResponseProgress { so_far: &mut ws.response, pauses: &mut || observer.wants_checkpoint(false) };
+    let found = find(&at, (&mut ws.matrix.solver, &mut ws.matrix.assembly), progress);
     let mut modes = found.map_err(|fault| match fault {
         ModesFault::Stopped => Outcome::Stopped { time: march.state.time },
         fault => march.failed(Failure::Modes(fault)),
     })?;
-    modes.doubts.extend(left.map(|left| {
+    modes.warnings.extend(left.map(|left| {
         format!(
             "the state is not in equilibrium under what acts and holds here: {left:.1e} of the forces is out of balance, and what it will \
              become is not what these modes are about"
@@ -158,8 +158,8 @@ fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
         // They have been shown before a checkpoint.
         return show_response(march, controller, modes);
     }
-    if !modes.doubts.is_empty() {
-        march.ws.warnings.add(Warning::Modes(modes.doubts.join("; ")));
+    if !modes.warnings.is_empty() {
+        march.ws.warnings.add(Warning::Modes(modes.warnings.join("; ")));
     }
     let fastest = (1..).zip(&modes.list).max_by(|(_, a), (_, b)| a.root[0].total_cmp(&b.root[0]));
     if let (Some((fastest, mode)), true) = (fastest, modes.unstable > 0) {

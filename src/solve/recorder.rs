@@ -28,8 +28,8 @@ pub struct Recorder {
     pub counts: Counts,
     /// The effort of the stages before.
     before: Counts,
-    /// True for a trial run, which writes no tables.
-    pub is_trial: bool,
+    /// True for a comparison run, which writes no tables.
+    pub is_comparison: bool,
     /// Largest number of steps; a run with more steps fails.
     pub most_steps: usize,
     /// Time spent in the observer.
@@ -54,7 +54,7 @@ pub struct Recorder {
 }
 
 keep!(Recorder {
-    counts, before, is_trial, most_steps, growth, initial_energy, breakage, events, eroded, tables, fields, looked_inside, pending, derived,
+    counts, before, is_comparison, most_steps, growth, initial_energy, breakage, events, eroded, tables, fields, looked_inside, pending, derived,
 } without { wanted, observing });
 
 /// The progress of a cadence.
@@ -115,7 +115,7 @@ impl Recorder {
             wanted,
             counts: Counts::default(),
             before: Counts::default(),
-            is_trial: false,
+            is_comparison: false,
             most_steps: usize::MAX,
             observing: Duration::ZERO,
             growth: EnergyGrowth::default(),
@@ -254,7 +254,7 @@ impl Recorder {
         (report, dt, sample): (&StepReport, f64, &Sample),
     ) -> Result<(), Outcome> {
         self.counts.iterations += report.iterations;
-        let (due, compared) = (sample.due && !self.is_trial, sample.compared);
+        let (due, compared) = (sample.due && !self.is_comparison, sample.compared);
         let began = due.then(Instant::now);
         let step = &AcceptedStep { dt, report, cuts: 0, due, compared, last: false, passed: &[] };
         self.spend(step);
@@ -286,7 +286,7 @@ impl Recorder {
         state: &State,
         observer: &mut dyn Observer,
     ) -> Result<(), Outcome> {
-        let Some(dt) = self.pending.take().filter(|_| !self.is_trial) else { return Ok(()) };
+        let Some(dt) = self.pending.take().filter(|_| !self.is_comparison) else { return Ok(()) };
         let report = &StepReport::begin(0.0);
         let step = &AcceptedStep { dt, report, cuts: 0, due: true, compared: false, last: false, passed: &[] };
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
@@ -341,7 +341,7 @@ impl Recorder {
     /// Decides whether tables are due, and whether fields are drawn; fields are drawn at the end too.
     fn is_due(&mut self, model: &Model, step: &AcceptedStep, time: f64) -> (bool, bool) {
         let (output, at) = (&model.output, (self.counts.steps, time));
-        if self.is_trial {
+        if self.is_comparison {
             return (false, false);
         }
         let due = self.tables.is_due(output.cadence, at, step.due);

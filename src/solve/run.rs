@@ -5,6 +5,7 @@ use super::control::{Controller, Schedule};
 use super::derived::Wanted;
 use super::energy_growth::checks_energy_growth;
 use super::frame::Observer;
+use super::global_error::{StepError, Unseen};
 use super::handover::{EndedStage, Handover, hand_over};
 use super::march::{March, RunPosition};
 use super::modes_at_end;
@@ -14,7 +15,6 @@ use super::sample::Samples;
 use super::start::start;
 use super::start_of_stage::start_stage;
 use super::stop_watch::StopWatch;
-use super::trials::{StepError, Unseen};
 use super::warning::{Remark, Warnings};
 use super::workspace::Workspace;
 use crate::plan::Plan;
@@ -27,10 +27,10 @@ use model::{Model, StepLength};
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-/// No search: the run is the only one.
-pub(super) struct NoSearch;
+/// No control of the global error: the run is the only one.
+pub(super) struct SingleRun;
 
-impl Keep for NoSearch {
+impl Keep for SingleRun {
     fn keep(&mut self, _: &mut Snapshot) {}
 }
 
@@ -117,7 +117,7 @@ impl<'a> Run<'a> {
             recorder.begin(cx, &state, handover.as_ref());
         }
         let samples = Samples::new(&schedule.samples);
-        let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_trial);
+        let stop_watch = stop_watch.as_mut().filter(|_| !recorder.is_comparison);
         let (place, resumes) = (RunPosition::default(), checkpoint.is_some());
         let state_at = &mut state;
         let begins_from = handover.as_ref().map(|handover| &handover.state.nodes[..]);
@@ -150,16 +150,16 @@ impl<'a> Run<'a> {
         (outcome.err().unwrap_or(Outcome::Done), Some(state))
     }
 
-    /// Runs once and shows the observer these times as a trial. Error-controlled steps use the final tolerance of another run.
+    /// Runs once and shows the observer these times as a comparison run. Error-controlled steps use the final tolerance of another run.
     pub fn rehearse(&mut self, times: Vec<f64>, like: Option<StepError>, observer: &mut dyn Observer) -> Outcome {
         let model = self.context.model;
         if let Some(StepError { tolerance, longest, .. }) = like {
             self.follow(tolerance, longest);
         }
-        self.recorder.is_trial = true;
+        self.recorder.is_comparison = true;
         let schedule = Schedule::new(model, times.into_iter(), self.controller.looks_inside());
-        observer.begin_trial();
-        self.once(&mut Unseen(observer), &schedule, &mut NoSearch).0
+        observer.begin_comparison();
+        self.once(&mut Unseen(observer), &schedule, &mut SingleRun).0
     }
 
     /// Prepares for a run by this tolerance, with counts from zero.
@@ -244,7 +244,7 @@ impl<'a> Run<'a> {
         self.step_error
     }
 
-    /// Doubts about the results.
+    /// Warnings about the results.
     pub fn warnings(&self) -> &Warnings {
         &self.workspace.warnings
     }

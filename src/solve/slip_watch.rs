@@ -56,7 +56,7 @@ keep!(Spring: Default { group, element, touched, rests, pull, limit, stiffness, 
 #[derive(Default, Clone)]
 struct Phase {
     /// A vector along it; zero where nothing slips.
-    along: [f64; 3],
+    direction: [f64; 3],
     /// True where it began at rest.
     counts: bool,
     /// Its steps, up to three, the length and speed of the last, and the length of the first.
@@ -72,7 +72,7 @@ struct Phase {
     error: f64,
 }
 
-keep!(Phase: Default { along, counts, steps, last, first, duration, length, speed, error });
+keep!(Phase: Default { direction, counts, steps, last, first, duration, length, speed, error });
 
 impl SlipWatch {
     /// Watches the springs of friction of a dynamic model.
@@ -154,12 +154,12 @@ impl Spring {
             self.rests |= slip.pull < before;
             return;
         }
-        let along = Vec3::from(self.phase.along);
-        if self.rests || along.dot(&slip.way) <= 0.0 {
-            let counts = self.rests || along != Vec3::zeros();
+        let direction = Vec3::from(self.phase.direction);
+        if self.rests || direction.dot(&slip.way) <= 0.0 {
+            let counts = self.rests || direction != Vec3::zeros();
             (self.phase, self.rests) = (Phase { counts, ..Phase::default() }, false);
         }
-        self.phase.along = slip.way.into();
+        self.phase.direction = slip.way.into();
         let way = Vec3::from(self.way) + slip.way;
         (self.way, self.farthest) = (way.into(), self.farthest.max(way.norm()));
         let error = Vec3::from(self.error) + self.phase.follow(length, dt) / length * slip.way;

@@ -472,27 +472,24 @@ pub mod stop_watch {
     pub const MET: f64 = 1e-8;
 }
 
-pub mod search {
+pub mod global_error {
     /// Part of the time between comparisons below which a stage stops too early for an estimate of its error.
     pub const EARLY: f64 = 0.4;
     /// The part of it for the stop of such a stage in the next run.
     pub const IN_TIME: f64 = 0.8;
-}
-
-pub mod trials {
-    /// Largest number of runs, the trial aside.
+    /// Largest number of runs, the comparison run aside.
     pub const MOST_RUNS: usize = 4;
     /// Part of the requested error that a second run aims at.
     pub const AIM: f64 = 0.6;
     /// Multiple of the requested error that is still accepted.
     pub const WITHIN: f64 = 1.5;
-    /// Ratio of the tolerances of the trial and the run: for a scheme of third order its steps are twice as long.
+    /// Ratio of the tolerances of the comparison run and the run: for a scheme of third order its steps are twice as long.
     pub const LOOSER: f64 = 8.0;
     /// Least and largest ratio of the tolerances of two runs in a row.
     pub const CHANGE: [f64; 2] = [0.01, 0.5];
     /// Ratio to the steps of the run before above which a run is aborted: its motion cannot be resolved.
     pub const MOST_LONGER: usize = 30;
-    /// A trial with more than twice the steps of its run plus this number is aborted: its longer steps do not follow the motion.
+    /// A comparison run with more than twice the steps of its run plus this number is aborted: its longer steps do not follow the motion.
     pub const FEW: usize = 100;
     /// Ratio of the tolerances where two runs have nothing in common.
     pub const LOST: f64 = 0.03;

@@ -117,7 +117,7 @@ keep_either!(Warning {
     4 => Unstable(instability),
     5 => UnstableOutOfPlane(instability),
     6 => Grows { modes, rate, fastest },
-    7 => Modes(doubts),
+    7 => Modes(warnings),
     8 => SideBySide { name },
     9 => BeginsClosed { name, depth },
     10 => LargeStrain { name, strain, logarithmic },
@@ -304,7 +304,7 @@ impl fmt::Display for Warning {
                 "the state is unstable: mode {fastest} grows with rate {} ({modes} of the modes found grow)",
                 to_digits(*rate, 4)
             ),
-            Warning::Modes(doubts) => f.write_str(doubts),
+            Warning::Modes(warnings) => f.write_str(warnings),
             Warning::RotationDrifts { label, direction, drift } => f.write_str(&drifted(label, direction, *drift)),
             Warning::LargeStrain { name, strain, logarithmic } => {
                 f.write_str(&large_strain(name, *strain, *logarithmic))

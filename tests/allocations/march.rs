@@ -207,7 +207,11 @@ fn assert_none(m: &Model, kind: rdsolve::linear::Factorization) -> State {
     assert!(2 * made.len() > counts.len(), "most steps are taken at once");
     let Iteration { method, update, .. } = m.solution.iteration;
     // A doubt is written down once: its words, and its place in the list.
-    let doubts = 2 * run.warnings().iter().count();
-    assert!(made.iter().sum::<usize>() <= doubts, "{method:?}, {update:?}, {kind:?}, {:?}: {made:?}", m.output.cadence);
+    let warnings = 2 * run.warnings().iter().count();
+    assert!(
+        made.iter().sum::<usize>() <= warnings,
+        "{method:?}, {update:?}, {kind:?}, {:?}: {made:?}",
+        m.output.cadence
+    );
     state.expect("a start")
 }

@@ -67,11 +67,11 @@ impl Observer for Witness {
         Ok(())
     }
 
-    fn begin_trial(&mut self) {
+    fn begin_comparison(&mut self) {
         self.note("trial");
     }
 
-    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_comparison(&mut self, frame: &Frame) -> io::Result<()> {
         self.note((1, digest(frame)));
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! What is pressed in too far is said, with contact and depth; what has a stiffness that holds it is not.
 
-use crate::support::{doubts, read_deck, run_source};
+use crate::support::{read_deck, run_source, run_with_warnings};
 use rdsolve::diagnostic::Source;
 use rdsolve::model;
 use rdsolve::solve::Outcome;
@@ -59,7 +59,7 @@ fn what_is_pressed_in_by_more_than_is_seen_is_said() {
         // A brick lies on four corners.
         let corners = if shape == BRICK { 4.0 } else { 1.0 };
         let exact = 10.0 / (corners * chosen).sqrt();
-        let (outcome, said) = doubts(&text);
+        let (outcome, said) = run_with_warnings(&text);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
         let found = depth(&said).unwrap_or_else(|| panic!("{shape}, {surface}: {said:?}, {exact}"));
         // The steps hold some five per cent of the turning point; four digits are written.
@@ -75,15 +75,15 @@ fn a_stiffness_given_may_yield_to_the_middle() {
     for (stiffness, said) in [("stiffness = 9.07e3", true), ("stiffness = 1.108e4", false), ("stiffness = 1e6", false)]
     {
         let text = pushed(BALL, FLOOR, 0.2, stiffness);
-        let (outcome, doubts) = doubts(&text);
+        let (outcome, warnings) = run_with_warnings(&text);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-        assert_eq!(depth(&doubts).is_some(), said, "{stiffness}: {doubts:?}");
+        assert_eq!(depth(&warnings).is_some(), said, "{stiffness}: {warnings:?}");
         let (_, read) = model::read(&Source::new("deck.toml", text, &[]));
         assert!(read.is_empty(), "{read:?}");
     }
     // Chosen for a fast run, and for gravity: it holds.
     let fast = pushed(BALL, FLOOR, 0.08, "");
-    assert_eq!(depth(&doubts(&fast).1), None);
+    assert_eq!(depth(&run_with_warnings(&fast).1), None);
     let heavy = fast.replace("[[loads]]", "[environment]\ngravity = [0.0, 0.0, -9.81]\n[[loads]]");
     let (_, read) = model::read(&Source::new("deck.toml", heavy, &[]));
     assert!(read.is_empty(), "{read:?}");
@@ -111,7 +111,7 @@ fn what_lies_inside_as_a_stage_begins_is_said() {
         );
         let done = run_source(&Source::new("deck.toml", text, &[]), &mut |_| Vec::new());
         assert!(matches!(done.outcome, Outcome::Done), "{:?}", done.outcome);
-        let said = done.doubts;
+        let said = done.warnings;
         let found = said.iter().find(|said| said.contains("contact `stop` begins closed in this stage"));
         assert_eq!(found.is_some(), inside, "{said:?}");
         // 0.06 s at 1 m/s, 0.05 m above it: 0.01 inside.

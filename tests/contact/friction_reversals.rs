@@ -1,7 +1,7 @@
 //! Slip under reversing loads: the spring of friction and the steps let it begin with a speed of their own. The run warns of that, with the stiffness and
 //! the step that do.
 
-use crate::support::{doubts, read_deck, tables_of};
+use crate::support::{read_deck, run_with_warnings, tables_of};
 use std::f64::consts::TAU;
 
 const DECK: &str = r#"
@@ -100,7 +100,7 @@ fn number(text: &str, key: &str) -> Option<f64> {
 
 /// What a deck is warned of beside its slip is no business here.
 fn warning(deck: &str) -> Option<String> {
-    doubts(deck).1.into_iter().find(|warning| warning.contains("after reversals slip begins"))
+    run_with_warnings(deck).1.into_iter().find(|warning| warning.contains("after reversals slip begins"))
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Beams and bars that touch each other by their radius: bars that cross, a beam that slides along another, what lands on a beam.
 
 use super::go;
-use crate::support::doubts;
+use crate::support::run_with_warnings;
 use rdsolve::solve::{Frame, Outcome};
 
 const SCHEMES: [&str; 3] = [
@@ -230,7 +230,7 @@ fn bars_side_by_side_are_said() {
             .replace("end_time = 0.02", "end_time = 0.01")
             .replace("c = [0, -0.5, 0.03]", &format!("c = [{}, {}, 0.03]", -0.5 * c, -0.5 * s))
             .replace("d = [0, 0.5, 0.03]", &format!("d = [{}, {}, 0.03]", 0.5 * c, 0.5 * s));
-        let (outcome, said) = doubts(&text);
+        let (outcome, said) = run_with_warnings(&text);
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
         let found =
             said.iter().any(|said| said.contains("contact `hit`: beams, bars or edges press each other side by side"));

@@ -15,9 +15,9 @@ fn all(frame: &Frame) -> Vec<f64> {
 
 /// Of a run that comes to its end.
 fn rows(text: &str) -> Vec<Vec<f64>> {
-    let Done { outcome, rows, doubts, .. } = go(&format!("output = {{ contacts = true }}\n{text}"), &mut all);
+    let Done { outcome, rows, warnings, .. } = go(&format!("output = {{ contacts = true }}\n{text}"), &mut all);
     assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-    assert!(doubts.is_empty(), "{doubts:?}");
+    assert!(warnings.is_empty(), "{warnings:?}");
     rows
 }
 

@@ -1,7 +1,7 @@
 //! Free edges of shells against each other and against beams: sheets that cross edge to edge, between whose nodes nothing else meets.
 
 use super::go;
-use crate::support::{doubts, read_deck, run};
+use crate::support::{read_deck, run, run_with_warnings};
 use rdsolve::solve::{Frame, Outcome};
 
 const SCHEMES: [&str; 3] = [
@@ -335,7 +335,7 @@ fn edges_side_by_side_are_said() {
     let shells = "elements = 5\nrigid = true";
     let text =
         Sheets { run: &run, place: [0.0, 0.0], gap: 5e-4, shells, contact: "stiffness = 1e6", more: THROWN }.deck();
-    let (outcome, said) = doubts(&text);
+    let (outcome, said) = run_with_warnings(&text);
     assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
     assert!(said.iter().all(|said| !said.contains("side by side")), "{said:?}");
     // The upper sheet turned by 90 degrees.
@@ -345,7 +345,7 @@ fn edges_side_by_side_are_said() {
         .replace("g = [0.0, 0.25, 0.5105]", "g = [0.29, 0.0, 0.5105]")
         .replace("h = [0.0, -0.25, 0.5105]", "h = [-0.21, 0.0, 0.5105]");
     assert_ne!(along, text);
-    let (outcome, said) = doubts(&along);
+    let (outcome, said) = run_with_warnings(&along);
     assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
     assert!(
         said.iter().any(|said| said.contains("contact `hit`: beams, bars or edges press each other side by side")),

@@ -1,6 +1,6 @@
 //! Steps that do not resolve the stiffness of a contact throw off what rests on it, and friction holds it no more.
 
-use crate::support::{doubts, read_deck, tables_of};
+use crate::support::{read_deck, run_with_warnings, tables_of};
 
 /// A box of 1 kg, 0.1 wide and 0.2 high, that a force at the height `at` pulls. A friction of 2 holds its foot, so that it tips.
 fn deck((stiffness, step): (f64, f64), (force, at): (f64, f64), more: &str) -> String {
@@ -34,7 +34,7 @@ moment = [0.0, {moment:?}, 0.0]
 }
 
 fn warning(deck: &str) -> Option<String> {
-    doubts(deck).1.into_iter().find(|warning| warning.contains("throw off what rests"))
+    run_with_warnings(deck).1.into_iter().find(|warning| warning.contains("throw off what rests"))
 }
 
 /// The number behind a key in a message.

@@ -314,11 +314,11 @@ fn a_rotation_fixed_alone_that_drifts_is_told() {
             + "[[initial]]\nat = \"ship\"\nangular_velocity = [0.5, 0.0, 0.0]\n[[loads]]\nat = \"ship\"\nmoment = [0.0, 1.0, 0.0]\n\
                amplitude = \"b\"\n[amplitudes.b]\nkind = \"sine-squared\"\nangular_frequency = 1.0\n"
     };
-    let doubts = |rotation: &str| run(&read_deck(&text(rotation)), &mut |_: &Frame| Vec::new()).doubts;
-    let told = doubts("");
-    assert!(told.iter().any(|doubt| doubt.contains("rz of `ship` is fixed alone and has drifted")), "{told:?}");
-    let silent = doubts("rotation = \"vector\"");
-    assert!(silent.iter().all(|doubt| !doubt.contains("drifted")), "{silent:?}");
+    let warnings_of = |rotation: &str| run(&read_deck(&text(rotation)), &mut |_: &Frame| Vec::new()).warnings;
+    let told = warnings_of("");
+    assert!(told.iter().any(|warning| warning.contains("rz of `ship` is fixed alone and has drifted")), "{told:?}");
+    let silent = warnings_of("rotation = \"vector\"");
+    assert!(silent.iter().all(|warning| !warning.contains("drifted")), "{silent:?}");
 }
 
 /// Two rotations that are held leave a free turn about the third axis, and one that is driven alone goes through full turns.

@@ -243,7 +243,7 @@ pub fn fix(m: &mut Model, node: usize, dofs: impl IntoIterator<Item = usize>) {
 }
 
 pub fn push(m: &mut Model, node: usize, force: Vec3, moment: Vec3, follower: bool, amplitude: Option<usize>) {
-    m.loading.nodal.push(Load { node, force, moment, follower, amplitude, along: None, moment_counts: true });
+    m.loading.nodal.push(Load { node, force, moment, follower, amplitude, origin: None, moment_counts: true });
 }
 
 pub fn sine_squared(m: &mut Model, angular_frequency: f64) -> usize {

@@ -1,7 +1,7 @@
 //! Buckling is told of whatever matrix leads the iteration, whatever else acts, in the plane of a motion and out of it.
 
 use crate::solve::statics::{Said, beam, column, head, said, truss};
-use crate::support::{doubts, read_deck};
+use crate::support::{read_deck, run_with_warnings};
 use rdsolve::solve::Outcome;
 use rdsolve::system::System;
 
@@ -195,7 +195,7 @@ fn what_turns_in_a_step_is_not_called_unstable() {
         )
     };
     for step in [0.0025, 0.005] {
-        let (outcome, warnings) = doubts(&rod(step));
+        let (outcome, warnings) = run_with_warnings(&rod(step));
         assert!(matches!(outcome, Outcome::Done) && warnings.is_empty(), "{step}: {outcome:?} {warnings:?}");
     }
 }

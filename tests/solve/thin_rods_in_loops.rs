@@ -93,7 +93,7 @@ fn a_loop_that_does_not_close_for_its_inertias_names_them() {
     let mut ended = 0;
     for (_, corners, axes) in loops() {
         let deck = deck(&corners, &axes, (1e-9, [1e-3, 1e3]), ("runge-kutta", 0.01));
-        let (outcome, _) = crate::support::doubts(&deck);
+        let (outcome, _) = crate::support::run_with_warnings(&deck);
         let rdsolve::solve::Outcome::Failed { failure, .. } = &outcome else { continue };
         let text = failure.to_string();
         ended += 1;

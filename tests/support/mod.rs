@@ -136,10 +136,10 @@ pub fn run_source(source: &Source, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) ->
         seconds += (began.elapsed() - run.observing()).as_secs_f64();
         unknowns = plan.dofs.unknowns().max(unknowns);
         let (counts, step_error) = (run.counts(), run.step_error());
-        let doubts = run.warnings().iter().map(ToString::to_string).collect();
+        let warnings = run.warnings().iter().map(ToString::to_string).collect();
         let is_done = matches!(outcome, Outcome::Done);
         let (verdicts, rows) = (Vec::new(), Vec::new());
-        let mut done = Done { outcome, seconds, counts, step_error, unknowns, doubts, verdicts, rows };
+        let mut done = Done { outcome, seconds, counts, step_error, unknowns, warnings, verdicts, rows };
         ends.push(state.as_ref().map_or(0.0, |state| state.time));
         while let (true, Some(state), Some(next)) = (is_done, &state, models.get_mut(ends.len())) {
             if next.analysis.begin != state.time {
@@ -175,8 +175,8 @@ pub struct Done {
     pub counts: Counts,
     pub step_error: Option<StepError>,
     pub unknowns: usize,
-    /// What the run doubts of its own results; of stages, the last.
-    pub doubts: Vec<String>,
+    /// Warnings of the run about its results; of stages, the last.
+    pub warnings: Vec<String>,
     /// Wall-clock seconds of the time stepping alone.
     pub seconds: f64,
 }
@@ -220,7 +220,7 @@ pub fn run(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) -> Done {
         counts: run.counts(),
         step_error: run.step_error(),
         unknowns: plan.dofs.unknowns(),
-        doubts: run.warnings().iter().map(ToString::to_string).collect(),
+        warnings: run.warnings().iter().map(ToString::to_string).collect(),
         verdicts: watchers.expectations.verdicts(),
         rows: watchers.rows,
     }
@@ -264,8 +264,8 @@ pub fn run_to_the_end(model: &Model, probe: &mut dyn FnMut(&Frame) -> Vec<f64>) 
     done
 }
 
-/// How a run of a deck ends, and what it doubts of its own results.
-pub fn doubts(text: &str) -> (Outcome, Vec<String>) {
+/// The outcome of a run of a deck, and its warnings.
+pub fn run_with_warnings(text: &str) -> (Outcome, Vec<String>) {
     struct Nobody;
     impl Observer for Nobody {
         fn on_step(&mut self, _: &Frame) -> io::Result<()> {

@@ -220,7 +220,7 @@ impl Polyhedron {
             return q.sup(&Vec3::zeros()).norm() + q.max().min(0.0);
         }
         let nearest = self.nearest(y);
-        if nearest.free == Freedom::Face { nearest.along } else { nearest.g.norm() }
+        if nearest.free == Freedom::Face { nearest.face_distance } else { nearest.g.norm() }
     }
 
     /// The distance of a point, negative inside, and its gradient.
@@ -229,7 +229,7 @@ impl Polyhedron {
             let nearest = self.nearest(y);
             let d = nearest.g.norm();
             return match nearest.free {
-                Freedom::Face => (nearest.along, nearest.normal),
+                Freedom::Face => (nearest.face_distance, nearest.normal),
                 _ => (d, nearest.g / d),
             };
         };
@@ -248,21 +248,21 @@ impl Polyhedron {
         let plane = |face: &PolyhedronFace| face.normal.dot(y) - face.offset;
         let mut highest = (f64::NEG_INFINITY, Vec3::z());
         for face in &self.faces {
-            let along = plane(face);
-            if along > highest.0 {
-                highest = (along, face.normal);
+            let face_distance = plane(face);
+            if face_distance > highest.0 {
+                highest = (face_distance, face.normal);
             }
         }
-        let (along, normal) = highest;
-        if along <= 0.0 {
-            return NearestPart { g: along * normal, along, normal, free: Freedom::Face };
+        let (face_distance, normal) = highest;
+        if face_distance <= 0.0 {
+            return NearestPart { g: face_distance * normal, face_distance, normal, free: Freedom::Face };
         }
         let over = self.faces.iter().find(|face| plane(face) > 0.0 && self.is_over(face, y));
         if let Some(face) = over {
-            let (along, normal) = (plane(face), face.normal);
-            return NearestPart { g: along * normal, along, normal, free: Freedom::Face };
+            let (face_distance, normal) = (plane(face), face.normal);
+            return NearestPart { g: face_distance * normal, face_distance, normal, free: Freedom::Face };
         }
-        let mut best = NearestPart { g: Vec3::repeat(f64::INFINITY), along, normal, free: Freedom::Corner };
+        let mut best = NearestPart { g: Vec3::repeat(f64::INFINITY), face_distance, normal, free: Freedom::Corner };
         for edge in &self.edges {
             let [a, b] = edge.ends.map(|k| self.corners[k]);
             let way = b - a;
@@ -273,7 +273,7 @@ impl Polyhedron {
                 part => (y - a - part * way, Freedom::Edge(way.normalize())),
             };
             if g.norm_squared() < best.g.norm_squared() {
-                best = NearestPart { g, along, normal, free };
+                best = NearestPart { g, face_distance, normal, free };
             }
         }
         best
@@ -343,7 +343,7 @@ pub struct NearestPart {
     /// Vector from the surface to the point.
     pub g: Vec3,
     /// The distance from the plane of that face, or of the farthest; negative inside.
-    pub along: f64,
+    pub face_distance: f64,
     /// The normal of this face.
     pub normal: Vec3,
     /// The kind of the part, by the directions in which its nearest point may move.

@@ -76,7 +76,7 @@ struct Middle {
 
 struct Line {
     from: Point,
-    along: Point,
+    direction: Point,
     length: f64,
     thickness: f64,
     ends: [usize; 2],
@@ -106,7 +106,7 @@ impl Middle {
                 moments += part * (middle * middle.transpose() + along * along.transpose() / 12.0);
                 Line {
                     from: a,
-                    along,
+                    direction: along,
                     length,
                     thickness: wall.thickness,
                     ends: wall.ends,
@@ -124,7 +124,7 @@ impl Middle {
         let mut flow = Vec::with_capacity(self.lines.len());
         for line in &self.lines {
             let slope = line.thickness * line.length;
-            let q = [arriving[line.ends[0]], -slope * g.dot(&line.from), -0.5 * slope * g.dot(&line.along)];
+            let q = [arriving[line.ends[0]], -slope * g.dot(&line.from), -0.5 * slope * g.dot(&line.direction)];
             arriving[line.ends[1]] += flow_at(q, 1.0);
             flow.push(q);
         }

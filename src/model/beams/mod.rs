@@ -71,9 +71,9 @@ fn read_beam<'d>(
     let orientation = cx.report.require(owner, "orientation", &beam.orientation);
     let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
     let elements = match &beam.group {
-        Some(group) => line.along_group(group, cx),
+        Some(group) => line.group_elements(group, cx),
         None if cx.report.is_spoiled(owner.span, "group") => None,
-        None => line.along_path(section.is_some() && yielding.is_some() && order <= 4, cx),
+        None => line.path_elements(section.is_some() && yielding.is_some() && order <= 4, cx),
     };
     let (section, yielding, mut elements) = (section?, yielding?, elements?);
     if order > 4 {
@@ -98,7 +98,7 @@ struct Line<'b, 'd> {
 
 impl<'d> Line<'_, 'd> {
     /// Makes elements along the segments of a group of the mesh, as yet without their sections.
-    fn along_group(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
+    fn group_elements(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
         let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end);
         cx.report.reject_unused("a beam made of a group of the mesh", &unused);
         let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
@@ -212,7 +212,7 @@ impl<'d> Line<'_, 'd> {
     }
 
     /// Makes elements along a path of points, as yet without their sections, where the rest of the beam is `sound`.
-    fn along_path(&self, sound: bool, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
+    fn path_elements(&self, sound: bool, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
         let elements = cx.report.require(self.owner, "elements", &self.beam.elements);
         let mut path = path(self.owner, &self.beam.path, true, cx)?;
         self.offset_ends(&mut path, cx);

@@ -201,8 +201,8 @@ impl Meets<'_, '_> {
     fn given_speed(&self) -> f64 {
         let of = |table: &deck::initial::Initial| {
             let v = table.velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
-            let turning = table.angular_velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
-            v + table.normal_velocity.as_ref().map_or(0.0, |at| at.value.abs()) + turning * self.size()
+            let spin = table.angular_velocity.as_ref().map_or(0.0, |at| vec3(at).norm());
+            v + table.normal_velocity.as_ref().map_or(0.0, |at| at.value.abs()) + spin * self.size()
         };
         self.whole_deck().initial.iter().map(|table| of(table)).fold(0.0, f64::max)
     }

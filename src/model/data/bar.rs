@@ -1,6 +1,6 @@
 //! Bars and cables: lines of elements that resist stretching alone.
 
-use super::integrals::{MassIntegrals, along};
+use super::integrals::{MassIntegrals, line_mass};
 use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
@@ -101,7 +101,7 @@ impl PartAnswers for Bar {
         for ends in std::mem::take(&mut self.elements) {
             let x = ends.map(x);
             let density = if self.mass == MassKind::None { 0.0 } else { self.mass_per_length };
-            sums.add(density, &x, |a, b| (x[1] - x[0]).norm() * along(a, b));
+            sums.add(density, &x, |a, b| (x[1] - x[0]).norm() * line_mass(a, b));
             taken.push(ends.to_vec());
         }
         taken

@@ -1,6 +1,6 @@
 //! Beams: lines of elements that stretch, shear, bend and twist.
 
-use super::integrals::{MassIntegrals, along};
+use super::integrals::{MassIntegrals, line_mass};
 use super::lattice;
 use super::loading::OwnDamping;
 use super::node::Node;
@@ -128,7 +128,7 @@ impl PartAnswers for Beam {
             let x = ends.map(x);
             let (length, section) = ((x[1] - x[0]).norm(), &stiffnesses[e.section]);
             let density = if self.mass == MassKind::None { 0.0 } else { section.mass_per_length };
-            sums.add(density, &x, |a, b| length * along(a, b));
+            sums.add(density, &x, |a, b| length * line_mass(a, b));
             if self.rotary_inertia && self.mass != MassKind::None {
                 sums.rotary += length * e.frame * section.inertia_per_length * e.frame.transpose();
             }

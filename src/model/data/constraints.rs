@@ -125,7 +125,7 @@ impl Joint {
     }
 
     /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate is not changed.
-    pub fn lead(&mut self, drive: JointDrive) {
+    pub fn set_drive(&mut self, drive: JointDrive) {
         if let Some(coordinate) = &mut self.coordinate {
             coordinate.drive = Some(drive);
             self.equations.push(coordinate.lock);

@@ -39,7 +39,7 @@ pub struct InitialMotion {
     /// The centre of a rigid rotation, global components; `None` where each node only has its angular velocity.
     pub about: Option<Vec3>,
     /// Velocity along the normals of shells, instead of `v`.
-    pub along_normal: Option<f64>,
+    pub normal_speed: Option<f64>,
     /// Factors on the velocities.
     pub factors: Vec<PlaceFactor>,
 }
@@ -56,10 +56,10 @@ pub struct GivenVelocity {
 impl GivenVelocity {
     /// The velocity of a node at a place, where its shells have this normal.
     pub fn velocity(&self, x: &Vec3, normal: &Vec3) -> Vec3 {
-        let InitialMotion { v, omega, about, along_normal, .. } = &*self.motion;
-        let v = match (about, along_normal) {
+        let InitialMotion { v, omega, about, normal_speed, .. } = &*self.motion;
+        let v = match (about, normal_speed) {
             (Some(about), _) => v + omega.cross(&(x - about)),
-            (None, Some(along)) => *along * normal,
+            (None, Some(speed)) => *speed * normal,
             (None, None) => *v,
         };
         self.factor(x) * v

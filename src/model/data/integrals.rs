@@ -45,6 +45,6 @@ impl MassIntegrals {
 }
 
 /// ∫ N_a N_b over a segment of length one.
-pub fn along(a: usize, b: usize) -> f64 {
+pub fn line_mass(a: usize, b: usize) -> f64 {
     if a == b { 1.0 / 3.0 } else { 1.0 / 6.0 }
 }

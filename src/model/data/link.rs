@@ -137,7 +137,10 @@ impl PartAnswers for Link {
 }
 
 /// Replaces the equations of links along joint coordinates, given by their index among all links.
-pub fn count_along<'l>(links: impl Iterator<Item = &'l mut Link>, equations: &[(usize, ConstraintEquation)]) {
+pub fn set_coordinate_equations<'l>(
+    links: impl Iterator<Item = &'l mut Link>,
+    equations: &[(usize, ConstraintEquation)],
+) {
     let mut links: Vec<&mut Link> = links.collect();
     for &(index, counted) in equations {
         if let LinkKind::Joint { lock, .. } = &mut links[index].kind {

@@ -51,7 +51,7 @@ pub struct Load {
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
     /// The element or coordinate of a load with this share; `None` for a load on the node alone.
-    pub along: Option<LoadAlong>,
+    pub origin: Option<LoadOrigin>,
     /// False for moments without a direct action on the node: moments of spread loads, cancelled by their neighbours, and residual moments
     /// of the last stage.
     pub moment_counts: bool,
@@ -59,7 +59,7 @@ pub struct Load {
 
 /// The element or coordinate of a load, with shares on nodes.
 #[derive(Debug, Clone, Copy)]
-pub enum LoadAlong {
+pub enum LoadOrigin {
     /// An element over which a load per length is spread: the part, by its index in [`super::Model::parts`], and its element.
     Element(usize, usize),
     /// The coordinate of a joint: the load acts on the node as far as this moves the coordinate.
@@ -111,8 +111,8 @@ impl LoadedCoordinate {
 impl Load {
     /// The coordinate of a joint along which it acts.
     pub fn coordinate(&self) -> Option<&LoadedCoordinate> {
-        match &self.along {
-            Some(LoadAlong::Coordinate(coordinate)) => Some(coordinate),
+        match &self.origin {
+            Some(LoadOrigin::Coordinate(coordinate)) => Some(coordinate),
             _ => None,
         }
     }
@@ -121,7 +121,7 @@ impl Load {
     pub fn scale(&mut self, factor: f64) {
         self.force *= factor;
         self.moment *= factor;
-        if let Some(LoadAlong::Coordinate(coordinate)) = &mut self.along {
+        if let Some(LoadOrigin::Coordinate(coordinate)) = &mut self.origin {
             coordinate.effort *= factor;
         }
     }

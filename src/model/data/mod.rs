@@ -42,9 +42,9 @@ pub use displacement_target::DisplacementTarget;
 pub use expect::{Expect, ExpectAt, OverFrequencies, Tolerance, When};
 pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
-pub use link::{Link, LinkKind, count_along};
+pub use link::{Link, LinkKind, set_coordinate_equations};
 pub use loading::{
-    BaseAcceleration, Damping, Load, LoadAlong, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure,
+    BaseAcceleration, Damping, Load, LoadOrigin, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure,
 };
 pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use modes::{ModeExtent, ModesAsked};

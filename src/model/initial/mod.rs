@@ -110,7 +110,7 @@ impl<'d> Motions<'_, 'd> {
             v: vec3_or_zero(&initial.velocity),
             omega: vec3_or_zero(&initial.angular_velocity),
             about: initial.about.as_ref().map(|about| vec3(about)),
-            along_normal: normal.map(|normal| normal.value),
+            normal_speed: normal.map(|normal| normal.value),
             factors,
         });
         let quantities = given(initial);

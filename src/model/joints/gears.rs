@@ -1,7 +1,7 @@
 //! Gears: joints with proportional coordinates follow one common number.
 
 use crate::data::{Joint, JointDrive};
-use crate::joints::along::{Gear, is_later, size};
+use crate::joints::coordinate::{Gear, is_later, size};
 use crate::places::nodes::Nodes;
 use crate::report::Report;
 use crate::scene::Scene;
@@ -30,7 +30,7 @@ pub fn connect<'d>(
         }
         let drive = drive_of(scene, &mut joints[first], nodes);
         if let Some(drive) = drive {
-            joints[*index].lead(JointDrive { ratio: ratio * drive.ratio, ..drive });
+            joints[*index].set_drive(JointDrive { ratio: ratio * drive.ratio, ..drive });
         }
     }
 }
@@ -83,6 +83,6 @@ fn drive_of(scene: &Scene, joint: &mut Joint, nodes: &mut Nodes) -> Option<Joint
     let ratio = if coordinate.lock.is_rotational() { 1.0 / size(scene, nodes, &joint.name) } else { 1.0 };
     let node = nodes.add_number(format!("{}.gear", joint.name), joint.ends[0]);
     let drive = JointDrive { node, ratio, is_free: true };
-    joint.lead(drive);
+    joint.set_drive(drive);
     Some(drive)
 }

@@ -1,10 +1,10 @@
 //! `[[joints]]`: constraint equations between two nodes, held by multipliers.
 
-pub mod along;
+pub mod coordinate;
 pub mod gears;
 
 use crate::data::{History, Joint, Node, PrescribedMotion};
-use crate::joints::along::{Along, Joints, PlacedJoint};
+use crate::joints::coordinate::{CoordinateKeys, Joints, PlacedJoint};
 use crate::links::ModelLinks;
 use crate::places::ends::EndTable;
 use crate::places::nodes::Nodes;
@@ -42,7 +42,7 @@ pub fn joints<'d>(
             let what = format!("a joint of kind \"{}\"", kind.word);
             report.read(&owner, &what, &joint.values, kind, kind.make.axes)
         });
-        let acts = kind.map(|kind| Along { owner: &owner, joint, scene, amplitudes, report }.read(kind));
+        let acts = kind.map(|kind| CoordinateKeys { owner: &owner, joint, scene, amplitudes, report }.read(kind));
         let (Some(kind), Some(ends), Some(axes)) = (kind, from.zip(to), axes) else { continue };
         let ends = [ends.0, ends.1];
         // The ends of a later joint are at their current positions.
@@ -127,7 +127,7 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
         } else if ends.iter().all(|&end| is_fixed(end)) {
             report.error::<()>(&joint.span, format!("both ends of joint `{name}` are fixed, so it holds nothing"));
         } else if let Some((given, driven)) =
-            initial_rates(made, ends.map(is_fixed), (amplitudes, duration, along::size(scene, nodes, name)), nodes)
+            initial_rates(made, ends.map(is_fixed), (amplitudes, duration, coordinate::size(scene, nodes, name)), nodes)
             && let Some(motion) = &joint.motion
         {
             let (given, driven) = (short(given), short(driven));

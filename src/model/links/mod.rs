@@ -31,7 +31,7 @@ pub struct ModelLinks {
 
 impl ModelLinks {
     /// Adds a link along the coordinate of a joint; returns its index.
-    pub fn add_along(
+    pub fn add_to_coordinate(
         &mut self,
         joint: &str,
         ends: [usize; 2],

@@ -24,7 +24,7 @@ impl Pretension {
             moment: Vec3::zeros(),
             follower: false,
             amplitude,
-            along: None,
+            origin: None,
             moment_counts: true,
         })
     }

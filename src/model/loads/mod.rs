@@ -97,7 +97,7 @@ fn nodal_load<'d>(
                 report.error_with::<()>(place, message, "bars, springs and point masses have no rotations");
             }
         }
-        loads.push(Load { node: spot.node, force, moment, follower, amplitude, along: None, moment_counts: true });
+        loads.push(Load { node: spot.node, force, moment, follower, amplitude, origin: None, moment_counts: true });
     }
     loads
 }

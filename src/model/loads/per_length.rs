@@ -1,6 +1,6 @@
 //! `[[loads]]` per length of beams and bars, as forces and moments on the nodes of their elements that do the same work.
 
-use crate::data::{LineElement, Load, LoadAlong, Part};
+use crate::data::{LineElement, Load, LoadOrigin, Part};
 use crate::places::nodes::Topology;
 use base::math::{Vec3, quadrature};
 use mechanics::elements::beam;
@@ -67,12 +67,12 @@ impl LineLoad {
     }
 
     /// Shares of the load on the nodes of a single element, with the profile along it.
-    pub fn over_element(&self, part: &Part, along: (usize, usize), scene: (&Topology, &[Stiffness])) -> Vec<Load> {
-        Line::of(part, along.1, scene).map_or_else(Vec::new, |line| self.over(&line, [0.0, 1.0], along))
+    pub fn over_element(&self, part: &Part, element: (usize, usize), scene: (&Topology, &[Stiffness])) -> Vec<Load> {
+        Line::of(part, element.1, scene).map_or_else(Vec::new, |line| self.over(&line, [0.0, 1.0], element))
     }
 
     /// Shares on an element that reaches from one fraction of the length of its part to another.
-    fn over(&self, line: &Line, [begin, end]: [f64; 2], along: (usize, usize)) -> Vec<Load> {
+    fn over(&self, line: &Line, [begin, end]: [f64; 2], element: (usize, usize)) -> Vec<Load> {
         let axis = line.ends[1] - line.ends[0];
         let (length, tangent) = (axis.norm(), axis.normalize());
         let force = self.force_on(line, &tangent);
@@ -87,9 +87,9 @@ impl LineLoad {
                 let at = 0.5 * ((1.0 - xi) * a + (1.0 + xi) * b);
                 let part = (at - piece[0][0]) / (piece[1][0] - piece[0][0]);
                 let factor = piece[0][1] + part * (piece[1][1] - piece[0][1]);
-                let along = (at - begin) / (end - begin);
+                let fraction = (at - begin) / (end - begin);
                 let q = (0.5 * w * (b - a) / (end - begin) * length * factor) * force;
-                line.share(along, &tangent, &q, &mut shares);
+                line.share(fraction, &tangent, &q, &mut shares);
             }
         }
         let load = |(&node, [force, moment]): (&usize, [Vec3; 2])| Load {
@@ -98,7 +98,7 @@ impl LineLoad {
             moment,
             follower: self.follower,
             amplitude: self.amplitude,
-            along: Some(LoadAlong::Element(along.0, along.1)),
+            origin: Some(LoadOrigin::Element(element.0, element.1)),
             moment_counts: false,
         };
         line.nodes.iter().zip(shares).filter(|(_, share)| *share != [Vec3::zeros(); 2]).map(load).collect()

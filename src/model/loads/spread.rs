@@ -66,7 +66,7 @@ pub fn spread_load<'d>(
         moment,
         follower: false,
         amplitude,
-        along: None,
+        origin: None,
         moment_counts: false,
     };
     let faces = spread.faces;
@@ -168,11 +168,11 @@ impl<'d> Spread<'_, 'd> {
                 let entry = self.scene.parts.entry(surface);
                 let nodes = entry.and_then(|entry| entry.edges.get(edge)).map_or(&[][..], |nodes| nodes);
                 if self.acts_on_edges(name, report) {
-                    nodes.windows(2).for_each(|pair| self.along([pair[0], pair[1]]));
+                    nodes.windows(2).for_each(|pair| self.load_edge([pair[0], pair[1]]));
                 }
             }
             (Place::Part(_) | Place::Body(_), Some(_)) if self.line_of(place).is_some() => {
-                self.line_of(place).into_iter().for_each(|part| self.along_part(part, name, report));
+                self.line_of(place).into_iter().for_each(|part| self.load_part(part, name, report));
             }
             (Place::Set(_), Some(_)) if self.is_of_members(place) => {
                 for leaf in self.scene.names.leaves(place) {
@@ -183,7 +183,7 @@ impl<'d> Spread<'_, 'd> {
             }
             (Place::Group(_) | Place::Set(_), Some(_)) => {
                 let pairs = line_of(self.scene, place, name, self.topology, report);
-                self.along_segments(&pairs, name, report);
+                self.load_segments(&pairs, name, report);
             }
             _ => match self.scene.names.surface_of(place) {
                 Some(surface) if self.line.is_none() => self.over_surface(surface),
@@ -225,13 +225,13 @@ impl<'d> Spread<'_, 'd> {
     }
 
     /// Distributes a load per length over a beam or bar; over one that is rigid in equal halves to the ends of its elements.
-    fn along_part(&mut self, at: PartIndex, name: &'d At<String>, report: &mut Report<'d>) {
+    fn load_part(&mut self, at: PartIndex, name: &'d At<String>, report: &mut Report<'d>) {
         let Some(line) = &self.line else { return };
         let parts = &self.scene.parts;
         let Some(entry) = parts.entry(at) else { return };
         if entry.rigid_elements.is_some() {
             if self.acts_on_edges(name, report) {
-                parts.elements(at).iter().for_each(|nodes| self.along([nodes[0], nodes[nodes.len() - 1]]));
+                parts.elements(at).iter().for_each(|nodes| self.load_edge([nodes[0], nodes[nodes.len() - 1]]));
             }
             return;
         }
@@ -252,7 +252,7 @@ impl<'d> Spread<'_, 'd> {
     }
 
     /// Distributes a load per length over segments of a group: elements of beams and bars, edges of shells.
-    fn along_segments(&mut self, pairs: &[[usize; 2]], name: &'d At<String>, report: &mut Report<'d>) {
+    fn load_segments(&mut self, pairs: &[[usize; 2]], name: &'d At<String>, report: &mut Report<'d>) {
         let Some(line) = &self.line else { return };
         let parts = &self.scene.parts;
         let scene = (self.topology, &parts.stiffnesses[..]);
@@ -260,7 +260,7 @@ impl<'d> Spread<'_, 'd> {
         for &[a, b] in pairs {
             let ends = [a.min(b), a.max(b)];
             match self.lines.get(&ends).filter(|_| !self.edges.contains_key(&ends)) {
-                Some(&along) => self.shares.extend(line.over_element(&parts.list[along.0], along, scene)),
+                Some(&element) => self.shares.extend(line.over_element(&parts.list[element.0], element, scene)),
                 None => edges.push([a, b]),
             }
         }
@@ -271,7 +271,7 @@ impl<'d> Spread<'_, 'd> {
         }
         for pair in edges {
             if !self.is_loose(pair, name, report) {
-                self.along(pair);
+                self.load_edge(pair);
             }
         }
     }
@@ -297,12 +297,12 @@ impl<'d> Spread<'_, 'd> {
 
     /// Distributes the force on a segment to its ends in equal halves. The edge of a shell bulges by ½ r (1 − r) L (θ_a − θ_b) in its
     /// surface. The load does work on it too: opposite moments about the normal at the ends.
-    fn along(&mut self, pair: [usize; 2]) {
+    fn load_edge(&mut self, pair: [usize; 2]) {
         let Some(line) = self.line.as_ref().map(|line| line.force) else { return };
         let along = self.topology.x(pair[1]) - self.topology.x(pair[0]);
         let edge = self.edges.get(&[pair[0].min(pair[1]), pair[0].max(pair[1])]);
         if let Some((nodes, part)) = edge.and_then(|edge| edge.curve) {
-            return self.along_curve(nodes, part, &line);
+            return self.load_curve(nodes, part, &line);
         }
         let moment = edge.map_or_else(Vec3::zeros, |edge| {
             edge.bulge * along.norm() / 12.0 * along.cross(&line).dot(&edge.normal) * edge.normal
@@ -315,7 +315,7 @@ impl<'d> Spread<'_, 'd> {
     }
 
     /// Distributes the force on a part of a curved edge to its nodes, by the work that it does between them.
-    fn along_curve(&mut self, nodes: [usize; 3], [begin, end]: [f64; 2], line: &Vec3) {
+    fn load_curve(&mut self, nodes: [usize; 3], [begin, end]: [f64; 2], line: &Vec3) {
         let x = nodes.map(|node| self.topology.x(node));
         let half = 0.5 * (end - begin);
         let (points, weights) = quadrature::gauss(4);

@@ -1,8 +1,8 @@
 //! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
 
 use crate::data::{ArcLength, History, Iteration, Method, Restraint, Update};
-use crate::doubts::usage::named_amplitudes;
 use crate::places::nodes::Topology;
+use crate::plausibility::usage::named_amplitudes;
 use crate::procedure::displacement_targets::displacement_target;
 use crate::report::Report;
 use crate::scene::Scene;
@@ -50,7 +50,7 @@ pub fn control<'d>(
 }
 
 /// The iteration along a path, with the current tangent, which gives the direction of the path.
-pub fn iterate_along(deck: &Deck, iteration: Iteration) -> Iteration {
+pub fn path_iteration(deck: &Deck, iteration: Iteration) -> Iteration {
     match deck.iteration {
         Some(_) => Iteration { method: Method::TangentStiffness, update: Update::Iteration, ..iteration },
         None => iteration,

@@ -3,7 +3,7 @@
 use crate::data::{
     self, AroundResonances, Expect, ExpectAt, ModeExtent, OverFrequencies, ResponseAsked, ResponseMethod,
 };
-use crate::doubts::usage::amplitudes_over_time;
+use crate::plausibility::usage::amplitudes_over_time;
 use crate::procedure::extent::extent as given_extent;
 use crate::report::{Owner, Report};
 use crate::values::{chosen, keys};

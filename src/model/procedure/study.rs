@@ -327,8 +327,8 @@ impl<'d> Reader<'_, 'd> {
 
 /// Why a model cannot be studied; `None`: it can.
 pub fn obstacle(model: &crate::data::Model) -> Option<&'static str> {
-    let along = model.analysis.step_length.is_arc_length();
-    along.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
+    let is_path = model.analysis.step_length.is_arc_length();
+    is_path.then_some("a study goes over time steps, and with `control = \"arc-length\"` there are none")
 }
 
 /// The keys of an integrator besides its scheme, as TOML.

@@ -147,14 +147,14 @@ impl Observer for ErrorBars {
         self.tables.iter().flat_map(|table| table.seen.largest.times()).collect()
     }
 
-    fn begin_trial(&mut self) {
+    fn begin_comparison(&mut self) {
         for table in &mut self.tables {
             table.unseen.clear();
             table.seen.largest.forget_others();
         }
     }
 
-    fn on_trial(&mut self, frame: &Frame) -> io::Result<()> {
+    fn on_comparison(&mut self, frame: &Frame) -> io::Result<()> {
         let time = frame.state.time;
         for WatchedTable { write, rows, seen, unseen, .. } in &mut self.tables {
             rows.clear();
@@ -168,7 +168,7 @@ impl Observer for ErrorBars {
     fn on_other_run(&mut self, other: Option<OtherRun>) {
         for table in &mut self.tables {
             table.of_steps = match other {
-                Some(OtherRun::Trial(apart)) => table.told_by(&table.seen, &table.unseen, apart, self.rounding),
+                Some(OtherRun::Comparison(apart)) => table.told_by(&table.seen, &table.unseen, apart, self.rounding),
                 Some(OtherRun::Before(apart)) => {
                     table.told_by(&table.before, &table.before.history, apart, self.rounding)
                 }

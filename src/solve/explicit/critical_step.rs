@@ -159,13 +159,13 @@ impl CriticalStep {
             }
         }
         let most = cx.model.analysis.duration() / FEWEST_STEPS;
-        let turning = self.turning_step(cx.model, state);
-        Ok((fraction * self.longest.unwrap_or(left)).min(most).min(turning))
+        let rotation = self.rotation_step(cx.model, state);
+        Ok((fraction * self.longest.unwrap_or(left)).min(most).min(rotation))
     }
 
     /// The step length that limits the turn of every body to [`TURN`]. It uses the largest angular velocity of the run, since each change
     /// of the step generates or dissipates energy, and the current angular accelerations.
-    fn turning_step(&mut self, model: &Model, state: &State) -> f64 {
+    fn rotation_step(&mut self, model: &Model, state: &State) -> f64 {
         let nodes = || model.bodies.iter().map(|body| &state.nodes[body.node]);
         self.max_spin = nodes().map(|node| node.omega.norm()).fold(self.max_spin, f64::max);
         let (rate, acceleration) = (self.max_spin, nodes().map(|node| node.alpha.norm()).fold(0.0, f64::max));

@@ -29,8 +29,8 @@ pub fn move_ahead(
         for &node in independent {
             let (start, increment) = (&state.nodes[node], &mut increments[node - first]);
             let [v, a] = rates_of(start);
-            let turning = masses.and_then(|masses| masses.of(node)?.drift(start, dt));
-            increment.q = turning.unwrap_or_else(|| scheme.predict(&v, &a, &state.jerk[node]));
+            let free_drift = masses.and_then(|masses| masses.of(node)?.drift(start, dt));
+            increment.q = free_drift.unwrap_or_else(|| scheme.predict(&v, &a, &state.jerk[node]));
             scheme.differentiate(increment, &v, &a, &a);
         }
         for &i in &cx.chunks.restraints[chunk.restraints.clone()] {

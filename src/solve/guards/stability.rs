@@ -95,7 +95,7 @@ impl Stability {
     /// # Errors
     /// There is no memory for a separate matrix, or for the motion out of the plane.
     pub fn new(cx: &Context) -> Result<Stability, TooLarge> {
-        let along = cx.model.analysis.step_length.is_arc_length();
+        let on_path = cx.model.analysis.step_length.is_arc_length();
         let criterion = match cx.plan.kind {
             _ if cx.system.loads_have_potential(cx.system.plane) => Criterion::Eigenvalues,
             Factorization::BlockLu => Criterion::Determinant,
@@ -109,9 +109,9 @@ impl Stability {
         };
         Ok(Stability {
             // Along a path limit points change the sign of a determinant too.
-            counts: !along || criterion == Criterion::Eigenvalues,
+            counts: !on_path || criterion == Criterion::Eigenvalues,
             criterion,
-            path: along.then_some(Path { grows: true }),
+            path: on_path.then_some(Path { grows: true }),
             own: own.map(|(solver, assembly)| Box::new(LinearSystem::new(solver, assembly))),
             seen: 0,
             found: Found::default(),
@@ -258,31 +258,31 @@ impl Guard for Stability {
 /// A path of given arc length on which something slips: its limit points change the sign of the determinant too.
 struct NotJudged;
 
-/// The first instability in a step after one was suspected; `appeared`, `along` as for [`locate_in_doubt`].
+/// The first instability in a step after one was suspected; `appeared`, `on_path` as for [`locate_in_doubt`].
 fn locate(
     cx: &Context,
     tangent: &mut Tangent,
     ends: &Ends,
     appeared: bool,
-    along: bool,
+    on_path: bool,
 ) -> Result<Option<Instability>, NotJudged> {
     let in_doubt = tangent.criterion == Criterion::SymmetricPart || cx.system.rubs();
     match tangent.criterion {
         Criterion::Eigenvalues | Criterion::SymmetricPart if in_doubt => {
-            locate_in_doubt(cx, tangent, ends, appeared, along)
+            locate_in_doubt(cx, tangent, ends, appeared, on_path)
         }
         _ => Ok(tangent.locate(cx, ends)),
     }
 }
 
 /// The first instability in a step whose tangent need not be symmetric, after the symmetric part has raised the suspicion. `appeared`: more of
-/// its eigenvalues are negative than at the start of the step; `along`: the step is one of a path of given arc length.
+/// its eigenvalues are negative than at the start of the step; `on_path`: the step is one of a path of given arc length.
 fn locate_in_doubt(
     cx: &Context,
     tangent: &mut Tangent,
     ends: &Ends,
     appeared: bool,
-    along: bool,
+    on_path: bool,
 ) -> Result<Option<Instability>, NotJudged> {
     let mut whole = match tangent.matrix.solver.is_symmetric() {
         true => whole_matrix(cx, &ends.configurations[1]),
@@ -293,7 +293,7 @@ fn locate_in_doubt(
     let mut tangent = Tangent { system, dofs, matrix, forces: &mut *tangent.forces, springs, criterion };
     tangent.criterion = tangent.criterion_between(ends);
     if tangent.criterion == Criterion::Determinant {
-        if along {
+        if on_path {
             return Err(NotJudged);
         }
         if !appeared && tangent.unstable_modes_at_end(ends) == Some(0) {

@@ -94,8 +94,8 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
     let Some((lowest, _)) = found.first() else { return Err(ModesFault::NoBuckling) };
     let shapes = Shapes::new(&pencil);
     let list = found.iter().map(|(factor, vector)| shapes.buckling(&pencil, *factor, vector)).collect();
-    let mut doubts = doubts(at, rests, (&found, wanted));
-    doubts.extend(response.slackened(lowest.abs(), &pencil));
+    let mut warnings = warnings_of(at, rests, (&found, wanted));
+    warnings.extend(response.slackened(lowest.abs(), &pencil));
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     Ok(Modes {
         kind: ModeKind::Buckling,
@@ -104,41 +104,41 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
         unstable: 0,
         factorizations,
         solves,
-        doubts,
+        warnings,
         response: None,
     })
 }
 
-/// Doubts about the factors found and wanted, in words; the scene may not rest without loads.
-fn doubts(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)) -> Vec<String> {
-    let mut doubts = Vec::new();
+/// Warnings about the factors found and wanted, in words; the scene may not rest without loads.
+fn warnings_of(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)) -> Vec<String> {
+    let mut warnings = Vec::new();
     if !rests {
-        doubts.push(
+        warnings.push(
             "without the loads the scene is not in equilibrium (prestress): factors are those of the loads on the geometry as it is \
              given, with the prestress that parts have there"
                 .to_owned(),
         );
     }
     if let Some((nearest, _)) = found.first().filter(|(factor, _)| *factor < 0.0) {
-        doubts.push(format!(
+        warnings.push(format!(
             "nothing within reach buckles under these loads: factors are negative, those of the reversed loads, which buckle it at {} times \
              their value",
             short(-nearest)
         ));
     } else if found.len() < wanted {
-        doubts.push(format!(
+        warnings.push(format!(
             "{} factors were found, and no more within reach: the others lie much farther, or only stiffen",
             found.len()
         ));
     }
     if !at.loads_have_potential() {
-        doubts.push(
+        warnings.push(
             "loads that follow, and moments about axes fixed in space, have no potential: factors are those of the symmetric part \
              of their stiffness, which is what buckles statically where it is not their work that shakes (flutter)"
                 .to_owned(),
         );
     }
-    doubts
+    warnings
 }
 
 /// A factor of the loads with its vector.

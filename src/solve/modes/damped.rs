@@ -114,19 +114,20 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         ModeExtent::Count(count) => list.truncate(count),
         ModeExtent::UpTo(frequency) => list.retain(|mode| mode.frequency() <= frequency),
     }
-    let mut doubts = gyroscopic.doubts;
+    let mut warnings = gyroscopic.warnings;
     if let (found, ModeExtent::Count(count)) = (list.len(), extent)
         && found < count
     {
-        doubts.push(fewer(found, count));
+        warnings.push(fewer(found, count));
     }
     if near.zero > DOUBTFUL * near.shift {
-        doubts.push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
+        warnings
+            .push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
     }
     let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
     let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
     let (kind, masses) = (ModeKind::Natural, shapes.masses);
-    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response: None })
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, warnings, response: None })
 }
 
 /// The motions without stiffness. Each is a root at zero, whatever its damping. The roots are multiple. With too few vectors a Krylov space

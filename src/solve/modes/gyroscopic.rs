@@ -12,13 +12,13 @@ pub struct Gyroscopic {
     /// The rows of the rotations of a node, with the matrices of θ̇ and of θ.
     blocks: Vec<([Option<usize>; 3], Mat3, Mat3)>,
     /// Neglected terms, in words.
-    pub doubts: Vec<String>,
+    pub warnings: Vec<String>,
 }
 
 impl Gyroscopic {
     /// The matrices of the bodies that spin in a state.
     pub fn of(at: &Linearized) -> Gyroscopic {
-        let mut gyroscopic = Gyroscopic { blocks: Vec::new(), doubts: Vec::new() };
+        let mut gyroscopic = Gyroscopic { blocks: Vec::new(), warnings: Vec::new() };
         let links = &at.system.rigid_links;
         for inertia in &at.system.inertias {
             let mut root = inertia.node;
@@ -34,7 +34,7 @@ impl Gyroscopic {
             }
             let name = || at.model.nodes[root].label.clone();
             if arm && inertia.mass > 0.0 {
-                gyroscopic.doubts.push(format!(
+                gyroscopic.warnings.push(format!(
                     "`{}` carries masses away from its centre while it spins: their gyroscopic and centrifugal forces are left out",
                     name()
                 ));
@@ -46,7 +46,7 @@ impl Gyroscopic {
             let momentum = J * omega;
             let varies = skew(&omega) * J - J * skew(&omega);
             if varies.norm() > SYMMETRIC * momentum.norm() {
-                gyroscopic.doubts.push(format!(
+                gyroscopic.warnings.push(format!(
                     "`{}` is not symmetric about the axis that it spins about: its inertia varies as it turns, and modes are those of \
                      the instant",
                     name()
@@ -55,7 +55,7 @@ impl Gyroscopic {
             let rows = std::array::from_fn(|i| at.plan.dofs.row(root, 3 + i));
             gyroscopic.blocks.push((rows, varies - skew(&momentum), -skew(&omega.cross(&momentum))));
         }
-        gyroscopic.doubts.dedup();
+        gyroscopic.warnings.dedup();
         gyroscopic
     }
 

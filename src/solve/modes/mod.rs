@@ -25,7 +25,7 @@ pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, ModeKind, Modes, Share};
 pub use response::complex_solver;
 pub use rest::{multipliers_at_rest, own_stiffnesses};
-pub use steady::{Response, ResponseRow, ResponseSoFar, Search};
+pub use steady::{Response, ResponseProgress, ResponseRow, ResponseSoFar};
 
 use crate::system::assembly::Assembly;
 use linear::Solver;
@@ -35,23 +35,31 @@ use model::AnalysisKind;
 ///
 /// # Errors
 /// The reason why there are none; [`ModesFault::Stopped`] where the search is to pause or to end.
-pub fn find(at: &Linearized, linear: (&mut Solver, &mut Assembly), search: Search) -> Result<Modes, ModesFault> {
+pub fn find(
+    at: &Linearized,
+    linear: (&mut Solver, &mut Assembly),
+    progress: ResponseProgress,
+) -> Result<Modes, ModesFault> {
     if !at.model.analysis.has_modes() {
         return Ok(Modes::default());
     }
     if linear.0.is_symmetric() {
-        return find_with(at, linear, search);
+        return find_with(at, linear, progress);
     }
     let (mut solver, mut assembly) = at.symmetric_solver()?;
-    find_with(at, (&mut solver, &mut assembly), search)
+    find_with(at, (&mut solver, &mut assembly), progress)
 }
 
-fn find_with(at: &Linearized, linear: (&mut Solver, &mut Assembly), search: Search) -> Result<Modes, ModesFault> {
+fn find_with(
+    at: &Linearized,
+    linear: (&mut Solver, &mut Assembly),
+    progress: ResponseProgress,
+) -> Result<Modes, ModesFault> {
     match &at.model.analysis.kind {
         AnalysisKind::Dynamic | AnalysisKind::Static => Ok(Modes::default()),
         AnalysisKind::Modal(asked) if asked.damped => damped::damped_modes(at, linear),
         AnalysisKind::Modal(_) => modal::natural_modes(at, linear),
         AnalysisKind::Buckling(_) => buckling::buckling_modes(at, linear),
-        AnalysisKind::Response(asked) => response::find_response(at, asked, linear, search),
+        AnalysisKind::Response(asked) => response::find_response(at, asked, linear, progress),
     }
 }

@@ -37,16 +37,16 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let kind = ModeKind::Natural;
-    let mut doubts = left_out(at);
-    doubts.extend(far_apart(&list));
+    let mut warnings = left_out(at);
+    warnings.extend(far_apart(&list));
     match (list.len(), extent) {
-        (0, ModeExtent::UpTo(frequency)) => doubts.push(format!("no mode lies below `up_to` = {frequency}")),
+        (0, ModeExtent::UpTo(frequency)) => warnings.push(format!("no mode lies below `up_to` = {frequency}")),
         (found, ModeExtent::Count(count)) if found < count => {
-            doubts.push(fewer(found, count));
+            warnings.push(fewer(found, count));
         }
         _ => {}
     }
-    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, doubts, response: None })
+    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, warnings, response: None })
 }
 
 /// Natural frequencies up to a value, without zeros; the cost is counted.
@@ -103,10 +103,10 @@ pub(super) fn fewer(found: usize, count: usize) -> String {
 
 /// Modes hidden by rounding, in words.
 pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     let lost: Vec<f64> = list.iter().filter_map(|mode| mode.lost).collect();
     if let Some(largest) = lost.iter().copied().reduce(f64::max) {
-        doubts.push(format!(
+        warnings.push(format!(
             "{} of the frequencies given as 0 have a stiffness that is lost in the rounding of stiffer parts: they lie somewhere below {}",
             lost.len(),
             short(largest)
@@ -115,21 +115,21 @@ pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     let squares = || list.iter().map(|mode| mode.angular_frequency().powi(2)).filter(|square| *square > 0.0);
     let (least, largest) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
     if largest > FAR_APART * least {
-        doubts.push(format!(
+        warnings.push(format!(
             "frequencies from {} to {} are so far apart that the highest have few digits, and some of them may be missing: fewer `modes` \
              or a lower `up_to` are right",
             short(least.sqrt() / TAU),
             short(largest.sqrt() / TAU)
         ));
     }
-    doubts
+    warnings
 }
 
 /// Terms neglected by modes without damping, in words.
 pub(super) fn left_out(at: &Linearized) -> Vec<String> {
-    let mut doubts = Vec::new();
+    let mut warnings = Vec::new();
     if !at.loads_have_potential() {
-        doubts.push(
+        warnings.push(
             "loads that follow, and moments about axes fixed in space, have no potential: modes are those of the symmetric part of \
              their stiffness; `damped = true` takes all of it, and finds flutter"
                 .to_owned(),
@@ -137,12 +137,12 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
     }
     let spins = |node: usize| at.spins(&at.model.nodes[node].omega);
     if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
-        doubts.push(format!(
+        warnings.push(format!(
             "`{}` spins, and its gyroscopic moments are left out: `damped = true` takes them in",
             at.model.nodes[body.node].label
         ));
     }
-    doubts
+    warnings
 }
 
 /// An estimate of the lowest ω² that is not zero, and whether others are, or next to it.

@@ -31,8 +31,8 @@ pub struct Modes {
     pub factorizations: usize,
     /// Solutions of a linear system that it took.
     pub solves: usize,
-    /// Doubts about the modes, in words.
-    pub doubts: Vec<String>,
+    /// Warnings about the modes, in words.
+    pub warnings: Vec<String>,
     /// The response that has been found by them, or directly.
     pub response: Option<Response>,
 }

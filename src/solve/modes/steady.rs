@@ -39,8 +39,8 @@ pub struct ResponseSoFar {
 
 keep!(ResponseSoFar { rows, worst, resonances });
 
-/// An interruptible search: the response found so far, and whether it pauses between two frequencies.
-pub struct Search<'s> {
+/// The progress of an interruptible search: the response found so far, and whether it pauses between two frequencies.
+pub struct ResponseProgress<'s> {
     /// Response found so far; a complete response moves its rows there.
     pub so_far: &'s mut ResponseSoFar,
     /// Returns whether a checkpoint is due.

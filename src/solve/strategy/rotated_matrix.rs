@@ -210,11 +210,12 @@ impl RotatedMatrix {
         for g in 0..shape.points {
             let at = self.first_points[k] + g;
             let (old, new) = (&before.points[at], &now.points[at]);
-            let mut strain = -old.spin(of.iter().map(|&n| before.theta[n])).cross(&old.along);
+            let mut strain = -old.spin(of.iter().map(|&n| before.theta[n])).cross(&old.tangent);
             for (slope, &node) in shape.slope[g].iter().zip(of) {
                 strain += *slope * before.u[node];
             }
-            let along = self.points_turned[at] * strain + new.spin(of.iter().map(|&n| now.theta[n])).cross(&new.along);
+            let along =
+                self.points_turned[at] * strain + new.spin(of.iter().map(|&n| now.theta[n])).cross(&new.tangent);
             for (a, outer) in outer[..of.len()].iter_mut().enumerate() {
                 *outer += (shape.integral[a][g] - shape.integral[parent][g]) * along;
             }
@@ -246,7 +247,7 @@ impl RotatedMatrix {
             }
             let strain = self.points_turned[at].tr_mul(&along);
             let (old, new) = (before.points[at], now.points[at]);
-            let (of_old, of_new) = (-old.along.cross(&strain), new.along.cross(&along));
+            let (of_old, of_new) = (-old.tangent.cross(&strain), new.tangent.cross(&along));
             for (a, &node) in of.iter().enumerate() {
                 before.theta[node] += old.moment_on(a, &of_old);
                 now.theta[node] += new.moment_on(a, &of_new);

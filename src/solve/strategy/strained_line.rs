@@ -55,18 +55,18 @@ pub struct LinePoint {
     /// Rotation.
     pub rotation: Quaternion<f64>,
     /// dr/dξ.
-    pub along: Vec3,
+    pub tangent: Vec3,
     /// Spin of the point: Σ (w θ + θ×v) over the spins θ of the nodes.
     spins: [(f64, Vec3); MOST_NODES],
 }
 
-keep!(LinePoint { rotation, along, spins });
+keep!(LinePoint { rotation, tangent, spins });
 
 impl LinePoint {
     /// At rest.
     pub const ZERO: LinePoint = LinePoint {
         rotation: Quaternion::from_vector(nalgebra::Vector4::new(0.0, 0.0, 0.0, 1.0)),
-        along: Vec3::new(0.0, 0.0, 0.0),
+        tangent: Vec3::new(0.0, 0.0, 0.0),
         spins: [(0.0, Vec3::new(0.0, 0.0, 0.0)); MOST_NODES],
     };
 
@@ -81,7 +81,7 @@ impl LinePoint {
         };
         for (a, &node) in of.iter().enumerate() {
             p += signed(node) * shape.value[g][a];
-            point.along += shape.slope[g][a] * nodes[node].x;
+            point.tangent += shape.slope[g][a] * nodes[node].x;
         }
         let back = p.conjugate() / p.norm_squared();
         for (a, &node) in of.iter().enumerate() {

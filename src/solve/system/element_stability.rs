@@ -66,8 +66,8 @@ fn principal(J0: &Mat3, S: &Mat3) -> (Mat3, Vec3) {
 pub fn scaling(K: &[f64], (element, spacing): (&LumpedElement, &Mat3), limit: f64) -> ElementScaling {
     let most = GYRATION * spacing;
     let modes = ElementModes::new(K, element, &most);
-    let turning = modes.condensed(limit);
-    let are_slow = |part: f64| turning.as_ref().is_some_and(|turning| modes.are_slow(turning, part, limit));
+    let condensed = modes.condensed(limit);
+    let are_slow = |part: f64| condensed.as_ref().is_some_and(|condensed| modes.are_slow(condensed, part, limit));
     if are_slow(0.0) {
         return ElementScaling::KEPT;
     }

@@ -37,7 +37,7 @@ pub struct ScaledPart {
     /// Number of those that are given mass, ...
     pub heavier: usize,
     /// ... and of those that are given rotary inertia.
-    pub turning: usize,
+    pub rotary: usize,
     /// Mass without mass scaling.
     pub mass: f64,
     /// Mass that is added.
@@ -91,7 +91,7 @@ impl MassScaling {
             told.added += (scaling.factor - 1.0) * own;
             told.factor = told.factor.max(scaling.factor);
             told.heavier += usize::from(scaling.factor > 1.0);
-            told.turning += usize::from(scaling.gyration != Mat3::zeros());
+            told.rotary += usize::from(scaling.gyration != Mat3::zeros());
             for share in element.0.iter().filter(|share| share.mass > 0.0) {
                 let (mass, J0) = scaling.of(share);
                 let inertia = &mut inertias[place[share.node]];
@@ -134,7 +134,7 @@ impl ScaledPart {
             kind: part.kind(),
             elements: 0,
             heavier: 0,
-            turning: 0,
+            rotary: 0,
             mass: 0.0,
             added: 0.0,
             factor: 1.0,

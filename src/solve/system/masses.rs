@@ -160,7 +160,7 @@ impl MassBlock {
             (true, true, true) => BlockKind::RigidBody,
             (true, true, false) if all(&free) => BlockKind::RigidBody,
             (true, true, false) if !free[..3].contains(&true) => BlockKind::RigidBody,
-            (true, false, true) => match turning_axis(&free, &J0) {
+            (true, false, true) => match free_axis(&free, &J0) {
                 Some(axis) => BlockKind::OneRotation { axis },
                 None => BlockKind::Restrained,
             },
@@ -388,7 +388,7 @@ impl MassBlock {
 }
 
 /// The axis of the only free rotation, if it is a principal axis of `J0`.
-fn turning_axis(free: &[bool; 6], J0: &Mat3) -> Option<usize> {
+fn free_axis(free: &[bool; 6], J0: &Mat3) -> Option<usize> {
     let axis = free[3..].iter().position(|&free| free)?;
     let alone = (0..3).all(|i| i == axis || !free[3 + i] && J0[(axis, i)] == 0.0 && J0[(i, axis)] == 0.0);
     alone.then_some(axis)

@@ -199,6 +199,6 @@ fn a_drive_begins_beside_bodies_at_rest_but_for_rounding() {
     };
     for (kind, omega, v) in [("revolute", 4e-14, 0.0), ("prismatic", 0.0, -3e-13), ("cylindrical", 2e-12, 1e-13)] {
         let done = run_to_the_end(&read_deck(&text(kind, omega, v)), &mut |_: &Frame| Vec::new());
-        assert!(done.doubts.is_empty(), "{kind}: {:?}", done.doubts);
+        assert!(done.warnings.is_empty(), "{kind}: {:?}", done.warnings);
     }
 }

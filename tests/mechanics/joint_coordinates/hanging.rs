@@ -30,7 +30,7 @@ fn bodies_hang_one_from_the_other() {
         let forces = &mut |frame: &Frame| frame.derived.joints.iter().map(|joint| joint.f.z).collect();
         let done = run_source(&Source::new("hanging.toml", &text, &[]), forces);
         assert!(matches!(done.outcome, Outcome::Done), "{kind}: {:?}", done.outcome);
-        assert!(done.doubts.is_empty(), "{kind}: {:?}", done.doubts);
+        assert!(done.warnings.is_empty(), "{kind}: {:?}", done.warnings);
         let last = done.rows.last().expect("rows");
         // Two weights above, one below, to the tolerance of the iteration.
         assert!((last[0].abs() - 60.0).abs() < 1e-7 && (last[1].abs() - 30.0).abs() < 1e-7, "{kind}: {last:?}");

@@ -216,7 +216,7 @@ fn cap(kind: &str, n: usize, [plastic, moved]: [bool; 2], step: f64) -> Model {
         moment: Vec3::zeros(),
         follower: false,
         amplitude: None,
-        along: None,
+        origin: None,
         moment_counts: true,
     };
     model.loading.nodal = forces.into_iter().enumerate().map(load).collect();

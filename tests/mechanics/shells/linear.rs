@@ -95,7 +95,7 @@ pub fn hypar(kind: &str, h: f64, n: usize) -> [f64; 2] {
         moment: Vec3::zeros(),
         follower: false,
         amplitude: None,
-        along: None,
+        origin: None,
         moment_counts: true,
     };
     model.loading.nodal = forces.iter().enumerate().map(as_load).collect();

@@ -96,7 +96,7 @@ fn straight(kind: &str, shape: &str, [n, across]: [usize; 2], row: &str) -> f64 
                 moment,
                 follower: false,
                 amplitude: None,
-                along: None,
+                origin: None,
                 moment_counts: true,
             });
         }

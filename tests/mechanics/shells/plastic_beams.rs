@@ -65,7 +65,7 @@ fn load_tip(model: &mut Model, n: usize, M: f64, force: bool) {
             (Vec3::x() * along, Vec3::z() * moment)
         };
         let load =
-            Load { node: index, force, moment, follower: false, amplitude: None, along: None, moment_counts: true };
+            Load { node: index, force, moment, follower: false, amplitude: None, origin: None, moment_counts: true };
         model.loading.nodal.push(load);
     }
 }

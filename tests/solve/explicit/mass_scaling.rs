@@ -113,7 +113,7 @@ fn the_step_rises_as_the_mass_of_a_sliver_has_it() {
             let added = (factor - 1.0) * DENSITY * AREA * SLIVER;
             // Rounding of an eigenvalue.
             assert!((told.added / added - 1.0).abs() < 1e-12, "{told:?}");
-            assert_eq!((told.heavier, told.turning, told.elements), (1, 0, 21));
+            assert_eq!((told.heavier, told.rotary, told.elements), (1, 0, 21));
         }
         let done = run_to_the_end(&model, &mut |frame| vec![frame.dt]);
         let limit = 2.0 / chain(&lengths, factor).0.max().sqrt();
@@ -271,7 +271,7 @@ fn a_row_of_slivers_in_a_sheet_by_hand() {
     assert_eq!((told[1].heavier, told[1].elements), (8, 8));
     for part in [&told[0], &told[2]] {
         // Thin squares are slow enough by rotary inertia alone.
-        assert_eq!((part.heavier, part.turning, part.elements, part.added), (0, 16, 16, 0.0), "{part:?}");
+        assert_eq!((part.heavier, part.rotary, part.elements, part.added), (0, 16, 16, 0.0), "{part:?}");
         assert!((part.mass / (0.8 * 0.2 * h * DENSITY) - 1.0).abs() < 1e-12);
     }
     let mass = 0.8 * 0.41 * h * DENSITY;
@@ -316,7 +316,7 @@ fn rotary_inertia_changes_slow_bending_by_little() {
     };
     let (plain, scaled) = (strip(None), strip(Some(1.5e-5)));
     let told = &parts(&scaled)[0];
-    assert_eq!((told.heavier, told.turning, told.added), (0, 10, 0.0), "{told:?}");
+    assert_eq!((told.heavier, told.rotary, told.added), (0, 10, 0.0), "{told:?}");
     let [of_plain, of_scaled] = [&plain, &scaled].map(spectrum);
     let [slow, fast] = [of_plain.last().unwrap() / of_scaled.last().unwrap(), of_scaled[0] / of_plain[0]];
     let system = System::new(&scaled).unwrap();
@@ -348,7 +348,7 @@ fn a_shaft_keeps_its_inertia_about_its_axis() {
     for (order, step) in [(1, 9e-6), (3, 4e-6)] {
         let [plain, scaled] = [None, Some(step)].map(|scaled| shaft(order, scaled, held));
         let told = &parts(&scaled)[0];
-        assert!(told.heavier == 0 && (order == 1 || told.turning == 7), "{told:?}");
+        assert!(told.heavier == 0 && (order == 1 || told.rotary == 7), "{told:?}");
         // Torsion at √(G/ρ)/4L, G = E/2.
         let first = (0.5 * PI * (0.5f64).sqrt() * SPEED).powi(2);
         let torsion = |model: &Model| {
@@ -392,7 +392,7 @@ fn waves_of_ten_elements_are_slower_by_little() {
         let told = &parts(&scaled)[0];
         let [own, with] = [&plain, &scaled].map(|model| spectrum(model)[0].sqrt());
         println!("{width}: {:.5} of {slower:.5}, {told:?}", 1.0 - with / own);
-        assert!(told.turning == 5 && told.heavier == 0, "{told:?}");
+        assert!(told.rotary == 5 && told.heavier == 0, "{told:?}");
         // The mesh has its own part of second order.
         assert!((0.0..1.02 * slower).contains(&(1.0 - with / own)), "{width}: {own} {with}");
     }
@@ -404,13 +404,17 @@ fn waves_of_ten_elements_are_slower_by_little() {
 fn what_bounds_the_step_besides_elements_is_named() {
     let link = "[[links]]\nname = \"spring\"\nfrom = { ground = [3.0, 0.0, 0.0] }\nto = { node = \"p11\" }\nstiffness = 1e11\n";
     let text = head(1e-4, AUTO, Some(4e-6)) + &bar(&lengths(6, 4)) + CLAMP + &struck(6, 1.0);
-    let doubts = |text: &str| {
-        let of_scaling = |doubt: &String| doubt.contains("mass_scaling_step");
-        run_to_the_end(&scene(text, &[]), &mut |_| Vec::new()).doubts.into_iter().filter(of_scaling).collect::<Vec<_>>()
+    let warnings_of = |text: &str| {
+        let of_scaling = |warning: &String| warning.contains("mass_scaling_step");
+        run_to_the_end(&scene(text, &[]), &mut |_| Vec::new())
+            .warnings
+            .into_iter()
+            .filter(of_scaling)
+            .collect::<Vec<_>>()
     };
-    assert_eq!(doubts(&text), Vec::<String>::new());
+    assert_eq!(warnings_of(&text), Vec::<String>::new());
     let weak = link.replace("spring", "thread").replace("1e11", "1.0");
-    let found = doubts(&(text + &weak + link));
+    let found = warnings_of(&(text + &weak + link));
     assert!(found.len() == 1 && found[0].contains("`spring` asks for it") && found[0].contains("`p11`"), "{found:?}");
 }
 

@@ -132,7 +132,7 @@ fn refused() {
 fn reversed_loads() {
     let found = modes(&rod(1.0));
     assert!(off(&factors(&found), &[-100.0]) < 1e-5, "{:?}", factors(&found));
-    let said = |modes: &Modes| modes.doubts.join("; ");
+    let said = |modes: &Modes| modes.warnings.join("; ");
     assert!(said(&found).contains("nothing within reach buckles under these loads"), "{}", said(&found));
     let [pulled, pushed] = ["1.0", "-1.0"].map(|force| {
         let load = format!("force = [{force}, 0.0, 0.0]");
@@ -142,7 +142,7 @@ fn reversed_loads() {
     // Differences of sixth order are about states on the other side.
     assert!(off(&factors(&pulled), &opposite) < 1e-6, "{:?} {opposite:?}", factors(&pulled));
     assert!(
-        said(&pulled).contains("reversed loads") && pushed.doubts.is_empty(),
+        said(&pulled).contains("reversed loads") && pushed.warnings.is_empty(),
         "{} {}",
         said(&pulled),
         said(&pushed)
@@ -159,16 +159,16 @@ fn stays_that_go_slack() {
             "[[bars]]\nname = \"{name}_stay\"\npath = [\"{name}\", \"b\"]\naxial_stiffness = 1e6\nmass_per_length = 0.1\ntension_only = true\n"
         )).concat()
         + "[[supports]]\nat = [\"left\", \"right\"]\nfix = \"translations\"\n";
-    let doubts = modes(&text).doubts.join("; ");
-    assert!(doubts.contains("the loads slacken `left_stay` and `right_stay`"), "{doubts}");
-    let pulled = modes(&text.replace("[-1.0, 0.0, 0.0]", "[1.0, 0.0, 0.0]")).doubts.join("; ");
+    let warnings = modes(&text).warnings.join("; ");
+    assert!(warnings.contains("the loads slacken `left_stay` and `right_stay`"), "{warnings}");
+    let pulled = modes(&text.replace("[-1.0, 0.0, 0.0]", "[1.0, 0.0, 0.0]")).warnings.join("; ");
     assert!(!pulled.contains("slacken"), "{pulled}");
 }
 
 /// What a buckling analysis says of loads without a potential, and of prestress that nothing balances.
 #[test]
-fn doubts() {
-    let of = |text: &str| modes(text).doubts.join("; ");
+fn warnings() {
+    let of = |text: &str| modes(text).warnings.join("; ");
     let follower =
         of(&column("kind = \"buckling\"\nmodes = 1", [0.02, 0.02], 4, "follower = true\nforce = [-1.0, 0.0, 0.0]"));
     assert!(follower.contains("have no potential"), "{follower}");

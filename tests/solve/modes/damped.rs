@@ -93,7 +93,7 @@ fn overhung_disc() {
         assert!(off(&omegas, &wanted) < 1e-5, "{omegas:?} {exact:?}");
         assert!(off(&omegas[2..], &exact[exact.len() - 2..]) < 1e-4, "{omegas:?} {exact:?}");
         assert!(found.list.iter().all(|mode| mode.root[0].abs() < 1e-6 * omegas[3]), "{:?}", found.list[1].root);
-        assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+        assert!(found.warnings.is_empty(), "{:?}", found.warnings);
     }
 }
 
@@ -140,14 +140,14 @@ fn free_beam() {
 
 /// What modes without damping leave out is said: spins, and loads that follow; softness that rounding of stiff parts hides, too.
 #[test]
-fn doubts() {
+fn warnings() {
     let arm = |more: &str| {
         head("modes = 2", 0.02, 0.02)
             + "[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[beams]]\nname = \"arm\"\npath = [\"a\", \"b\"]\nelements = 2\n\
                material = \"steel\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n"
             + more
     };
-    let of = |text: &str| modes(text).doubts.join("; ");
+    let of = |text: &str| modes(text).warnings.join("; ");
     let follower = of(&arm("[[loads]]\nat = \"b\"\nforce = [-1.0, 0.0, 0.0]\nfollower = true\n"));
     assert!(follower.contains("have no potential"), "{follower}");
     let disc = "[[bodies]]\nname = \"disc\"\ncenter = [1.0, 0.0, 0.0]\nmass = 1.0\ninertia = [0.02, 0.01, 0.01]\n\

@@ -23,7 +23,7 @@ fn lever_on_a_hinge() {
         let found = modes(&text(analysis));
         assert_eq!(found.list.len(), 1, "{analysis}: {:?}", omegas(&found));
         assert!(off(&omegas(&found), &[exact]) < 1e-9, "{analysis}: {:?} {exact}", omegas(&found));
-        assert_eq!(found.doubts.len(), usize::from(analysis.contains('4')), "{analysis}: {:?}", found.doubts);
+        assert_eq!(found.warnings.len(), usize::from(analysis.contains('4')), "{analysis}: {:?}", found.warnings);
     }
     assert_eq!(modes(&text("up_to = 5.9")).list.len(), 0);
 }

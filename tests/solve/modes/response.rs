@@ -274,7 +274,7 @@ fn undamped_resonance() {
     let all = motion(&found, 1, 0);
     let k = PI * PI;
     assert!((all[0].1.re * k - 1.0).abs() < 1e-12 && (all[2].1.re * -3.0 * k - 1.0).abs() < 1e-12, "{all:?}");
-    assert!(!all[1].1.re.is_finite() && found.doubts[0].contains("frequency 0.5"), "{all:?} {:?}", found.doubts);
+    assert!(!all[1].1.re.is_finite() && found.warnings[0].contains("frequency 0.5"), "{all:?} {:?}", found.warnings);
 }
 
 /// The same where rounding leaves a little of the stiffness, by the equations themselves and by modes, which are told; a resonance with the
@@ -296,7 +296,7 @@ fn undamped_resonance_of_a_beam() {
     let of = |keys: &str, force: &str| modes(&beam(keys, force));
     for (method, more) in [("direct", ""), ("modal", "modes = 6\n")] {
         let found = of(&asked(method, more), "[0.0, 1.0, 0.0]");
-        let said = found.doubts.join("\n");
+        let said = found.warnings.join("\n");
         assert!(said.contains("nothing limits the motion") && said.contains("that of mode "), "{method}: {said}");
         let motion = motion(&found, 1, 1);
         let infinite = motion.iter().filter(|(_, y)| !y.re.is_finite()).count();
@@ -304,7 +304,7 @@ fn undamped_resonance_of_a_beam() {
         assert!((1..=3).contains(&infinite) && largest < 1.0, "{method}: {infinite} {largest:e}");
     }
     let damped = of(&asked("modal", "modes = 6\ndamping_ratio = 1e-6\n"), "[0.0, 1.0, 0.0]");
-    assert!(motion(&damped, 1, 1).iter().all(|(_, y)| y.re.is_finite()), "{:?}", damped.doubts);
+    assert!(motion(&damped, 1, 1).iter().all(|(_, y)| y.re.is_finite()), "{:?}", damped.warnings);
 }
 
 /// A stage of a response is about the state that stages before it have reached: a column under an axial load is softer, as it is under the
@@ -444,8 +444,8 @@ fn a_response_about_an_unstable_state_is_doubted() {
             + &format!("center = [0.0, 0.0, {height:?}]\n")
             + "[[joints]]\nname = \"hinge\"\nkind = \"revolute\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { body = \"bob\" }\n\
                axis = [0.0, 1.0, 0.0]\n[[loads]]\nat = \"bob\"\nforce = [1.0, 0.0, 0.0]\namplitude = \"shake\"\n";
-        let doubts = modes(&shaken(text)).doubts;
-        assert_eq!(doubts.iter().any(|doubt| doubt.contains("unstable")), unstable, "{height}: {doubts:?}");
+        let warnings = modes(&shaken(text)).warnings;
+        assert_eq!(warnings.iter().any(|warning| warning.contains("unstable")), unstable, "{height}: {warnings:?}");
     }
 }
 
@@ -462,7 +462,7 @@ fn slender_structures_are_not_next_to_singular() {
     );
     let model = read_deck(&text);
     let found = modes(&text);
-    assert!(found.doubts.is_empty(), "{:?}", found.doubts);
+    assert!(found.warnings.is_empty(), "{:?}", found.warnings);
     let wanted = 5000f64.powi(3) / (3.0 * 2e5 * 50f64.powi(4) / 12.0);
     // Shear adds 8e-5, inertia at a hundredth of a Hertz 5e-5.
     assert!((motion(&found, node(&model, "b"), 2)[0].1.re / wanted - 1.0).abs() < 2e-4, "{wanted}");

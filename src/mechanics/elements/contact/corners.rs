@@ -46,7 +46,7 @@ impl Contacts {
         let gap = at.gap - self.inset(old);
         // Points that cannot touch in the next steps are skipped.
         let is_far = self.law.dynamic && gap > 4.0 * now.dt * at.w.norm() && gap > 0.0;
-        if is_far || !self.leads(&**corners, at, gap, now.nodes) {
+        if is_far || !self.is_nearest(&**corners, at, gap, now.nodes) {
             new.set_inset(&self.law, -1.0);
             self.set_gap(gap, at, new);
             return;
@@ -64,7 +64,7 @@ impl Contacts {
     }
 
     /// True where a node is nearer to the solid than any of its corners, in about the same direction, to the faces.
-    fn leads(&self, corners: &dyn NearestCorner, at: &ContactKinematics, gap: f64, nodes: &[Node]) -> bool {
+    fn is_nearest(&self, corners: &dyn NearestCorner, at: &ContactKinematics, gap: f64, nodes: &[Node]) -> bool {
         let outward = at.R * at.closest.n;
         let least = corners.least_gap_toward(&-outward, ONE_DIRECTION, nodes);
         gap < least - ROUNDING * corners.margin()

@@ -267,7 +267,7 @@ where
         // The normal at a corner opposes the director there.
         (0..N).any(|a| {
             let side = |b: usize| motion.x[b % N] - motion.x[a];
-            side(a + 1).cross(&side(a + N - 1)).dot(&motion.turning[0][a]).as_array()[lane] <= 0.0
+            side(a + 1).cross(&side(a + N - 1)).dot(&motion.triads[0][a]).as_array()[lane] <= 0.0
         })
     }
 }

@@ -9,7 +9,7 @@ pub(super) struct NodalVectors<const N: usize> {
     /// Positions from that of the first node.
     pub x: [Vec3; N],
     /// d, t₁ and t₂, which rotate with the nodes.
-    pub turning: [[Vec3; N]; 3],
+    pub triads: [[Vec3; N]; 3],
 }
 
 /// Σ factors_i v_i.
@@ -34,7 +34,7 @@ impl<const N: usize> NodalVectors<N> {
     pub fn plus(&self, s: f64, other: &NodalVectors<N>) -> NodalVectors<N> {
         NodalVectors {
             x: from_fn(|a| self.x[a] + s * other.x[a]),
-            turning: from_fn(|k| from_fn(|a| self.turning[k][a] + s * other.turning[k][a])),
+            triads: from_fn(|k| from_fn(|a| self.triads[k][a] + s * other.triads[k][a])),
         }
     }
 }

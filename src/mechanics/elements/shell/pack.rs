@@ -95,7 +95,7 @@ pub(super) struct Strains<const N: usize, const P: usize, const E: usize> {
 #[derive(Clone, Copy)]
 pub(super) struct Motion<const N: usize> {
     pub x: [LaneVec3; N],
-    pub turning: [[LaneVec3; N]; 3],
+    pub triads: [[LaneVec3; N]; 3],
 }
 
 #[inline(always)]
@@ -157,7 +157,7 @@ impl<const N: usize> Motion<N> {
         let s = Lanes::splat(s);
         Motion {
             x: from_fn(|a| self.x[a] + s * other.x[a]),
-            turning: from_fn(|k| from_fn(|a| self.turning[k][a] + s * other.turning[k][a])),
+            triads: from_fn(|k| from_fn(|a| self.triads[k][a] + s * other.triads[k][a])),
         }
     }
 }
@@ -184,8 +184,8 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
             start: Strains::ZERO,
             sections,
         };
-        let turning = from_fn(|k| from_fn(|a| axes[a][k]));
-        let motion = Motion { x: from_fn(|a| vector(&|e| e.X[a])), turning };
+        let triads = from_fn(|k| from_fn(|a| axes[a][k]));
+        let motion = Motion { x: from_fn(|a| vector(&|e| e.X[a])), triads };
         pack.start = pack.measure::<K>(&motion, &pack.slopes(&motion));
         pack
     }
@@ -207,13 +207,13 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
     pub fn rates(&self, motion: &Motion<N>, nodes: &[Node]) -> Motion<N> {
         let v: [LaneVec3; N] = from_fn(|a| self.of_node(a, nodes, |node| node.v));
         let omega = self.omega(nodes);
-        Motion { x: v.map(|of| of - v[0]), turning: motion.turning.map(|d| from_fn(|a| omega[a].cross(&d[a]))) }
+        Motion { x: v.map(|of| of - v[0]), triads: motion.triads.map(|d| from_fn(|a| omega[a].cross(&d[a]))) }
     }
 
     /// Positions and directors of the nodes.
     #[inline(always)]
     pub fn gather(&self, nodes: &[Node]) -> Motion<N> {
-        let mut motion = Motion { x: [LaneVec3::ZERO; N], turning: [[LaneVec3::ZERO; N]; 3] };
+        let mut motion = Motion { x: [LaneVec3::ZERO; N], triads: [[LaneVec3::ZERO; N]; 3] };
         let mut first = [LaneVec3::ZERO; 2];
         for a in 0..N {
             let at: [&Node; LANES] = from_fn(|lane| &nodes[self.nodes[lane][a]]);
@@ -229,7 +229,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
                 lanes(|lane| at[lane].rotation.k),
             ];
             let turned = turned(q, &self.axes[a]);
-            (0..3).for_each(|k| motion.turning[k][a] = turned[k]);
+            (0..3).for_each(|k| motion.triads[k][a] = turned[k]);
         }
         motion
     }
@@ -244,7 +244,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
     #[inline(always)]
     pub fn chords(&self, motion: &Motion<N>) -> Slopes<V> {
         let slopes = |of: &[LaneVec3; N]| from_fn(|i| sum(&self.slopes[i], of));
-        Slopes::chords(slopes(&motion.x), slopes(&motion.turning[0]))
+        Slopes::chords(slopes(&motion.x), slopes(&motion.triads[0]))
     }
 
     /// The vector of edge `e` by the tangents of its ends, see [`super::edge`].
@@ -262,7 +262,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         Slopes { v, long: w, by_arcs, .. }: &Slopes<V>,
     ) -> Strains<N, P, E> {
         let half = Lanes::splat(0.5);
-        let Motion { x, turning } = motion;
+        let Motion { x, triads } = motion;
         let Strains { mut plane, mut shear } = Strains::ZERO;
         for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
             plane.membrane[n] = if i == j { half * v[i].dot(&v[i]) } else { v[i].dot(&v[j]) };
@@ -274,8 +274,8 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         }
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             let along = x[b] - x[a];
-            plane.membrane[P + e] = along.dot(&self.bulging(e, [a, b], turning));
-            shear[e] = half * along.dot(&(turning[0][a] + turning[0][b]));
+            plane.membrane[P + e] = along.dot(&self.bulging(e, [a, b], triads));
+            shear[e] = half * along.dot(&(triads[0][a] + triads[0][b]));
         }
         if let Some(rolled) = self.rolled.as_ref().filter(|_| *by_arcs) {
             let t = rolled.strain(&from_fn(|e| plane.membrane[P + e]));
@@ -287,7 +287,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
             (0..3).for_each(|n| plane.bending[n] += more[n]);
         }
         let mean = Lanes::splat(0.5 / N as f64);
-        plane.membrane[E - 1] = mean * (total(&turning[1]).dot(&v[1]) - total(&turning[2]).dot(&v[0]));
+        plane.membrane[E - 1] = mean * (total(&triads[1]).dot(&v[1]) - total(&triads[2]).dot(&v[0]));
         Strains { plane, shear }
     }
 
@@ -316,10 +316,10 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
 
     /// The bulges of the edges.
     #[inline(always)]
-    pub fn bulges<K: Interpolation<N, V, P>>(&self, Motion { x, turning }: &Motion<N>) -> [Lanes; N] {
+    pub fn bulges<K: Interpolation<N, V, P>>(&self, Motion { x, triads }: &Motion<N>) -> [Lanes; N] {
         from_fn(|e| {
             let [a, b] = K::EDGES[e];
-            (x[b] - x[a]).dot(&self.bulging(e, [a, b], turning))
+            (x[b] - x[a]).dot(&self.bulging(e, [a, b], triads))
         })
     }
 
@@ -370,10 +370,10 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
     pub fn gradient<K: Interpolation<N, V, P>>(
         &self,
         Strains { plane, shear }: &Strains<N, P, E>,
-        Motion { x, turning }: &Motion<N>,
+        Motion { x, triads }: &Motion<N>,
         slopes: &Slopes<V>,
     ) -> Motion<N> {
-        let [d, t1, t2] = turning;
+        let [d, t1, t2] = triads;
         let Slopes { v, long, .. } = slopes;
         let (Q, M) = (by_pairs::<V, P>(&K::PAIRS, &plane.membrane), by_pairs::<V, P>(&K::PAIRS, &plane.bending));
         let mut along: [LaneVec3; V] = from_fn(|i| sum(&Q[i], v));
@@ -384,23 +384,23 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         along[0] -= drill * total(t2);
         along[1] += drill * total(t1);
         let mut g =
-            Motion { x: [LaneVec3::ZERO; N], turning: [[LaneVec3::ZERO; N], [drill * v[1]; N], [-drill * v[0]; N]] };
+            Motion { x: [LaneVec3::ZERO; N], triads: [[LaneVec3::ZERO; N], [drill * v[1]; N], [-drill * v[0]; N]] };
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             let (half, bulge) = (Lanes::splat(0.5) * shear[e], plane.membrane[P + e]);
-            let force = half * (d[a] + d[b]) + bulge * self.bulging(e, [a, b], turning);
+            let force = half * (d[a] + d[b]) + bulge * self.bulging(e, [a, b], triads);
             g.x[a] -= force;
             g.x[b] += force;
             let length = x[b] - x[a];
             for (node, [c1, c2]) in [a, b].into_iter().zip(self.edges[e]) {
-                g.turning[0][node] += half * length;
-                g.turning[1][node] += bulge * c1 * length;
-                g.turning[2][node] += bulge * c2 * length;
+                g.triads[0][node] += half * length;
+                g.triads[1][node] += bulge * c1 * length;
+                g.triads[2][node] += bulge * c2 * length;
             }
         }
         for i in 0..V {
             for a in 0..N {
                 g.x[a] += self.slopes[i][a] * along[i];
-                g.turning[0][a] += self.slopes[i][a] * across[i];
+                g.triads[0][a] += self.slopes[i][a] * across[i];
             }
         }
         g
@@ -433,7 +433,7 @@ where
         from_fn(|a| {
             let mut moment = LaneVec3::ZERO;
             for k in 0..3 {
-                moment += motion.turning[k][a].cross(&g.turning[k][a]);
+                moment += motion.triads[k][a].cross(&g.triads[k][a]);
             }
             from_fn(|i| if i < 3 { g.x[a].0[i] } else { moment.0[i - 3] })
         })

@@ -53,20 +53,20 @@ where
         false => Strains { plane: pack.sections.stress(&strains.plane, now), shear: pack.shear_stress(&strains.shear) },
     };
     let axes = |k: usize| from_fn(|a| pack.axes[a][k].lane(lane));
-    let start = NodalVectors { x: X, turning: from_fn(axes) };
+    let start = NodalVectors { x: X, triads: from_fn(axes) };
     let at = |way: &NodalVectors<N>, s: f64| {
-        let NodalVectors { x, turning } = start.plus(s, way);
+        let NodalVectors { x, triads } = start.plus(s, way);
         let all = |v: [Vec3; N]| v.map(|v| LaneVec3::gather(|_| v));
-        let motion = Motion { x: all(x), turning: turning.map(all) };
+        let motion = Motion { x: all(x), triads: triads.map(all) };
         let mut strains = pack.measure::<K>(&motion, &pack.chords(&motion));
         // Twisting moments on bent edges cancel between elements and are no shear forces.
         let bent = pack.bent.curvature(&strains.shear);
         (0..3).for_each(|n| strains.plane.bending[n] -= bent[n]);
         stress.dot(&strains, lane)
     };
-    let Motion { x, turning } = pack.gather(now.nodes);
+    let Motion { x, triads } = pack.gather(now.nodes);
     let one = |v: [LaneVec3; N]| v.map(|v| v.lane(lane));
-    let motion = NodalVectors { x: one(x), turning: turning.map(one) };
+    let motion = NodalVectors { x: one(x), triads: triads.map(one) };
     let first = sum(&pack.slopes[0].map(|s| s.as_array()[lane]), &X);
     let mean = MeanStress { X: &X, axis, motion: &motion, first };
     mean.resultants(&at, |layers| pack.sections.layers(lane, &strains.plane.lane(lane), now, layers))
@@ -98,8 +98,8 @@ impl<const N: usize> MeanStress<'_, N> {
         let t = result_axes(axis, &normal);
         // This mean stress is conjugate to the strain of a change of positions and directors.
         let mean = |change: &dyn Fn(&Vec3) -> [Vec3; 2]| {
-            let mut way = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
-            (0..N).for_each(|a| [way.x[a], way.turning[0][a]] = change(&X[a]));
+            let mut way = NodalVectors { x: [Vec3::zeros(); N], triads: [[Vec3::zeros(); N]; 3] };
+            (0..N).for_each(|a| [way.x[a], way.triads[0][a]] = change(&X[a]));
             0.5 * (work(&way, 1.0) - work(&way, -1.0)) / area.norm()
         };
         // x ↦ E x with one component of E: 11, 22, or 12 and 21 by a half each.

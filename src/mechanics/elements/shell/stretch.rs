@@ -52,7 +52,7 @@ impl<T: Number> Stretch<T> {
 
     /// A + ⅓ (Y² A + Y A Y + A Y²): dH for A = dY.
     #[inline(always)]
-    fn along(&self, A: &[T; 3]) -> [T; 3] {
+    fn rate(&self, A: &[T; 3]) -> [T; 3] {
         let (two, third, Y) = (T::splat(2.0), T::splat(THIRD), &self.Y);
         let Z = [Y[0] * Y[0] + Y[2] * Y[2], Y[1] * Y[1] + Y[2] * Y[2], Y[2] * (Y[0] + Y[1])];
         let between = sandwich(Y, A);
@@ -66,7 +66,7 @@ impl<T: Number> Stretch<T> {
     /// The stress conjugate to E, from the stress N conjugate to H.
     #[inline(always)]
     pub fn conjugate(&self, N: &[T; 3]) -> [T; 3] {
-        sandwich(&self.G, &self.along(N))
+        sandwich(&self.G, &self.rate(N))
     }
 }
 
@@ -97,7 +97,7 @@ impl<T: Number> Stretch<T> {
     #[inline(always)]
     pub fn slopes(&self) -> [[T; 3]; 3] {
         UNITS.map(|unit| {
-            let [a, b, c] = self.along(&sandwich(&self.G, &unit.map(T::splat)));
+            let [a, b, c] = self.rate(&sandwich(&self.G, &unit.map(T::splat)));
             [a, b, T::splat(2.0) * c]
         })
     }
@@ -106,7 +106,7 @@ impl<T: Number> Stretch<T> {
     #[inline(always)]
     pub fn curvature(&self, N: &[T; 3]) -> [[T; 3]; 3] {
         let (Y, N, third) = (matrix(self.Y), matrix(*N), T::splat(THIRD));
-        let (NY, MG) = (times(&N, &Y), times(&matrix(self.along(&[N[0][0], N[1][1], N[0][1]])), &matrix(self.G)));
+        let (NY, MG) = (times(&N, &Y), times(&matrix(self.rate(&[N[0][0], N[1][1], N[0][1]])), &matrix(self.G)));
         UNITS.map(|unit| {
             let dY = matrix(sandwich(&self.G, &unit.map(T::splat)));
             let dZ = matrix(with_transpose(&times(&dY, &Y)));

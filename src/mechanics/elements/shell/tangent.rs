@@ -171,8 +171,8 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
     /// ∂ε/∂(x, θ).
     #[inline(always)]
     fn rows<K: Interpolation<N, V, P>>(&self, motion: &Motion<N>, slopes: &Slopes<V>, rows: &mut Rows<N, P, E>) {
-        let Motion { x, turning } = motion;
-        let ([d, t1, t2], Slopes { v, long, .. }) = (turning, slopes);
+        let Motion { x, triads } = motion;
+        let ([d, t1, t2], Slopes { v, long, .. }) = (triads, slopes);
         for (n, [i, j]) in K::PAIRS.into_iter().enumerate() {
             let mut y = [LaneVec3::ZERO; V];
             y[i] = v[j];
@@ -195,7 +195,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         let half = Lanes::splat(0.5);
         for (e, [a, b]) in K::EDGES.into_iter().enumerate() {
             let (length, mean) = (x[b] - x[a], half * (d[a] + d[b]));
-            let bulge = self.bulging(e, [a, b], turning);
+            let bulge = self.bulging(e, [a, b], triads);
             for ((node, sign), [c1, c2]) in [(a, -1.0), (b, 1.0)].into_iter().zip(self.edges[e]) {
                 rows.shear[e].x[node] = Lanes::splat(sign) * mean;
                 rows.shear[e].theta[node] = d[node].cross(&(half * length));
@@ -288,7 +288,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         H: &mut LaneMatrix<N>,
     ) {
         let membrane = &plane.membrane;
-        let [d, t1, t2] = &motion.turning;
+        let [d, t1, t2] = &motion.triads;
         let Q = by_pairs::<V, P>(&K::PAIRS, membrane);
         for a in 1..N {
             let half: [Lanes; V] = from_fn(|j| product(|i| self.slopes[i][a] * Q[i][j], V));
@@ -326,7 +326,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         slopes: &Slopes<V>,
         H: &mut LaneMatrix<N>,
     ) {
-        let (d, Slopes { v, w, y, .. }) = (&motion.turning[0], slopes);
+        let (d, Slopes { v, w, y, .. }) = (&motion.triads[0], slopes);
         let Q = by_pairs::<V, P>(&K::PAIRS, &plane.bending);
         let p: [LaneVec3; V] = from_fn(|k| sum(&Q[k], v));
         let pair = |s: &[Lanes; 2], of: &[LaneVec3; 2]| s[0] * of[0] + s[1] * of[1];
@@ -541,7 +541,7 @@ impl<const N: usize> Motion<N> {
     fn add_turning(&self, motion: &Motion<N>, H: &mut LaneMatrix<N>) {
         for a in 0..N {
             for k in 0..3 {
-                let (d, g) = (&motion.turning[k][a], &self.turning[k][a]);
+                let (d, g) = (&motion.triads[k][a], &self.triads[k][a]);
                 let along = d.dot(g);
                 for i in 0..3 {
                     (0..3).for_each(|j| H[a][3 + i][a][3 + j] += d.0[i] * g.0[j]);

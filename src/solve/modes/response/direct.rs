@@ -7,7 +7,7 @@ use super::super::modal::{natural_frequencies, natural_pairs};
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
-use super::super::steady::{Response, ResponseRow, ResponseSoFar, Search};
+use super::super::steady::{Response, ResponseProgress, ResponseRow, ResponseSoFar};
 use super::dynamic_stiffness::DynamicStiffness;
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
@@ -33,7 +33,7 @@ pub fn response(
     at: &Linearized,
     asked: &ResponseAsked,
     linear: (&mut Solver, &mut Assembly),
-    search: &mut Search,
+    progress: &mut ResponseProgress,
 ) -> Result<Modes, ModesFault> {
     let mut found = Modes { kind: ModeKind::Natural, ..Modes::default() };
     let natural = match asked.resonances {
@@ -64,20 +64,20 @@ pub fn response(
     let highest = TAU * all.last().copied().unwrap_or(0.0);
     let joints = pencil.joints_at((BEYOND * highest).powi(2));
     let stiffness = DynamicStiffness::new(&at.plan.structure, &matrices, &joints)?;
-    let mut direct = Direct { pencil, excitation, stiffness, so_far: &mut *search.so_far, natural };
+    let mut direct = Direct { pencil, excitation, stiffness, so_far: &mut *progress.so_far, natural };
     let mut response = Response::of(at.model, std::mem::take(&mut direct.so_far.rows));
-    if let Err(stopped) = direct.find(at, &all, &mut *search.pauses, &mut response) {
+    if let Err(stopped) = direct.find(at, &all, &mut *progress.pauses, &mut response) {
         direct.so_far.rows = response.rows;
         return Err(stopped);
     }
     found.factorizations += all.len();
     found.solves += all.len();
-    found.doubts.extend(gyroscopic.doubts);
-    found.doubts.extend(unjudged(at));
+    found.warnings.extend(gyroscopic.warnings);
+    found.warnings.extend(unjudged(at));
     if unstable {
-        found.doubts.push("the state is unstable: no steady motion about it lasts".to_owned());
+        found.warnings.push("the state is unstable: no steady motion about it lasts".to_owned());
     }
-    found.doubts.extend(direct.doubts());
+    found.warnings.extend(direct.warnings());
     found.response = Some(response);
     Ok(found)
 }
@@ -242,17 +242,17 @@ impl Direct<'_> {
         motions
     }
 
-    /// Doubts about the response, in words.
-    fn doubts(&self) -> Vec<String> {
-        let mut doubts = Vec::new();
-        doubts.extend(resonances_in_words(&self.so_far.resonances));
+    /// Warnings about the response, in words.
+    fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        warnings.extend(resonances_in_words(&self.so_far.resonances));
         if self.so_far.worst.0 > DOUBTFUL {
             let (left, frequency) = self.so_far.worst;
-            doubts.push(format!(
+            warnings.push(format!(
                 "near frequency {} the equations are next to singular: {left:.1e} of the excitation is left unbalanced",
                 short(frequency)
             ));
         }
-        doubts
+        warnings
     }
 }

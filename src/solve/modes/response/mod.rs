@@ -18,7 +18,7 @@ pub use dynamic_stiffness::complex_solver;
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::mode::Modes;
-use super::steady::Search;
+use super::steady::ResponseProgress;
 use crate::system::assembly::Assembly;
 use linear::Solver;
 use model::{ResponseAsked, ResponseMethod};
@@ -31,10 +31,10 @@ pub fn find_response(
     at: &Linearized,
     asked: &ResponseAsked,
     linear: (&mut Solver, &mut Assembly),
-    mut search: Search,
+    mut progress: ResponseProgress,
 ) -> Result<Modes, ModesFault> {
     match asked.method {
-        ResponseMethod::Direct => direct::response(at, asked, linear, &mut search),
-        ResponseMethod::Modal => modal::response(at, asked, linear, &mut search),
+        ResponseMethod::Direct => direct::response(at, asked, linear, &mut progress),
+        ResponseMethod::Modal => modal::response(at, asked, linear, &mut progress),
     }
 }

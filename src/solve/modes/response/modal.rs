@@ -15,7 +15,7 @@ use super::super::modal::{left_out, natural_pairs};
 use super::super::mode::Modes;
 use super::super::pencil::Pencil;
 use super::super::shape::Shapes;
-use super::super::steady::{Response, Search};
+use super::super::steady::{Response, ResponseProgress};
 use super::damped_rest::{RestMotion, dot, rest_motions};
 use super::excitation::{C64, HarmonicExcitation};
 use super::frequencies::frequencies;
@@ -43,7 +43,7 @@ pub fn response(
     at: &Linearized,
     asked: &ResponseAsked,
     linear: (&mut Solver, &mut Assembly),
-    search: &mut Search,
+    progress: &mut ResponseProgress,
 ) -> Result<Modes, ModesFault> {
     let mut pencil = Pencil::new(*at, linear);
     if pencil.mass.is_zero() {
@@ -70,27 +70,27 @@ pub fn response(
     };
     let mut space = Space::new((&pairs, &rest), &matrices.C, asked.damping_ratio, shift);
     let parts = space.parts(&mut pencil, &excitation, &matrices);
-    let mut response = Response::of(at.model, std::mem::take(&mut search.so_far.rows));
+    let mut response = Response::of(at.model, std::mem::take(&mut progress.so_far.rows));
     let motion = Motion::new(&pencil, &space, &parts, &excitation, &response.nodes);
     let known = response.rows.len().min(all.len());
     for &frequency in &all[known..] {
-        if let Err(stopped) = look_up(at, response.rows.len() > known, &mut *search.pauses) {
-            search.so_far.rows = response.rows;
+        if let Err(stopped) = look_up(at, response.rows.len() > known, &mut *progress.pauses) {
+            progress.so_far.rows = response.rows;
             return Err(stopped);
         }
         let (row, mode) = motion.at(&space, &parts, &excitation, frequency);
         response.add(frequency, row);
-        search.so_far.resonances.extend(mode.map(|mode| (frequency, Some(mode))));
+        progress.so_far.resonances.extend(mode.map(|mode| (frequency, Some(mode))));
     }
     let truncated = truncation((&natural, extent), pencil.at.unknowns(), highest, gyroscopic.acts());
-    let mut doubts = gyroscopic.doubts;
-    doubts.extend(resonances_in_words(&search.so_far.resonances));
-    doubts.extend(truncated);
-    doubts.extend(left_out(at).into_iter().filter(|_| !at.loads_have_potential()));
+    let mut warnings = gyroscopic.warnings;
+    warnings.extend(resonances_in_words(&progress.so_far.resonances));
+    warnings.extend(truncated);
+    warnings.extend(left_out(at).into_iter().filter(|_| !at.loads_have_potential()));
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let (kind, masses, response) = (ModeKind::Natural, shapes.masses, Some(response));
-    Ok(Modes { kind, list, masses, unstable, factorizations, solves, doubts, response })
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, warnings, response })
 }
 
 /// Error from modes that were not found, in words, where it may be visible.

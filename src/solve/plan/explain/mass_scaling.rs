@@ -14,7 +14,7 @@ const LISTED: usize = 5;
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     let Some(scaling) = system.mass_scaling() else { return };
     mass_added(scaling).into_iter().for_each(|(label, line)| text.add(label, line));
-    let [_, heavier, turning] = counts(scaling);
+    let [_, heavier, rotary] = counts(scaling);
     if heavier > 0 && model.loading.gravity.norm() > 0.0 {
         text.notes
             .push(
@@ -23,7 +23,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
                     .into(),
             );
     }
-    if heavier + turning > 0 && bound_by_others(model) {
+    if heavier + rotary > 0 && bound_by_others(model) {
         text.notes.push(
             "mass scaling raises the step of elements: links, contacts and joints may ask for shorter ones".into(),
         );
@@ -32,9 +32,9 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
 
 /// Additions of mass scaling, as lines with labels.
 pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
-    let [elements, heavier, turning] = counts(scaling);
+    let [elements, heavier, rotary] = counts(scaling);
     let step = short(scaling.critical_step);
-    if heavier + turning == 0 {
+    if heavier + rotary == 0 {
         let what = format!(
             "none: each of the {elements} elements has a critical time step of {step} or more, those that are slack or have no mass aside"
         );
@@ -45,9 +45,9 @@ pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
         lines.push(("mass added", heavier_in_words(scaling, heavier, elements)));
         lines.extend(parts_in_words(scaling).into_iter().map(|line| ("", line)));
     }
-    if turning > 0 {
+    if rotary > 0 {
         let what = format!(
-            "inertia of {turning} of {elements} elements is raised for a critical time step of {step}, to radii of gyration of at most \
+            "inertia of {rotary} of {elements} elements is raised for a critical time step of {step}, to radii of gyration of at most \
              0.35 of the distances of nodes, which adds no mass"
         );
         lines.push(("rotary", what));
@@ -58,7 +58,7 @@ pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
 /// Numbers of elements in total, with added mass, and with added rotary inertia.
 fn counts(scaling: &MassScaling) -> [usize; 3] {
     let sum = |of: fn(&ScaledPart) -> usize| scaling.parts.iter().map(of).sum();
-    [sum(|part| part.elements), sum(|part| part.heavier), sum(|part| part.turning)]
+    [sum(|part| part.elements), sum(|part| part.heavier), sum(|part| part.rotary)]
 }
 
 /// True where something besides elements may bound the step.

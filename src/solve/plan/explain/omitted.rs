@@ -90,13 +90,13 @@ fn terms(plan: &Plan, model: &Model, system: &System) -> Vec<&'static str> {
 }
 
 fn gyroscopic(plan: &Plan, model: &Model, system: &System) -> Option<&'static str> {
-    let turning = system.inertias.iter().any(|i| {
+    let has_rotary = system.inertias.iter().any(|i| {
         i.rotary
             && (3..6).any(|dof| {
                 plan.is_unknown(i.node, dof) || model.constraints.dependents.iter().any(|r| r.node == i.node)
             })
     });
-    match turning {
+    match has_rotary {
         false => Some("gyroscopic terms: no rotary inertia is in rotation"),
         true if plan.count(DofStatus::Plane, 0..6) > 0 => Some("gyroscopic terms: rotation about one axis only"),
         true => None,

@@ -11,7 +11,7 @@ use crate::system::scale::Scale;
 use base::math::{Mat3, Vec3};
 use mechanics::elements::{Force, IntegrationPoint, subtract};
 use mechanics::state::Configuration;
-use model::{AnalysisKind, Beam, ExpectAt, LoadAlong, MassKind, Model, PartType, SectionPlaces};
+use model::{AnalysisKind, Beam, ExpectAt, LoadOrigin, MassKind, Model, PartType, SectionPlaces};
 use std::collections::HashMap;
 
 /// The ends of all elements of all beams, in deck order.
@@ -45,7 +45,7 @@ impl BeamEnds {
     pub fn new(model: &Model, x: &[Vec3], mass_scaling: Option<&MassScaling>) -> BeamEnds {
         let mut loads: HashMap<(usize, usize, usize), Vec<usize>> = HashMap::new();
         for (index, load) in model.loading.nodal.iter().enumerate() {
-            if let Some(LoadAlong::Element(part, element)) = load.along {
+            if let Some(LoadOrigin::Element(part, element)) = load.origin {
                 loads.entry((part, element, load.node)).or_default().push(index);
             }
         }

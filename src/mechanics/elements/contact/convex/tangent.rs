@@ -57,14 +57,14 @@ impl PairKinematics<'_> {
     /// The rates u̇ = Eᵀ(v − v_s − ω_s × d) and ψ̇ = Eᵀ(ω − ω_s), where velocities change `rate_weight` times as fast as positions.
     fn rates_by_nodes(&self, rate_weight: f64, omega: &Vec3) -> FromNodes {
         let back = self.E.transpose();
-        let (w, turning) = self.global(&self.rates);
+        let (w, spin) = self.global(&self.rates);
         let mut J = rate_weight * self.motion();
         let carried = back * skew(omega);
         subtract_block(&mut J, 0, 0, &carried);
         subtract_block(&mut J, 0, 6, &-carried);
         // E turns with the carrier.
         subtract_block(&mut J, 0, 9, &(-back * skew(&w)));
-        subtract_block(&mut J, 3, 9, &(-back * skew(&turning)));
+        subtract_block(&mut J, 3, 9, &(-back * skew(&spin)));
         J
     }
 }

@@ -27,8 +27,8 @@ impl FacetPair<'_> {
         let pressed = if self.sticks { f64::INFINITY } else { free.pressed().max(0.0) };
         if self.is_of_lines() {
             let rub = line_friction::rub(self, place, memory, pressed, nodes);
-            let ([a, b], turning) = (line_friction::arms(self, place), n.cross(&rub.T));
-            return PairForceOnPoint { F: free.F - rub.T, M: a * turning, C: b * turning, friction: Some(rub), ..free };
+            let ([a, b], moment) = (line_friction::arms(self, place), n.cross(&rub.T));
+            return PairForceOnPoint { F: free.F - rub.T, M: a * moment, C: b * moment, friction: Some(rub), ..free };
         }
         let r = self.point.rolling_radius;
         let q = rotation_of(self.kept, nodes);

@@ -1,6 +1,6 @@
 //! The capsule: a cylinder with round ends.
 
-use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, across, along, round};
+use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, is_across, is_along, round};
 use crate::solids::segment::{ENDS, segment_of};
 use base::math::{Mat3, Vec3, frame_along};
 use base::words::kinds::{Form, Given, Key};
@@ -54,6 +54,6 @@ impl Touched for Capsule {
     }
 
     fn keeps(&self, e: &Vec3) -> bool {
-        across(e, 2) || along(e, 2)
+        is_across(e, 2) || is_along(e, 2)
     }
 }

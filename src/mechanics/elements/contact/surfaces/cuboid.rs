@@ -1,6 +1,6 @@
 //! The box.
 
-use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, along, center};
+use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, center, is_along};
 use base::math::{Mat3, Vec3};
 use base::words::kinds::{Form, Given, Key};
 
@@ -72,6 +72,6 @@ impl Touched for Cuboid {
 
     /// Inside, the nearest face must not be one of the two that lie along the plane.
     fn keeps(&self, e: &Vec3) -> bool {
-        (0..3).any(|i| along(e, i) && (0..3).any(|j| j != i && self.half[j] < self.half[i]))
+        (0..3).any(|i| is_along(e, i) && (0..3).any(|j| j != i && self.half[j] < self.half[i]))
     }
 }

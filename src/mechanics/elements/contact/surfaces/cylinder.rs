@@ -1,6 +1,6 @@
 //! The cylinder with flat ends.
 
-use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, across, along, center};
+use super::kind::{CENTER, ClosestPoint, Placed, SurfaceKind, Touched, center, is_across, is_along};
 use base::math::{Mat3, Vec3, frame_along};
 use base::words::kinds::{Form, Given, Key};
 
@@ -71,6 +71,6 @@ impl Touched for Cylinder {
     }
 
     fn keeps(&self, e: &Vec3) -> bool {
-        across(e, 2) || along(e, 2) && self.half > self.radius
+        is_across(e, 2) || is_along(e, 2) && self.half > self.radius
     }
 }

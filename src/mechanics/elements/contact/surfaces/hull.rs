@@ -34,7 +34,7 @@ impl Touched for Hull {
         let nearest = self.polyhedron.nearest(y);
         let d = nearest.g.norm();
         let (distance, along) = match nearest.free {
-            Freedom::Face => (nearest.along, nearest.along),
+            Freedom::Face => (nearest.face_distance, nearest.face_distance),
             _ => (d, d),
         };
         let n = match d > 0.0 {

@@ -65,12 +65,12 @@ pub fn center(given: &mut Given, body: Option<Vec3>) -> Option<Vec3> {
 }
 
 /// True where e is the axis of this number, to rounding.
-pub fn along(e: &Vec3, axis: usize) -> bool {
+pub fn is_along(e: &Vec3, axis: usize) -> bool {
     e[axis].abs() > 1.0 - 1e-12
 }
 
 /// True where e is normal to the axis of this number, to rounding.
-pub fn across(e: &Vec3, axis: usize) -> bool {
+pub fn is_across(e: &Vec3, axis: usize) -> bool {
     e[axis].abs() < 1e-12
 }
 

@@ -1,6 +1,6 @@
 //! The plane: all on one side of it is solid.
 
-use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, across};
+use super::kind::{ClosestPoint, Placed, SurfaceKind, Touched, is_across};
 use base::math::{Mat3, Vec3, frame_along};
 use base::words::kinds::{Form, Key};
 
@@ -44,6 +44,6 @@ impl Touched for Plane {
     }
 
     fn keeps(&self, e: &Vec3) -> bool {
-        across(e, 2)
+        is_across(e, 2)
     }
 }

@@ -85,7 +85,7 @@ where
                 subtract(f, 0, &gradient.x[a]);
                 let mut moment = Vec3::zeros();
                 for k in 0..3 {
-                    moment += motion.turning[k][a].cross(&gradient.turning[k][a]);
+                    moment += motion.triads[k][a].cross(&gradient.triads[k][a]);
                 }
                 subtract(f, 3, &moment);
             }
@@ -151,7 +151,7 @@ where
         // A failed element has no stress.
         let part = if element.section.has_failed(0, now.history) { 0.0 } else { 1.0 };
         let stress = stress(element, &strains, now);
-        let at_start = NodalVectors { x: X, turning: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
+        let at_start = NodalVectors { x: X, triads: [element.D, element.T.map(|t| t[0]), element.T.map(|t| t[1])] };
         let work = |way: &NodalVectors<N>, s: f64| part * stress.dot(&element.measure(&at_start.plus(s, way)));
         let mean = MeanStress { X: &X, axis, motion: &motion, first: CurvedSurface::new::<K>(X).axes[0] };
         mean.resultants(&work, |layers| element.section.layers(0, &strains.plane, now, layers))
@@ -189,7 +189,7 @@ where
         // The normal at a corner opposes the director there.
         (0..K::CORNERS).any(|a| {
             let [r, s] = tangents::<K, N>(&motion.x, K::NODES[a]);
-            r.cross(&s).dot(&motion.turning[0][a]) < 0.0
+            r.cross(&s).dot(&motion.triads[0][a]) < 0.0
         })
     }
 }

@@ -109,7 +109,7 @@ where
         drilling: [OF_NODES * stiff / N as f64, stiff / (N * N) as f64],
         section: section(in_plane),
     };
-    shell.start = shell.measure(&NodalVectors { x: surface.X, turning: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
+    shell.start = shell.measure(&NodalVectors { x: surface.X, triads: [D, T.map(|t| t[0]), T.map(|t| t[1])] });
     shell
 }
 

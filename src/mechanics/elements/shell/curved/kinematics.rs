@@ -97,14 +97,14 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
     #[inline(always)]
     pub fn gather(&self, nodes: &[Node]) -> NodalVectors<N> {
         let first = &nodes[self.nodes[0]];
-        let mut motion = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+        let mut motion = NodalVectors { x: [Vec3::zeros(); N], triads: [[Vec3::zeros(); N]; 3] };
         for a in 0..N {
             let node = &nodes[self.nodes[a]];
             let R = node.R();
             motion.x[a] = node.relative_position(first);
-            motion.turning[0][a] = R * self.D[a];
-            motion.turning[1][a] = R * self.T[a][0];
-            motion.turning[2][a] = R * self.T[a][1];
+            motion.triads[0][a] = R * self.D[a];
+            motion.triads[1][a] = R * self.T[a][0];
+            motion.triads[2][a] = R * self.T[a][1];
         }
         motion
     }
@@ -115,14 +115,14 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
         let node = |a: usize| &nodes[self.nodes[a]];
         NodalVectors {
             x: from_fn(|a| node(a).v - node(0).v),
-            turning: motion.turning.map(|d| from_fn(|a| node(a).omega.cross(&d[a]))),
+            triads: motion.triads.map(|d| from_fn(|a| node(a).omega.cross(&d[a]))),
         }
     }
 
     /// Strains from zero, those at t = 0 included.
     #[inline(always)]
     pub fn measure(&self, motion: &NodalVectors<N>) -> CurvedStrain<N, P, Q> {
-        let NodalVectors { x, turning: [d, p, q] } = motion;
+        let NodalVectors { x, triads: [d, p, q] } = motion;
         let slopes = &self.sampling.slopes;
         let (v, w) = (NodalVectors::slopes(slopes, x), NodalVectors::slopes(slopes, d));
         let mut strains = CurvedStrain::ZERO;
@@ -170,7 +170,7 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
     /// The gradient Bᵀσ: forces, and the derivatives of energy by d, p and q.
     #[inline(always)]
     pub fn gradient(&self, stress: &CurvedStrain<N, P, Q>, motion: &NodalVectors<N>) -> NodalVectors<N> {
-        let NodalVectors { x, turning: [d, p, q] } = motion;
+        let NodalVectors { x, triads: [d, p, q] } = motion;
         let slopes = &self.sampling.slopes;
         let (v, w) = (NodalVectors::slopes(slopes, x), NodalVectors::slopes(slopes, d));
         let (mut along, mut across) = ([Vec3::zeros(); V], [Vec3::zeros(); V]);
@@ -183,25 +183,25 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
                 across[j] += moment * v[i];
             }
         }
-        let mut gradient = NodalVectors { x: [Vec3::zeros(); N], turning: [[Vec3::zeros(); N]; 3] };
+        let mut gradient = NodalVectors { x: [Vec3::zeros(); N], triads: [[Vec3::zeros(); N]; 3] };
         for i in 0..V {
             for a in 0..N {
                 gradient.x[a] += slopes[i][a] * along[i];
-                gradient.turning[0][a] += slopes[i][a] * across[i];
+                gradient.triads[0][a] += slopes[i][a] * across[i];
             }
         }
         for (stress, [slope, value]) in stress.shear.iter().zip(&self.sampling.shears) {
             let (along, across) = (*stress * sum(value, d), *stress * sum(slope, x));
             for a in 0..N {
                 gradient.x[a] += slope[a] * along;
-                gradient.turning[0][a] += value[a] * across;
+                gradient.triads[0][a] += value[a] * across;
             }
         }
         for a in 0..N {
             let half = 0.5 * stress.drilling[a];
             let [by_r, by_s] = &self.at_nodes[a];
-            gradient.turning[1][a] += half * sum(by_r, x);
-            gradient.turning[2][a] += half * sum(by_s, x);
+            gradient.triads[1][a] += half * sum(by_r, x);
+            gradient.triads[2][a] += half * sum(by_s, x);
             for b in 0..N {
                 gradient.x[b] += half * (by_r[b] * p[a] + by_s[b] * q[a]);
             }

@@ -87,7 +87,7 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
         moment: impl Fn(usize, usize, &Vec3) -> Vec3,
         rows: &mut CurvedRows<N, P, Q>,
     ) {
-        let NodalVectors { x, turning: [d, p, q] } = motion;
+        let NodalVectors { x, triads: [d, p, q] } = motion;
         let slopes = &self.sampling.slopes;
         let (v, w) = (NodalVectors::slopes(slopes, x), NodalVectors::slopes(slopes, d));
         for (n, &[i, j]) in self.sampling.pairs.iter().enumerate() {
@@ -180,9 +180,9 @@ pub(super) fn tangent<
         shear: element.shear_stress(&strains.shear),
         drilling: element.drilling_stress(&strains.drilling),
     };
-    let turning = &motion.turning;
+    let triads = &motion.triads;
     let mut B = CurvedRows::<N, P, Q>::ZERO;
-    element.rows(&motion, |k, a, g| turning[k][a].cross(g), &mut B);
+    element.rows(&motion, |k, a, g| triads[k][a].cross(g), &mut B);
     K.fill(0.0);
     add_product(&B, &element.times(&C, &B), K);
     add_strain_hessian(&element.strain_hessian(&stress), &element.gradient(&stress, &motion), &motion, K);
@@ -203,13 +203,13 @@ fn add_damping<const N: usize, const V: usize, const P: usize, const Q: usize, S
     B: &mut CurvedRows<N, P, Q>,
     K: &mut [f64],
 ) {
-    let turning = &motion.turning;
+    let triads = &motion.triads;
     let rates = element.rates(motion, now.nodes);
     let omega: [Vec3; N] = from_fn(|a| now.nodes[element.nodes[a]].omega);
     // ∂ε̇/∂(x, θ): ε̇ is linear in positions and in their rates; ḋ = ω × d rotates with d.
     let (mut D, mut turned) = (CurvedRows::<N, P, Q>::ZERO, CurvedRows::<N, P, Q>::ZERO);
-    element.rows(&rates, |k, a, g| turning[k][a].cross(g), &mut D);
-    element.rows(motion, |k, a, g| turning[k][a].cross(&g.cross(&omega[a])), &mut turned);
+    element.rows(&rates, |k, a, g| triads[k][a].cross(g), &mut D);
+    element.rows(motion, |k, a, g| triads[k][a].cross(&g.cross(&omega[a])), &mut turned);
     for ((D, turned), B) in D.all_mut().zip(turned.all()).zip(B.all()) {
         for a in 0..N {
             for k in 3..6 {
@@ -249,20 +249,20 @@ fn add_strain_hessian<const N: usize>(
     motion: &NodalVectors<N>,
     K: &mut [f64],
 ) {
-    let (turning, width) = (&motion.turning, 6 * N);
+    let (triads, width) = (&motion.triads, 6 * N);
     for a in 0..N {
         for b in 0..N {
             for i in 0..3 {
                 K[(6 * a + i) * width + 6 * b + i] += hessian.xx[a][b];
             }
             // δd = δθ × d: the mixed part is −[Σ c d]~ and its transpose.
-            let c: Vec3 = (0..3).map(|k| hessian.xd[k][a][b] * turning[k][b]).sum();
+            let c: Vec3 = (0..3).map(|k| hessian.xd[k][a][b] * triads[k][b]).sum();
             add_mixed(a, b, &-skew(&c), K, width);
         }
         // (δθ × d) × g = (d gᵀ − (d·g) 1) δθ.
         let mut turn = Mat3::zeros();
         for k in 0..3 {
-            let (d, g) = (&turning[k][a], &gradient.turning[k][a]);
+            let (d, g) = (&triads[k][a], &gradient.triads[k][a]);
             turn += d * g.transpose() - d.dot(g) * Mat3::identity();
         }
         add_block(6 * a + 3, 6 * a + 3, &turn, K, width);

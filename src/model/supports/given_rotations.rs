@@ -96,7 +96,7 @@ impl<'d> TurnSetting<'_, 'd> {
     fn hold_apart(
         &mut self,
         node: usize,
-        turning: &NodeRotations<'d>,
+        rotations: &NodeRotations<'d>,
         angles: RotationAngles,
         named: &mut NamedActors,
     ) {
@@ -118,7 +118,7 @@ impl<'d> TurnSetting<'_, 'd> {
                 self.joints.push(Joint::new(name, [node, support], vec![lock], true));
                 continue;
             };
-            self.check_begin(turning, dof, &motion);
+            self.check_begin(rotations, dof, &motion);
             let number = self.topology.add_number(format!("{label}.{}", DIRECTIONS[dof]), node);
             self.topology.restrain(number, 0, Some(motion));
             let motions = named.iter_mut().flat_map(|(_, actors)| &mut actors.motions);
@@ -126,13 +126,13 @@ impl<'d> TurnSetting<'_, 'd> {
             let mut joint = Joint::new(name, [node, support], Vec::new(), true);
             let axis = Vec3::ith(dof - 3, 1.0);
             joint.coordinate = Some(JointCoordinate { lock, axis, drive: None, effort: None, spring: None });
-            joint.lead(JointDrive { node: number, ratio: 1.0, is_free: false });
+            joint.set_drive(JointDrive { node: number, ratio: 1.0, is_free: false });
             self.joints.push(joint);
         }
     }
 
     /// Reports a rotation beside a free one with a nonzero start value, because the node starts undisplaced.
-    fn check_begin(&mut self, turning: &NodeRotations<'d>, dof: usize, motion: &PrescribedMotion) {
+    fn check_begin(&mut self, rotations: &NodeRotations<'d>, dof: usize, motion: &PrescribedMotion) {
         let analysis = &self.scene.analysis;
         let begins = analysis.is_dynamic() && analysis.begin == 0.0;
         let displaced = motion.history == History::Displacement
@@ -140,10 +140,10 @@ impl<'d> TurnSetting<'_, 'd> {
         if begins && displaced {
             let message = format!(
                 "the motion of `{}` in {} does not begin at zero, but another rotation is free",
-                turning.name, DIRECTIONS[dof]
+                rotations.name, DIRECTIONS[dof]
             );
             let hint = "let the amplitude begin at zero, or give all three rotations";
-            self.report.error_with::<()>(turning.span, message, hint);
+            self.report.error_with::<()>(rotations.span, message, hint);
         }
     }
 }

@@ -1,16 +1,15 @@
-//! Single runs, and runs by a tolerance, see [`super::trials`]: the run itself, a trial with longer steps for its error, and further runs
+//! Single runs, and runs by a tolerance, see [`super::global_error`]: the run itself, a comparison run with longer steps for its error, and further runs
 //! while the error is too large.
 
 use super::control::{Schedule, comparison_times};
 use super::frame::{Observer, OtherRun};
+use super::global_error::{Kept, StepError, Trace, Unseen};
 use super::outcome::Outcome;
 use super::recorder::Recorder;
-use super::run::{NoSearch, Run};
+use super::run::{Run, SingleRun};
 use super::stop_watch::StopWatch;
-use super::trials::{Kept, StepError, Trace, Unseen};
 use super::warning::Warnings;
-use crate::tolerances::search::{EARLY, IN_TIME};
-use crate::tolerances::trials::{FEW, LOOSER, MOST_LONGER, MOST_RUNS};
+use crate::tolerances::global_error::{EARLY, FEW, IN_TIME, LOOSER, MOST_LONGER, MOST_RUNS};
 use base::snapshot::{Keep, keep, keep_either};
 use mechanics::state::State;
 use model::StepLength;
@@ -25,7 +24,7 @@ struct Pieces {
 keep!(Pieces { now, before });
 
 /// The data that runs by a tolerance pass to later runs.
-struct Search {
+struct GlobalErrorControl {
     /// The run that is under way.
     under_way: UnderWay,
     error: StepError,
@@ -39,22 +38,22 @@ struct Search {
     between: [f64; 2],
 }
 
-keep!(Search { under_way, error, pieces, compared, before, judged, between });
+keep!(GlobalErrorControl { under_way, error, pieces, compared, before, judged, between });
 
-/// The runs of a search.
+/// The kind of the run that is under way.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum UnderWay {
     /// A run whose results may be final.
     Main,
     /// One with longer steps that tells the error of the one before it.
-    Trial,
+    Comparison,
     /// The one before, once more.
     Settled,
 }
 
-keep_either!(UnderWay { 0 => Main, 1 => Trial, 2 => Settled });
+keep_either!(UnderWay { 0 => Main, 1 => Comparison, 2 => Settled });
 
-/// The run judged by a trial, with its data during the trial.
+/// The run judged by a comparison run, with its data during the comparison run.
 struct Judged {
     run: Kept,
     state: State,
@@ -76,18 +75,18 @@ impl Run<'_> {
     pub fn run(&mut self, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         match (&self.context.model.analysis.step_length, self.controller.by_tolerance()) {
             (&StepLength::ErrorControlled { tolerance, .. }, Some(_)) => self.within(tolerance, observer),
-            _ => self.once(observer, &Schedule::new(self.context.model, std::iter::empty(), false), &mut NoSearch),
+            _ => self.once(observer, &Schedule::new(self.context.model, std::iter::empty(), false), &mut SingleRun),
         }
     }
 
     /// Runs with steps that follow a tolerance until the requested error is met.
     fn within(&mut self, asked: f64, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
-        let mut search = self.begin_search(asked);
+        let mut control = self.begin_control(asked);
         loop {
-            let ended = match search.under_way {
-                UnderWay::Main => self.main_run(&mut search, observer),
-                UnderWay::Trial => self.trial(&mut search, observer),
-                UnderWay::Settled => Some(self.settle(&mut search, observer)),
+            let ended = match control.under_way {
+                UnderWay::Main => self.main_run(&mut control, observer),
+                UnderWay::Comparison => self.comparison_run(&mut control, observer),
+                UnderWay::Settled => Some(self.settle(&mut control, observer)),
             };
             if let Some(ended) = ended {
                 return ended;
@@ -95,10 +94,10 @@ impl Run<'_> {
         }
     }
 
-    /// Begins with the first run, or resumes the search at a checkpoint.
-    fn begin_search(&mut self, asked: f64) -> Search {
+    /// Begins with the first run, or resumes it at a checkpoint.
+    fn begin_control(&mut self, asked: f64) -> GlobalErrorControl {
         let model = self.context.model;
-        let mut search = Search {
+        let mut control = GlobalErrorControl {
             under_way: UnderWay::Main,
             error: StepError::new(asked),
             pieces: Pieces { now: 1, before: 1 },
@@ -116,40 +115,44 @@ impl Run<'_> {
         };
         self.follow(asked, None);
         if let Some(snapshot) = &mut self.checkpoint {
-            search.keep(snapshot);
-            if search.under_way == UnderWay::Trial {
+            control.keep(snapshot);
+            if control.under_way == UnderWay::Comparison {
                 self.recorder = Recorder::new(model, self.wanted.where_due());
-                self.stop_watch.iter_mut().for_each(|watch| watch.recall(search.judged.stopped));
+                self.stop_watch.iter_mut().for_each(|watch| watch.recall(control.judged.stopped));
             }
         }
-        search
+        control
     }
 
-    /// Makes a run that may be the last, or the rest of it. Returns the outcome if it ends the search.
-    fn main_run(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
+    /// Makes a run that may be the last, or the rest of it. Returns the outcome if it ends the sequence of runs.
+    fn main_run(
+        &mut self,
+        control: &mut GlobalErrorControl,
+        observer: &mut dyn Observer,
+    ) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
-        let times = comparison_times(search.between).chain(search.compared.iter().copied());
-        let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(search.pieces.now);
-        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, search.between);
-        let (outcome, state) = self.once(&mut trace, &schedule, search);
+        let times = comparison_times(control.between).chain(control.compared.iter().copied());
+        let schedule = Schedule::new(model, times, self.controller.looks_inside()).cut(control.pieces.now);
+        let mut trace = Trace::new(observer, model.solution.scheme.order() + 1, control.between);
+        let (outcome, state) = self.once(&mut trace, &schedule, control);
         let run = trace.into_kept().with_events(self.recorder.events.met());
         // The run fails with shorter steps, but the previous run was complete.
-        if search.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
-            let of_before = search.error.before;
-            let begun = self.begin_again(&mut search.error, of_before, observer);
-            search.under_way = UnderWay::Settled;
+        if control.before.is_some() && matches!(outcome, Outcome::Failed { .. }) {
+            let of_before = control.error.before;
+            let begun = self.begin_again(&mut control.error, of_before, observer);
+            control.under_way = UnderWay::Settled;
             return begun.err().map(|error| (Outcome::Io(error), None));
         }
         let (Outcome::Done, Some(state)) = (&outcome, &state) else { return Some((outcome, state)) };
-        if let Some(end) = self.early_stop(search.between, state.time) {
-            return self.compare_until(end, search, observer).err().map(|error| (Outcome::Io(error), None));
+        if let Some(end) = self.early_stop(control.between, state.time) {
+            return self.compare_until(end, control, observer).err().map(|error| (Outcome::Io(error), None));
         }
-        search.judged.run = run;
-        search.judged.state.clone_from(state);
-        match search.before.take().filter(|before| search.judged.run.is_told_by(before)) {
-            Some(before) => self.judge(search, Some((OtherRun::Before, before)), observer),
+        control.judged.run = run;
+        control.judged.state.clone_from(state);
+        match control.before.take().filter(|before| control.judged.run.is_told_by(before)) {
+            Some(before) => self.judge(control, Some((OtherRun::Before, before)), observer),
             None => {
-                self.begin_trial(search, observer);
+                self.begin_comparison(control, observer);
                 None
             }
         }
@@ -166,13 +169,18 @@ impl Run<'_> {
     ///
     /// # Errors
     /// As for [`Run::begin_again`].
-    fn compare_until(&mut self, end: f64, search: &mut Search, observer: &mut dyn Observer) -> std::io::Result<()> {
-        search.between[1] = end;
-        (search.before, search.error.difference) = (None, None);
-        let StepError { tolerance, longest, .. } = search.error;
-        self.begin_again(&mut search.error, (tolerance, longest), observer)?;
+    fn compare_until(
+        &mut self,
+        end: f64,
+        control: &mut GlobalErrorControl,
+        observer: &mut dyn Observer,
+    ) -> std::io::Result<()> {
+        control.between[1] = end;
+        (control.before, control.error.difference) = (None, None);
+        let StepError { tolerance, longest, .. } = control.error;
+        self.begin_again(&mut control.error, (tolerance, longest), observer)?;
         // The aborted run does not contribute to the error estimate.
-        search.error.others -= 1;
+        control.error.others -= 1;
         Ok(())
     }
 
@@ -180,15 +188,15 @@ impl Run<'_> {
     /// further run.
     fn judge(
         &mut self,
-        search: &mut Search,
+        control: &mut GlobalErrorControl,
         other: Option<(TellOther, Kept)>,
         observer: &mut dyn Observer,
     ) -> Option<(Outcome, Option<State>)> {
-        let Search { error, pieces, judged, .. } = search;
+        let GlobalErrorControl { error, pieces, judged, .. } = control;
         let (run, inside) = (std::mem::take(&mut judged.run), self.controller.looks_inside());
         let next = match &other {
             Some((_, other)) => error.judge(&run, other, self.context.length),
-            None => Some(error.without_trial()),
+            None => Some(error.without_comparison()),
         };
         let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
         observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which(error.apart)));
@@ -196,30 +204,30 @@ impl Run<'_> {
         *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
         let next = if dictated { Some(error.tolerance) } else { next };
         let Some(tolerance) = next.filter(|_| error.others < MOST_RUNS) else {
-            self.workspace.warnings.extend(error.doubt());
+            self.workspace.warnings.extend(error.warning());
             self.step_error = Some(*error);
             return Some((Outcome::Done, Some(std::mem::take(&mut judged.state))));
         };
         let most_steps = MOST_LONGER * self.recorder.own().steps;
         // Steps that no tolerance limits shrink as well, or the run would be the same again.
-        search.compared = if inside { observer.times_to_compare() } else { Vec::new() };
+        control.compared = if inside { observer.times_to_compare() } else { Vec::new() };
         let power = self.context.model.solution.scheme.order();
         let longest = run.longest() * (tolerance / error.tolerance).powf(1.0 / power as f64);
         if let Err(fault) = self.begin_again(error, (tolerance, Some(longest)), observer) {
             return Some((Outcome::Io(fault), Some(std::mem::take(&mut judged.state))));
         }
         self.recorder.most_steps = most_steps;
-        (search.before, search.under_way) = (Some(run), UnderWay::Main);
+        (control.before, control.under_way) = (Some(run), UnderWay::Main);
         None
     }
 
     /// Repeats the run with the previous tolerance, because the later run fails or needs far too many steps.
-    fn settle(&mut self, search: &mut Search, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
+    fn settle(&mut self, control: &mut GlobalErrorControl, observer: &mut dyn Observer) -> (Outcome, Option<State>) {
         let model = self.context.model;
-        let schedule = Schedule::new(model, comparison_times(search.between), self.controller.looks_inside());
-        let (outcome, state) = self.once(observer, &schedule.cut(search.pieces.before), search);
-        self.workspace.warnings.extend(search.error.doubt());
-        self.step_error = Some(search.error);
+        let schedule = Schedule::new(model, comparison_times(control.between), self.controller.looks_inside());
+        let (outcome, state) = self.once(observer, &schedule.cut(control.pieces.before), control);
+        self.workspace.warnings.extend(control.error.warning());
+        self.step_error = Some(control.error);
         (outcome, state)
     }
 
@@ -242,41 +250,45 @@ impl Run<'_> {
         observer.restart(model)
     }
 
-    /// Stores the data of the completed run during a trial with longer steps.
-    fn begin_trial(&mut self, search: &mut Search, observer: &mut dyn Observer) {
-        let (model, Search { error, judged, .. }) = (self.context.model, &mut *search);
+    /// Stores the data of the completed run during a comparison run with longer steps.
+    fn begin_comparison(&mut self, control: &mut GlobalErrorControl, observer: &mut dyn Observer) {
+        let (model, GlobalErrorControl { error, judged, .. }) = (self.context.model, &mut *control);
         judged.recorder = std::mem::replace(&mut self.recorder, Recorder::new(model, self.wanted.where_due()));
-        self.recorder.is_trial = true;
+        self.recorder.is_comparison = true;
         judged.warnings = std::mem::take(&mut self.workspace.warnings);
         judged.seen = [self.workspace.rotation_drift, self.workspace.joint_violation];
         judged.stopped = self.stop_watch.as_ref().is_some_and(StopWatch::is_reached);
         self.follow(error.tolerance * LOOSER, Some(2.0 * judged.run.longest()));
         self.recorder.most_steps = 2 * judged.recorder.own().steps + FEW;
-        search.compared = if self.controller.looks_inside() { observer.times_to_compare() } else { Vec::new() };
-        search.under_way = UnderWay::Trial;
-        observer.begin_trial();
+        control.compared = if self.controller.looks_inside() { observer.times_to_compare() } else { Vec::new() };
+        control.under_way = UnderWay::Comparison;
+        observer.begin_comparison();
     }
 
     /// Runs with longer steps, unseen, for the sake of the error of the run before, and judges that. Returns the outcome if it ends the
-    /// search.
-    fn trial(&mut self, search: &mut Search, observer: &mut dyn Observer) -> Option<(Outcome, Option<State>)> {
+    /// sequence of runs.
+    fn comparison_run(
+        &mut self,
+        control: &mut GlobalErrorControl,
+        observer: &mut dyn Observer,
+    ) -> Option<(Outcome, Option<State>)> {
         let model = self.context.model;
-        let times = comparison_times(search.between).chain(search.compared.iter().copied());
+        let times = comparison_times(control.between).chain(control.compared.iter().copied());
         // A stage that has stopped is compared up to there.
-        let until = if search.judged.stopped { search.judged.run.end() } else { f64::INFINITY };
+        let until = if control.judged.stopped { control.judged.run.end() } else { f64::INFINITY };
         let schedule = Schedule::of_trial(model, times, self.controller.looks_inside()).until(until);
         let mut unseen = Unseen(observer);
-        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, search.between);
-        let (outcome, _) = self.once(&mut trace, &schedule, search);
-        let trial = trace.into_kept().with_events(self.recorder.events.met());
-        let Search { error, judged, .. } = &mut *search;
+        let mut trace = Trace::new(&mut unseen, model.solution.scheme.order() + 1, control.between);
+        let (outcome, _) = self.once(&mut trace, &schedule, control);
+        let comparison = trace.into_kept().with_events(self.recorder.events.met());
+        let GlobalErrorControl { error, judged, .. } = &mut *control;
         error.add(self.recorder.own());
         std::mem::swap(&mut self.recorder, &mut judged.recorder);
         self.workspace.warnings = std::mem::take(&mut judged.warnings);
         [self.workspace.rotation_drift, self.workspace.joint_violation] = judged.seen;
         match outcome {
-            Outcome::Done => self.judge(search, Some((OtherRun::Trial, trial)), observer),
-            Outcome::Failed { .. } => self.judge(search, None, observer),
+            Outcome::Done => self.judge(control, Some((OtherRun::Comparison, comparison)), observer),
+            Outcome::Failed { .. } => self.judge(control, None, observer),
             Outcome::Stopped { .. } => {
                 let stopped = Outcome::Stopped { time: model.analysis.end_time };
                 Some((stopped, Some(std::mem::take(&mut judged.state))))

@@ -1,7 +1,7 @@
 //! Motion and efforts along the coordinate of a joint: prescribed motion, motor, spring, damper, stops, friction and hysteresis.
 
 use crate::data::{
-    History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadAlong, LoadedCoordinate, Node, OwnDamping,
+    History, Joint, JointCoordinate, JointDrive, JointEffort, Load, LoadOrigin, LoadedCoordinate, Node, OwnDamping,
     PrescribedMotion,
 };
 use crate::links::ModelLinks;
@@ -46,7 +46,7 @@ pub struct PlacedJoint<'v> {
 }
 
 /// The keys of a joint that are about its coordinate.
-pub struct Along<'a, 'd> {
+pub struct CoordinateKeys<'a, 'd> {
     /// The joint, as messages call it.
     pub owner: &'a Owner<'d>,
     /// Its table.
@@ -68,7 +68,7 @@ pub struct Gear<'d> {
 }
 
 /// Motion and efforts along the coordinate of a joint.
-pub struct ActsAlong<'d> {
+pub struct CoordinateActions<'d> {
     coordinate: Coordinate,
     motion: Option<PrescribedMotion>,
     /// The gear: the other joint and the ratio.
@@ -82,9 +82,9 @@ pub struct ActsAlong<'d> {
     counted: bool,
 }
 
-impl<'d> Along<'_, 'd> {
+impl<'d> CoordinateKeys<'_, 'd> {
     /// Reads motion and efforts along the coordinate; `None` for a joint without one.
-    pub fn read(mut self, kind: &JointKind) -> Option<ActsAlong<'d>> {
+    pub fn read(mut self, kind: &JointKind) -> Option<CoordinateActions<'d>> {
         let joint = self.joint;
         let Some(&own) = kind.make.coordinates.first() else {
             let what = format!("a joint of kind \"{}\": it has no coordinate", kind.word);
@@ -107,7 +107,7 @@ impl<'d> Along<'_, 'd> {
         let law = self.law(kind, coordinate, damping);
         let stick = self.report.positive("stick", &joint.stick);
         let counted = self.is_counted();
-        Some(ActsAlong { coordinate, motion, gear, effort, law, own_damping, stick, counted })
+        Some(CoordinateActions { coordinate, motion, gear, effort, law, own_damping, stick, counted })
     }
 
     /// True for a joint absent at t = 0 or later: the deck does not define the origin of its coordinate.
@@ -410,7 +410,7 @@ impl<'d> Along<'_, 'd> {
     }
 }
 
-impl ActsAlong<'_> {
+impl CoordinateActions<'_> {
     /// Gives a joint its coordinate, motion and efforts.
     pub fn set_up(
         mut self,
@@ -446,7 +446,7 @@ impl ActsAlong<'_> {
                 moment: sign * moment,
                 follower: false,
                 amplitude: effort.amplitude,
-                along: Some(LoadAlong::Coordinate(LoadedCoordinate {
+                origin: Some(LoadOrigin::Coordinate(LoadedCoordinate {
                     ends: placed.ends,
                     end,
                     lock,
@@ -456,10 +456,10 @@ impl ActsAlong<'_> {
             }));
         }
         let spring = (self.counted || self.law != CoordinateLaw::FREE)
-            .then(|| links.add_along(&joint.name, placed.ends, (lock, self.law), self.own_damping));
+            .then(|| links.add_to_coordinate(&joint.name, placed.ends, (lock, self.law), self.own_damping));
         joint.coordinate = Some(JointCoordinate { lock, axis, drive: None, effort: self.effort, spring });
         if let Some(drive) = drive {
-            joint.lead(drive);
+            joint.set_drive(drive);
         }
     }
 }

@@ -53,12 +53,12 @@ impl<'o> Trace<'o> {
     }
 }
 
-/// Passes only the compared frames of a trial run to another observer.
+/// Passes only the compared frames of a comparison run to another observer.
 pub struct Unseen<'o>(pub &'o mut dyn Observer);
 
 impl Observer for Unseen<'_> {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        if frame.compared { self.0.on_trial(frame) } else { Ok(()) }
+        if frame.compared { self.0.on_comparison(frame) } else { Ok(()) }
     }
 
     fn wants_checkpoint(&mut self, at_end: bool) -> bool {

@@ -110,7 +110,7 @@ fn a_motion_is_carried_along_with_its_strains() {
     let system = System::new(&model).unwrap();
     let plan = Plan::new(&model, &system, 1);
     let cx = Context::new(&model, &plan, &system, [false; 2], &NEVER);
-    let mut turning = RotatedMatrix::new(&cx).expect("two slender arms on a hub");
+    let mut rotated = RotatedMatrix::new(&cx).expect("two slender arms on a hub");
     let mut rng = StdRng::seed_from_u64(3);
     let mut number = |size: f64| rng.random_range(-size..size);
     let start = at_rest(&model);
@@ -128,12 +128,12 @@ fn a_motion_is_carried_along_with_its_strains() {
     let after = moved(&system, &after, |k| [Vec3::zeros(), second[k][1]]);
     let x: Vec<f64> = random(1.0).iter().flatten().flatten().copied().take(plan.dofs.unknowns()).collect();
     let r: Vec<f64> = random(1.0).iter().flatten().flatten().copied().take(plan.dofs.unknowns()).collect();
-    (0..MANY).for_each(|_| turning.note(&before));
+    (0..MANY).for_each(|_| rotated.note(&before));
     let mut back = r.clone();
-    assert!(!turning.take_back(&before, &mut back) && back == r);
-    assert!(turning.take_back(&after, &mut back));
+    assert!(!rotated.take_back(&before, &mut back) && back == r);
+    assert!(rotated.take_back(&after, &mut back));
     let mut along = x.clone();
-    turning.carry_along(&after, &mut along);
+    rotated.carry_along(&after, &mut along);
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     // Work is the same in both configurations, to rounding of some hundred terms.
     assert!((dot(&r, &along) - dot(&back, &x)).abs() < 1e-12 * dot(&r, &r).sqrt() * dot(&along, &along).sqrt());

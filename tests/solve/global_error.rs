@@ -48,5 +48,7 @@ fn events_leave_the_error_that_three_runs_show() {
 fn runs_that_come_no_nearer_have_no_estimate() {
     let error = judged([6e-3, 3e-3, 2.9e-3], true);
     assert_eq!(error.estimate, None);
-    assert!(matches!(error.doubt(), Some(Warning::RunsPart { difference, .. }) if (difference - 2.9e-3).abs() < 1e-9));
+    assert!(
+        matches!(error.warning(), Some(Warning::RunsPart { difference, .. }) if (difference - 2.9e-3).abs() < 1e-9)
+    );
 }

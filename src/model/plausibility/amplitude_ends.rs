@@ -1,6 +1,6 @@
 //! Amplitudes that do not fit the duration of the run: tables with a later start or an earlier end, and loads with a late start.
 
-use crate::doubts::usage::amplitudes_over_time;
+use crate::plausibility::usage::amplitudes_over_time;
 use crate::report::Report;
 use base::names::short;
 use deck::Deck;

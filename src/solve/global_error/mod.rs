@@ -1,13 +1,13 @@
 //! The global error at the end of a run whose steps follow a tolerance.
 //!
 //! The local error of a step can be estimated, but its effect on the end cannot. Tops and mechanisms magnify it, and errors of velocity
-//! grow into errors of position. A vibration out of phase errs at most by its amplitude. The difference to a trial run with longer steps is
+//! grow into errors of position. A vibration out of phase errs at most by its amplitude. The difference to a comparison run with longer steps is
 //! the error of the worse run, and a known multiple of the error of the better run (L. F. Richardson, 1911). If the error exceeds the
 //! requested one, the run is repeated with a tolerance computed from it.
 
 mod trace;
 
-use crate::tolerances::trials::{AIM, CHANGE, LOST, SATURATED, WITHIN};
+use crate::tolerances::global_error::{AIM, CHANGE, LOST, SATURATED, WITHIN};
 pub use trace::{Kept, Trace, Unseen};
 
 use crate::tolerances::trace::TELLING;
@@ -84,7 +84,7 @@ impl StepError {
         let estimate = difference / (self.apart - 1.0);
         let before = std::mem::replace(&mut self.estimate, (told && nears).then_some(estimate));
         if !told {
-            return Some(self.without_trial());
+            return Some(self.without_comparison());
         }
         // Two runs with nothing in common hardly show how much shorter steps must be; several such runs show that no length suffices.
         let lost = difference > SATURATED;
@@ -94,13 +94,13 @@ impl StepError {
         ((!nears || estimate > WITHIN * self.asked) && !hopeless).then_some(self.tolerance * factor)
     }
 
-    /// The tolerance of a further run if the trial failed: its steps, and maybe the steps of the run, do not follow the motion.
-    pub fn without_trial(&self) -> f64 {
+    /// The tolerance of a further run if the comparison run failed: its steps, and maybe the steps of the run, do not follow the motion.
+    pub fn without_comparison(&self) -> f64 {
         self.tolerance * LOST
     }
 
     /// The warning of a run whose error exceeds the requested one.
-    pub fn doubt(&self) -> Option<Warning> {
+    pub fn warning(&self) -> Option<Warning> {
         let StepError { asked, estimate, difference, .. } = *self;
         if let (None, Some(difference)) = (estimate, difference) {
             return Some(Warning::RunsPart { asked, difference });

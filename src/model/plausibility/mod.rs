@@ -16,8 +16,8 @@ pub mod unjoined;
 pub mod unused;
 pub mod usage;
 
-use crate::doubts::usage::{named_amplitudes, named_materials, named_sections};
 use crate::places::nodes::Topology;
+use crate::plausibility::usage::{named_amplitudes, named_materials, named_sections};
 use crate::report::Report;
 use crate::values::span;
 use base::diagnostic::Diagnostic;

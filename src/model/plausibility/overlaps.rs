@@ -4,10 +4,10 @@
 //! edge. Bars carry forces between their ends only, and run through other parts as cables do.
 
 use crate::data::{PartIndex, PartKind};
-use crate::doubts::coincidence::{Coincidence, corners, lies_on};
-use crate::doubts::ties::Ties;
 use crate::places::cells::Cells;
 use crate::places::nodes::Topology;
+use crate::plausibility::coincidence::{Coincidence, corners, lies_on};
+use crate::plausibility::ties::Ties;
 use base::math::Vec3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 

@@ -4,11 +4,11 @@ use std::collections::{HashMap, HashSet};
 
 use crate::bodies::title;
 use crate::data::PartIndex;
-use crate::doubts::coincidence::{Coincidence, corners, lies_on, pieces};
-use crate::doubts::overlaps::{Overlap, overlaps};
-use crate::doubts::ties::Ties;
 use crate::places::cells::Cells;
 use crate::places::nodes::Topology;
+use crate::plausibility::coincidence::{Coincidence, corners, lies_on, pieces};
+use crate::plausibility::overlaps::{Overlap, overlaps};
+use crate::plausibility::ties::Ties;
 use crate::report::Report;
 use crate::scene::Scene;
 use base::diagnostic::Span;

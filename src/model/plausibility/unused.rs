@@ -1,6 +1,6 @@
 //! Unused nodes: nodes of a mesh outside all parts, and inner nodes of rigid parts.
 
-use crate::data::{ArcLength, ExpectAt, LoadAlong, Model, StepLength, Stop, StopQuantity, When};
+use crate::data::{ArcLength, ExpectAt, LoadOrigin, Model, StepLength, Stop, StopQuantity, When};
 use mechanics::elements::pressure::Face;
 
 /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
@@ -23,7 +23,7 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
     for load in &mut model.loading.nodal {
         of(&mut load.node);
-        if let Some(LoadAlong::Coordinate(coordinate)) = &mut load.along {
+        if let Some(LoadOrigin::Coordinate(coordinate)) = &mut load.origin {
             coordinate.ends.iter_mut().for_each(&mut *of);
         }
     }
