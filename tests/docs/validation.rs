@@ -79,9 +79,9 @@ pub fn keep_validation(decks: &[Validated]) {
         let text = format!("{head}{}\n\n", lines.join("\n"));
         return keep("docs/validation.md", &with_generated(&page, &text));
     }
-    // Tables of other programs stand below.
-    let generated = page.split_once("<!-- end of generated -->").map_or(&*page, |(generated, _)| generated);
-    let found: Vec<&str> = generated.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
+    // Other tables stand above and below.
+    let (_, generated) = page.split_once(head).expect("the head of the generated table");
+    let found: Vec<&str> = generated.lines().take_while(|line| line.starts_with("| ")).collect();
     let in_step = found.len() == rows.len()
         && found.iter().zip(&rows).all(|(line, row)| {
             let rest = line.strip_prefix(&row.words).and_then(|rest| rest.trim().strip_suffix(" |"));
