@@ -4,9 +4,9 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 10] = [
-    ("base", 6350),
+    ("base", 6370),
     ("linear", 4250),
-    ("mechanics", 27_400),
+    ("mechanics", 27_450),
     ("deck", 4000),
     ("model", 20_600),
     ("solve", 30_250),

@@ -46,7 +46,7 @@ fn advanced<const N: usize, S: StressState<N>>(
     (old, new): (&[f64], &mut [f64]),
 ) -> ([f64; N], Dissipation) {
     let answer = law.at_point(state, strain, (dt, old), Ask::History(1.0));
-    law.remember(state, &answer.new, (new, |_| Some(0)));
+    law.remember(state, &answer.new, (old, new), |_| 0);
     (answer.stress, answer.dissipation.map_or_else(Dissipation::default, |spent| spent.lane(0)))
 }
 
@@ -704,12 +704,12 @@ fn eight_are_one_eight_times<const N: usize, S: StressState<N>>(law: &MaterialLa
         let respond = |ask| law.respond(state, &strain.map(Lanes::new), (0.1, &history), ask);
         let (tangent, end) = (respond(Ask::Tangent), respond(Ask::History(0.7)));
         let (mut new, mut alone) = (old.clone(), old.clone());
-        law.remember(state, &end.new, (&mut new, |lane| Some(lane * size)));
+        law.remember(state, &end.new, (&old, &mut new), |lane| lane * size);
         for lane in 0..LANES {
             let own = lane * size..(lane + 1) * size;
             let at = |ask| law.at_point(state, &strain.map(|of| of[lane]), (0.1, &old[own.clone()]), ask);
             let (one, last) = (at(Ask::Tangent), at(Ask::History(0.7)));
-            law.remember(state, &last.new, (&mut alone[own], |_| Some(0)));
+            law.remember(state, &last.new, (&old[own.clone()], &mut alone[own]), |_| 0);
             assert_eq!(tangent.stress.map(|of| of.to_array()[lane]), one.stress, "{law:?} {scale:e}");
             assert_eq!(end.stress.map(|of| of.to_array()[lane]), last.stress, "{law:?} {scale:e}");
             let C = tangent.tangent.map(|C| C.map(|row| row.map(|of| of.to_array()[lane])));

@@ -8,9 +8,15 @@ pub const LANES: usize = 8;
 
 /// The numbers of the lanes.
 #[inline(always)]
-pub fn lanes(mut of: impl FnMut(usize) -> f64) -> Lanes {
+pub fn lanes(of: impl FnMut(usize) -> f64) -> Lanes {
+    Lanes::new(by_lane(of))
+}
+
+/// An item of each lane.
+#[inline(always)]
+pub fn by_lane<R>(mut of: impl FnMut(usize) -> R) -> [R; LANES] {
     // A closure handed on to the standard library is not always inlined.
-    Lanes::new([of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)])
+    [of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7)]
 }
 
 /// All bits set in the lanes whose bit is set, for a choice between two numbers.

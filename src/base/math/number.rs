@@ -2,7 +2,7 @@
 //! single number, so the same kernel gives the same bits.
 
 use super::Vec3;
-use super::lanes::{LANES, Lanes, lanes};
+use super::lanes::{LANES, Lanes, by_lane, lanes};
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 use wide::f64x4;
 
@@ -104,6 +104,10 @@ pub trait Number:
     }
     /// Writes numbers of the first `count` elements, all those of one element together.
     fn store(numbers: &[Self], count: usize, out: &mut [f64]);
+    /// Reads as many numbers of each element as there is room for, one after the other from its place `at` on.
+    fn read(numbers: &mut [Self], from: &[f64], at: impl Fn(usize) -> usize);
+    /// Writes numbers of each element one after the other, from its place `at` on.
+    fn write(numbers: &[Self], to: &mut [f64], at: impl Fn(usize) -> usize);
 }
 
 impl Number for f64 {
@@ -180,6 +184,16 @@ impl Number for f64 {
     #[inline(always)]
     fn store(numbers: &[f64], _: usize, out: &mut [f64]) {
         out.copy_from_slice(numbers);
+    }
+
+    #[inline(always)]
+    fn read(numbers: &mut [f64], from: &[f64], at: impl Fn(usize) -> usize) {
+        numbers.copy_from_slice(&from[at(0)..][..numbers.len()]);
+    }
+
+    #[inline(always)]
+    fn write(numbers: &[f64], to: &mut [f64], at: impl Fn(usize) -> usize) {
+        to[at(0)..][..numbers.len()].copy_from_slice(numbers);
     }
 }
 
@@ -258,11 +272,9 @@ impl Number for Lanes {
     fn store(numbers: &[Lanes], count: usize, out: &mut [f64]) {
         let length = numbers.len();
         let (tiles, rest) = numbers.as_chunks::<4>();
-        for (t, [a, b, c, d]) in tiles.iter().enumerate() {
+        for (t, tile) in tiles.iter().enumerate() {
             for (half, first) in [0, 4].into_iter().enumerate().take_while(|(_, first)| *first < count) {
-                let of = |numbers: &Lanes| f64x4::new(numbers.as_array().as_chunks().0[half]);
-                let of = f64x4::transpose([of(a), of(b), of(c), of(d)]);
-                for (lane, of) in (first..count).zip(of) {
+                for (lane, of) in (first..count).zip(transposed_half(tile, half)) {
                     out[lane * length + 4 * t..][..4].copy_from_slice(&of.to_array());
                 }
             }
@@ -272,6 +284,51 @@ impl Number for Lanes {
             (0..count).for_each(|lane| out[lane * length + k] = numbers[lane]);
         }
     }
+
+    #[inline(always)]
+    fn read(numbers: &mut [Lanes], from: &[f64], at: impl Fn(usize) -> usize) {
+        let own = by_lane(|lane| &from[at(lane)..][..numbers.len()]);
+        let (tiles, rest) = numbers.as_chunks_mut::<4>();
+        let read = 4 * tiles.len();
+        for (t, tile) in tiles.iter_mut().enumerate() {
+            let four = |lane: usize| f64x4::new(own[lane].as_chunks().0[t]);
+            let low = f64x4::transpose([four(0), four(1), four(2), four(3)]).map(f64x4::to_array);
+            let high = f64x4::transpose([four(4), four(5), four(6), four(7)]).map(f64x4::to_array);
+            for k in 0..4 {
+                let ([a, b, c, d], [e, f, g, h]) = (low[k], high[k]);
+                tile[k] = Lanes::new([a, b, c, d, e, f, g, h]);
+            }
+        }
+        for (k, number) in rest.iter_mut().enumerate() {
+            *number = lanes(|lane| own[lane][read + k]);
+        }
+    }
+
+    #[inline(always)]
+    fn write(numbers: &[Lanes], to: &mut [f64], at: impl Fn(usize) -> usize) {
+        let at = by_lane(at);
+        let (tiles, rest) = numbers.as_chunks::<4>();
+        for (t, tile) in tiles.iter().enumerate() {
+            for half in [0, 1] {
+                for (lane, of) in (4 * half..LANES).zip(transposed_half(tile, half)) {
+                    to[at[lane] + 4 * t..][..4].copy_from_slice(&of.to_array());
+                }
+            }
+        }
+        for (k, numbers) in (4 * tiles.len()..).zip(rest) {
+            let numbers = numbers.to_array();
+            for lane in 0..LANES {
+                to[at[lane] + k] = numbers[lane];
+            }
+        }
+    }
+}
+
+/// Four numbers of each of the first four elements, or of the last four, element by element.
+#[inline(always)]
+fn transposed_half([a, b, c, d]: &[Lanes; 4], half: usize) -> [f64x4; 4] {
+    let of = |numbers: &Lanes| f64x4::new(numbers.as_array().as_chunks().0[half]);
+    f64x4::transpose([of(a), of(b), of(c), of(d)])
 }
 
 /// A vector of three numbers, for each of eight elements or of one.

@@ -228,7 +228,7 @@ impl Mechanics for YieldingBars {
             // The strain of a slack bar is its plastic strain.
             let strain = if self.is_slack(at.strain, old) { old[0] } else { at.strain };
             let answer = self.law.at_point(Uniaxial, &[strain], (now.dt, old), Ask::History(part));
-            self.law.remember(Uniaxial, &answer.new, (new, |_| Some(0)));
+            self.law.remember(Uniaxial, &answer.new, (old, new), |_| 0);
             sum += answer.dissipation.map_or(Dissipation::default(), |spent| spent.lane(0))
                 * (self.area * self.elements[e].free);
         }

@@ -131,11 +131,9 @@ pub trait Results: Elements {
     fn resultants(&self, _e: usize, _axis: &Vec3, _start: &[Vec3], _now: &Configuration) -> Option<ShellResultants> {
         None
     }
-    /// The strain of largest size in the surface of element `e`, of Green, where its material yields; 0 for all others. And whether its law
-    /// is for large strains.
-    fn surface_strain(&self, _e: usize, _now: &Configuration) -> (f64, bool) {
-        (0.0, false)
-    }
+    /// Calls `of` for each element whose material yields and that has not failed: with its number, the strain of largest size in its
+    /// surface, of Green, and whether its law is for large strains.
+    fn surface_strains(&self, _now: &Configuration, _of: &mut dyn FnMut(usize, f64, bool)) {}
     /// Largest accumulated plastic strain in element `e`, by the history variables of the group.
     fn plastic_strain(&self, _e: usize, _history: &[f64]) -> f64 {
         0.0

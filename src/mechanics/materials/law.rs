@@ -9,7 +9,6 @@ use super::overstress::Viscosity;
 use super::response::{Ask, MaterialHistory, PointResponse, Spent};
 use super::return_mapping::{ReturnPoint, Trial, Yielding};
 use super::stress_state::StressState;
-use base::math::lanes::LANES;
 use base::math::number::{Mask, Number};
 use std::array::from_fn;
 
@@ -25,6 +24,9 @@ pub struct MaterialLaw {
 /// Ratio of the tangent of a failed point to its elastic stiffness. The stress of a failed point is zero. The trace of stiffness keeps the
 /// matrix regular at nodes without other elements, and is too small to change other results.
 pub const FAILED_STIFFNESS: f64 = 1e-8;
+
+/// The number of components of the stress states that have most.
+const MOST: usize = 3;
 
 /// Stress at the end of a step by modes: the trial, and the return if it yields.
 struct Answer<T: Number, const N: usize> {
@@ -74,6 +76,26 @@ impl MaterialLaw {
         MaterialLaw { failure: Some(failure), ..self }
     }
 
+    /// A copy of a law that hardens linearly and isotropically, without viscosity and failure; `None` for all others. It names what the law
+    /// has not, so that the compiler leaves that out of a kernel.
+    #[inline(always)]
+    pub fn plain(&self) -> Option<MaterialLaw> {
+        let Yielding { hardening: Hardening::Linear { yield_stress, modulus }, kinematic_share, viscosity } =
+            self.yielding
+        else {
+            return None;
+        };
+        if kinematic_share > 0.0 || viscosity.is_some() || self.failure.is_some() {
+            return None;
+        }
+        let hardening = Hardening::Linear { yield_stress, modulus };
+        Some(MaterialLaw {
+            elastic: self.elastic,
+            yielding: Yielding { hardening, kinematic_share: 0.0, viscosity: None },
+            failure: None,
+        })
+    }
+
     /// True for a material whose points may fail.
     pub fn can_fail(&self) -> bool {
         self.failure.is_some()
@@ -110,47 +132,54 @@ impl MaterialLaw {
         history: &[f64],
         at: impl Fn(usize) -> usize,
     ) -> MaterialHistory<T, N> {
-        let variables = self.history(state);
-        // The length is known where it is compiled, and each is looked up once.
-        let first: [&[f64]; LANES] = from_fn(|lane| if lane < T::COUNT { &history[at(lane)..][..N + 1] } else { &[] });
-        let number = |k: usize| T::gather(|lane| first[lane][k]);
         let further = |k: usize| T::gather(|lane| history[at(lane) + k]);
+        let mut first = [T::ZERO; MOST + 1];
+        T::read(&mut first[..N + 1], history, &at);
         let mut plastic = [T::ZERO; N];
-        (0..N).for_each(|i| plastic[i] = number(i));
+        plastic.copy_from_slice(&first[..N]);
+        let back = self.is_kinematic().then(|| {
+            let mut back = [T::ZERO; N];
+            T::read(&mut back, history, |lane| at(lane) + N + 1);
+            back
+        });
         MaterialHistory {
             plastic,
-            accumulated: number(N),
-            back: self.is_kinematic().then(|| from_fn(|i| further(N + 1 + i))),
+            accumulated: first[N],
+            back,
             damage: self.sums_damage().then(|| further(self.damage_place::<N>())),
-            overstress: self.yielding.viscosity.map(|_| further(variables - 1)),
+            overstress: self.yielding.viscosity.map(|_| further(self.history(state) - 1)),
         }
     }
 
-    /// Writes the history variables of one point, or of those of eight that have a place for them.
+    /// Writes the history variables of one point or of eight, which are the old ones where none are `new`. Points that share a place share
+    /// their variables too.
     #[inline(always)]
     pub fn remember<T: Number, const N: usize, S: StressState<N>>(
         &self,
         state: S,
-        of: &MaterialHistory<T, N>,
-        (history, at): (&mut [f64], impl Fn(usize) -> Option<usize>),
+        new: &Option<MaterialHistory<T, N>>,
+        (old, to): (&[f64], &mut [f64]),
+        at: impl Fn(usize) -> usize,
     ) {
         let variables = self.history(state);
-        let (plastic, accumulated) = (of.plastic.map(T::to_lanes), of.accumulated.to_lanes());
-        for lane in 0..T::COUNT {
-            let Some(at) = at(lane) else { continue };
-            let own = &mut history[at..][..variables];
-            let first = &mut own[..N + 1];
-            (0..N).for_each(|i| first[i] = plastic[i][lane]);
-            first[N] = accumulated[lane];
-            if let Some(back) = &of.back {
-                (0..N).for_each(|i| own[N + 1 + i] = back[i].lane(lane));
+        let Some(new) = new else {
+            for lane in 0..T::COUNT {
+                let at = at(lane);
+                to[at..][..variables].copy_from_slice(&old[at..][..variables]);
             }
-            if let Some(damage) = of.damage {
-                own[self.damage_place::<N>()] = damage.lane(lane);
-            }
-            if let Some(overstress) = of.overstress {
-                own[variables - 1] = overstress.lane(lane);
-            }
+            return;
+        };
+        let mut first = [new.accumulated; MOST + 1];
+        first[..N].copy_from_slice(&new.plastic);
+        T::write(&first[..N + 1], to, &at);
+        if let Some(back) = &new.back {
+            T::write(back, to, |lane| at(lane) + N + 1);
+        }
+        if let Some(damage) = new.damage {
+            T::write(&[damage], to, |lane| at(lane) + self.damage_place::<N>());
+        }
+        if let Some(overstress) = new.overstress {
+            T::write(&[overstress], to, |lane| at(lane) + variables - 1);
         }
     }
 
@@ -166,7 +195,7 @@ impl MaterialLaw {
     ) -> PointResponse<T, N> {
         let failed = self.failure.as_ref().map(|failure| failed(failure, old));
         let answer = self.answer::<T, N, S>(strain, dt, old, failed);
-        let mut out = PointResponse { stress: S::modes(answer.stress()), tangent: None, new: *old, dissipation: None };
+        let mut out = PointResponse { stress: S::modes(answer.stress()), tangent: None, new: None, dissipation: None };
         match ask {
             Ask::Stress => {}
             Ask::Tangent => out.tangent = self.tangent(state, &answer),
@@ -180,7 +209,7 @@ impl MaterialLaw {
                 let left = |i: usize, j: usize| T::splat(FAILED_STIFFNESS * elastic[i][j]);
                 out.tangent = Some(from_fn(|i| from_fn(|j| T::select(failed, left(i, j), C[i][j]))));
             }
-            out.new = out.new.unless(failed, old);
+            out.new = out.new.map(|new| new.unless(failed, old));
         }
         out
     }
@@ -235,9 +264,11 @@ impl MaterialLaw {
         out: &mut PointResponse<T, N>,
     ) {
         let (part, half) = (T::splat(part), T::splat(0.5));
+        let mut new = *old;
         if let Some(from) = old.overstress {
             let end = answer.end.map_or(T::ZERO, |end| T::select(answer.yields, end.overstress, T::ZERO));
-            out.new.overstress = Some(from + part * (end - from));
+            new.overstress = Some(from + part * (end - from));
+            out.new = Some(new);
         }
         let Some(end) = &answer.end else { return };
         let only = |change: T| T::select(answer.yields, change, T::ZERO);
@@ -247,7 +278,7 @@ impl MaterialLaw {
         let rise = self.yielding.hardening.rise(old.accumulated + multiplier).0;
         let radius = self.yielding.radius(rise);
         let mut spent = Spent { plastic: only(half * (answer.radius + radius) * multiplier), ..Spent::ZERO };
-        if let Some((from, to)) = old.overstress.zip(out.new.overstress) {
+        if let Some((from, to)) = old.overstress.zip(new.overstress) {
             spent.viscous = Some(only(half * (from * answer.radius + to * radius) * multiplier));
         }
         // ξ/R = ξ*/T: plastic strain grows by p Δλ of it, the back stress by k.
@@ -255,12 +286,12 @@ impl MaterialLaw {
         let plastic: [T; N] = from_fn(|i| T::splat(S::P[i]) * multiplier * direction[i]);
         let more = S::modes(plastic);
         let kept = |new: T, old: T| T::select(answer.yields, new, old);
-        out.new.plastic = from_fn(|i| kept(old.plastic[i] + more[i], old.plastic[i]));
-        out.new.accumulated = kept(old.accumulated + multiplier, old.accumulated);
+        new.plastic = from_fn(|i| kept(old.plastic[i] + more[i], old.plastic[i]));
+        new.accumulated = kept(old.accumulated + multiplier, old.accumulated);
         if let Some((from, old)) = answer.back.zip(old.back) {
             let back = T::splat(self.yielding.kinematic_share) * (rise - start);
             let more = S::modes(direction.map(|n| back * n));
-            out.new.back = Some(from_fn(|i| kept(old[i] + more[i], old[i])));
+            new.back = Some(from_fn(|i| kept(old[i] + more[i], old[i])));
             let mut stored = T::ZERO;
             (0..N).for_each(|i| stored += (from[i] + half * back * direction[i]) * plastic[i]);
             spent.stored = Some(only(stored));
@@ -272,14 +303,14 @@ impl MaterialLaw {
                 let triaxiality = triaxiality::<T, N, S>(&out.stress);
                 let damage =
                     T::gather(|lane| failure.damage(multiplier.lane(lane), triaxiality.lane(lane), rate.lane(lane)));
-                out.new.damage = Some(kept(old + damage, old));
+                new.damage = Some(kept(old + damage, old));
             }
-            let gone = answer.yields & failed(failure, &out.new);
+            let gone = answer.yields & failed(failure, &new);
             if gone.any() {
-                self.give_up::<T, N, S>(strain, &out.new, gone, &mut spent);
+                self.give_up::<T, N, S>(strain, &new, gone, &mut spent);
             }
         }
-        out.dissipation = Some(spent);
+        (out.new, out.dissipation) = (Some(new), Some(spent));
     }
 
     /// Adds the energy of failing points to the eroded energy: elastic energy and ½ X·εᵖ of kinematic hardening (exact if linear).

@@ -37,8 +37,8 @@ pub struct PointResponse<T, const N: usize> {
     pub stress: [T; N],
     /// Derivative of the stress by the strain, if asked for; `None` where it is the elastic stiffness.
     pub tangent: Option<[[T; N]; N]>,
-    /// History variables, the old ones unless asked for.
-    pub new: MaterialHistory<T, N>,
+    /// New history variables, if asked for; `None` where they do not change.
+    pub new: Option<MaterialHistory<T, N>>,
     /// Energy per volume dissipated in the step, if the history is asked for; `None` where nothing yields.
     pub dissipation: Option<Spent<T>>,
 }
@@ -85,6 +85,23 @@ impl<T: Number> Spent<T> {
             eroded: of(self.eroded),
             ..Dissipation::default()
         }
+    }
+}
+
+impl Spent<f64> {
+    /// Adds `part` of more, point by point: `count` of them.
+    #[inline(always)]
+    pub fn add_each<T: Number>(&mut self, more: &Spent<T>, part: T, count: usize) {
+        let add = |sum: &mut f64, more: T| (more * part).to_lanes()[..count].iter().for_each(|more| *sum += more);
+        let add_some = |sum: &mut Option<f64>, more: Option<T>| {
+            if let Some(more) = more {
+                add(sum.get_or_insert(0.0), more);
+            }
+        };
+        add(&mut self.plastic, more.plastic);
+        add_some(&mut self.viscous, more.viscous);
+        add_some(&mut self.stored, more.stored);
+        add_some(&mut self.eroded, more.eroded);
     }
 }
 

@@ -11,7 +11,7 @@
 //! point. A point has bitwise the same result alone and among eight. After Simo & Hughes, Computational Inelasticity (1998), 3.3 and 3.4.
 
 use super::hardening::Hardening;
-use super::overstress::Viscosity;
+use super::overstress::{Overstress, Viscosity};
 use base::math::number::{Mask, Number};
 
 /// The yield condition of a material: hardening and viscosity.
@@ -65,6 +65,17 @@ pub(super) struct ReturnPoint<T> {
 /// A number and its change per relative change of the unknown.
 type Varied<T> = [T; 2];
 
+/// What ties the multiplier to the overstress.
+struct Flow<T> {
+    overstress: Overstress,
+    /// γΔt.
+    rate: T,
+    /// The largest multiplier.
+    most: T,
+    /// False where the step has no length, or the fluidity is zero: nothing flows.
+    flows: bool,
+}
+
 impl<T: Number> ReturnPoint<T> {
     /// T of a mode.
     #[inline(always)]
@@ -78,6 +89,12 @@ impl<T: Number> ReturnPoint<T> {
         self.change[0] - self.multiplier * (self.change[1] / self.S)
     }
 }
+
+/// Residual of the yield condition, relative to the stress, at convergence; its rounding error is about 1e-15.
+const TOLERANCE: f64 = 1e-14;
+
+/// Residual accepted where the unknown changes by rounding only and the stress is steep in it.
+const STEEP: f64 = 1e-6;
 
 impl Yielding {
     /// Radius i of the yield surface, from the rise of the yield stress.
@@ -107,7 +124,7 @@ impl Yielding {
         let slope = self.hardening.rise(trial.accumulated).1;
         let c = trial.c.map(|c| T::splat(c) + slope);
         let first = (trial.rho - trial.radius).max(T::ZERO) / (trial.share[0] * c[0] + trial.share[1] * c[1]);
-        root(first, wanted, |dl| self.point(trial, [dl, dl], None))
+        self.root(trial, (first, wanted), None)
     }
 
     fn viscous<T: Number>(
@@ -133,12 +150,17 @@ impl Yielding {
             most = T::select(near, most, plastic);
             start = T::select(near, start, elastic.min(overstress.inverse(plastic / rate)));
         }
-        root(start, trial.yields, |v| {
-            let (phi, change) = overstress.phi(v);
-            // The bounds add only rounding where φ is finite, and keep the result finite elsewhere.
-            let bounded = [(rate * phi).min(most), (rate * change).min(T::splat(f64::MAX))];
-            self.point(trial, if flows { bounded } else { [T::ZERO; 2] }, Some([v, v]))
-        })
+        self.root(trial, (start, trial.yields), Some(&Flow { overstress, rate, most, flows }))
+    }
+
+    /// The point of the return at the unknown `x`: Δλ, or v where it `flow`s.
+    #[inline(always)]
+    fn at<T: Number>(&self, trial: &Trial<T>, x: T, flow: Option<&Flow<T>>) -> ReturnPoint<T> {
+        let Some(Flow { overstress, rate, most, flows }) = flow else { return self.point(trial, [x, x], None) };
+        let (phi, change) = overstress.phi(x);
+        // The bounds add only rounding where φ is finite, and keep the result finite elsewhere.
+        let bounded = [(*rate * phi).min(*most), (*rate * change).min(T::splat(f64::MAX))];
+        self.point(trial, if *flows { bounded } else { [T::ZERO; 2] }, Some([x, x]))
     }
 
     /// The point of the return with a multiplier and an overstress.
@@ -181,47 +203,46 @@ impl Yielding {
             change: [dmultiplier, dS],
         }
     }
-}
 
-/// Residual of the yield condition, relative to the stress, at convergence; its rounding error is about 1e-15.
-const TOLERANCE: f64 = 1e-14;
-
-/// Residual accepted where the unknown changes by rounding only and the stress is steep in it.
-const STEEP: f64 = 1e-6;
-
-/// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection replaces a step outside the
-/// bracket and a step that has not halved the misfit. `active`: the points to be found.
-#[inline(always)]
-fn root<T: Number>(mut x: T, mut active: T::Mask, at: impl Fn(T) -> ReturnPoint<T>) -> ReturnPoint<T> {
-    let (half, infinity) = (T::splat(0.5), T::splat(f64::INFINITY));
-    let (mut low, mut high, mut last) = (T::ZERO, infinity, infinity);
-    // Bisection from the largest to the least number needs 2100 iterations; Newton's method needs 3 to 7.
-    let mut left = 2100;
-    loop {
-        let point = at(x);
-        let misfit = T::ONE - point.sum.sqrt();
-        let step = point.sum * misfit / point.slope;
-        // A step of less than a few units in the last place is none.
-        let moves = T::splat(2.0 * f64::EPSILON).lt(step.abs());
-        active = active & !misfit.abs().le(T::select(moves, T::splat(TOLERANCE), T::splat(STEEP)));
-        if left == 0 || !active.any() {
-            return point;
+    /// Newton for g = sum^(-1/2) − 1 = 0, rising in the unknown x > 0: concave in Δλ, mostly convex in v. Bisection replaces a step outside
+    /// the bracket and a step that has not halved the misfit. `x`: the first guess. `active`: the points to be found.
+    #[inline(always)]
+    fn root<T: Number>(
+        &self,
+        trial: &Trial<T>,
+        (mut x, mut active): (T, T::Mask),
+        flow: Option<&Flow<T>>,
+    ) -> ReturnPoint<T> {
+        let (half, infinity) = (T::splat(0.5), T::splat(f64::INFINITY));
+        let (mut low, mut high, mut last) = (T::ZERO, infinity, infinity);
+        // Bisection from the largest to the least number needs 2100 iterations; Newton's method needs 3 to 7.
+        let mut left = 2100;
+        loop {
+            let point = self.at(trial, x, flow);
+            let misfit = T::ONE - point.sum.sqrt();
+            let step = point.sum * misfit / point.slope;
+            // A step of less than a few units in the last place is none.
+            let moves = T::splat(2.0 * f64::EPSILON).lt(step.abs());
+            active = active & !misfit.abs().le(T::select(moves, T::splat(TOLERANCE), T::splat(STEEP)));
+            if left == 0 || !active.any() {
+                return point;
+            }
+            left -= 1;
+            let above = T::ZERO.lt(misfit);
+            (high, low) = (T::select(above, x, high), T::select(above, low, x));
+            let newton = x * (T::ONE - step);
+            let close = moves & misfit.abs().le(half * last) & low.lt(newton) & newton.lt(high);
+            let mut next = newton;
+            if (active & !close).any() {
+                let between = T::select(high.lt(infinity), half * (low + high), T::splat(2.0) * x);
+                next = T::select(close, newton, between);
+            }
+            // Neighbours in a bracket, or no numbers: nothing is left to find.
+            active = active & (T::splat(f64::EPSILON) * x).lt((next - x).abs());
+            if !active.any() {
+                return point;
+            }
+            (x, last) = (T::select(active, next, x), misfit.abs());
         }
-        left -= 1;
-        let above = T::ZERO.lt(misfit);
-        (high, low) = (T::select(above, x, high), T::select(above, low, x));
-        let newton = x * (T::ONE - step);
-        let close = moves & misfit.abs().le(half * last) & low.lt(newton) & newton.lt(high);
-        let mut next = newton;
-        if (active & !close).any() {
-            let between = T::select(high.lt(infinity), half * (low + high), T::splat(2.0) * x);
-            next = T::select(close, newton, between);
-        }
-        // Neighbours in a bracket, or no numbers: nothing is left to find.
-        active = active & (T::splat(f64::EPSILON) * x).lt((next - x).abs());
-        if !active.any() {
-            return point;
-        }
-        (x, last) = (T::select(active, next, x), misfit.abs());
     }
 }

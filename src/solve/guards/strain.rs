@@ -24,12 +24,11 @@ fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     let now = state.configuration();
     for group in &cx.system.groups {
         let own = group.configuration(&now);
-        for e in 0..group.block.len() {
-            let (strain, is_logarithmic) = group.block.surface_strain(e, &own);
+        group.block.surface_strains(&own, &mut |e, strain, is_logarithmic| {
             let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
             if !(least..=most).contains(&strain) {
                 warnings.stretch(group.part_of(e, cx.model).name(), (strain, is_logarithmic));
             }
-        }
+        });
     }
 }

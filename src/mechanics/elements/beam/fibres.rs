@@ -4,18 +4,17 @@
 //! the elastic section less that of the elastic fibres acts beside them; with elastic shear it includes all of shear and torsion. It is
 //! proportional to the area of intact fibres. An element with a section of failed fibres only is severed and has no force.
 
-use super::fibre_lanes::FibreLanes;
+use super::fibre_lanes::{FibreLanes, FibresAsk};
 use super::fibre_sum::FibreSum;
 use super::lane_section::{Linearised, SectionStiffness};
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
-use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, StressState};
+use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, Spent, StressState};
 use crate::sections::{Fibre, Stiffness};
 use crate::state::Configuration;
 use base::math::lanes::LANES;
 use base::math::number::{LaneVec3, Number};
 use base::math::{Mat3, Vec3};
-use std::array::from_fn;
 use std::sync::Arc;
 
 /// The fibres of a section and their law, shared by all elements of a beam.
@@ -25,8 +24,6 @@ pub struct FibreProfile<S, const N: usize> {
     fibres: Vec<Fibre>,
     /// The number of history variables of a fibre.
     variables: usize,
-    /// ∂stress/∂strain of a fibre that does not yield.
-    stiffness: [[f64; N]; N],
     /// The elastic section, in section axes.
     whole: BeamStiffness,
     /// The elastic section less its elastic fibres, in section axes.
@@ -49,7 +46,6 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
             state,
             fibres: fibres.to_vec(),
             variables: law.history(state),
-            stiffness,
             whole,
             rest,
             lanes: FibreLanes::new(fibres),
@@ -99,26 +95,17 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
         if intact < 1.0 {
             (n, m) = (intact * n, intact * m);
         }
-        for (fibre, old) in self.with_history(now.history) {
-            let strain = Self::strain(fibre, gamma, kappa);
-            let answer = self.law.at_point(self.state, &strain, (now.dt, old), Ask::Stress);
-            Self::add(fibre, &answer.stress, &mut n, &mut m);
-        }
+        self.add([gamma, kappa], now, FibresAsk::Stress, [&mut n, &mut m]);
         (n, m)
     }
 
-    /// Adds the stress of a fibre to the resultants: work-conjugate to [`FibreProfile::strain`].
+    /// Adds the stresses of the fibres to the resultants n and m, and answers what is asked besides.
     #[inline(always)]
-    fn add(fibre: &Fibre, stress: &[f64; N], n: &mut Vec3, m: &mut Vec3) {
-        let force = fibre.area * stress[0];
-        n.x += force;
-        m.y += fibre.z * force;
-        m.z -= fibre.y * force;
-        for (tau, s) in stress[1..].iter().zip(&fibre.shear) {
-            let force = fibre.area * tau;
-            n.y += s[0] * force;
-            n.z += s[1] * force;
-            m.x += s[2] * force;
+    fn add(&self, strain: [&Vec3; 2], now: &Configuration, ask: FibresAsk, to: [&mut Vec3; 2]) {
+        let before = (now.dt, now.history);
+        match self.law.plain() {
+            Some(law) => self.lanes.respond((&law, self.state), strain, before, ask, to),
+            None => self.lanes.respond((&self.law, self.state), strain, before, ask, to),
         }
     }
 
@@ -137,14 +124,7 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
             (n, m) = (intact * n, intact * m);
         }
         let mut loss = FibreSum::default();
-        for (fibre, old) in self.with_history(now.history) {
-            let strain = Self::strain(fibre, gamma, kappa);
-            let answer = self.law.at_point(self.state, &strain, (now.dt, old), Ask::Tangent);
-            Self::add(fibre, &answer.stress, &mut n, &mut m);
-            if let Some(C) = answer.tangent {
-                loss.add::<N>(fibre, &from_fn(|i| from_fn(|j| self.stiffness[i][j] - C[i][j])));
-            }
-        }
+        self.add([gamma, kappa], now, FibresAsk::Tangent(&self.fibres, &mut loss), [&mut n, &mut m]);
         let loss = loss.section();
         if intact < 1.0 {
             let left = self.whole.less(&loss).less(&self.rest.scaled(1.0 - intact));
@@ -228,6 +208,37 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
         self.profile.intact(now.history) * rest.energy(&gamma, &kappa) + of_fibres
     }
 
+    /// Stress at point `g`, and the dissipation per length after `part` of the step, whose history variables are written into `new`.
+    fn step(
+        &self,
+        g: usize,
+        (gamma, kappa): (&Vec3, &Vec3),
+        now: &Configuration,
+        part: f64,
+        new: &mut [f64],
+    ) -> (Vec3, Vec3, Dissipation) {
+        let (profile, rest) = (&*self.profile, &self.profile.rest);
+        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let before = self.intact(g, now.history);
+        let now = self.at(g, now);
+        let new = &mut new[self.history_range(g)];
+        if before == 0.0 {
+            new.copy_from_slice(now.history);
+            return (Vec3::zeros(), Vec3::zeros(), Dissipation::default());
+        }
+        let (mut n, mut m) = rest.stress(&gamma, &kappa);
+        if before < 1.0 {
+            (n, m) = (before * n, before * m);
+        }
+        let mut spent = Spent::ZERO;
+        profile.add([&gamma, &kappa], &now, FibresAsk::History(part, new, &mut spent), [&mut n, &mut m]);
+        let mut spent = spent.lane(0);
+        if profile.law.can_fail() {
+            spent.eroded += (before - profile.intact(new)) * rest.energy(&gamma, &kappa);
+        }
+        (self.frame * n, self.frame * m, spent)
+    }
+
     /// The configuration with the history variables of point `g` alone.
     #[inline]
     fn at<'a>(&self, g: usize, now: &Configuration<'a>) -> Configuration<'a> {
@@ -282,66 +293,22 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
     fn update_history(
         &self,
         g: usize,
-        (gamma, kappa): (&Vec3, &Vec3),
+        strain: (&Vec3, &Vec3),
         now: &Configuration,
         part: f64,
         new: &mut [f64],
     ) -> Dissipation {
-        let FibreProfile { law, state, variables, rest, .. } = &*self.profile;
-        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let before = self.intact(g, now.history);
-        let now = self.at(g, now);
-        let mut sum = Dissipation::default();
-        let new = &mut new[self.history_range(g)];
-        if before == 0.0 {
-            new.copy_from_slice(now.history);
-            return sum;
-        }
-        for ((fibre, old), new) in self.profile.with_history(now.history).zip(new.chunks_exact_mut(*variables)) {
-            let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
-            let answer = law.at_point(*state, &strain, (now.dt, old), Ask::History(part));
-            law.remember(*state, &answer.new, (new, |_| Some(0)));
-            if let Some(spent) = answer.dissipation {
-                sum += spent.lane(0) * fibre.area;
-            }
-        }
-        if self.can_fail() {
-            sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
-        }
-        sum
+        self.step(g, strain, now, part, new).2
     }
 
     fn advance(
         &self,
         g: usize,
-        (gamma, kappa): (&Vec3, &Vec3),
+        strain: (&Vec3, &Vec3),
         now: &Configuration,
         new: &mut [f64],
     ) -> (Vec3, Vec3, Dissipation) {
-        let rest = &self.profile.rest;
-        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
-        let before = self.intact(g, now.history);
-        let now = self.at(g, now);
-        let mut sum = Dissipation::default();
-        let new = &mut new[self.history_range(g)];
-        if before == 0.0 {
-            new.copy_from_slice(now.history);
-            return (Vec3::zeros(), Vec3::zeros(), sum);
-        }
-        let (mut n, mut m) = rest.stress(&gamma, &kappa);
-        if before < 1.0 {
-            (n, m) = (before * n, before * m);
-        }
-        let (law, history) = ((&self.profile.law, self.profile.state), (now.history, &mut *new));
-        self.profile.lanes.advance(law, [&gamma, &kappa], now.dt, history, |i, stress, spent| {
-            let fibre = &self.profile.fibres[i];
-            FibreProfile::<S, N>::add(fibre, stress, &mut n, &mut m);
-            sum += spent * fibre.area;
-        });
-        if self.can_fail() {
-            sum.eroded += (before - self.profile.intact(new)) * rest.energy(&gamma, &kappa);
-        }
-        (self.frame * n, self.frame * m, sum)
+        self.step(g, strain, now, 1.0, new)
     }
 
     fn can_fail(&self) -> bool {

@@ -105,7 +105,8 @@ fn subtract<const N: usize, const V: usize, const P: usize, const E: usize, S: S
     F: &mut [Force],
 ) {
     let f = f.map(|f| f.map(Lanes::to_array));
-    for lane in (0..pack.count).filter(|lane| !pack.sections.has_failed(*lane, history)) {
+    let fails = pack.sections.can_fail();
+    for lane in (0..pack.count).filter(|lane| !fails || !pack.sections.has_failed(*lane, history)) {
         for a in 0..N {
             let F = &mut F[pack.nodes[lane][a]];
             (0..6).for_each(|i| F[i] -= f[a][i][lane]);
@@ -156,7 +157,7 @@ where
         let mut sum = Dissipation::default();
         for pack in &self.packs {
             let mut spent = Spent::ZERO;
-            let to = NewHistory { part: 1.0, count: pack.count, new: &mut *new, spent: &mut spent };
+            let to = NewHistory { part: 1.0, new: &mut *new, spent: &mut spent };
             let f = pack.forces::<K>(now.nodes, self.damping, |sections, strain| sections.advance(strain, now, to));
             subtract(pack, f, now.history, F);
             self.dissipated(pack, &spent, now, new, &mut sum);
@@ -191,7 +192,7 @@ where
         for pack in &self.packs {
             let Strains { plane, .. } = pack.strains_at::<K>(now.nodes);
             let mut spent = Spent::ZERO;
-            let to = NewHistory { part, count: pack.count, new: &mut *new, spent: &mut spent };
+            let to = NewHistory { part, new: &mut *new, spent: &mut spent };
             pack.sections.advance(&plane, now, to);
             self.dissipated(pack, &spent, now, new, &mut sum);
         }
@@ -241,13 +242,16 @@ where
         self.packs.first().is_some_and(|pack| pack.sections.can_fail())
     }
 
-    fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
-        let (pack, lane) = self.place(e);
-        // A failed element has no strain to report.
-        if self.history == 0 || pack.sections.has_failed(lane, now.history) {
-            return (0.0, false);
+    fn surface_strains(&self, now: &Configuration, of: &mut dyn FnMut(usize, f64, bool)) {
+        if self.history == 0 {
+            return;
         }
-        pack.sections.surface_strain(lane, &pack.strains_at::<K>(now.nodes).plane.lane(lane))
+        // A failed element has no strain to report.
+        for (p, (pack, intact)) in self.intact(now.history).enumerate() {
+            let strain = pack.sections.surface_strain(&pack.strains_at::<K>(now.nodes).plane);
+            let Some((strain, is_logarithmic)) = strain else { continue };
+            intact.for_each(|lane| of(p * LANES + lane, strain.lane(lane), is_logarithmic));
+        }
     }
 
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {

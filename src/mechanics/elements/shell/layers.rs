@@ -9,7 +9,7 @@ use crate::elements::block::Moduli;
 use crate::elements::results::LayerStress;
 use crate::materials::{Ask, MaterialLaw, PlaneStress};
 use crate::state::Configuration;
-use base::math::lanes::LANES;
+use base::math::lanes::{LANES, by_lane};
 use base::math::number::Number;
 use base::math::quadrature;
 use std::array::from_fn;
@@ -224,11 +224,10 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
         }
     }
 
-    /// The start of the history variables of a layer.
+    /// The start of the history variables of a point.
     #[inline(always)]
-    fn place(&self, lane: usize, point: usize, layer: usize) -> usize {
-        let point = point.min(self.counts[lane] - 1);
-        self.first[lane] + (point * self.layers.at.len() + layer) * self.layers.variables
+    fn place(&self, lane: usize, point: usize) -> usize {
+        self.first[lane] + self.layers.history(point.min(self.counts[lane] - 1))
     }
 
     /// The range of the history of the group that an element has.
@@ -239,13 +238,28 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
     /// The stress at a strain, and the further results in `ask`. The derivative is the elastic one, less the loss of yielding layers,
     /// corrected for stretching.
     #[inline(always)]
-    fn respond(&self, strain: &InPlane<P, E, T>, now: &Configuration, mut ask: LayersAsk<P, E, T>) -> InPlane<P, E, T> {
+    fn respond(&self, strain: &InPlane<P, E, T>, now: &Configuration, ask: LayersAsk<P, E, T>) -> InPlane<P, E, T> {
+        match self.layers.law.plain() {
+            Some(law) => self.by_law(&law, strain, now, ask),
+            None => self.by_law(&self.layers.law, strain, now, ask),
+        }
+    }
+
+    /// As [`LayerPack::respond`], by the law of the layers.
+    #[inline(always)]
+    fn by_law(
+        &self,
+        law: &MaterialLaw,
+        strain: &InPlane<P, E, T>,
+        now: &Configuration,
+        mut ask: LayersAsk<P, E, T>,
+    ) -> InPlane<P, E, T> {
         let Layers { stiffness, thickness, logarithmic, .. } = &*self.layers;
         let mut stress = InPlane::ZERO;
         stress.membrane = self.drilling.stress(&strain.membrane);
         for (g, point) in self.points.iter().enumerate() {
             let state = point.state(strain, *logarithmic);
-            let mut sum = self.through(g, &state, now, &mut ask);
+            let mut sum = self.through(law, g, &state, now, &mut ask);
             point.add(&sum, &state, &mut stress);
             let LayersAsk::Tangent(out) = &mut ask else { continue };
             if let Some(stretch) = &state.stretch {
@@ -262,20 +276,23 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
     #[inline(always)]
     fn through(
         &self,
+        law: &MaterialLaw,
         g: usize,
         state: &PointState<T>,
         now: &Configuration,
         ask: &mut LayersAsk<P, E, T>,
     ) -> Resultants<T> {
-        let Layers { law, at, stiffness, .. } = &*self.layers;
+        let Layers { at, stiffness, .. } = &*self.layers;
         let asked = match ask {
             LayersAsk::Stress => Ask::Stress,
             LayersAsk::Tangent(_) => Ask::Tangent,
             LayersAsk::History(to) => Ask::History(to.part),
         };
+        let variables = law.history(PlaneStress);
+        let mut places = by_lane(|lane| self.place(lane, g));
         let mut sum = Resultants::ZERO;
-        for (layer, &[z, w]) in at.iter().enumerate() {
-            let place = |lane: usize| self.place(lane, g, layer);
+        for &[z, w] in at {
+            let place = |lane: usize| places[lane];
             let old = law.recall(PlaneStress, now.history, place);
             let answer = law.respond(PlaneStress, &state.at(z), (now.dt, &old), asked);
             sum.add([z, w], &answer.stress);
@@ -283,12 +300,13 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
                 sum.lose([z, w], C, stiffness);
             }
             if let LayersAsk::History(to) = ask {
-                let count = to.count;
-                let own = |lane: usize| (lane < count && g < self.counts[lane]).then(|| place(lane));
-                law.remember(PlaneStress, &answer.new, (&mut *to.new, own));
+                law.remember(PlaneStress, &answer.new, (now.history, &mut *to.new), place);
                 if let Some(spent) = &answer.dissipation {
                     to.spent.add(spent, T::splat(w) * self.points[g].weight);
                 }
+            }
+            for place in &mut places {
+                *place += variables;
             }
         }
         sum
@@ -307,8 +325,8 @@ impl<const P: usize, const E: usize, T: Number> LayerPack<P, E, T> {
         let strain = InPlane { membrane: strain.membrane.map(splat), bending: strain.bending.map(splat) };
         for (g, point) in self.points[..self.counts[lane]].iter().enumerate() {
             let state = point.state(&strain, *logarithmic);
-            for (layer, &[z, w]) in at.iter().enumerate() {
-                let own = &history[self.place(lane, g, layer)..][..*variables];
+            let history = history[self.place(lane, g)..].chunks_exact(*variables);
+            for ((layer, &[z, w]), own) in at.iter().enumerate().zip(history) {
                 of(layer, [z, w, point.weight.lane(lane)], &state.at(z).map(|e| e.lane(lane)), own);
             }
         }
@@ -379,16 +397,16 @@ impl<const P: usize, const E: usize, T: Number> ShellSections<P, E, T> for Layer
         self.layers.law.can_fail()
     }
 
-    fn surface_strain(&self, lane: usize, strain: &InPlane<P, E>) -> (f64, bool) {
-        let splat = |x: f64| T::splat(x);
-        let strain = InPlane { membrane: strain.membrane.map(splat), bending: strain.bending.map(splat) };
-        let largest = |point: &PointPack<P, E, T>| {
-            let [a, b, shear] = point.strain(&strain)[0].map(|e| e.lane(lane));
-            let (mean, radius) = (0.5 * (a + b), (0.5 * (a - b)).hypot(0.5 * shear));
-            if mean < 0.0 { mean - radius } else { mean + radius }
-        };
-        let larger = |most: f64, strain: f64| if strain.abs() > most.abs() { strain } else { most };
-        (self.points.iter().map(largest).fold(0.0, larger), self.layers.logarithmic)
+    fn surface_strain(&self, strain: &InPlane<P, E, T>) -> Option<(T, bool)> {
+        let (half, mut most) = (T::splat(0.5), T::ZERO);
+        for point in &self.points {
+            let [a, b, shear] = point.strain(strain)[0];
+            let (mean, apart, across) = (half * (a + b), half * (a - b), half * shear);
+            let radius = (apart * apart + across * across).sqrt();
+            let largest = T::select(mean.lt(T::ZERO), mean - radius, mean + radius);
+            most = T::select(most.abs().lt(largest.abs()), largest, most);
+        }
+        Some((most, self.layers.logarithmic))
     }
 
     fn has_failed(&self, lane: usize, history: &[f64]) -> bool {

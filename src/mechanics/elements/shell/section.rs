@@ -13,8 +13,6 @@ use std::array::from_fn;
 pub struct NewHistory<'a, T> {
     /// The part of the step after which they are wanted.
     pub part: f64,
-    /// The number of elements.
-    pub count: usize,
     /// The history of the group.
     pub new: &'a mut [f64],
     /// Energy dissipated by each element in this part of the step.
@@ -45,10 +43,10 @@ pub trait ShellSections<const P: usize, const E: usize, T: Number>: Send + Sync 
     fn can_fail(&self) -> bool {
         false
     }
-    /// The membrane strain of largest size of an element, of Green, where the material yields, and whether it does so by logarithmic
-    /// strain.
-    fn surface_strain(&self, _lane: usize, _strain: &InPlane<P, E>) -> (f64, bool) {
-        (0.0, false)
+    /// The membrane strain of largest size of each element, of Green, and whether the material yields by logarithmic strain; `None` where it
+    /// does not yield.
+    fn surface_strain(&self, _strain: &InPlane<P, E, T>) -> Option<(T, bool)> {
+        None
     }
     /// True where an element has failed as a whole, by the history variables of the group: there is no stress then, nor damping.
     fn has_failed(&self, _lane: usize, _history: &[f64]) -> bool {

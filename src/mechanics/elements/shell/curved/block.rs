@@ -108,7 +108,7 @@ where
         for element in &self.elements {
             let strains = element.strains(&element.gather(now.nodes));
             let mut spent = Spent::ZERO;
-            let to = NewHistory { part, count: 1, new: &mut *new, spent: &mut spent };
+            let to = NewHistory { part, new: &mut *new, spent: &mut spent };
             element.section.advance(&strains.plane, now, to);
             dissipation += spent.lane(0);
             if element.section.has_failed(0, new) && !element.section.has_failed(0, now.history) {
@@ -165,13 +165,15 @@ where
         self.elements.first().is_some_and(|element| element.section.can_fail())
     }
 
-    fn surface_strain(&self, e: usize, now: &Configuration) -> (f64, bool) {
-        let element = &self.elements[e];
+    fn surface_strains(&self, now: &Configuration, of: &mut dyn FnMut(usize, f64, bool)) {
         // A failed element has no strain to report.
-        if element.section.has_failed(0, now.history) {
-            return (0.0, false);
+        let whole = self.elements.iter().enumerate().filter(|(_, one)| !one.section.has_failed(0, now.history));
+        for (e, element) in whole.filter(|_| self.history > 0) {
+            let strain = element.section.surface_strain(&element.strains(&element.gather(now.nodes)).plane);
+            if let Some((strain, is_logarithmic)) = strain {
+                of(e, strain, is_logarithmic);
+            }
         }
-        element.section.surface_strain(0, &element.strains(&element.gather(now.nodes)).plane)
     }
 
     fn has_failed(&self, e: usize, history: &[f64]) -> bool {
