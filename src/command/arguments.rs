@@ -24,6 +24,9 @@ pub struct CheckArgs {
     /// G.mtx where there are joints (Matrix Market), and dofs.csv, the node and direction of each row
     #[arg(long, value_name = "DIR")]
     pub export_matrices: Option<PathBuf>,
+    /// Find the first natural period of the scene as the deck draws it, without loads
+    #[arg(long)]
+    pub first_period: bool,
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 use super::arguments::CheckArgs;
 use super::console::{complain, print, show};
+use super::estimate::{effort, first_period};
 use super::exit::Exit;
 use super::load::{load, plan, too_large};
 use super::memory::Forecast;
@@ -37,25 +38,41 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
     if let Some(folder) = &args.export_matrices {
         text.computed.push(("matrices", export(folder, (&loaded.model, &system, &plan), &checking)?));
     }
-    let path = &loaded.source.path;
-    if loaded.model.analysis.stage.is_none() {
-        add_memory(&mut text, forecast.as_ref(), &loaded.source)?;
-        return print(&format!("{path}: no errors\n{text}"));
-    }
-    let mut all = format!("{path}: no errors\n{}\n{text}", stage_begins(&loaded.model));
     // As in a run, the first stage keeps all but its matrix.
     run.forget_matrix();
-    let last = loaded.later.len();
-    for (number, model) in (1..).zip(&mut loaded.later) {
+    let mut texts = vec![text];
+    let mut later = Vec::new();
+    for model in &mut loaded.later {
         let (system, plan) = planned(model)?;
         let stage = Run::new(model, &system, &plan, wanted(model), &never).map_err(too_large)?;
         take(&mut forecast, &stage, model)?;
         let mut text = explain_costs(&plan, model, &system, stage.solver());
         text.computed.push(("output", listed(model, &plan)));
-        if number == last {
-            add_memory(&mut text, forecast.as_ref(), &loaded.source)?;
+        texts.push(text);
+        drop(stage);
+        later.push((system, plan));
+    }
+    if let Some(last) = texts.last_mut() {
+        add_memory(last, forecast.as_ref(), &loaded.source)?;
+    }
+    drop(run);
+    let stages = [(&loaded.model, &system, &plan)].into_iter();
+    let stages = stages.chain(loaded.later.iter().zip(&later).map(|(model, (system, plan))| (model, system, plan)));
+    for (text, (model, system, plan)) in texts.iter_mut().zip(stages) {
+        text.computed.extend(effort(model, system, plan).map(|line| ("effort", line)));
+    }
+    if args.first_period {
+        texts[0].computed.push(("first mode", first_period(&loaded.model)));
+    }
+    let mut all = format!("{}: no errors\n", loaded.source.path);
+    for (number, (text, model)) in texts.iter().zip([&loaded.model].into_iter().chain(&loaded.later)).enumerate() {
+        if model.analysis.stage.is_some() {
+            all += &format!("{}\n", stage_begins(model));
         }
-        all += &format!("{}\n{text}", stage_begins(model));
+        all += &match number {
+            0 => text.to_string(),
+            _ => text.beyond(&texts[number - 1]).to_string(),
+        };
     }
     print(&all)
 }

@@ -5,6 +5,7 @@ mod check;
 mod checkpoints;
 mod compare;
 mod console;
+mod estimate;
 mod exit;
 mod folder;
 mod hint;
@@ -70,7 +71,7 @@ pub struct Cli {
 enum Command {
     /// Run a deck: tables, field files and result.json go to a folder
     Run(RunArgs),
-    /// Read and validate a deck, and print what would be computed, what is omitted and why; runs nothing
+    /// Read and validate a deck, and print what would be computed, what is omitted and why, mass, loads and the time it takes; writes nothing
     Check(CheckArgs),
     /// Compare two folders of results within tolerances, for regression tests
     Compare(compare::CompareArgs),

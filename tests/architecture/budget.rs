@@ -4,16 +4,16 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 10] = [
-    ("base", 6370),
+    ("base", 6350),
     ("linear", 4250),
-    ("mechanics", 27_450),
+    ("mechanics", 27_800),
     ("deck", 4000),
     ("model", 20_600),
-    ("solve", 30_250),
-    ("results", 8150),
+    ("solve", 30_900),
+    ("results", 8500),
     ("study", 4000),
     ("sweep", 1500),
-    ("program", 4400),
+    ("program", 4700),
 ];
 
 #[test]

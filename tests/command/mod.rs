@@ -1,6 +1,7 @@
 //! The program from outside: arguments in, exit codes out.
 
 mod around_a_run;
+mod check_numbers;
 mod cli;
 mod foreign_input;
 mod instructions;

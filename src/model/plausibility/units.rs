@@ -66,8 +66,11 @@ pub fn check_units(deck: &Deck, report: &mut Report) {
             if report.is_clean_since(mark) {
                 check_stiffness(&name.value, material, units, report);
             }
-        } else if let Some(earth) = gravity.as_ref().and_then(|gravity| earth(gravity.value)) {
-            check_beside_gravity(&name.value, material, earth, report);
+        } else {
+            let is_earth = gravity.as_ref().and_then(|gravity| earth(gravity.value));
+            if gravity.is_none() || is_earth.is_some() {
+                check_unlabelled(&name.value, material, is_earth, report);
+            }
         }
         if report.is_clean_since(mark) {
             check_yield(&name.value, material, report);
@@ -132,38 +135,57 @@ fn common(modulus: f64, density: f64) -> Option<&'static str> {
     COMMON.iter().find(|(_, e, rho)| is(*e, modulus) && is(*rho, density)).map(|(name, ..)| *name)
 }
 
-/// The units of length and time, in m and s, of a deck with the gravity of the Earth; `None` for another gravity.
+/// The units of length and time, in m and s, of decks: metres, millimetres, centimetres, inches and feet with seconds, and millimetres with
+/// milliseconds.
+const LENGTH_AND_TIME: [[f64; 2]; 6] =
+    [[1.0, 1.0], [1e-3, 1.0], [0.01, 1.0], [0.0254, 1.0], [0.3048, 1.0], [1e-3, 1e-3]];
+/// Metric units in which moduli are written, in Pa: Pa, kPa, MPa and GPa. Numbers in pounds and inches look like too many others.
+const MODULI: [f64; 4] = [1.0, 1e3, 1e6, 1e9];
+/// Metric units in which densities are written, in kg/m³: kg/m³, t/m³, g/mm³, kg/mm³ and t/mm³.
+const DENSITIES: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];
+/// Units of velocity are powers of ten here; this is beyond rounding.
+const SAME_UNIT: f64 = 1e-9;
+
+/// The units of length and time of a deck whose gravity is that of the Earth; `None` for another gravity.
 fn earth(gravity: f64) -> Option<[f64; 2]> {
-    // Metres, millimetres, centimetres, inches and feet with seconds, and millimetres with milliseconds.
-    let units = [[1.0, 1.0], [1e-3, 1.0], [0.01, 1.0], [0.0254, 1.0], [0.3048, 1.0], [1e-3, 1e-3]];
-    units.into_iter().find(|[length, time]| (9.78..=9.84).contains(&(gravity * length / (time * time))))
+    LENGTH_AND_TIME.into_iter().find(|[length, time]| (9.78..=9.84).contains(&(gravity * length / (time * time))))
 }
 
-/// Without a label, gravity defines the units of length and time. A common material in other units, or an impossible speed of sound, is
-/// then a slip.
-fn check_beside_gravity(name: &str, material: &Material, [length, time]: [f64; 2], report: &mut Report) {
+/// Without a label a modulus and a density that are those of a common material, each in a unit of its own, tell the unit of velocity, length
+/// over time. One that no system of units has is a slip, as is another than that of the `earth`'s gravity.
+fn check_unlabelled(name: &str, material: &Material, earth: Option<[f64; 2]>, report: &mut Report) {
     let (Some(modulus), Some(density)) = (&material.youngs_modulus, &material.density) else { return };
-    let labels = [Units::Si, Units::MmTS, Units::MmKgS, Units::MmKgMs];
-    let acceleration = |[length, time]: [f64; 2]| length / (time * time);
-    let found = labels.iter().filter_map(|label| {
-        let [own_length, mass, own_time] = label.scales();
-        let pressure = mass / (own_length * own_time * own_time);
-        let is = common(modulus.value * pressure, density.value * mass / own_length.powi(3))?;
-        Some((is, label.label(), acceleration([own_length, own_time]) == acceleration([length, time])))
-    });
-    let found: Vec<(&str, &str, bool)> = found.collect();
-    if found.iter().any(|(.., same)| *same) {
-        return;
+    let velocity = |[length, time]: [f64; 2]| length / time;
+    let known: Vec<f64> = match earth {
+        Some(units) => vec![velocity(units)],
+        None => LENGTH_AND_TIME.into_iter().map(velocity).collect(),
+    };
+    let mut found = None;
+    for (pressure, per_volume) in MODULI.iter().flat_map(|p| DENSITIES.iter().map(move |d| (p, d))) {
+        let Some(is) = common(modulus.value * pressure, density.value * per_volume) else { continue };
+        let unit = (pressure / per_volume).sqrt();
+        if known.iter().any(|known| (unit / known - 1.0).abs() < SAME_UNIT) {
+            return;
+        }
+        found = found.or(Some((is, *pressure, *per_volume)));
     }
-    let message = format!("modulus and density of material `{name}` do not go together with the gravity");
-    if let Some((is, label, _)) = found.first() {
-        let hint = format!("they are those of {is} in the units {label}, where gravity has another value");
+    let beside = if earth.is_some() { " with the gravity" } else { "" };
+    let message = format!("modulus and density of material `{name}` do not go together{beside}");
+    if let Some((is, pressure, per_volume)) = found {
+        let stiffness = short(modulus.value * pressure);
+        let dense = short(density.value * per_volume);
+        let hint = format!(
+            "they look like those of {is}, {stiffness} Pa and {dense} kg/m³, in units that do not belong together: in m, kg and s give these, in \
+             mm, t and s {} and {}",
+            short(modulus.value * pressure * 1e-6),
+            short(density.value * per_volume * 1e-12)
+        );
         report.warn(&modulus.span, message, hint);
         return;
     }
+    let Some([length, time]) = earth else { return };
     let speed = (modulus.value / density.value).sqrt() * length / time;
-    let in_water = length == 1.0 && common(modulus.value, 1e3 * density.value).is_some();
-    if speed > 0.0 && (speed < SPEED_OF_SOUND || in_water) {
+    if speed > 0.0 && speed < SPEED_OF_SOUND {
         let hint = format!("sound would travel at {} m/s: solids have 50 to 20000 m/s, steel 5200", short(speed));
         report.warn(&modulus.span, message, hint);
     }

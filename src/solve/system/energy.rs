@@ -1,6 +1,7 @@
 //! The energies and momenta of a state.
 
 use super::equations::System;
+use super::inertia::ConsistentMass;
 use super::parts::{Storage, storage};
 use super::thread_partition;
 use crate::tolerances::energy::{GONE, NOTHING_HAPPENS, OF_PEAK, ROUNDING};
@@ -108,6 +109,15 @@ pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], dura
     let of_loads = mass * loading.gravity.norm() * reach + loading.nodal.iter().map(of_load).sum::<f64>();
     let speed = if duration > 0.0 { ROUNDING * reach / duration } else { 0.0 };
     ROUNDING * of_loads + 0.5 * mass * speed * speed
+}
+
+/// The mass of the whole scene that has weight, and its center at t = 0; `None` of a scene without any.
+pub fn mass_and_center(system: &System, nodes: &[model::Node]) -> Option<(f64, Vec3)> {
+    let lumped = system.inertias.iter().map(|inertia| (inertia.weighing, inertia.node));
+    let consistent = system.consistent.iter().flat_map(ConsistentMass::pairs).map(|(node, _, mass)| (mass, node));
+    let sum = |(mass, moment): (f64, Vec3), (own, node): (f64, usize)| (mass + own, moment + own * nodes[node].x);
+    let (mass, moment) = lumped.chain(consistent).fold((0.0, Vec3::zeros()), sum);
+    (mass > 0.0).then(|| (mass, moment / mass))
 }
 
 /// The kinetic energy of a motion.

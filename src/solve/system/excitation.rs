@@ -124,13 +124,18 @@ impl<'a> Excitation<'a> {
         }
     }
 
+    /// The factor of a load with this amplitude, or without one, at time `t`; at a jump that of `side`.
+    pub fn factor_of(&self, amplitude: Option<usize>, t: f64, side: Side) -> f64 {
+        match amplitude {
+            Some(i) => self.factor(i, t, side),
+            None => self.plain_factor(t),
+        }
+    }
+
     /// Writes the loads at time `t` into `loading`; at a jump the values on this `side`.
     pub fn loading(&self, t: f64, side: Side, loading: &mut Loading) {
         loading.factors.clear();
-        let factor = |amplitude: Option<usize>| match amplitude {
-            Some(i) => self.factor(i, t, side),
-            None => self.plain_factor(t),
-        };
+        let factor = |amplitude: Option<usize>| self.factor_of(amplitude, t, side);
         loading.factors.extend(self.model.loading.nodal.iter().map(|load| factor(load.amplitude)));
         loading.pressures.clear();
         let pressures = self.model.loading.pressures.iter();

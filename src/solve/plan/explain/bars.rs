@@ -7,6 +7,6 @@ use model::{Bar, Model};
 /// Adds lines about bars.
 pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
     for bar in model.each::<Bar>().filter(|bar| bar.yielding.is_some()) {
-        text.add("yielding", format!("bar `{}`: under normal stress", bar.name));
+        text.add_of("yielding", ["bar", "bars"], &bar.name, "under normal stress");
     }
 }

@@ -7,6 +7,9 @@ use base::names::short;
 use mechanics::elements::beam::IntegrationRule;
 use model::{Beam, BeamElement, Model};
 
+/// One beam, and several.
+const BEAMS: [&str; 2] = ["beam", "beams"];
+
 /// Adds lines about beams.
 pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     for beam in model.each::<Beam>() {
@@ -19,7 +22,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             let [shortest, longest] =
                 lengths.fold([f64::INFINITY, 0.0], |[least, most], length| [length.min(least), length.max(most)]);
             let graded = format!("elements {} to {} long, the shortest at the ends", short(shortest), short(longest));
-            text.add("grading", format!("beam `{}`: {graded}", beam.name));
+            text.add_of("grading", BEAMS, &beam.name, graded);
         }
         let Some(yielding) = &beam.yielding else { continue };
         let (fibres, points) = (yielding.fibres.len(), yielding.points);
@@ -31,6 +34,6 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
             ""
         };
         let section = format!("{fibres} fibres at {points} {rule} points per element, yielding under {stress}{merged}");
-        text.add("yielding", format!("beam `{}`: {section}", beam.name));
+        text.add_of("yielding", BEAMS, &beam.name, section);
     }
 }

@@ -9,6 +9,7 @@ mod explanation;
 mod links;
 mod mass_scaling;
 mod omitted;
+mod quantities;
 mod redundant;
 mod response;
 mod scene;
@@ -30,6 +31,7 @@ pub fn explain(plan: &Plan, model: &Model, system: &System) -> Explanation {
     let mut text = Explanation::default();
     analysis::explain(&mut text, model);
     scene::explain(&mut text, plan, model, system);
+    quantities::explain(&mut text, model, system);
     damping::explain(&mut text, model);
     mass_scaling::explain(&mut text, model, system);
     solution::explain(&mut text, plan, model, system);

@@ -10,6 +10,6 @@ pub fn explain(text: &mut Explanation, model: &Model, _: &System) {
         let Some(shell) = Shell::of(&part[0]) else { continue };
         let Some(yielding) = &shell.yielding else { continue };
         let what = format!("{} layers, yielding in plane stress; transverse shear elastic", yielding.layers);
-        text.add("yielding", format!("shell `{}`: {what}", shell.name));
+        text.add_of("yielding", ["shell", "shells"], &shell.name, what);
     }
 }

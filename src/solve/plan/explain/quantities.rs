@@ -1,0 +1,156 @@
+//! The mass, the loads and the motions that are given, in numbers that a reader compares with a hand calculation.
+
+use super::explanation::Explanation;
+use crate::system::energy::mass_and_center;
+use crate::system::{Excitation, Side, System};
+use crate::tolerances::explained_quantities::ROUNDING;
+use base::math::Vec3;
+use base::names::{short, to_digits};
+use mechanics::amplitude::Amplitude;
+use model::{DIRECTIONS, History, Model};
+
+/// Times at which loads and motions are looked at, besides the points of tables.
+const SAMPLES: usize = 1000;
+/// Motions that are listed one by one.
+const LISTED: usize = 6;
+
+/// Adds lines about the mass, the applied loads and the given motions.
+pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
+    text.computed.extend(mass(model, system).map(|line| ("mass", line)));
+    let excitation = Excitation::new(model);
+    let times = times(model);
+    text.computed.extend(loads(model, &excitation, &times).map(|line| ("loads", line)));
+    let motions = motions(model, &excitation, &times);
+    let more = motions.len().saturating_sub(LISTED);
+    text.computed.extend(motions.into_iter().take(LISTED).map(|line| ("motion", line)));
+    if more > 0 {
+        text.add("motion", format!("and {more} more given motions"));
+    }
+}
+
+/// "8.1 with its center at (0, 0, 1.5); weight 79.5".
+fn mass(model: &Model, system: &System) -> Option<String> {
+    let (mass, center) = mass_and_center(system, &model.nodes)?;
+    let size = model.nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
+    let at: Vec<String> = center.iter().map(|x| short(if x.abs() < ROUNDING * size { 0.0 } else { *x })).collect();
+    let mut line = format!("{} with its center at ({})", to_digits(mass, 6), at.join(", "));
+    let gravity = model.loading.gravity.norm();
+    if gravity > 0.0 {
+        line += &format!("; weight {} under gravity {}", to_digits(mass * gravity, 6), short(gravity));
+    }
+    Some(line)
+}
+
+/// The times of the run at which loads and motions are looked at, ascending. Modes have one.
+fn times(model: &Model) -> Vec<f64> {
+    let (begin, end) = (model.analysis.begin, model.analysis.end_time);
+    if model.analysis.has_modes() {
+        return vec![end];
+    }
+    let even = (0..=SAMPLES).map(|k| begin + (end - begin) * k as f64 / SAMPLES as f64);
+    let points = model.loading.amplitudes.iter().filter_map(Amplitude::points).flatten().map(|point| point[0]);
+    let mut times: Vec<f64> = even.chain(points.filter(|time| (begin..=end).contains(time))).collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    times
+}
+
+/// The sums of forces and moments on nodes and of pressures on faces, by direction: "Fx 0 to 1200, Fz -300". Weight and motors are not among
+/// them.
+fn loads(model: &Model, excitation: &Excitation, times: &[f64]) -> Option<String> {
+    let mut sums: Vec<(Option<usize>, [f64; 6])> = Vec::new();
+    let mut add = |amplitude: Option<usize>, force: Vec3, moment: Vec3| {
+        let place = sums.iter().position(|(of, _)| *of == amplitude).unwrap_or_else(|| {
+            sums.push((amplitude, [0.0; 6]));
+            sums.len() - 1
+        });
+        (0..3).for_each(|i| sums[place].1[i] += force[i]);
+        (0..3).for_each(|i| sums[place].1[3 + i] += moment[i]);
+    };
+    for load in model.loading.nodal.iter().filter(|load| load.coordinate().is_none()) {
+        let moment = if load.moment_counts { load.moment } else { Vec3::zeros() };
+        add(load.amplitude, load.force, moment);
+    }
+    for load in &model.loading.pressures {
+        let areas = load.faces.iter().flat_map(|face| face.areas(|node| model.nodes[node].x));
+        add(load.amplitude, areas.sum::<Vec3>() * -load.pressure, Vec3::zeros());
+    }
+    if sums.is_empty() {
+        return None;
+    }
+    let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 6];
+    let harmonic =
+        |amplitude: Option<usize>| amplitude.is_some_and(|i| model.loading.amplitudes[i].harmonic_phase().is_some());
+    for &time in times {
+        let mut now = [0.0; 6];
+        for (amplitude, sum) in &sums {
+            let factor = if harmonic(*amplitude) { 1.0 } else { excitation.factor_of(*amplitude, time, Side::After) };
+            now.iter_mut().zip(sum).for_each(|(now, sum)| *now += factor * sum);
+        }
+        ranges.iter_mut().zip(now).for_each(|([least, most], now)| {
+            *least = least.min(now);
+            *most = most.max(now);
+        });
+    }
+    let words = ["Fx", "Fy", "Fz", "Mx", "My", "Mz"];
+    let largest = |of: std::ops::Range<usize>| ranges[of].iter().flatten().fold(0.0, |a: f64, b| a.max(b.abs()));
+    let sizes = [largest(0..3), largest(3..6)];
+    let line = ranges.iter().enumerate().filter_map(|(i, [least, most])| {
+        let size = sizes[i / 3];
+        (least.abs().max(most.abs()) > ROUNDING * size).then(|| format!("{} {}", words[i], range(*least, *most, size)))
+    });
+    let line: Vec<String> = line.collect();
+    Some(if line.is_empty() { "sum to zero".to_owned() } else { line.join(", ") })
+}
+
+/// "-12" of what is constant, "-12 to 3" of all else.
+fn range(least: f64, most: f64, size: f64) -> String {
+    let clean = |value: f64| short(if value.abs() < ROUNDING * size { 0.0 } else { value });
+    if most - least < ROUNDING * size { clean(most) } else { format!("{} to {}", clean(least), clean(most)) }
+}
+
+/// A line for each amplitude of the ground or of supports: the largest value, and what its table is.
+fn motions(model: &Model, excitation: &Excitation, times: &[f64]) -> Vec<String> {
+    let ground = model.loading.base_accelerations.iter().flat_map(|base| {
+        let along = (0..3).filter(|&i| base.direction[i] != 0.0);
+        along.map(|i| (format!("ground {}", DIRECTIONS[i]), "acceleration", base.amplitude, base.direction[i]))
+    });
+    let supports = model.constraints.restraints.iter().filter_map(|restraint| {
+        let motion = restraint.motion.as_ref()?;
+        let what = match motion.history {
+            History::Displacement => "displacement",
+            History::Velocity => "velocity",
+            History::Acceleration => "acceleration",
+        };
+        let node = &model.nodes[restraint.node];
+        let place = match node.is_number {
+            true => format!("`{}`", node.label),
+            false => format!("`{}` {}", node.label, DIRECTIONS[restraint.dof]),
+        };
+        Some((place, what, motion.amplitude, motion.scale))
+    });
+    let line = |(place, what, amplitude, scale): (String, &str, usize, f64)| {
+        let value = |time: f64| scale * excitation.factor_of(Some(amplitude), time, Side::After);
+        let values = times.iter().map(|&time| (value(time), time));
+        let (most, at) =
+            values.fold((0.0, 0.0), |most: (f64, f64), next| if next.0.abs() > most.0.abs() { next } else { most });
+        if most == 0.0 {
+            return None;
+        }
+        let table = model.loading.amplitudes[amplitude].points().map_or(String::new(), table);
+        Some(format!("{place}: {what} up to {} at t = {}{table}", short(most), short(at)))
+    };
+    ground.chain(supports).filter_map(line).collect()
+}
+
+/// "; a table of 4001 points 0.005 apart, to t = 20".
+fn table(points: &[[f64; 2]]) -> String {
+    let ([first, last], count) = match points {
+        [first, .., last] => ([first[0], last[0]], points.len()),
+        _ => return String::new(),
+    };
+    let step = (last - first) / (count - 1) as f64;
+    let is_even = points.windows(2).all(|pair| (pair[1][0] - pair[0][0] - step).abs() <= 1e-6 * step.abs());
+    let apart = if is_even && count > 2 { format!(" {} apart", short(step)) } else { String::new() };
+    format!("; a table of {count} points{apart}, to t = {}", short(last))
+}

@@ -1,0 +1,148 @@
+//! Numbers that `check` prints of a scene, beside those that a reader finds by hand.
+
+use assert_cmd::Command;
+use std::fs;
+
+/// Two columns 3 m high with a section of 0.01 m², a point mass, a push, a lifted end and a shaken ground.
+const FRAME: &str = r#"
+[analysis]
+kind = "dynamic"
+end_time = 2.0
+time_step = 0.01
+[materials.steel]
+model = "elastic-plastic"
+youngs_modulus = 210e9
+poisson_ratio = 0.3
+density = 8000.0
+yield_stress = 235e6
+[sections.square]
+shape = "rectangle"
+width = 0.1
+height = 0.1
+[points]
+a = [0.0, 0.0, 0.0]
+b = [0.0, 0.0, 3.0]
+c = [4.0, 0.0, 0.0]
+d = [4.0, 0.0, 3.0]
+[[beams]]
+name = "left"
+path = ["a", "b"]
+elements = 2
+material = "steel"
+section = "square"
+orientation = [0.0, 1.0, 0.0]
+[[beams]]
+name = "right"
+path = ["c", "d"]
+elements = 2
+material = "steel"
+section = "square"
+orientation = [0.0, 1.0, 0.0]
+[[masses]]
+at = "d"
+mass = 480.0
+[[supports]]
+at = ["a", "c"]
+fix = "all"
+[[loads]]
+at = "b"
+force = [100.0, 0.0, -30.0]
+[[loads]]
+at = "d"
+force = [50.0, 0.0, 0.0]
+amplitude = "push"
+[amplitudes.push]
+kind = "ramp"
+start = 0.0
+end = 1.0
+[amplitudes.quake]
+kind = "table"
+points = [[0.0, 0.0], [0.5, 3.0], [1.0, -4.0], [1.5, 0.0]]
+[environment]
+gravity = [0.0, 0.0, -10.0]
+[[environment.base_acceleration]]
+direction = [1.0, 0.0, 0.0]
+amplitude = "quake"
+scale = 0.5
+"#;
+
+fn check(deck: &str, arguments: &[&str]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("deck.toml"), deck).unwrap();
+    let mut command = Command::cargo_bin("rdsolve").unwrap();
+    let done = command.current_dir(folder.path()).args(["check", "deck.toml"]).args(arguments).assert().code(0);
+    String::from_utf8(done.get_output().stdout.clone()).unwrap()
+}
+
+/// The text behind a label.
+#[track_caller]
+fn line<'t>(told: &'t str, label: &str) -> &'t str {
+    let label = format!("  {label:<11} ");
+    let found = told.lines().find_map(|line| line.strip_prefix(&label));
+    found.unwrap_or_else(|| panic!("no {label} in\n{told}"))
+}
+
+/// Columns of 240 kg with centers at 1.5 m and 480 kg at 3 m: 960 kg at x = (240·4 + 480·4)/960 and z = (480·1.5 + 480·3)/960.
+#[test]
+fn mass_loads_and_the_ground_are_those_of_a_hand_calculation() {
+    let told = check(FRAME, &[]);
+    assert_eq!(line(&told, "mass"), "960 with its center at (3, 0, 2.25); weight 9600 under gravity 10");
+    assert_eq!(line(&told, "loads"), "Fx 100 to 150, Fz -30");
+    assert_eq!(
+        line(&told, "motion"),
+        "ground ux: acceleration up to -2 at t = 1; a table of 4 points 0.5 apart, to t = 1.5"
+    );
+    assert!(line(&told, "effort").starts_with("200 steps in "), "{told}");
+    assert!(!told.contains("first mode"), "{told}");
+}
+
+/// Consistent masses have the same sum and center, and loads on faces are pressure times area.
+#[test]
+fn consistent_masses_and_pressures_count() {
+    let consistent = FRAME.replace("section = \"square\"", "section = \"square\"\nmass = \"consistent\"");
+    assert_eq!(line(&check(&consistent, &[]), "mass"), line(&check(FRAME, &[]), "mass"));
+    let plate = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 0.5\n[materials.m]\nmodel = \"elastic\"\n\
+                 youngs_modulus = 1e7\npoisson_ratio = 0.3\n[points]\na = [0.0, 0.0, 0.0]\nb = [2.0, 0.0, 0.0]\nc = [2.0, 3.0, 0.0]\n\
+                 d = [0.0, 3.0, 0.0]\n[[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = [2, 3]\n\
+                 thickness = 0.1\nmaterial = \"m\"\n[[supports]]\nat = [\"a\", \"b\", \"c\", \"d\"]\nfix = \"all\"\n\
+                 [[loads]]\npart = \"plate\"\npressure = 7.0\n";
+    // Pressure acts against the normal, which is +z here.
+    assert_eq!(line(&check(plate, &[]), "loads"), "Fz -42 to 0");
+}
+
+/// Parts of which the same holds share a line, and a stage prints what differs from the stage before it.
+#[test]
+fn alike_lines_are_merged() {
+    let told = check(FRAME, &[]);
+    assert_eq!(told.matches("fibres").count(), 1 + told.matches("fibres of equal").count(), "{told}");
+    assert!(line(&told, "yielding").starts_with("beams `left`, `right`: "), "{told}");
+    let stage =
+        |name: &str| format!("[[stages]]\nname = \"{name}\"\nkind = \"dynamic\"\nduration = 1.0\ntime_step = 0.01\n");
+    let begins = FRAME.find("[materials").unwrap();
+    let told = check(&format!("{}{}{}", &FRAME[begins..], stage("one"), stage("two")), &[]);
+    for label in ["scene", "mass", "yielding", "unknowns"] {
+        assert_eq!(told.matches(&format!("\n  {label:<11} ")).count(), 1, "{label} in {told}");
+    }
+    assert!(told.contains("  otherwise   as in the stage before"), "{told}");
+    // The record rises to its peak in the first stage.
+    assert_eq!(told.matches("acceleration up to -2 at t = 1").count(), 1, "{told}");
+}
+
+/// A mass on a spring: the period is 2π √(m/k), to the four digits that are printed.
+#[test]
+fn the_first_period_is_that_of_an_oscillator() {
+    let deck = "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = 0.01\n[[bodies]]\nname = \"ball\"\ncenter = [1.0, 0.0, 0.0]\n\
+                mass = 2.0\ninertia = [1.0, 1.0, 1.0]\n[[supports]]\nat = \"ball\"\nfix = [\"uy\", \"uz\", \"rx\", \"ry\", \"rz\"]\n[[links]]\n\
+                name = \"spring\"\nfrom = { ground = [0.0, 0.0, 0.0] }\nto = { body = \"ball\" }\nstiffness = 50.0\n";
+    let told = check(deck, &["--first-period"]);
+    let period = std::f64::consts::TAU * (2.0_f64 / 50.0).sqrt();
+    let expected = format!(
+        "period {}, frequency {}, of the scene as drawn, without loads; {} steps a period",
+        rdsolve::names::short(period),
+        rdsolve::names::short(1.0 / period),
+        rdsolve::names::to_digits(period / 0.01, 3)
+    );
+    assert_eq!(line(&told, "first mode"), expected);
+    let free = deck.split("[[supports]]").next().unwrap();
+    assert!(line(&check(free, &["--first-period"]), "first mode").contains("no mode has stiffness"));
+}
