@@ -470,6 +470,21 @@ pub const SECTION_FORCES: [Column; 6] = [
     section_moment("Mz", "bending moment about z", "tension on the side of −y"),
 ];
 
+/// Extreme stresses in a section of a beam.
+pub const SECTION_STRESSES: [Column; 4] = [
+    section_stress("sigma_max", "largest normal stress at the extreme points of the section").positive("tension"),
+    section_stress("sigma_min", "smallest normal stress at the extreme points of the section").positive("tension"),
+    section_stress(
+        "tau_max",
+        "largest shear stress, of shear forces and torsion, at the extreme points of the section",
+    ),
+    section_stress("von_mises", "largest von Mises stress at the extreme points of the section"),
+];
+
+const fn section_stress(name: &'static str, meaning: &'static str) -> Column {
+    Column::scalar(name, meaning, Unit::Stress).kind("section stress")
+}
+
 const fn section_force(name: &'static str, meaning: &'static str, sign: &'static str) -> Column {
     Column::scalar(name, meaning, Unit::Force).kind("section force").in_axes(Axes::Section).positive(sign)
 }

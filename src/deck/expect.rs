@@ -18,8 +18,8 @@ pub struct Expect {
     /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv or energy.csv. For a joint "fx" to "mz" act on its first part
     /// (`from`). For a supported point or body they are the reaction, the force of its supports on the structure. "force" of a contact is
     /// its magnitude. "N", "Vy", "Vz", "T", "My", "Mz" of a beam, "N" of a bar, and "N11" to "Q2", "von_mises_bottom" and "von_mises_top"
-    /// of a shell are the values of largest magnitude in the part, with sign. "von_mises" of a shell and "plastic_strain" of a beam, bar or
-    /// shell are the largest values in the part.
+    /// of a shell are the values of largest magnitude in the part, with sign. "sigma_max", "tau_max" and "von_mises" of a beam, "von_mises" of a
+    /// shell and "plastic_strain" of a beam, bar or shell are the largest values in the part, "sigma_min" of a beam is the smallest.
     #[schemars(required)]
     pub quantity: Maybe<String>,
     /// Time of the value; with arc-length control, the first time the load reaches it.

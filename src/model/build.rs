@@ -242,6 +242,7 @@ fn model<'d>(
         bodies: scene.bodies,
         masses,
         stiffnesses: scene.parts.stiffnesses,
+        stresses: scene.parts.stresses,
         parts: scene.parts.list.into_iter().chain(links).chain(contacts.into_iter().map(Part::from)).collect(),
         constraints: Constraints { turns: given_turns(&acting.turned, &restraints), dependents, joints, restraints },
         loading: acting.fields.with(amplitudes, acting.loads),
@@ -380,7 +381,7 @@ fn ground<'d>(
     bars(&mut context);
     shells(&mut context);
     let PartContext { groups, mut parts, sections, .. } = context;
-    parts.stiffnesses = sections.stiffnesses;
+    (parts.stiffnesses, parts.stresses) = (sections.stiffnesses, sections.stresses);
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
     let scene = Scene { deck, stage, analysis, names, bodies, parts, position_curves };
     Ground { scene, nodes, groups, rigid, amplitudes }

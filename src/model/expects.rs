@@ -1,6 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
-use super::data::{DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, Tolerance, When, quantities_of};
+use super::data::{
+    Beam, DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, PartType, Tolerance, When, quantities_of,
+};
 use super::places::nodes::Topology;
 use super::places::place::Place;
 use super::procedure::displacement_targets::displacement_target;
@@ -9,7 +11,7 @@ use super::scene::Scene;
 use super::values::keys;
 use base::diagnostic::{At, Diagnostic};
 use base::names::nearest;
-use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION};
+use base::quantities::{self, Column, PLASTIC_STRAIN, QUATERNION, SECTION_STRESSES};
 use deck::expect as words;
 use deck::parts::PartIndex;
 use deck::words::Table;
@@ -307,6 +309,9 @@ impl<'d> Expects<'_, 'd> {
         }
         let mut columns = quantities_of(at.kind);
         columns.retain(|column| beam.yields() || *column != PLASTIC_STRAIN);
+        let section = Beam::of(beam).and_then(|beam| beam.elements.first()).map(|element| element.section);
+        let has_stresses = section.and_then(|section| self.scene.parts.stresses.get(section)?.as_ref()).is_some();
+        columns.retain(|column| has_stresses || !SECTION_STRESSES.contains(column));
         Some((ExpectAt::Sections(part), columns))
     }
 

@@ -8,7 +8,7 @@ use super::report::Report;
 use base::diagnostic::Span;
 use deck::parts::PartIndex;
 use linear::available_memory;
-use mechanics::sections::Stiffness;
+use mechanics::sections::{SectionStresses, Stiffness};
 
 /// Least memory of an element in bytes, with its nodes and its part of the matrix before factorization.
 const BYTES: f64 = 4e3;
@@ -35,6 +35,8 @@ pub(super) struct Parts {
     pub list: Vec<Part>,
     /// Section stiffnesses and inertias, shared by the beams that name them.
     pub stiffnesses: Vec<Stiffness>,
+    /// What stresses of these sections follow from.
+    pub stresses: Vec<Option<SectionStresses>>,
     /// One for each table of a deformable part that has been begun.
     entries: BTreeMap<PartIndex, PartEntry>,
     /// Elements that paths and patches have asked for so far.

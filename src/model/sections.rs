@@ -9,7 +9,7 @@ use deck::sections as words;
 use deck::words::kinds::{Given, OneOf};
 use deck::words::{Maybe, Named};
 use mechanics::sections::section_shape::shear_factor;
-use mechanics::sections::{CrossSection, Fibre, Section, SectionShape, Stiffness};
+use mechanics::sections::{CrossSection, Fibre, Section, SectionShape, SectionStresses, Stiffness};
 use std::collections::HashMap;
 
 /// Largest number of fibres; a section's response no longer changes beyond it.
@@ -23,12 +23,20 @@ pub(super) struct Sections<'a, 'd> {
     known: HashMap<(usize, Option<usize>, [bool; 2]), Option<usize>>,
     /// Section stiffnesses that beams have asked for.
     pub stiffnesses: Vec<Stiffness>,
+    /// What stresses of these sections follow from.
+    pub stresses: Vec<Option<SectionStresses>>,
 }
 
 impl<'a, 'd> Sections<'a, 'd> {
     /// The sections of a deck, none computed yet.
     pub fn new(deck: &'d Deck, materials: &'a Materials<'d>) -> Self {
-        Sections { table: &deck.sections, materials, known: HashMap::new(), stiffnesses: Vec::new() }
+        Sections {
+            table: &deck.sections,
+            materials,
+            known: HashMap::new(),
+            stiffnesses: Vec::new(),
+            stresses: Vec::new(),
+        }
     }
 
     /// Fibres of a section with a material; both are free of errors.
@@ -91,8 +99,9 @@ impl<'a, 'd> Sections<'a, 'd> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        let stiffness = stiffness(&name.value, section, numbers, needs_mass, report);
-        let index = stiffness.map(|stiffness| {
+        let made = stiffness(&name.value, section, numbers, needs_mass, report);
+        let index = made.map(|(stiffness, stresses)| {
+            self.stresses.push(stresses);
             self.stiffnesses.push(if shear { stiffness } else { stiffness.without_shear() });
             self.stiffnesses.len() - 1
         });
@@ -132,13 +141,13 @@ fn stiffness<'d>(
     [modulus, ratio, density]: [f64; 3],
     needs_mass: bool,
     report: &mut Report<'d>,
-) -> Option<Stiffness> {
+) -> Option<(Stiffness, Option<SectionStresses>)> {
     let (shape, factor) = match cross_section(name, section, needs_mass, report)? {
-        (CrossSection::Stiffness(stiffness), _) => return Some(*stiffness),
+        (CrossSection::Stiffness(stiffness), _) => return Some((*stiffness, None)),
         (CrossSection::Shape(shape), factor) => (shape, factor),
     };
     match whole(&*shape, ratio, factor) {
-        Ok(made) => Some(made.stiffness(modulus, ratio, density)),
+        Ok(made) => Some((made.stiffness(modulus, ratio, density), shape.stresses(ratio, &made))),
         Err(reason) => report.error(&section.kind.as_ref()?.span, format!("section `{name}`: {reason}")),
     }
 }

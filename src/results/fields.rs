@@ -1,7 +1,7 @@
 //! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
 //! names the parts that the grids number.
 //!
-//! Points of beams carry section forces and moments, which are zero at other points. Cells carry the number of their part, the largest plastic strain where anything yields, whether they have failed (1) where anything may, and where there are shells their
+//! Points of beams carry section forces, moments and extreme stresses, which are zero at other points. Cells carry the number of their part, the largest plastic strain where anything yields, whether they have failed (1) where anything may, and where there are shells their
 //! stress resultants with axis 1, zero on other cells.
 //!
 //! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
@@ -11,10 +11,11 @@ use super::disk::{at, replace};
 use super::run_list::RunList;
 use super::vtu::{Cell, GridText};
 use base::math::{Mat3, Vec3, Vec6, angular, linear, rotation};
+use base::quantities::SECTION_STRESSES;
 use base::snapshot::keep;
 use mechanics::solids::outline::OutlineCell;
-use model::{Drawing, Model, Part};
-use solve::{Frame, ShellState};
+use model::{Beam, Drawing, Model, Part, PartType};
+use solve::{Frame, ShellState, elastic_stresses};
 use std::collections::HashMap;
 use std::fmt::Write;
 use std::fs;
@@ -431,9 +432,42 @@ fn write_points(grid: &mut GridText, places: &[Place], frame: &Frame) {
         let values = resultants.iter().flat_map(|all| all[first..first + 3].iter().copied()).chain(zeros);
         grid.array(name, 3, values.take(3 * places.len()));
     }
+    write_stresses(grid, places.len(), frame);
     grid.push("</PointData>\n<Points>\n");
     vectors(grid, places, "Points", |p| now[p.node].x + arm(p));
     grid.push("</Points>\n");
+}
+
+/// Adds the extreme stresses of beams: those of elastic sections under the resultants at the node, of others the extremes over the integration
+/// points of the element.
+fn write_stresses(grid: &mut GridText, count: usize, frame: &Frame) {
+    let model = frame.model;
+    if frame.derived.nodal_resultants.is_empty() || model.stresses.iter().all(Option::is_none) {
+        return;
+    }
+    let mut resultants = frame.derived.nodal_resultants.iter();
+    let mut points = frame.derived.sections.iter().peekable();
+    let mut all: Vec<[f64; 4]> = Vec::with_capacity(count);
+    for (part, beam) in model.parts.iter().enumerate().filter_map(|(part, of)| Some((part, Beam::of(of)?))) {
+        for element in 0..beam.elements.len() {
+            let mut of_fibres: Option<[f64; 4]> = None;
+            while let Some(point) = points.next_if(|point| point.part == part && point.element == element) {
+                let Some(stresses) = point.at.stresses.filter(|_| beam.yielding.is_some()) else { continue };
+                let [most, least, tau, mises] = stresses.values;
+                let so_far = of_fibres.unwrap_or(stresses.values);
+                of_fibres = Some([so_far[0].max(most), so_far[1].min(least), so_far[2].max(tau), so_far[3].max(mises)]);
+            }
+            for forces in resultants.by_ref().take(beam.order + 1) {
+                let elastic = || elastic_stresses(model, beam, element, forces).map(|stresses| stresses.values);
+                let stresses = if beam.yielding.is_some() { of_fibres } else { elastic() };
+                all.push(stresses.unwrap_or_default());
+            }
+        }
+    }
+    for (k, column) in SECTION_STRESSES.iter().enumerate() {
+        let values = all.iter().map(|stresses| stresses[k]).chain(std::iter::repeat(0.0));
+        grid.array(column.name, 1, values.take(count));
+    }
 }
 
 /// The beginning of fields.pvd.

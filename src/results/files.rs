@@ -235,6 +235,8 @@ fn in_words(cadence: Cadence) -> String {
 pub fn wanted(model: &Model) -> Wanted {
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
+    // Stresses of fibres are those of integration points.
+    let drawn = if model.yields() { drawn | Wanted::SECTIONS.where_drawn() } else { drawn };
     let fields = model.output.fields.map(|_| drawn);
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.

@@ -66,7 +66,7 @@ pub mod inner {
 }
 
 pub use crate::system::{ContactState, ContactTouch, JointState};
-pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState};
+pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState, elastic_stresses};
 pub use derived::{Derived, Wanted};
 pub use effort::Effort;
 pub use failure::{Failure, NamedResidual};

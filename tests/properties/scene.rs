@@ -65,6 +65,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         bodies: vec![],
         masses: vec![],
         stiffnesses: vec![],
+        stresses: vec![],
         parts: vec![],
         constraints: Constraints { restraints: vec![], ..Constraints::default() },
         loading: Loading::default(),

@@ -45,7 +45,10 @@ fn headers_are_those_of_the_interface() {
         ("contacts.csv", "step,time,contact,touching,gap,fx,fy,fz,mx,my,mz"),
         ("contact_pairs.csv", "step,time,contact,surface,with,touching,fx,fy,fz,mx,my,mz"),
         ("reactions.csv", "step,time,node,direction,value"),
-        ("sections.csv", "step,time,beam,element,point,s,N,Vy,Vz,T,My,Mz,plastic_strain"),
+        (
+            "sections.csv",
+            "step,time,beam,element,point,s,N,Vy,Vz,T,My,Mz,plastic_strain,sigma_max,sigma_min,tau_max,von_mises",
+        ),
         ("steps.csv", "step,time,dt,iterations,refactorizations,residual,cuts"),
     ] {
         let text = fs::read_to_string(dir.path().join(name)).unwrap();

@@ -7,4 +7,5 @@ mod files;
 mod folder;
 mod report;
 mod resultants;
+mod stresses;
 mod table_size;

@@ -84,12 +84,12 @@ fn sound(page: &str) {
 }
 
 /// What the page's script reads.
-fn data(page: &str) -> Value {
+pub fn data(page: &str) -> Value {
     let begin = page.split_once("id=\"data\">").unwrap().1;
     serde_json::from_str(begin.split_once("</script>").unwrap().0).unwrap()
 }
 
-fn floats(base64: &Value) -> Vec<f32> {
+pub fn floats(base64: &Value) -> Vec<f32> {
     let bytes = BASE64_STANDARD.decode(base64.as_str().unwrap()).unwrap();
     bytes.as_chunks().0.iter().map(|&four| f32::from_le_bytes(four)).collect()
 }

@@ -7,6 +7,7 @@ use rdsolve::elements::link::LinkLaw;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
 use rdsolve::model::*;
+use rdsolve::sections::BeamStresses;
 use rdsolve::solids::SolidShape;
 use rdsolve::solids::cuboid::SolidCuboid;
 use rdsolve::solids::hollow::HollowCylinder;
@@ -79,6 +80,7 @@ pub fn model() -> Model {
         bodies: shapes.into_iter().enumerate().map(body).collect(),
         masses: vec![],
         stiffnesses: vec![],
+        stresses: vec![],
         parts: vec![
             beam("arm", 3, vec![element([0, 1, 2, 3, 0])]).into(),
             beam("fore & aft", 1, vec![element([3, 4, 0, 0, 0]), element([4, 5, 0, 0, 0])]).into(),
@@ -188,7 +190,12 @@ impl Extras {
             part: 1,
             element: 0,
             place: SectionPlace::Point(point),
-            at: IntegrationPoint { s: 0.5, forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0], plastic_strain: 0.25 },
+            at: IntegrationPoint {
+                s: 0.5,
+                forces: [time, 1.0, 2.0, 3.0, 4.0, 5.0],
+                plastic_strain: 0.25,
+                stresses: Some(BeamStresses { values: [6.0, -7.0, 8.0, 9.0] }),
+            },
         };
         let derived = Derived {
             energy: Some(Energy {

@@ -1,5 +1,6 @@
 //! The results of elements for output.
 
+use crate::sections::BeamStresses;
 use base::math::Mat3;
 
 /// Results at an integration point of a beam.
@@ -11,6 +12,8 @@ pub struct IntegrationPoint {
     pub forces: [f64; 6],
     /// Largest accumulated plastic strain in the section.
     pub plastic_strain: f64,
+    /// Extreme stresses of the section's fibres; `None` where it has none.
+    pub stresses: Option<BeamStresses>,
 }
 
 /// The largest number of points through the thickness of a shell; above ten they are even in number.

@@ -5,6 +5,7 @@ use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape};
+use super::stresses::Outline;
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -58,6 +59,10 @@ impl SectionShape for C {
 
     fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
         Ok(c(self.height, self.width, self.web, self.flange)?.fibres(counts))
+    }
+
+    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+        Some(c(self.height, self.width, self.web, self.flange).ok()?.outline(section))
     }
 
     fn half_depth(&self) -> f64 {

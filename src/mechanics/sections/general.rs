@@ -4,6 +4,7 @@ use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, Stiffness};
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
+use super::stresses::Outline;
 use base::words::kinds::Values;
 use base::words::kinds::{Form, Given, Key};
 
@@ -133,6 +134,10 @@ impl SectionShape for General {
 
     fn lay_fibres(&self, _: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
         Err(NO_FIBRES.into())
+    }
+
+    fn outline(&self, _: f64, _: &Section) -> Option<Outline> {
+        None
     }
 
     fn half_depth(&self) -> f64 {

@@ -5,6 +5,7 @@ use super::fibres::Fibre;
 use super::profile::Profile;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
+use super::stresses::Outline;
 use super::wall::Wall;
 use base::words::kinds::{Form, Given, Key};
 
@@ -64,6 +65,10 @@ impl SectionShape for HollowBox {
 
     fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
         Ok(cell(self.width, self.height, self.web, self.flange)?.fibres(counts))
+    }
+
+    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+        Some(cell(self.width, self.height, self.web, self.flange).ok()?.outline(section))
     }
 
     fn half_depth(&self) -> f64 {

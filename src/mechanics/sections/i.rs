@@ -5,6 +5,7 @@ use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, pair};
+use super::stresses::Outline;
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -78,6 +79,11 @@ impl SectionShape for I {
     fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
         Ok(i(self.height, self.top_width, self.bottom_width, self.web, self.top_flange, self.bottom_flange)?
             .fibres(counts))
+    }
+
+    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+        let made = i(self.height, self.top_width, self.bottom_width, self.web, self.top_flange, self.bottom_flange);
+        Some(made.ok()?.outline(section))
     }
 
     fn half_depth(&self) -> f64 {

@@ -5,6 +5,7 @@ use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
+use super::stresses::Outline;
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -63,6 +64,10 @@ impl SectionShape for L {
 
     fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
         Ok(l(self.height, self.width, self.vertical, self.horizontal)?.fibres(counts))
+    }
+
+    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+        Some(l(self.height, self.width, self.vertical, self.horizontal).ok()?.outline(section))
     }
 
     fn half_depth(&self) -> f64 {

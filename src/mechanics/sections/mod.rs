@@ -16,12 +16,14 @@ mod profile;
 pub mod rectangle;
 pub mod section;
 pub mod section_shape;
+pub mod stresses;
 pub mod tube;
 mod wall;
 
 pub use fibres::{Fibre, flattened};
 pub use section::{Section, Stiffness};
 pub use section_shape::{CrossSection, SectionKind, SectionShape};
+pub use stresses::{BeamStresses, SectionStresses};
 
 /// All shapes of sections, in the order of the reference.
 pub static SECTIONS: &[&SectionKind] =

@@ -8,6 +8,7 @@
 use super::dimensions::rectangles;
 use super::fibres::Fibre;
 use super::section::Section;
+use super::stresses::{Outline, StressPoint};
 use super::wall::{Wall, flow_at, shear};
 use base::math::quadrature::pairs;
 use nalgebra::Vector2;
@@ -77,6 +78,38 @@ impl Profile {
             }
         }
         fibres
+    }
+
+    /// The points of `section`, which is that of the profile, at which stresses may be extreme: on both faces of each wall, at the ends of its
+    /// plate and of its middle line, in its middle, and where a flow turns back.
+    pub fn outline(&self, section: &Section) -> Outline {
+        let (_, center, _) = rectangles(&self.plates);
+        let shear = shear(&self.points, &self.walls, self.cell);
+        let mut points = Vec::new();
+        for (k, (wall, &(middle, width, height))) in self.walls.iter().zip(&self.plates).enumerate() {
+            let [from, to] = wall.ends.map(|i| Vector2::from(self.points[i]));
+            let (t, length) = (wall.thickness, (to - from).norm());
+            let e = (to - from) / length;
+            let long = if e.x == 0.0 { height } else { width };
+            let plate = (Vector2::from(middle) - from).dot(&e) / length;
+            let reach = 0.5 * long / length;
+            let turns = [0, 1].map(|force| {
+                let [_, c1, c2] = shear.flows[force][k];
+                -0.5 * c1 / c2
+            });
+            let inside = turns.into_iter().filter(|s| *s > 0.0 && *s < 1.0);
+            for s in [plate - reach, 0.0, 0.5, 1.0, plate + reach].into_iter().chain(inside) {
+                // The plate may be longer than the middle line, in a corner, or shorter.
+                let s = s.clamp(plate - reach, plate + reach);
+                let flows = [0, 1].map(|force| flow_at(shear.flows[force][k], s.clamp(0.0, 1.0)) / t);
+                for offset in [0.5 * t, -0.5 * t] {
+                    let at = from + s * length * e + offset * Vector2::new(-e.y, e.x) - Vector2::from(center);
+                    let twist = (shear.circulation / t - 2.0 * offset) / section.torsion;
+                    points.push(StressPoint { at: at.into(), shear: [[flows[0], flows[1], twist], [0.0; 3]] });
+                }
+            }
+        }
+        Outline::Points(points)
     }
 }
 

@@ -4,6 +4,7 @@ use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, saint_venant};
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape};
+use super::stresses::{Outline, StressPoint};
 use base::math::quadrature::kinked;
 use base::words::kinds::{Form, Given, Key};
 use std::f64::consts::PI;
@@ -52,6 +53,10 @@ impl SectionShape for Rectangle {
 
     fn lay_fibres(&self, counts: [usize; 2], _: &Section) -> Result<Vec<Fibre>, String> {
         Ok(rectangle_fibres(self.width, self.height, counts))
+    }
+
+    fn outline(&self, nu: f64, section: &Section) -> Option<Outline> {
+        Some(Outline::Points(rectangle_points(self.width, self.height, nu, section)))
     }
 
     fn half_depth(&self) -> f64 {
@@ -104,6 +109,47 @@ fn rectangle_torsion(a: f64, b: f64) -> f64 {
         [1.0, 3.0, 5.0, 7.0, 9.0].map(|n: f64| 2.0 / (n.powi(5) * ((n * PI * a / b).exp() + 1.0))).iter().sum();
     a * b.powi(3) / 3.0 * (1.0 - 192.0 / PI.powi(5) * (b / a) * (31.0 / 32.0 * ZETA_5 - rest))
 }
+
+/// Corners, middles of the sides and the centre: normal stress is extreme in corners, shear stress in the middles, or in the centre.
+fn rectangle_points(width: f64, height: f64, nu: f64, section: &Section) -> Vec<StressPoint> {
+    let (y, z) = (0.5 * width, 0.5 * height);
+    let along_y = flexure(width, height, nu).map(|tau| tau / section.area);
+    let along_z = flexure(height, width, nu).map(|tau| tau / section.area);
+    let corner = |at: [f64; 2]| StressPoint { at, shear: [[0.0; 3]; 2] };
+    let mut points: Vec<StressPoint> = [[y, z], [-y, z], [-y, -z], [y, -z]].map(corner).into();
+    for side in [1.0, -1.0] {
+        let [_, twist] = rectangle_twist(width, height, side * y, 0.0);
+        let shear = [[0.0; 3], [0.0, along_z[1], twist / section.torsion]];
+        points.push(StressPoint { at: [side * y, 0.0], shear });
+        let [twist, _] = rectangle_twist(width, height, 0.0, side * z);
+        let shear = [[along_y[1], 0.0, twist / section.torsion], [0.0; 3]];
+        points.push(StressPoint { at: [0.0, side * z], shear });
+    }
+    points.push(StressPoint { at: [0.0; 2], shear: [[along_y[0], 0.0, 0.0], [0.0, along_z[0], 0.0]] });
+    points
+}
+
+/// Shear stress times area over the shear force in a rectangle, at the centre and at the middle of the sides along the force, which are `depth`
+/// long and `width` apart.
+///
+/// τ = (a² − x²)/2I + ∂φ/∂y with ∇²φ = ν/(1 + ν) y/I and φ = 0 at the edge (Timoshenko & Goodier, art. 122), as a sine series along y, of which
+/// the part without cosh x is summed.
+pub(super) fn flexure(depth: f64, width: f64, nu: f64) -> [f64; 2] {
+    let (a, b) = (0.5 * depth, 0.5 * width);
+    let decay = PI * a / b;
+    let terms = (1..=MOST_TERMS).map(f64::from).take_while(|n| n * decay < 40.0);
+    let sums = terms.fold([0.0; 2], |[centre, side], n| {
+        let term = 1.0 / (n * n * (n * decay).cosh());
+        [centre + if n % 2.0 == 1.0 { term } else { -term }, side - term]
+    });
+    let lateral = |square: f64, sum: f64| b * b * (1.0 / 6.0 - 0.5 * square - 2.0 / (PI * PI) * sum);
+    // A/I = 3/a².
+    let share = nu / (1.0 + nu);
+    [(0.0, sums[0]), (1.0, sums[1])].map(|(square, sum)| 3.0 / (a * a) * (0.5 * a * a - share * lateral(square, sum)))
+}
+
+/// Terms of the series of a strip a thousand times as wide as deep.
+const MOST_TERMS: u32 = 10_000;
 
 /// Fibres along y and z. Shear is the parabola of ν = 0, 5/4 (1 − ζ²), zero at the edges; [`super::fibres::calibrated`] scales it to the
 /// shear area. Twist is Saint-Venant's.

@@ -2,6 +2,7 @@
 
 use super::fibres::{Fibre, calibrated};
 use super::section::{Section, Stiffness};
+use super::stresses::{Outline, SectionStresses};
 use base::names::short;
 use base::words::kinds::{Form, Given, Key, Kind, Values};
 use std::fmt;
@@ -36,6 +37,15 @@ pub trait SectionShape: fmt::Debug {
 
     /// Fibres whose shear modes are not yet scaled to the section.
     fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String>;
+
+    /// The points of `section`, which is that of the shape, at which stresses may be extreme; `None` of a section that does not say where its
+    /// area is.
+    fn outline(&self, nu: f64, section: &Section) -> Option<Outline>;
+
+    /// What stresses of `section`, which is that of the shape, follow from; `None` as for [`SectionShape::outline`].
+    fn stresses(&self, nu: f64, section: &Section) -> Option<SectionStresses> {
+        Some(SectionStresses::new(section, self.outline(nu, section)?))
+    }
 
     /// Half its smaller side, or its radius: the contact radius of a beam.
     fn half_depth(&self) -> f64;

@@ -6,7 +6,7 @@ use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
 use base::math::{Mat3, Vec3};
-use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES};
+use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES, SECTION_STRESSES};
 use deck::part_table::MassKind;
 use mechanics::elements::beam::FibreModel;
 use mechanics::sections::Stiffness;
@@ -45,7 +45,8 @@ pub struct BeamElement {
 
 impl Beam {
     /// The quantities for `[[expect]]`; plastic strain only if its material yields.
-    pub(super) const QUANTITIES: &'static [&'static [Column]] = &[&SECTION_FORCES, &[PLASTIC_STRAIN]];
+    pub(super) const QUANTITIES: &'static [&'static [Column]] =
+        &[&SECTION_FORCES, &SECTION_STRESSES, &[PLASTIC_STRAIN]];
 }
 
 impl PartAnswers for Beam {

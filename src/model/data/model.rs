@@ -10,7 +10,7 @@ use super::part::{Part, PartType};
 use super::step_length::{SAFE, SAFE_WHERE_STRUCK};
 use super::study::Study;
 use deck::parts::PartKind;
-use mechanics::sections::Stiffness;
+use mechanics::sections::{SectionStresses, Stiffness};
 
 /// A scene, checked and ready to be planned.
 #[derive(Debug, Clone)]
@@ -29,6 +29,8 @@ pub struct Model {
     pub masses: Vec<Mass>,
     /// Section stiffnesses and inertias, shared by the elements that name them.
     pub stiffnesses: Vec<Stiffness>,
+    /// What stresses of these sections follow from, in their order; `None` of a section that does not say where its area is.
+    pub stresses: Vec<Option<SectionStresses>>,
     /// Beams, then bars, shells, links and contacts, each kind in deck order: the order of numbering, assembly and rows.
     pub parts: Vec<Part>,
     /// Rigid links, joints and restraints.

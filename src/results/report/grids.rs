@@ -6,6 +6,7 @@ use crate::at;
 use crate::table_reader::{TableReader, fields, text};
 use crate::vtu::APPENDED;
 use base::math::curved_faces::{facets, ring};
+use base::quantities::SECTION_STRESSES;
 use base::text_file::{read_regular, read_text};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::bufread::ZlibDecoder;
@@ -52,6 +53,8 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     let most = (NUMBERS / of_grid.max(1)).clamp(2, GRIDS);
     let every = grids.len().div_ceil(most).max(1);
     scene.fields = names.into_iter().map(|name| (name, Vec::new())).collect();
+    let has_beams = scene.kinds.contains(&0) && first.array(SECTION_STRESSES[0].name, 1).is_ok();
+    let mut of_beams = SECTION_STRESSES.map(|column| (column.name, Vec::new()));
     for (number, (time, file)) in grids.iter().enumerate() {
         if !number.is_multiple_of(every) && number + 1 != grids.len() {
             continue;
@@ -70,8 +73,28 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
             }
             values.extend(of_cells.iter().map(|&value| value as f32));
         }
+        for (name, values) in of_beams.iter_mut().filter(|_| has_beams) {
+            stresses_of_beams(&grid, name, &scene, values)?;
+        }
     }
+    let of_beams = of_beams.into_iter().filter(|_| has_beams);
+    scene.fields.extend(of_beams.map(|(name, values)| (name.to_owned(), values)));
     Ok(Some(Ok(scene)))
+}
+
+/// Appends an extreme stress of each beam element, of `sigma_min` the least over its points, of others the largest; zero for other cells.
+fn stresses_of_beams(grid: &Grid, name: &str, scene: &PageScene, out: &mut Vec<f32>) -> io::Result<()> {
+    let of_points = grid.array(name, 1)?;
+    let mut of_cells: Vec<Option<f64>> = vec![None; scene.kinds.len()];
+    for (pair, &cell) in scene.lines.as_chunks::<2>().0.iter().zip(&scene.line_cells) {
+        for point in pair {
+            let value = of_points.get(*point as usize).ok_or_else(|| grid.wrong("the points of the first grid"))?;
+            let so_far = of_cells[cell as usize].get_or_insert(*value);
+            *so_far = if name == "sigma_min" { so_far.min(*value) } else { so_far.max(*value) };
+        }
+    }
+    out.extend(of_cells.iter().map(|value| value.unwrap_or_default() as f32));
+    Ok(())
 }
 
 /// Pictures of a mode in one swing.

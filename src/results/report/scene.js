@@ -39,6 +39,8 @@ const scaleColour = s => {
 };
 
 const [BEAM, BAR, SHELL, LINK, BODY] = [0, 1, 2, 3, 4];
+/** Stresses that beams alone have. */
+const OF_BEAMS = ["sigma_max", "sigma_min", "tau_max"];
 
 class Scene {
   constructor(from) {
@@ -49,8 +51,10 @@ class Scene {
     this.count = this.x0.length / 3;
     const [bottom, top] = ["von_mises_bottom", "von_mises_top"].map(name => this.fields.get(name));
     if (bottom && top) {
-      this.fields.set("von_mises", bottom.map((x, i) => Math.max(x, top[i])));
-    }
+      const beams = this.fields.get("von_mises");
+      this.fields.set("von_mises", bottom.map((x, i) => Math.max(x, top[i], beams ? beams[i] : 0)));
+      this.stressed = beams ? [BEAM, SHELL] : [SHELL];
+    } else this.stressed = [BEAM];
     this.at = new Float32Array(this.x0.length);
   }
 
@@ -80,7 +84,8 @@ class Scene {
       return Float32Array.from({ length: this.count }, (_, i) => Math.hypot(u[first + 3 * i], u[first + 3 * i + 1], u[first + 3 * i + 2]));
     }
     const cells = this.kinds.length, all = this.fields.get(field).subarray(frame * cells, (frame + 1) * cells);
-    const has = field === "plastic_strain" ? kind => kind <= SHELL : kind => kind === SHELL;
+    const of = new Map([["plastic_strain", [BEAM, BAR, SHELL]], ["von_mises", this.stressed], ...OF_BEAMS.map(name => [name, [BEAM]])]);
+    const carrying = of.get(field) ?? [SHELL], has = kind => carrying.includes(kind);
     return all.map((x, cell) => (has(this.kinds[cell]) ? x : NaN));
   }
 

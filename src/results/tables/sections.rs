@@ -2,7 +2,7 @@
 
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
-use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES, Unit};
+use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES, SECTION_STRESSES, Unit, names};
 use model::{Beam, ExpectAt, PartKind, SectionPlaces};
 use solve::{Frame, SectionPlace, SectionPoint, Wanted};
 use std::io;
@@ -12,7 +12,10 @@ pub static TABLE: TableKind = TableKind {
     about: "One row for each integration point of each beam element. Forces and moments are those that the part of the beam \
             beyond the point, on the side of larger `s`, exerts on the part before it; moments are about the centroid. \
             With { at = \"ends\" } rows are those of both ends of each element, in balance with what acts at the nodes there; with \
-            { at = \"both\" } they come besides. Written if `[output] sections` asks for it and there are beams.",
+            { at = \"both\" } they come besides. Stresses are those of the elastic section under the resultants, at its extreme points: \
+            corners, faces of walls, middles of sides, the edge of a tube. Where the material yields they are those of the fibres, at integration \
+            points alone, and von Mises stress has no shear stress where that does not enter the yield condition. They are empty for sections of \
+            shape \"general\". Written if `[output] sections` asks for it and there are beams.",
     columns: &[
         &[
             Column::key("beam", "name of the beam"),
@@ -25,6 +28,7 @@ pub static TABLE: TableKind = TableKind {
         ],
         &SECTION_FORCES,
         &[PLASTIC_STRAIN],
+        &SECTION_STRESSES,
     ],
     wanted: |model| model.output.sections.is_some() && model.has(PartKind::Beam),
     needs: Wanted::SECTIONS,
@@ -40,7 +44,8 @@ pub static TABLE: TableKind = TableKind {
         let points = |beam: &Beam| beam.elements.len() * places(beam);
         let names = beams().flat_map(|beam| std::iter::repeat_n(beam.name.as_str(), points(beam)));
         let forces: usize = extent.components().iter().sum();
-        let numbers = |beam: &Beam| points(beam) * (forces + usize::from(beam.yielding.is_some()));
+        let numbers =
+            |beam: &Beam| points(beam) * (forces + SECTION_STRESSES.len() + usize::from(beam.yielding.is_some()));
         Rows::named(names, beams().map(numbers).sum())
     },
     rows: |_| Box::new(write),
@@ -49,15 +54,21 @@ pub static TABLE: TableKind = TableKind {
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
     match at {
-        ExpectAt::Sections(_) => SECTION_FORCES.iter().map(|column| column.name).collect(),
+        ExpectAt::Sections(_) => names(&[&SECTION_FORCES, &SECTION_STRESSES]),
         _ => Vec::new(),
     }
 }
 
-/// The value of the largest magnitude over the beam, at ends of elements and at points between, with its sign.
+/// Of a force the value of the largest magnitude over the beam, at ends of elements and at points between, with its sign; of a stress the
+/// largest, of `sigma_min` the smallest.
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     let ExpectAt::Sections(part) = at else { return None };
     let points = frame.derived.sections.iter().filter(|point| point.part == part);
+    if let Some(stress) = index.checked_sub(SECTION_FORCES.len()) {
+        let least = SECTION_STRESSES[stress].name == "sigma_min";
+        let stresses = points.filter_map(|point| Some(point.at.stresses?.values[stress]));
+        return stresses.reduce(|a, b| if least { a.min(b) } else { a.max(b) });
+    }
     points.map(|point| point.at.forces[index]).reduce(|most, force| if force.abs() > most.abs() { force } else { most })
 }
 
@@ -81,6 +92,10 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
         match point.place {
             SectionPlace::Point(_) => table.number(at.plastic_strain),
             SectionPlace::Start | SectionPlace::End => table.text(""),
+        };
+        match &at.stresses {
+            Some(stresses) => table.numbers(&stresses.values),
+            None => table.text("").text("").text("").text(""),
         };
         table.end()
     })

@@ -297,6 +297,7 @@ impl<const N: usize, S: BeamSection> Results for Beams<N, S> {
             s: element.jacobian * (1.0 + self.shape.xi[g]),
             forces: [n.x, n.y, n.z, m.x, m.y, m.z],
             plastic_strain: element.section.plastic_strain(g, now.history),
+            stresses: element.section.stresses(g, (&gamma, &kappa), now),
         })
     }
 

@@ -9,8 +9,8 @@ use super::fibre_sum::FibreSum;
 use super::lane_section::{Linearised, SectionStiffness};
 use super::section::{BeamSection, BeamStiffness};
 use crate::elements::block::Moduli;
-use crate::materials::{Dissipation, FAILED_STIFFNESS, MaterialLaw, Spent, StressState};
-use crate::sections::{Fibre, Stiffness};
+use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, Spent, StressState};
+use crate::sections::{BeamStresses, Fibre, Stiffness};
 use crate::state::Configuration;
 use base::math::lanes::LANES;
 use base::math::number::{LaneVec3, Number};
@@ -324,6 +324,20 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         let history = self.profile.with_history(&now.history[self.history_range(g)]);
         let kept = history.map(|(fibre, old)| fibre.area * law.lost(*state, old)).sum::<f64>();
         Dissipation { stored: -kept, eroded: kept + self.stored(g, strain, now), ..Dissipation::default() }
+    }
+
+    fn stresses(&self, g: usize, (gamma, kappa): (&Vec3, &Vec3), now: &Configuration) -> Option<BeamStresses> {
+        let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
+        let severed = self.intact(g, now.history) == 0.0;
+        let (law, state, now) = (&self.profile.law, self.profile.state, self.at(g, now));
+        let mut found = BeamStresses::default();
+        for (fibre, old) in self.profile.with_history(now.history) {
+            let strain = FibreProfile::<S, N>::strain(fibre, &gamma, &kappa);
+            let stress =
+                if severed { [0.0; N] } else { law.at_point(state, &strain, (now.dt, old), Ask::Stress).stress };
+            found.include(stress[0], &stress[1..]);
+        }
+        Some(found)
     }
 
     fn plastic_strain(&self, g: usize, history: &[f64]) -> f64 {

@@ -3,7 +3,7 @@
 use super::lane_section::{Linearised, SectionStiffness};
 use crate::elements::block::Moduli;
 use crate::materials::Dissipation;
-use crate::sections::Stiffness;
+use crate::sections::{BeamStresses, Stiffness};
 use crate::state::Configuration;
 use base::math::number::{LaneVec3, Number};
 use base::math::{Mat3, Vec3};
@@ -58,6 +58,10 @@ pub trait BeamSection: Send + Sync {
     /// Largest accumulated plastic strain at point `g`, by the history variables of the group.
     fn plastic_strain(&self, _g: usize, _history: &[f64]) -> f64 {
         0.0
+    }
+    /// Extreme stresses of the fibres at point `g`, of shear stress where it enters the yield condition; `None` of a section without fibres.
+    fn stresses(&self, _g: usize, _strain: (&Vec3, &Vec3), _now: &Configuration) -> Option<BeamStresses> {
+        None
     }
     /// True for sections that may fail.
     fn can_fail(&self) -> bool {

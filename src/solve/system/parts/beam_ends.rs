@@ -105,7 +105,7 @@ impl BeamEnds {
             let sign = if k == 0 { -1.0 } else { 1.0 };
             let sum: Force = std::array::from_fn(|i| internal[i] - outer[i]);
             let axes = now.nodes[end.lumped.node].R() * end.frame;
-            IntegrationPoint { s: 0.0, forces: in_section(&sum, &axes, sign), plastic_strain: 0.0 }
+            IntegrationPoint { s: 0.0, forces: in_section(&sum, &axes, sign), plastic_strain: 0.0, stresses: None }
         })
     }
 

@@ -6,6 +6,7 @@ use crate::system::loads::Loading;
 use crate::system::mass_damping::MassDamping;
 use base::math::Mat3;
 use mechanics::elements::IntegrationPoint;
+use mechanics::sections::BeamStresses;
 use mechanics::state::Configuration;
 use model::{Beam, Load, Model, PartType};
 
@@ -73,7 +74,8 @@ pub fn section_points(
                 Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), acting.damping, &now))
             });
             let mut push = |place, s: f64, at: IntegrationPoint| {
-                out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, ..at } });
+                let stresses = stresses(model, beam, element, &at);
+                out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, stresses, ..at } });
             };
             if let Some([at, _]) = ends {
                 push(SectionPlace::Start, start, at);
@@ -88,4 +90,24 @@ pub fn section_points(
             (start, count) = (end, count + 1);
         }
     }
+}
+
+/// Extreme stresses at a place of a beam: of its fibres where its material yields, which ends have none of, otherwise by its resultants.
+fn stresses(model: &Model, beam: &Beam, element: usize, at: &IntegrationPoint) -> Option<BeamStresses> {
+    let by_resultants = || elastic_stresses(model, beam, element, &at.forces);
+    match &beam.yielding {
+        None => by_resultants(),
+        Some(yielding) if yielding.shear => at.stresses,
+        Some(_) => {
+            // Shear stays elastic here, apart from the fibres.
+            let [most, least, _, mises] = at.stresses?.values;
+            Some(BeamStresses { values: [most, least, by_resultants()?.values[2], mises] })
+        }
+    }
+}
+
+/// Extreme stresses of an elastic section; `None` of one that does not say where its area is.
+pub fn elastic_stresses(model: &Model, beam: &Beam, element: usize, forces: &[f64; 6]) -> Option<BeamStresses> {
+    let section = beam.elements[element].section;
+    Some(model.stresses.get(section)?.as_ref()?.extremes(forces))
 }
