@@ -1060,6 +1060,13 @@ fn paths() {
     let loose =
         [("at = \"crown\", quantity", "at = \"loose\", quantity"), ("[points]", "[points]\nloose = [0.0, 0.0, 2.0]")];
     assert_snapshot!("stop_where_nothing_acts", path(&loose));
+    let moved = ("control = \"arc-length\"", "control = \"displacement\"");
+    assert_eq!(path(&[moved, ("end_time = 1.0\n", ""), ("time_step = 0.1\n", "")]), "");
+    let keys = ("control = \"arc-length\"", "control = \"displacement\"\nsteps = 3\ngrowth = 2.0\nincrement = 0.9");
+    assert_snapshot!("moved_by_wrong_keys", path(&[keys, ("value = -0.8", "value = -0.8, pass = 2")]));
+    let stop = PATH.lines().find(|line| line.starts_with("stop = ")).unwrap();
+    assert_snapshot!("moved_without_stop", path(&[moved, (stop, "increment = -1.0")]));
+    assert_snapshot!("increment_of_an_arc", path(&[("time_step = 0.1", "time_step = 0.1\nincrement = 0.01")]));
     let both = expect.replace("value = 0.6", "time = 0.5\nvalue = 0.6");
     assert_snapshot!("when_and_time", path(&[("[[loads]]", &both)]));
 }
@@ -1288,6 +1295,12 @@ fn modes() {
     assert_snapshot!("modes_none", asked("kind = \"modal\"\nmodes = 0\ncontrol = \"arc-length\""));
     assert_snapshot!("modes_too_many", asked("kind = \"modal\"\nmodes = 100000"));
     assert_snapshot!("modes_of_buckling", asked("kind = \"buckling\"\nup_to = 5.0\ndamped = true"));
+    let speeds = "speeds = { from = 5.0, to = 2.0, steps = 1 }\n[[expect]]\ncritical_speed = 0\nquantity = \"speed\"\nvalue = 1.0\n\
+                  tolerance = 0.1\n[[expect]]\ncritical_speed = 1\nat = \"block\"\nquantity = \"sped\"\nvalue = 1.0\ntolerance = 0.1\n";
+    assert_snapshot!("speeds_numbers", asked(&format!("kind = \"modal\"\n{speeds}")));
+    let sound = speeds.replace("from = 5.0, to = 2.0, steps = 1", "to = 2.0");
+    assert_snapshot!("critical_speeds_expected", asked(&format!("kind = \"modal\"\ndamped = true\n{sound}")));
+    assert_snapshot!("speeds_of_motion", portal(&[("end_time = 0.3", "end_time = 0.3\nspeeds = { to = 2.0 }")]));
     assert_snapshot!("modes_of_motion", portal(&[("end_time = 0.3", "end_time = 0.3\nmodes = 3\ndamped = true")]));
     let expect = |of: &str| format!("kind = \"modal\"\nmodes = 3\n[[expect]]\n{of}\nvalue = 1.0\ntolerance = 0.1\n");
     assert_snapshot!(
@@ -1300,6 +1313,51 @@ fn modes() {
     );
     let expect = "[[expect]]\nmode = 1\nquantity = \"frequency\"\nvalue = 1.0\ntolerance = 0.1\n[materials.steel]";
     assert_snapshot!("modes_expected_of_motion", portal(&[("[materials.steel]", expect)]));
+}
+
+#[test]
+fn profiles() {
+    let of = |keys: &str| portal(&[("shape = \"rectangle\"\nwidth = 0.05\nheight = 0.05\n", &format!("{keys}\n"))]);
+    assert_eq!(of("profile = \"SHS 50x4\"\nunit = \"m\""), "");
+    for (name, keys) in [
+        ("without_units", "profile = \"IPE 200\""),
+        ("unknown", "profile = \"IPE 210\"\nunit = \"m\""),
+        ("other_family", "profile = \"W14x90\"\nunit = \"m\""),
+        ("with_a_shape", "shape = \"i\"\nprofile = \"IPE 200\"\nunit = \"m\""),
+        ("of_a_number", "profile = 200"),
+    ] {
+        assert_snapshot!(format!("profile_{name}"), of(keys));
+    }
+}
+
+#[test]
+fn releases_and_shares() {
+    let of = |keys: &str| portal(&[("elements = 12", &format!("elements = 12\n{keys}"))]);
+    assert_snapshot!("release_of_translations", of("release = { start = [\"ux\", \"ry\"], ends = \"ry\" }"));
+    assert_snapshot!("hinges_of_others", of("hinges = \"start\"\nreleases = [\"ry\"]"));
+    let both = "force = [0.0, 0.0, -100.0]\ntotal_force = [0.0, 0.0, -100.0]";
+    assert_snapshot!("force_and_share", portal(&[("force = [0.0, 0.0, -100.0]", both)]));
+}
+
+#[test]
+fn comments_and_signs_of_others() {
+    assert_snapshot!("comment_of_c", portal(&[("height = 0.05", "height = 0.05 // half")]));
+    assert_snapshot!("minus_of_mathematics", portal(&[("[0.0, 0.0, -100.0]", "[0.0, 0.0, \u{2212}100.0]")]));
+    assert_snapshot!("step_in_quotes", portal(&[("time_step = 1e-4", "time_step = \"1e-4\"")]));
+    assert_snapshot!("number_of_steps", portal(&[("time_step = 1e-4", "steps = 300")]));
+}
+
+#[test]
+fn drifts() {
+    let drift =
+        |name: &str, from: &str, to: &str| format!("[[drifts]]\nname = \"{name}\"\nfrom = \"{from}\"\nto = \"{to}\"\n");
+    assert_eq!(portal_and(&drift("storey", "foot_left", "block")), "");
+    let wrong = drift("knee_left", "foot_left", "knee_left")
+        + &drift("one", "portal", "knee_lft")
+        + &drift("two", "feet", "foot_left")
+        + &drift("three", "foot_left", "foot_left")
+        + "[[drifts]]\nname = \"four\"\n[[expect]]\nat = \"four\"\nquantity = \"rato\"\ntime = 0.1\nvalue = 1.0\ntolerance = 0.1\n";
+    assert_snapshot!("drifts_wrong", portal_and(&wrong));
 }
 
 #[test]
@@ -1360,6 +1418,23 @@ fn stages() {
     let stopping: String = stops.iter().enumerate().map(|(k, stop)| stage(&format!("s{k}"), "static", stop)).collect();
     let push = "[[loads]]\nname = \"push\"\nat = \"knee_left\"\nforce = [1.0, 0.0, 0.0]";
     assert_snapshot!("stages_stops", with(&stopping, push));
+    let paths = stage("gravity", "static", "")
+        + &stage(
+            "push",
+            "static",
+            "control = \"displacement\"\nstop = { load = \"push\", force = 3.0 }\nincrement = 1e-3",
+        )
+        + &stage(
+            "arc",
+            "static",
+            "control = \"arc-length\"\nstop = { at = \"knee_left\", quantity = \"rx\", value = 0.1 }",
+        )
+        + &stage("blow", "dynamic", "control = \"arc-length\"");
+    let steady = ("amplitude = \"pulse\"\n", "");
+    assert_snapshot!(
+        "stages_of_paths",
+        said(&edited(&[(analysis, &paths), steady]).replace("[sets]", &format!("{push}\n[sets]")), &[])
+    );
     // What is wrong in one stage only is said with its name.
     let hinge = "[[joints]]\nname = \"hinge\"\nkind = \"spherical\"\nfrom = { node = \"knee_right\" }\nto = { body = \"block\", }\nstages = \"impact\"\naxis = [1.0, 0.0, 0.0]";
     assert_snapshot!("stages_in_one", with(&two, hinge));

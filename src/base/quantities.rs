@@ -270,6 +270,27 @@ pub const LINK: [Column; 10] = {
     ]
 };
 
+/// A displacement relative to another node.
+pub const DRIFT: [Column; 6] = {
+    const MOVED: &str = "displacement of `to` less that of `from`";
+    [
+        Column::scalar("ux", MOVED, Unit::Length).kind(MOVED).in_axes(Axes::Global),
+        Column::scalar("uy", MOVED, Unit::Length).kind(MOVED).in_axes(Axes::Global),
+        Column::scalar("uz", MOVED, Unit::Length).kind(MOVED).in_axes(Axes::Global),
+        Column::scalar("distance", "change of the distance between both", Unit::Length).positive("apart"),
+        Column::scalar(
+            "lateral",
+            "size of the relative displacement across the line from `from` to `to` at t = 0",
+            Unit::Length,
+        ),
+        Column::scalar(
+            "ratio",
+            "`lateral` over the distance at t = 0, the drift ratio of a storey; empty where both lie at one place",
+            Unit::One,
+        ),
+    ]
+};
+
 /// Points in contact and least clearance of a contact, then force and moment on its surface.
 pub const CONTACT: [Column; 8] = {
     let [fx, fy, fz, mx, my, mz] = wrench(
@@ -332,7 +353,7 @@ pub const ENERGY: [Column; 19] = {
 };
 
 /// A mode: its frequency and what else there is of it.
-pub const MODE: [Column; 20] = {
+pub const MODE: [Column; 21] = {
     const fn factor(name: &'static str) -> Column {
         let meaning = "participation factor: φᵀ M r over the modal mass, for a unit rigid motion r along or about an axis through \
             the centre of mass";
@@ -381,8 +402,39 @@ pub const MODE: [Column; 20] = {
             "share of strain energy in beams, bars, shells and links; stressed joints and follower loads have the rest",
             Unit::One,
         ),
+        WHIRL,
     ]
 };
+
+/// The sense of the orbits of a mode.
+const WHIRL: Column = Column::scalar(
+    "whirl",
+    "sense of the orbits: 1 circular with the spin of bodies, -1 circular against it, 0 along lines; empty where nothing spins",
+    Unit::One,
+)
+.positive("forward");
+
+/// The speed of rotation of a row of campbell.csv.
+pub const CAMPBELL_SPEED: Column =
+    Column::scalar("speed", "speed of rotation of the body that spins fastest", Unit::AngularVelocity);
+
+/// A mode at a speed of rotation.
+pub const CAMPBELL: [Column; 5] = [
+    Column::scalar("frequency", "frequency; 0 of what does not oscillate", Unit::Frequency),
+    Column::scalar("angular_frequency", "2π times the frequency", Unit::AngularVelocity),
+    Column::scalar("damping_ratio", "part of critical damping; empty where nothing oscillates nor decays", Unit::One)
+        .positive("decays"),
+    Column::scalar("growth", "growth rate of the motion, exp(growth t)", Unit::Frequency).positive("grows"),
+    WHIRL,
+];
+
+/// A critical speed.
+pub const CRITICAL_SPEED: [Column; 4] = [
+    Column::scalar("speed", "speed of rotation that is the angular frequency of a mode", Unit::AngularVelocity),
+    Column::scalar("frequency", "speed over 2π", Unit::Frequency),
+    Column::scalar("damping_ratio", "part of critical damping of the mode", Unit::One).positive("decays"),
+    WHIRL,
+];
 
 /// The steady motion of a node at a frequency: amplitudes, then phases.
 pub const RESPONSE: [Column; 12] = {

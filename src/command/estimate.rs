@@ -149,7 +149,8 @@ pub fn first_period(model: &Model) -> String {
     loading.gravity.fill(0.0);
     bare.expects.clear();
     let analysis = &mut bare.analysis;
-    analysis.kind = AnalysisKind::Modal(ModesAsked { extent: ModeExtent::Count(MODES), damped: false });
+    analysis.kind =
+        AnalysisKind::Modal(ModesAsked { extent: ModeExtent::Count(MODES), damped: false, speeds: Vec::new() });
     (analysis.begin, analysis.end_time, analysis.stage, analysis.plane) = (0.0, 1.0, None, false);
     analysis.step_length = StepLength::Fixed { step: 1.0 };
     let found = System::new(&bare).and_then(|system| {

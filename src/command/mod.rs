@@ -14,6 +14,7 @@ mod instructions;
 mod load;
 mod memory;
 mod mesh_error;
+mod modes_told;
 mod processor;
 mod recommend;
 mod report;

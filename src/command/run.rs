@@ -95,11 +95,11 @@ pub fn run(args: &RunArgs) -> Result<(), Exit> {
         let _lock = FolderLock::make(&folder)?;
         job.compute(&mut run, begins.checkpoint())
     });
-    let (end, result, energy) = computed.map_err(|error| {
+    let (end, result, told) = computed.map_err(|error| {
         complain(&format!("cannot write results: {error}"));
         Exit::InputOutput
     })?;
-    job.conclude(&end, &result, energy)
+    job.conclude(&end, &result, told)
 }
 
 /// A variant of a deck that is one case of a sweep.
@@ -269,7 +269,7 @@ impl Job<'_> {
     }
 
     /// Runs the scene, or what is left of it after a checkpoint, and writes its files; an error is one of input/output.
-    fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Option<String>)> {
+    fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Vec<String>)> {
         let resumes = checkpoint.is_some();
         let log = self.begin(resumes)?;
         let mut watchers = self.watchers(log, resumes)?;
@@ -287,8 +287,8 @@ impl Job<'_> {
         let of_run = self.warnings_of(warnings, watchers.files.empty_fields(), mesh.as_ref());
         of_run.iter().try_for_each(|warning| watchers.log.warn(warning))?;
         let warnings = self.warnings_of_deck().map(str::to_owned).chain(of_run).collect();
-        let energy = (!told.energy.is_empty()).then(|| told.energy.join("\n"));
-        energy.iter().try_for_each(|line| watchers.log.say(line))?;
+        told.energy.iter().try_for_each(|line| watchers.log.say(line))?;
+        let lines = [std::mem::take(&mut watchers.modes), std::mem::take(&mut told.energy)].concat();
         let expectations = watchers.expectations.verdicts();
         let errors = ReportedErrors {
             step_error: told.step_error.map(step_error),
@@ -322,7 +322,7 @@ impl Job<'_> {
         };
         let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
         self.leave(&result, serves)?;
-        Ok((end, result, energy))
+        Ok((end, result, lines))
     }
 
     /// Writes the result, and takes away a checkpoint that no longer serves; whoever marks a case does both when its files are safe.
@@ -425,12 +425,12 @@ impl Job<'_> {
     }
 
     /// Says how the run ended: failures on standard error, the verdicts and the folder on standard output.
-    fn conclude(&self, end: &End, result: &RunResult, energy: Option<String>) -> Result<(), Exit> {
-        let told = result.expectations.iter().filter(|verdict| !self.quiet || !verdict.passed);
-        let mut text: String = told.map(|verdict| format!("{}\n", line(verdict))).collect();
+    fn conclude(&self, end: &End, result: &RunResult, told: Vec<String>) -> Result<(), Exit> {
+        let judged = result.expectations.iter().filter(|verdict| !self.quiet || !verdict.passed);
+        let mut text: String = judged.map(|verdict| format!("{}\n", line(verdict))).collect();
         if !self.quiet {
             let RunResult { timings, counts, .. } = result;
-            text.extend(energy.map(|line| format!("{line}\n")));
+            text.extend(told.iter().map(|line| format!("{line}\n")));
             text += &format!(
                 "{} steps, {} iterations, {} factorizations; time stepping {:.4} s of {:.4} s; results in {}\n",
                 counts.steps,

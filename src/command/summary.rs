@@ -4,13 +4,22 @@ use super::console::{complain, print};
 use super::exit::Exit;
 use base::names::to_digits;
 use clap::{Args, ValueEnum};
-use results::summary::{ColumnSummary, Extremum, ResultSummary};
+use results::compare::Selector;
+use results::curve::{Curve, CurveAxis};
+use results::low_pass::{LowPass, Sampling};
+use results::summary::{ColumnSummary, Extremum, Filter, ResultSummary};
 use std::path::PathBuf;
 
 #[derive(Debug, Args)]
 #[command(
     after_help = "Each column of each table has its least and its largest value, with the time and what the row is about, and the value \
-of largest magnitude at the last time. Columns that are zero throughout are left out of the text."
+of largest magnitude at the last time. Columns that are zero throughout are left out of the text.
+
+A curve goes over the rows of two tables: `--curve nodes.csv:tip:ux reactions.csv:*:fx`. An axis is FILE:NAME:COLUMN; NAME is that of the row, \
+joined by blanks where a row has several, and `*` in it stands for anything: such rows are summed. `-` in front changes the sign. The text has \
+peaks, stiffness and work, csv and json have all points.
+
+A filter runs forwards and backwards: `cfc60` is a channel frequency class of SAE J211, `butterworth:100:4` has cutoff frequency and order."
 )]
 pub struct SummaryArgs {
     /// The folder of results
@@ -18,6 +27,27 @@ pub struct SummaryArgs {
     /// How it is printed
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Low-pass filter of columns over time: `cfc60`, `butterworth:CUTOFF` or `butterworth:CUTOFF:ORDER`
+    #[arg(long)]
+    filter: Option<LowPass>,
+    /// The unit of time, which classes of filters need
+    #[arg(long, value_enum, default_value_t = TimeUnit::S, requires = "filter")]
+    time_unit: TimeUnit,
+    /// Columns to show: `ux` in any table, `nodes.csv`, or `nodes.csv:ux`
+    #[arg(long, num_args = 1..)]
+    only: Vec<Selector>,
+    /// A column over another: x, then y, each FILE:NAME:COLUMN
+    #[arg(long, num_args = 2, value_names = ["X", "Y"], allow_hyphen_values = true, conflicts_with = "only")]
+    curve: Vec<CurveAxis>,
+}
+
+/// Units of time of results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum TimeUnit {
+    /// Seconds
+    S,
+    /// Milliseconds
+    Ms,
 }
 
 /// The form of a summary.
@@ -36,12 +66,25 @@ enum Format {
 /// # Errors
 /// [`Exit::InputOutput`] where results cannot be read or standard output cannot be written; the reason has been shown.
 pub fn summary(args: &SummaryArgs) -> Result<(), Exit> {
-    let summary = ResultSummary::of(&args.dir).map_err(|error| {
+    let unreadable = |error| {
         complain(&format!("cannot read results: {error}"));
         Exit::InputOutput
-    })?;
+    };
+    let second = if args.time_unit == TimeUnit::Ms { 1e-3 } else { 1.0 };
+    let filter = args.filter.map(|low_pass| Filter { low_pass, second });
+    if let [x, y] = &args.curve[..] {
+        let mut curve = Curve::read(&args.dir, [x, y]).map_err(unreadable)?;
+        if let Some(filter) = filter {
+            smoothen(&mut curve, &filter).map_err(|why| {
+                complain(&why);
+                Exit::Usage
+            })?;
+        }
+        return print_curve(&curve, [x, y], args.format);
+    }
+    let summary = ResultSummary::of(&args.dir, filter.as_ref(), &args.only).map_err(unreadable)?;
     match args.format {
-        Format::Text => print(&text(&summary)),
+        Format::Text => print(&text(&summary, args.filter.as_ref())),
         Format::Csv => print(&csv(&summary)),
         Format::Json => {
             let json = serde_json::to_string_pretty(&summary).map_err(|_| Exit::Internal)?;
@@ -50,8 +93,61 @@ pub fn summary(args: &SummaryArgs) -> Result<(), Exit> {
     }
 }
 
-fn text(summary: &ResultSummary) -> String {
-    const DIGITS: usize = 7;
+/// Digits of numbers in the text.
+const DIGITS: usize = 7;
+
+/// Filters both columns of a curve.
+fn smoothen(curve: &mut Curve, filter: &Filter) -> Result<(), String> {
+    let sampling = Sampling::of(&curve.time)?;
+    for values in [&mut curve.x, &mut curve.y] {
+        let smooth = filter.low_pass.apply(&sampling, filter.second, &curve.time, values)?;
+        *values = sampling.at_rows(&smooth, &curve.time);
+    }
+    Ok(())
+}
+
+/// Prints a curve: its marks as text, or all of its points.
+fn print_curve(curve: &Curve, [x, y]: [&CurveAxis; 2], format: Format) -> Result<(), Exit> {
+    match format {
+        Format::Text => print(&curve_text(curve, [x, y])),
+        Format::Csv => {
+            let rows = curve.time.iter().zip(&curve.x).zip(&curve.y);
+            let rows: String = rows.map(|((time, x), y)| format!("{time},{x},{y}\n")).collect();
+            print(&format!("time,{},{}\n{rows}", quoted(&x.word), quoted(&y.word)))
+        }
+        Format::Json => {
+            let json = serde_json::to_string_pretty(curve).map_err(|_| Exit::Internal)?;
+            print(&format!("{json}\n"))
+        }
+    }
+}
+
+/// The peaks of a curve, the slope of its first step, and the work along it.
+fn curve_text(curve: &Curve, [x, y]: [&CurveAxis; 2]) -> String {
+    let digits = |value: f64| to_digits(value, DIGITS);
+    let point = |k: usize| format!("{} at {} (t = {})", digits(curve.y[k]), digits(curve.x[k]), digits(curve.time[k]));
+    let by = |a: &usize, b: &usize| curve.y[*a].total_cmp(&curve.y[*b]);
+    let all = || 0..curve.time.len();
+    let mut lines = vec![format!("{} over {}: {} points", y.word, x.word, curve.time.len())];
+    if let (Some(least), Some(most)) = (all().min_by(by), all().max_by(by)) {
+        lines.push(format!("  largest {}", point(most)));
+        lines.push(format!("  least {}", point(least)));
+        lines.push(format!("  at the end {}", point(curve.time.len() - 1)));
+    }
+    if let Some(k) = all().skip(1).find(|&k| curve.x[k] != curve.x[0]) {
+        lines.push(format!("  first slope {}", digits((curve.y[k] - curve.y[0]) / (curve.x[k] - curve.x[0]))));
+    }
+    lines.push(format!("  work along the curve {}", digits(curve.work())));
+    lines.push(String::new());
+    lines.join("\n")
+}
+
+/// A text as a field of a table.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}
+
+fn text(summary: &ResultSummary, filter: Option<&LowPass>) -> String {
     let value = |extremum: &Extremum| {
         let at = if extremum.at.is_empty() { String::new() } else { format!("{}, ", extremum.at) };
         format!("{} ({at}t = {})", to_digits(extremum.value, DIGITS), to_digits(extremum.time, DIGITS))
@@ -62,6 +158,7 @@ fn text(summary: &ResultSummary) -> String {
     }];
     lines.extend(summary.warnings.iter().map(|warning| format!("warning: {warning}")));
     lines.extend(summary.expectations.iter().cloned());
+    lines.extend(filter.map(|filter| format!("filtered: {}", filter.name())));
     let mut table = "";
     let varies = |column: &&ColumnSummary| column.least.value != 0.0 || column.largest.value != 0.0;
     for column in summary.columns.iter().filter(varies) {
@@ -77,9 +174,6 @@ fn text(summary: &ResultSummary) -> String {
 }
 
 fn csv(summary: &ResultSummary) -> String {
-    let quoted = |text: &str| {
-        if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-    };
     let cells = |extremum: &Extremum| format!("{},{},{}", extremum.value, extremum.time, quoted(&extremum.at));
     let row = |column: &ColumnSummary| {
         let [least, largest, end] = [&column.least, &column.largest, &column.end].map(cells);

@@ -2,6 +2,7 @@
 
 use super::checkpoints::Checkpoints;
 use super::load::model_stage;
+use super::modes_told::lines;
 use base::names::instant;
 use base::snapshot::{Keep, Snapshot};
 use model::Model;
@@ -26,6 +27,8 @@ pub struct Watchers {
     pub bars: Option<ErrorBars>,
     /// The bar on the terminal.
     pub progress: Progress,
+    /// The modes in lines for the terminal, stage by stage.
+    pub modes: Vec<String>,
     /// Where the run is to be able to go on after a stop.
     pub checkpoints: Option<Checkpoints>,
 }
@@ -42,6 +45,7 @@ impl Watchers {
             expectations: Expectations::new(model),
             bars: bars.then(|| ErrorBars::new(model)),
             progress: Progress::new(quiet),
+            modes: Vec::new(),
             checkpoints: None,
         })
     }
@@ -54,6 +58,7 @@ impl Watchers {
             expectations: Expectations::new(model),
             bars: bars.then(|| ErrorBars::new(model)),
             progress: Progress::new(quiet),
+            modes: Vec::new(),
             checkpoints: None,
         }
     }
@@ -74,7 +79,7 @@ impl Watchers {
 
     /// Keeps what stands behind the files in a checkpoint.
     fn keep_rest(&mut self, snapshot: &mut Snapshot) {
-        let Watchers { log, expectations, bars, files: _, progress: _, checkpoints: _ } = self;
+        let Watchers { log, expectations, bars, files: _, progress: _, modes: _, checkpoints: _ } = self;
         log.keep(snapshot);
         expectations.keep(snapshot);
         bars.keep(snapshot);
@@ -121,6 +126,9 @@ impl Observer for Watchers {
 
     fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
         self.expectations.on_modes(frame)?;
+        let told = frame.modes.map_or(Vec::new(), |modes| lines(modes, frame.model));
+        told.iter().try_for_each(|line| self.log.say(line))?;
+        self.modes.extend(told);
         self.files.on_modes(frame)
     }
 

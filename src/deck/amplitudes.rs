@@ -31,7 +31,8 @@ pub struct Amplitude {
     /// The curve between the points. Default: "linear"; for positions prescribed by a support or joint in dynamics "cubic" between the
     /// corners of the table. (table)
     pub interpolation: Maybe<Interpolation>,
-    /// Factor on the values, such as 9.81 for a record in g. Default: 1. (table)
+    /// Factor on the values, such as 9.81 for a record in g. Default: 1; with `units` and a header that names a unit, the factor from that unit to
+    /// the deck's, unless a scale stands where the amplitude is used. (table)
     pub scale: Maybe<f64>,
     /// Time shift of all points. Default: 0. (table)
     pub shift: Maybe<f64>,
@@ -84,6 +85,10 @@ pub enum Interpolation {
     Linear,
     /// A spline of cubics with continuous second derivatives, at rest where the values rest.
     Cubic,
+    /// A spline of cubics with continuous second derivatives, which are zero at both ends.
+    Natural,
+    /// A spline of cubics with continuous second derivatives, at rest at both ends.
+    Clamped,
     /// Cubics with continuous first derivatives that do not overshoot, at rest at both ends.
     Monotone,
 }

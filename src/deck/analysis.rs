@@ -19,11 +19,11 @@ pub struct Analysis {
     /// How a static analysis advances along its path. Default: "time".
     pub control: Maybe<Control>,
     /// The run goes from t = 0 to this time, above 0; with arc-length control until the load first reaches it. Required for "dynamic" and
-    /// "static".
+    /// "static"; with control = "displacement" the time at which loads without amplitude have their value, 1 by default.
     pub end_time: Maybe<f64>,
     /// Length of the time steps, above 0, or "auto": as long as `error_tolerance` allows, with central-
     /// difference as long as is stable. With arc-length control the length of the first step, which sets the
-    /// arc length of the others. Required for "dynamic" and "static".
+    /// arc length of the others. Required for "dynamic" and "static", without effect with control = "displacement".
     pub time_step: Maybe<NumberOrAuto>,
     /// With time_step = "auto": error of displacements at the end of the run caused by the steps, relative to the largest displacement;
     /// between 0 and 1. Default: 1e-3.
@@ -31,8 +31,11 @@ pub struct Analysis {
     /// Shortest step, above 0: a step that does not converge is halved, but not below this. Default: time_step
     /// / 2^20; with an automatic step end_time / 10^9.
     pub least_step: Maybe<f64>,
-    /// With arc-length control: the run ends where a displacement passes a value, unless `end_time` is reached before.
+    /// With arc-length control: the run ends where a displacement passes a value, unless `end_time` is reached before. Required with
+    /// control = "displacement", which moves this displacement.
     pub stop: Maybe<Table<DisplacementTarget>>,
+    /// With control = "displacement": the displacement of each step, above 0. Default: a hundredth of the value of `stop`.
+    pub increment: Maybe<f64>,
     /// With arc-length control: the run ends after this number of steps, 1 or more. Default: it fails after 100000.
     pub steps: Maybe<u64>,
     /// With arc-length control: the arc length grows to at most this multiple of the first. Default: no limit.
@@ -47,6 +50,9 @@ pub struct Analysis {
     pub up_to: Maybe<f64>,
     /// With "modal": complex modes, with damping and the gyroscopic moments of bodies that spin. Default: false.
     pub damped: Maybe<bool>,
+    /// With "modal" and damped = true: speeds of rotation of the body that spins fastest at t = 0; other bodies spin in proportion. campbell.csv
+    /// has the modes at each, critical_speeds.csv the critical speeds among them.
+    pub speeds: Maybe<Table<SpeedRange>>,
     /// With "frequency-response": a frequency, a list of them, or { from, to, steps }; cycles per unit of time. Frequencies that
     /// `[[expect]]` names are added.
     pub frequencies: Maybe<Frequencies>,
@@ -67,6 +73,19 @@ pub enum ResponseWord {
     Modal,
 }
 
+/// Speeds of rotation, evenly spaced, in radians per unit of time.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpeedRange {
+    /// The lowest speed, 0 or more. Default: 0.
+    pub from: Maybe<f64>,
+    /// The highest speed, above `from`.
+    #[schemars(required)]
+    pub to: Maybe<f64>,
+    /// Number of speeds, both ends among them, 2 to 10000. Default: 21.
+    pub steps: Maybe<u64>,
+}
+
 /// The quantity that steps advance by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -76,6 +95,9 @@ pub enum Control {
     /// Steps have a given arc length in displacements; time, which drives the loads, follows and may fall: through limit points,
     /// snap-through and snap-back.
     ArcLength,
+    /// Steps move the displacement of `stop` by equal increments; time, which drives the loads, follows and may fall: pushover with a
+    /// pattern of loads.
+    Displacement,
 }
 
 /// A target displacement: a step ends when the displacement passes this value.
@@ -166,7 +188,8 @@ pub struct Iteration {
     pub gyroscopic: Maybe<Gyroscopic>,
     /// Convergence tolerance, relative, on the residual and on the increment; between 0 and 1. Default: 1e-8. With deformable parts and
     /// equal steps of a dissipating scheme of second order: 1/10,000 of the first correction of the step, from 1e-8 to 1e-5. Equal steps of
-    /// every scheme use the smaller of this value and that part. Automatic steps use the smaller of this value and their own rule.
+    /// every scheme use the smaller of this value and that part. Automatic steps use the smaller of this value and their own rule. Paths of
+    /// parts that yield, by arc length or displacement: 1e-5.
     pub tolerance: Maybe<f64>,
     /// Iterations after which a step is cut back, 1 or more. Default: 20; 200 with initial-load.
     pub limit: Maybe<u64>,

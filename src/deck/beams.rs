@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
-use super::words::{Maybe, Names, OneOrMany, Table, Vector};
+use super::words::{Directions, Maybe, Names, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 use mechanics::elements::beam::{DEFAULT_ORDER, IntegrationRule};
 
@@ -55,8 +55,21 @@ pub struct Beam {
     pub offset_start: Maybe<Vector>,
     /// Rigid offset from the last point of the path to the end of the beam, global components at t = 0. Default: none.
     pub offset_end: Maybe<Vector>,
+    /// Rotations that the ends release, in the local axes of the beam: `{ start = ["ry", "rz"], end = "ry" }`. A released end is a node of its own, held to
+    /// its point in all other directions. Not with `group`. Default: none.
+    pub release: Maybe<Table<Release>>,
     /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
     pub damping: Maybe<Table<PartDamping>>,
+}
+
+/// Rotations that are released at the ends of a beam, in its local axes.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Release {
+    /// Rotations at the first point of the path. Default: none.
+    pub start: Maybe<Directions>,
+    /// Rotations at the last point of the path. Default: none.
+    pub end: Maybe<Directions>,
 }
 
 impl PartTable for Beam {

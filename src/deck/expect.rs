@@ -10,12 +10,14 @@ use super::words::{Maybe, Table};
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Name of a point, body, beam, bar, shell, link, joint or contact, "energy", or "analysis" for its time. Required without
+    /// Name of a point, body, beam, bar, shell, link, joint, contact or drift, "energy", or "analysis" for its time. Required without
     /// `mode`.
     pub at: Maybe<String>,
     /// Instead of `at`: number of a mode, 1 or more; the quantity is then a column of modes.csv, and needs no time.
     pub mode: Maybe<u64>,
-    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv or energy.csv. For a joint "fx" to "mz" act on its first part
+    /// Instead of `at`: number of a critical speed, the lowest 1; the quantity is then a column of critical_speeds.csv.
+    pub critical_speed: Maybe<u64>,
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv, drifts.csv or energy.csv. For a joint "fx" to "mz" act on its first part
     /// (`from`). For a supported point or body they are the reaction, the force of its supports on the structure. "force" of a contact is
     /// its magnitude. "N", "Vy", "Vz", "T", "My", "Mz" of a beam, "N" of a bar, and "N11" to "Q2", "von_mises_bottom" and "von_mises_top"
     /// of a shell are the values of largest magnitude in the part, with sign. "sigma_max", "tau_max" and "von_mises" of a beam, "von_mises" of a
@@ -45,6 +47,13 @@ pub struct Expect {
     pub absolute_tolerance: Maybe<f64>,
     /// Where the value comes from: author, year, table or figure.
     pub source: Maybe<String>,
+}
+
+impl Expect {
+    /// True for a value of a mode or of a critical speed, which has no time.
+    pub fn is_of_modes(&self) -> bool {
+        self.mode.is_some() || self.critical_speed.is_some()
+    }
 }
 
 /// An extreme value over the whole run.

@@ -13,6 +13,7 @@ pub mod bars;
 pub mod beams;
 pub mod bodies;
 pub mod contacts;
+pub mod drifts;
 pub mod environment;
 pub mod expect;
 mod hints;
@@ -28,6 +29,7 @@ pub mod output;
 pub mod part_damping;
 pub mod part_table;
 pub mod parts;
+mod profiles;
 pub mod read;
 pub mod sections;
 pub mod set;
@@ -125,6 +127,9 @@ pub struct Deck {
     /// Values that the run must reach; a miss ends it with exit code 5.
     #[serde(default)]
     pub expect: Vec<At<Table<expect::Expect>>>,
+    /// Relative displacements of two points, as the drift of a storey.
+    #[serde(default)]
+    pub drifts: Vec<At<Table<drifts::Drift>>>,
     /// Which results are written, and how often.
     pub output: Maybe<Table<output::Output>>,
     /// Settings of `rdsolve study`; a run ignores them.

@@ -16,6 +16,8 @@ pub struct Load {
     pub part: Maybe<Names>,
     /// Force, global components.
     pub force: Maybe<Vector>,
+    /// Force that the nodes of `at` share in equal parts, global components, instead of `force`.
+    pub total_force: Maybe<Vector>,
     /// Moment, global components.
     pub moment: Maybe<Vector>,
     /// Force per length that beams, bars or edges of shells have at t = 0, global components. Edges are those such as "roof.edge2",

@@ -1,7 +1,39 @@
-//! Explains numbers written as in other languages and programs, which TOML does not read.
+//! Explains numbers and comments written as in other languages and programs, which TOML does not read.
 
-/// Fault of the number at byte `at` of a text, and its correction; `None` if no number stands there.
+/// Characters that editors put in place of those of TOML, with their names and what to write.
+const LOOKALIKES: [(char, &str, &str); 9] = [
+    ('\u{2212}', "the minus sign of mathematics", "-"),
+    ('\u{2013}', "a dash", "-"),
+    ('\u{2014}', "a dash", "-"),
+    ('\u{2010}', "a hyphen of typography", "-"),
+    ('\u{201c}', "a quotation mark of typography", "\""),
+    ('\u{201d}', "a quotation mark of typography", "\""),
+    ('\u{201e}', "a quotation mark of typography", "\""),
+    ('\u{00a0}', "a blank that breaks no line", "a blank"),
+    ('\u{feff}', "a byte order mark", "nothing"),
+];
+
+/// Fault of the mark or the number at byte `at` of a text, and its correction; `None` if none stands there.
 pub fn explain(text: &str, at: usize) -> Option<(String, String)> {
+    of_mark(text, at).or_else(|| of_number(text, at))
+}
+
+/// A comment of another language, or a character that looks like one of TOML.
+fn of_mark(text: &str, at: usize) -> Option<(String, String)> {
+    let (before, after) = text.split_at_checked(at)?;
+    for mark in ["//", "/*"] {
+        let split = before.ends_with('/') && after.starts_with(&mark[1..]);
+        if after.starts_with(mark) || before.ends_with(mark) || split {
+            return Some((format!("`{mark}` begins no comment in TOML"), "a comment begins with #".to_owned()));
+        }
+    }
+    let near = [before.chars().next_back(), after.chars().next()];
+    let (mark, name, meant) = LOOKALIKES.into_iter().find(|(mark, ..)| near.contains(&Some(*mark)))?;
+    let code = format!("U+{:04X}", u32::from(mark));
+    Some((format!("`{mark}` ({code}) is {name}, which TOML does not know"), format!("write {meant}")))
+}
+
+fn of_number(text: &str, at: usize) -> Option<(String, String)> {
     let (before, after) = text.split_at_checked(at)?;
     let is_part = |c: char| c.is_ascii_alphanumeric() || "+-._".contains(c);
     let begin = before.trim_end_matches(is_part).len();
@@ -90,6 +122,21 @@ mod tests {
         for word in ["1.0", "1e5", "-2", "", "e3", ".", "1.2.3", "a1", "1ee3", "--1", "0x10"] {
             assert_eq!(meant(word), None, "{word}");
         }
+    }
+
+    #[test]
+    fn comments_and_lookalikes_are_named() {
+        for text in ["x = 1 // half", "// x", "x = [1, /* two */ 2]"] {
+            let place = text.find('/').unwrap();
+            for at in place..=place + 2 {
+                assert_eq!(explain(text, at).unwrap().1, "a comment begins with #", "{text} {at}");
+            }
+        }
+        let (message, hint) = explain("x = \u{2212}5.0", 4).unwrap();
+        assert!(message.contains("U+2212") && message.contains("minus sign"), "{message}");
+        assert_eq!(hint, "write -");
+        assert!(explain("x = \u{201c}steel\u{201d}", 4).unwrap().1.contains('"'));
+        assert_eq!(explain("x = 1/2", 5), None);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Problem, Value, Wanted, Wrong};
-use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, set, study, tables};
+use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, profiles, set, study, tables};
 use base::diagnostic::{Diagnostic, Source, Span};
 use base::names::{nearest, quoted};
 
@@ -35,6 +35,10 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     }
     let words = study::words(&root);
     reader.problems.extend(study::expand(&mut root, &words));
+    let profiles = profiles::words(&root);
+    let (problems, spoiled) = profiles::expand(&mut root, &profiles);
+    reader.problems.extend(problems);
+    reader.spoiled.extend(spoiled);
     reader.texts(&mut root);
     reader.numbers(&mut root);
     reader.lengths(&mut root);
@@ -208,6 +212,9 @@ fn unknown_word(subject: &str, word: &str, known: &[&str]) -> Diagnostic {
     let problem = Diagnostic::error(format!("{subject} cannot be `{word}`"));
     if let Some(hint) = hints::value(word, known) {
         return problem.hint(hint);
+    }
+    if word.parse::<f64>().is_ok() {
+        return problem.hint(format!("a number stands without quotes: {word}"));
     }
     match nearest(word, known.iter().copied().chain(hints::aliases(known))) {
         Some(near) => problem.hint(format!("did you mean `{near}`?")),

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::words::Maybe;
 use super::words::kinds::Kinds;
 use mechanics::sections::section_shape::MakeSection;
 use mechanics::sections::{SECTIONS, SectionKind};
@@ -10,12 +11,18 @@ use mechanics::sections::{SECTIONS, SectionKind};
 /// The cross section of a beam, in its local axes: width along y, height along z.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct Section {}
+pub struct Section {
+    /// Name of a steel profile, instead of `shape` and dimensions: "IPE 200", "HEA 300", "HE 300 B", "CHS 114.3x5", "SHS 100x5" or
+    /// "RHS 200x100x8", its web or longer side along local z.
+    pub profile: Maybe<String>,
+    /// Unit of length of the deck, "m", "cm", "mm", "in" or "ft", in which the dimensions of `profile` are taken. Default: that of `units`.
+    pub unit: Maybe<String>,
+}
 
 impl Kinds for Section {
     const CHOOSER: &'static str = "shape";
-    const ABOUT: &'static str = "The shape, on which the other keys depend.";
-    const REQUIRED: bool = true;
+    const ABOUT: &'static str = "The shape, on which the other keys depend. Required without `profile`.";
+    const REQUIRED: bool = false;
     type Make = MakeSection;
 
     fn list() -> &'static [&'static SectionKind] {

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::analysis::{Integrator, Iteration, ResponseWord};
+use super::analysis::{Control, Integrator, Iteration, ResponseWord, SpeedRange};
 use super::words::kinds::OneOf;
 use super::words::{Frequencies, Maybe, NumberOrAuto, Table};
 
@@ -28,12 +28,23 @@ pub struct Stage {
     pub least_step: Maybe<f64>,
     /// The stage ends where this is reached, unless `duration` is over before.
     pub stop: Maybe<Table<Stop>>,
+    /// With "static": how the stage advances. Default: "time". With "arc-length" and "displacement" the time follows the load, and `stop` is
+    /// by a displacement.
+    pub control: Maybe<Control>,
+    /// As in `[analysis]`.
+    pub increment: Maybe<f64>,
+    /// As in `[analysis]`.
+    pub steps: Maybe<u64>,
+    /// As in `[analysis]`.
+    pub growth: Maybe<f64>,
     /// With "modal" and "buckling", as in `[analysis]`: number of modes. Default: 10.
     pub modes: Maybe<u64>,
     /// With "modal", instead of `modes`: all modes up to this frequency, above 0.
     pub up_to: Maybe<f64>,
     /// With "modal": complex modes, with damping and gyroscopic moments. Default: false.
     pub damped: Maybe<bool>,
+    /// As in `[analysis]`.
+    pub speeds: Maybe<Table<SpeedRange>>,
     /// With "frequency-response", as in `[analysis]`.
     pub frequencies: Maybe<Frequencies>,
     /// With "frequency-response", as in `[analysis]`. Default: "direct".

@@ -1,6 +1,6 @@
 //! `[amplitudes.x]`: functions of time.
 
-use super::plausibility::record_units::check_record_units;
+use super::plausibility::record_units::{check_record_units, conversion};
 use super::records::Record;
 use super::report::{Owner, Report};
 use super::stages::CurrentStage;
@@ -23,7 +23,8 @@ pub(super) fn amplitudes<'d>(
     let record = |index: usize| records.get(index).and_then(Option::as_ref);
     let all = deck.amplitudes.0.iter().enumerate();
     let read = all.map(|(index, (name, amplitude))| {
-        let read = read_amplitude(&name.value, amplitude, record(index), report).unwrap_or(Amplitude::Constant);
+        let record = record(index).map(|record| (record, conversion(deck, index, record).unwrap_or(1.0)));
+        let read = read_amplitude(&name.value, amplitude, record, report).unwrap_or(Amplitude::Constant);
         match stage.map(|stage| stage.clock(&amplitude.stage)) {
             Some(clock) if clock > 0.0 => read.later(clock),
             _ => read,
@@ -38,7 +39,7 @@ pub(super) fn amplitudes<'d>(
 fn read_amplitude<'d>(
     name: &str,
     amplitude: &'d At<Table<words::Amplitude>>,
-    record: Option<&Record>,
+    record: Option<(&Record, f64)>,
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let a = amplitude;
@@ -109,17 +110,18 @@ fn phase<'d>(owner: &Owner<'d>, a: &'d words::Amplitude, report: &mut Report<'d>
     }
 }
 
-/// A table through the points of the deck, or of a file.
+/// A table through the points of the deck, or of a file, whose values have a factor.
 fn of_points_or_file<'d>(
     owner: &Owner<'d>,
     a: &'d At<Table<words::Amplitude>>,
-    record: Option<&Record>,
+    record: Option<(&Record, f64)>,
     report: &mut Report<'d>,
 ) -> Option<Amplitude> {
     let of_file = keys!(a; columns, time_step, rows);
     if a.file.is_some() {
         report.reject_unused("a table from a file", &keys!(a; points));
-        return table(a, record?.points.clone(), report);
+        let (record, factor) = record?;
+        return table(a, record.points.iter().map(|[time, value]| [*time, value * factor]).collect(), report);
     }
     report.reject_unused("a table without a file", &of_file);
     let points = report.require(owner, "points", &a.points)?;
@@ -154,6 +156,8 @@ fn table<'d>(
     }
     let shape = match a.interpolation.as_ref().map(|interpolation| interpolation.value) {
         Some(words::Interpolation::Cubic) => CurveShape::Spline,
+        Some(words::Interpolation::Natural) => CurveShape::Natural,
+        Some(words::Interpolation::Clamped) => CurveShape::Clamped,
         Some(words::Interpolation::Monotone) => CurveShape::Monotone,
         Some(words::Interpolation::Linear) | None => {
             return Some(Amplitude::Table(amplitude::StraightLines::new(points)));

@@ -19,7 +19,7 @@ use super::expects::expects;
 use super::groups::Groups;
 use super::initial::initial;
 use super::joints::coordinate::Joints;
-use super::joints::{check_joints, joints};
+use super::joints::{check_joints, joints, released};
 use super::links::{ModelLinks, links};
 use super::loads::{Loads, loads};
 use super::masses::masses;
@@ -275,6 +275,7 @@ fn connect<'d>(
     let mut links = links(scene, &mut nodes, report);
     let Joints { list: mut joints, efforts } = joints(scene, &mut links, &mut amplitudes, &mut nodes, report);
     joints.extend(attachments(scene, &mut nodes, report));
+    joints.extend(scene.parts.releases.iter().map(released));
     connect_touching_points(scene, &mut nodes);
     (JoinedNodes { masses, links, joints, amplitudes, topology: Topology::new(nodes, report) }, efforts)
 }
@@ -428,6 +429,10 @@ fn check(
 }
 
 /// Replaces the time steps by arc-length steps if the deck asks for them.
+/// Tolerance of the iteration along paths of parts that yield. Fibres that begin to yield or unload from iteration to iteration leave residuals of
+/// 1e-6 of the forces; a smaller tolerance cuts arcs until none yields anew in a step.
+const TOLERANCE_OF_YIELDING_PATHS: f64 = 1e-5;
+
 fn with_arc_length(
     deck: &Deck,
     analysis: Analysis,
@@ -451,6 +456,10 @@ fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -
     }
     if model.analysis.step_length.is_automatic() && matches!(model.solution.scheme.stepping(), Stepping::Verlet) {
         model.analysis.step_length = StepLength::StabilityLimited { fraction: model.stable_fraction() };
+    }
+    let has_tolerance = deck.iteration.as_ref().is_some_and(|iteration| iteration.tolerance.is_some());
+    if model.analysis.step_length.is_arc_length() && model.yields() && !has_tolerance {
+        model.solution.iteration.tolerance = TOLERANCE_OF_YIELDING_PATHS;
     }
     if model.analysis.has_modes() && model.analysis.stage.is_none() {
         hold_at_start(&mut model);

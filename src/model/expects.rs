@@ -35,8 +35,8 @@ pub(super) fn expects<'d>(
     let mut tables = Expects { scene, topology, is_arc_length, report };
     let (has_modes, response) = (scene.analysis.has_modes(), scene.analysis.response().is_some());
     let is_seen = |entry: &words::Expect| {
-        let of_response = response && entry.mode.is_none() && entry.time.is_none() && entry.when.is_none();
-        !has_modes || entry.mode.is_some() || entry.frequency.is_some() || of_response
+        let of_response = response && !entry.is_of_modes() && entry.time.is_none() && entry.when.is_none();
+        !has_modes || entry.is_of_modes() || entry.frequency.is_some() || of_response
     };
     for entry in scene.deck.expect.iter().filter(|entry| !is_seen(entry)) {
         let (message, hint) = match response {
@@ -60,6 +60,9 @@ pub(super) fn expects<'d>(
 
 impl<'d> Expects<'_, 'd> {
     fn expect(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<Expect> {
+        if let Some(number) = &expect.critical_speed {
+            return self.expect_critical_speed(owner, expect, number);
+        }
         if let Some(number) = &expect.mode {
             return self.expect_mode(owner, expect, number);
         }
@@ -146,17 +149,53 @@ impl<'d> Expects<'_, 'd> {
         let name = At { value: format!("mode {}", number.value), span: number.span.clone() };
         let column = quantity.and_then(|quantity| self.column(&quantities::MODE, quantity, &name));
         let ((value, tolerance), quantity) = (self.judged(owner, expect)?, column?);
+        let at = ExpectAt::Mode(number.value as usize - 1);
+        Some(self.of_modes(expect, at, (quantity, value, tolerance), &name))
+    }
+
+    /// A quantity of a critical speed.
+    fn expect_critical_speed(
+        &mut self,
+        owner: &Owner<'d>,
+        expect: &'d words::Expect,
+        number: &At<u64>,
+    ) -> Option<Expect> {
+        let keys = keys!(expect; at, mode, time, when, peak, frequency);
+        self.report.reject_unused("a critical speed", &keys);
+        if self.scene.analysis.speeds().is_empty() {
+            let hint = "`speeds` of a modal analysis with `damped = true` finds them";
+            return self.report.error_with(&number.span, "`critical_speed` needs speeds of rotation", hint);
+        }
+        if number.value == 0 {
+            return self.report.error(&number.span, "`critical_speed` must be at least 1");
+        }
+        let quantity = self.report.require(owner, "quantity", &expect.quantity);
+        let name = At { value: format!("critical speed {}", number.value), span: number.span.clone() };
+        let column = quantity.and_then(|quantity| self.column(&quantities::CRITICAL_SPEED, quantity, &name));
+        let ((value, tolerance), quantity) = (self.judged(owner, expect)?, column?);
+        let at = ExpectAt::CriticalSpeed(number.value as usize - 1);
+        Some(self.of_modes(expect, at, (quantity, value, tolerance), &name))
+    }
+
+    /// An expected value of an analysis of modes, which has one value.
+    fn of_modes(
+        &self,
+        expect: &words::Expect,
+        at: ExpectAt,
+        (quantity, value, tolerance): (&str, f64, Tolerance),
+        name: &str,
+    ) -> Expect {
         let stage = expect.stage.as_ref().map_or(String::new(), |stage| format!(" in stage `{}`", stage.value));
-        Some(Expect {
+        Expect {
             index: 0,
-            at: ExpectAt::Mode(number.value as usize - 1),
+            at,
             quantity: quantity.to_owned(),
             when: When::Abs,
             value,
             tolerance,
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
-            label: format!("{quantity} of {}{stage}", name.value),
-        })
+            label: format!("{quantity} of {name}{stage}"),
+        }
     }
 
     /// An amplitude or a phase of a frequency response.
@@ -249,6 +288,7 @@ impl<'d> Expects<'_, 'd> {
                 }
                 Some((ExpectAt::Joint(joint), columns))
             }
+            Some(Place::Drift(drift)) => Some((ExpectAt::Drift(drift), quantities::DRIFT.to_vec())),
             Some(Place::Part(part)) if part.kind.is_surface() => self.expect_stress(part, name),
             Some(Place::Part(part)) if part.kind.has_sections() => self.expect_forces(part, name),
             Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
@@ -258,7 +298,7 @@ impl<'d> Expects<'_, 'd> {
                 self.report.error_with(
                     &name.span,
                     message,
-                    "name a point, body, part, link, joint or contact, or \"energy\"",
+                    "name a point, body, part, link, joint, contact or drift, or \"energy\"",
                 )
             }
             None => {

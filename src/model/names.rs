@@ -46,6 +46,7 @@ impl<'d> Names<'d> {
         names.add_all(deck.bodies.iter().map(|body| body.name.as_ref()), Place::Body, report);
         names.add_all(deck.sets.0.iter().map(|(name, _)| Some(name)), Place::Set, report);
         names.add_all(deck.joints.iter().map(|joint| joint.name.as_ref()), Place::Joint, report);
+        names.add_all(deck.drifts.iter().map(|drift| drift.name.as_ref()), Place::Drift, report);
         deck.parts().for_each(|part| names.add_part(&part, report));
         names.add_groups(report);
         names.check_sets(report);
@@ -83,7 +84,7 @@ impl<'d> Names<'d> {
         } else if self.places.contains_key(name.as_str()) {
             let message = format!("the name `{}` is taken", name.value);
             let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
-            let rule = "points, bodies, sets, beams, bars, shells, links, joints and contacts share one space of names";
+            let rule = "points, bodies, sets, beams, bars, shells, links, joints, contacts and drifts share one space of names";
             report.push(diagnostic.hint(rule));
         } else {
             self.places.insert(&name.value, (place, &name.span));
@@ -303,7 +304,7 @@ impl<'d> Names<'d> {
     pub fn is_part(&self, place: Place) -> bool {
         match place {
             Place::Part(part) => !self.deck.part(part).is_some_and(|part| part.table.is_node_list()),
-            Place::Joint(_) => true,
+            Place::Joint(_) | Place::Drift(_) => true,
             _ => false,
         }
     }
@@ -411,7 +412,7 @@ impl<'d> Names<'d> {
                 Place::Group(group) => {
                     nodes.extend(group.nodes.one().into_iter().flat_map(|g| self.mesh.group_nodes(g)))
                 }
-                Place::Set(_) | Place::Joint(_) => {}
+                Place::Set(_) | Place::Joint(_) | Place::Drift(_) => {}
             }
         }
         nodes

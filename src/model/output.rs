@@ -1,6 +1,7 @@
 //! `[output]`: tables, nodes and times of output.
 
-use super::data::{Cadence, Model, Node, Output};
+use super::data::{Cadence, Drift, Model, Node, Output};
+use super::places::place::Place;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use super::values::flag;
@@ -29,6 +30,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         let output = Output {
             units,
             nodes,
+            drifts: drifts(scene, report),
             cadence: Cadence::Steps(1),
             cadence_is_open: true,
             energy: true,
@@ -65,6 +67,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
     let output = Output {
         units,
         nodes,
+        drifts: drifts(scene, report),
         cadence,
         cadence_is_open: table.every.is_none() && table.interval.is_none(),
         energy: flag(&table.energy, true),
@@ -109,6 +112,39 @@ fn listed_nodes<'d>(scene: &Scene<'d>, table: &'d At<Table<words::Output>>, repo
     let mut nodes: Vec<usize> = spots.iter().map(|spot| spot.node).filter(|&node| !is_body(scene, node)).collect();
     nodes.sort_unstable();
     nodes
+}
+
+/// Reads `[[drifts]]`. One with an error is left out, so that places in the list are those of the deck only in a sound one.
+fn drifts<'d>(scene: &Scene<'d>, report: &mut Report<'d>) -> Vec<Drift> {
+    let mut drifts = Vec::new();
+    for table in &scene.deck.drifts {
+        let owner = Owner::new("`[[drifts]]`", &table.span);
+        let name = report.require(&owner, "name", &table.name);
+        let from = report.require(&owner, "from", &table.from).and_then(|name| drift_end(scene, name, report));
+        let to = report.require(&owner, "to", &table.to).and_then(|at| Some((at, drift_end(scene, at, report)?)));
+        let (Some(name), Some(from), Some((at, to))) = (name, from, to) else { continue };
+        if from == to {
+            report.error_with::<()>(&at.span, "a drift needs two different points", "`from` is the same");
+        }
+        drifts.push(Drift { name: name.value.clone(), ends: [from, to] });
+    }
+    drifts
+}
+
+/// The node of a point or body.
+fn drift_end<'d>(scene: &Scene<'d>, name: &'d At<String>, report: &mut Report<'d>) -> Option<usize> {
+    match scene.place_or_node(name) {
+        Some(Place::Point(node)) => Some(node),
+        Some(Place::Body(body)) => Some(scene.names.body_node(body)),
+        Some(place) => {
+            let message = format!("a drift goes from point to point, and `{}` is {}", name.value, place.kind());
+            report.error_with(&name.span, message, "name a point or a body")
+        }
+        None => {
+            let known = || scene.names.known(|place| matches!(place, Place::Point(_) | Place::Body(_)));
+            scene.names.unknown("point or body", name, known, report)
+        }
+    }
 }
 
 /// True where a part of the deck may fail in any stage.

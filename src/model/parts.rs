@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::data::Part;
 use super::report::Report;
 use base::diagnostic::Span;
+use base::math::Mat3;
 use deck::parts::PartIndex;
 use linear::available_memory;
 use mechanics::sections::{SectionStresses, Stiffness};
@@ -28,6 +29,18 @@ pub(super) struct PartEntry {
     pub rigid_elements: Option<Vec<Vec<usize>>>,
 }
 
+/// The end of a beam that is held to its point but for released rotations.
+pub(super) struct ReleasedEnd {
+    /// The name of the end.
+    pub name: String,
+    /// The point, and the node at the end of the beam.
+    pub ends: [usize; 2],
+    /// Rotations about the axes of the section that are held.
+    pub held: [bool; 3],
+    /// Axes of the section.
+    pub axes: Mat3,
+}
+
 /// The deformable parts of a scene that is being built.
 #[derive(Default)]
 pub(super) struct Parts {
@@ -37,6 +50,8 @@ pub(super) struct Parts {
     pub stiffnesses: Vec<Stiffness>,
     /// What stresses of these sections follow from.
     pub stresses: Vec<Option<SectionStresses>>,
+    /// Ends of beams that are held to their points in some directions alone.
+    pub releases: Vec<ReleasedEnd>,
     /// One for each table of a deformable part that has been begun.
     entries: BTreeMap<PartIndex, PartEntry>,
     /// Elements that paths and patches have asked for so far.

@@ -203,8 +203,10 @@ impl Observer for Expectations {
     }
 
     fn on_modes(&mut self, frame: &Frame) -> io::Result<()> {
-        let of_mode =
-            |watch: &&mut Watch| watch.is_here && matches!(watch.expect.at, ExpectAt::Mode(_) | ExpectAt::Response(..));
+        let of_mode = |watch: &&mut Watch| {
+            watch.is_here
+                && matches!(watch.expect.at, ExpectAt::Mode(_) | ExpectAt::CriticalSpeed(_) | ExpectAt::Response(..))
+        };
         for watch in self.watches.iter_mut().filter(of_mode) {
             watch.sample = watch.value(frame).map(|value| Sample { time: frame.state.time, value, other: None });
         }
@@ -309,7 +311,7 @@ impl Watch {
         let is_size = match self.expect.at {
             ExpectAt::Response(_, over) => over == OverFrequencies::Abs,
             // Of modes there is one value.
-            ExpectAt::Mode(_) => false,
+            ExpectAt::Mode(_) | ExpectAt::CriticalSpeed(_) => false,
             _ => self.expect.when == When::Abs,
         };
         if is_size { value.abs() } else { value }
@@ -318,7 +320,7 @@ impl Watch {
     /// The time of a sample in words; nothing of modes and of responses, which have none.
     fn moment(&self, sample: Sample) -> String {
         match self.expect.at {
-            ExpectAt::Mode(_) | ExpectAt::Response(..) => String::new(),
+            ExpectAt::Mode(_) | ExpectAt::CriticalSpeed(_) | ExpectAt::Response(..) => String::new(),
             _ => format!(" at time {}", sample.time),
         }
     }
@@ -341,7 +343,7 @@ impl Watch {
         let reason = match (self.quantity, self.sample, *when) {
             _ if passed => None,
             (None, ..) => Some(format!("there is no quantity `{quantity}` here")),
-            (_, None, _) if matches!(self.expect.at, ExpectAt::Mode(_)) => {
+            (_, None, _) if matches!(self.expect.at, ExpectAt::Mode(_) | ExpectAt::CriticalSpeed(_)) => {
                 Some(format!("there is no such mode, or it has no `{quantity}`"))
             }
             (_, None, _) if matches!(self.expect.at, ExpectAt::Response(..)) => {

@@ -7,6 +7,7 @@
 
 pub mod checkpoint;
 pub mod compare;
+pub mod curve;
 mod disk;
 pub mod error_bars;
 pub mod expect;
@@ -16,6 +17,7 @@ mod files;
 mod folder;
 mod lock;
 pub mod log;
+pub mod low_pass;
 pub mod matrix_market;
 pub mod progress;
 pub mod report;

@@ -1,13 +1,17 @@
 //! Peaks and ends of a result, read back from its folder.
 
+use super::compare::Selector;
 use super::disk::at;
+use super::low_pass::{LowPass, Sampling};
 use super::result_json;
+use super::table::STAGE;
 use super::table_reader::{TableReader, fields, number, text};
 use super::tables::TABLES;
 use base::names::to_digits;
 use base::text_file::read_regular;
 use serde::Serialize;
 use serde_json::Value;
+use std::collections::HashMap;
 use std::io;
 use std::path::Path;
 
@@ -55,11 +59,11 @@ pub struct Extremum {
 }
 
 impl ResultSummary {
-    /// Reads a folder of results. What steps cost is left out.
+    /// Reads a folder of results. What steps cost is left out. With a filter extremes are those of filtered columns.
     ///
     /// # Errors
-    /// There are no results, or a file cannot be read; the error names it.
-    pub fn of(folder: &Path) -> io::Result<ResultSummary> {
+    /// There are no results, a file cannot be read, or its rows do not suit the filter; the error names it.
+    pub fn of(folder: &Path, filter: Option<&Filter>, only: &[Selector]) -> io::Result<ResultSummary> {
         let path = folder.join(result_json::NAME);
         let result: Value = match read_regular(&path) {
             Ok(bytes) => serde_json::from_slice(&bytes).map_err(|error| at(&path, error.into()))?,
@@ -68,8 +72,17 @@ impl ResultSummary {
         };
         let mut columns = Vec::new();
         let is_there = |file: &str| folder.join(file).exists();
+        let mut doubts = Vec::new();
+        let takes =
+            |file: &str, column: &str| only.is_empty() || only.iter().any(|selector| selector.takes(file, column));
         for table in TABLES.iter().filter(|table| !table.every_step && is_there(table.file)) {
-            columns.extend(of_table(folder, table.file)?);
+            let of_table = match filter {
+                Some(filter) if table.columns().any(|column| takes(table.file, column.name)) => {
+                    filtered(folder, table.file, (filter, &takes), &mut doubts)?
+                }
+                _ => of_table(folder, table.file)?,
+            };
+            columns.extend(of_table.into_iter().filter(|column| takes(&column.table, &column.column)));
         }
         if result.is_null() && !TABLES.iter().any(|table| is_there(table.file)) {
             return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
@@ -79,11 +92,20 @@ impl ResultSummary {
         Ok(ResultSummary {
             status: result["status"].as_str().unwrap_or("unfinished").to_owned(),
             reason: word("reason"),
-            warnings: list("warnings").filter_map(Value::as_str).map(str::to_owned).collect(),
+            warnings: list("warnings").filter_map(Value::as_str).map(str::to_owned).chain(doubts).collect(),
             expectations: list("expectations").map(expectation).collect(),
             columns,
         })
     }
+}
+
+/// A filter of columns over time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filter {
+    /// The filter.
+    pub low_pass: LowPass,
+    /// The unit of time in seconds.
+    pub second: f64,
 }
 
 /// An expected value in words.
@@ -134,6 +156,93 @@ fn of_table(folder: &Path, file: &str) -> io::Result<Vec<ColumnSummary>> {
         Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end })
     };
     Ok(names.into_iter().zip(found).filter_map(summary).collect())
+}
+
+/// The columns of numbers of the rows of one name.
+struct Series {
+    name: String,
+    times: Vec<f64>,
+    values: Vec<Vec<f64>>,
+}
+
+/// The rows of a table by their names, and the names of the columns of numbers that are taken.
+fn series(rows: &mut TableReader, takes: &dyn Fn(&str) -> bool) -> io::Result<(Vec<Series>, Vec<String>)> {
+    let Some(time_at) = rows.column("time") else { return Ok((Vec::new(), Vec::new())) };
+    let width = rows.header.len();
+    let is_number = |place: &usize| {
+        !rows.is_key(*place) && !["step", "time"].contains(&&*rows.header[*place]) && takes(&rows.header[*place])
+    };
+    let places: Vec<usize> = (0..width).filter(is_number).collect();
+    let keys: Vec<usize> = (0..width).filter(|&place| rows.is_key(place) && rows.header[place] != STAGE).collect();
+    let columns: Vec<String> = places.iter().map(|&place| rows.header[place].clone()).collect();
+    let mut all: Vec<Series> = Vec::new();
+    let mut known: HashMap<String, usize> = HashMap::new();
+    let mut ragged = None;
+    while let Some(row) = rows.next_row()? {
+        let row: Vec<&[u8]> = fields(row).collect();
+        if row.len() != width {
+            ragged = Some(row.len());
+            break;
+        }
+        let name = keys.iter().map(|&key| text(row[key]).into_owned()).collect::<Vec<_>>().join(" ");
+        let index = *known.entry(name.clone()).or_insert_with(|| {
+            all.push(Series { name, times: Vec::new(), values: vec![Vec::new(); places.len()] });
+            all.len() - 1
+        });
+        all[index].times.push(number(row[time_at]));
+        all[index].values.iter_mut().zip(&places).for_each(|(values, &place)| values.push(number(row[place])));
+    }
+    ragged.map_or(Ok((all, columns)), |count| Err(rows.ragged(count)))
+}
+
+/// The extremes of all columns of numbers of a table after a filter, which goes over the rows of each name. Columns with empty fields are left
+/// out.
+fn filtered(
+    folder: &Path,
+    file: &str,
+    (filter, takes): (&Filter, &dyn Fn(&str, &str) -> bool),
+    doubts: &mut Vec<String>,
+) -> io::Result<Vec<ColumnSummary>> {
+    let path = folder.join(file);
+    let (all, columns) = series(&mut TableReader::open(&path)?, &|column| takes(file, column))?;
+    let unfit = |why: String| at(&path, io::Error::other(why));
+    let mut found: Vec<Option<[Extremum; 3]>> = vec![None; columns.len()];
+    for Series { name, times, values } in &all {
+        let sampling = Sampling::of(times).map_err(unfit)?;
+        let doubt = filter.low_pass.doubt(sampling.step, filter.second).map(|doubt| format!("{file}: {doubt}"));
+        doubts.extend(doubt.filter(|doubt| !doubts.contains(doubt)));
+        for (extremes, values) in
+            found.iter_mut().zip(values).filter(|(_, values)| values.iter().all(|x| x.is_finite()))
+        {
+            let smooth = filter.low_pass.apply(&sampling, filter.second, times, values).map_err(unfit)?;
+            let mut own = None;
+            sampling.times().zip(smooth).for_each(|(time, value)| note(&mut own, value, time, true, &|| name.clone()));
+            merge(extremes, own);
+        }
+    }
+    let summary = |(name, extremes): (String, Option<[Extremum; 3]>)| {
+        let [least, largest, end] = extremes?;
+        Some(ColumnSummary { table: file.to_owned(), column: name, least, largest, end })
+    };
+    Ok(columns.into_iter().zip(found).filter_map(summary).collect())
+}
+
+/// Takes account of the extremes of rows of another name.
+fn merge(extremes: &mut Option<[Extremum; 3]>, own: Option<[Extremum; 3]>) {
+    let Some([least, largest, end]) = own else { return };
+    let Some(all) = extremes else {
+        *extremes = Some([least, largest, end]);
+        return;
+    };
+    if least.value < all[0].value {
+        all[0] = least;
+    }
+    if largest.value > all[1].value {
+        all[1] = largest;
+    }
+    if end.time > all[2].time || end.time == all[2].time && end.value.abs() > all[2].value.abs() {
+        all[2] = end;
+    }
 }
 
 /// Takes account of one number, of the first row of its time or of a later one.

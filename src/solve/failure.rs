@@ -83,6 +83,15 @@ pub enum Failure {
         /// The number of these steps.
         steps: usize,
     },
+    /// A path in steps shorter than the first leads nowhere.
+    PathCreeps {
+        /// The number of these steps.
+        steps: usize,
+        /// The displacement before them.
+        from: f64,
+        /// The displacement after them.
+        to: f64,
+    },
     /// A step would take a point through a surface, or into an impact that it does not resolve.
     ContactNotResolved {
         /// The name of the contact.
@@ -210,6 +219,7 @@ keep_either!(Failure {
     23 => UnstableStep,
     24 => Buckles(instability),
     25 => GivenRotationLost { label },
+    26 => PathCreeps { steps, from, to },
 });
 
 /// A residual force, or a gap, with its name.
@@ -413,6 +423,7 @@ impl Failure {
             Failure::NoEquilibriumOnArc { .. }
             | Failure::NoLoadIncrement { .. }
             | Failure::TooManySteps { .. }
+            | Failure::PathCreeps { .. }
             | Failure::LoadStepTurns { .. }
             | Failure::NodeTurns { .. }
             | Failure::TurnedOver { .. }
@@ -473,6 +484,13 @@ impl Failure {
                  Give a load of a thousandth of the others there, or an offset of a thousandth of the length, and they follow the path that \
                  buckles; where the load falls beyond, `control` = \"arc-length\" or a dynamic analysis does",
                 short(*time)
+            ),
+            Failure::PathCreeps { steps, from, to } => format!(
+                "the path creeps: in {steps} steps, each shorter than the first, the displacement has gone from {} to {}. Where parts yield \
+                 without hardening, hinges open and close in every step: give the material a hardening modulus of a hundredth of its \
+                 `youngs_modulus`, `tolerance` = 1e-4 in `[iteration]`, or `control` = \"displacement\"",
+                to_digits(*from, 5),
+                to_digits(*to, 5)
             ),
             Failure::TooManySteps { steps } => format!(
                 "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"

@@ -364,6 +364,9 @@ pub mod arc_length {
     /// Desired number of iterations of a step, the first being the prediction: more make it too long for its cost, fewer too short. Frames of
     /// slender beams take a third fewer iterations in all than with five; with eight roofs leave their path.
     pub const DESIRED: f64 = 6.0;
+    /// The same where material yields: fibres that begin to yield or unload cost iterations in steps of any length, so that five to eight of
+    /// them are no reason for a shorter one. With six, frames of perfectly plastic columns take thousands of steps.
+    pub const DESIRED_WITH_HISTORY: f64 = 12.0;
     /// Largest ratio of a step to the one before, and of the one before to it.
     pub const CHANGE: f64 = 2.0;
     /// Cosine of the angle between steps below which they grow no more.
@@ -377,6 +380,12 @@ pub mod arc_length {
     pub const HARD: usize = 12;
     /// Largest number of steps of a path, unless the deck gives another.
     pub const MOST_STEPS: usize = 100_000;
+    /// Part of the displacement by which a path comes on noticeably.
+    pub const CREEPS: f64 = 1e-3;
+    /// Number of steps, shorter than the first, in which a path that does not come on creeps.
+    pub const CREEPING_STEPS: usize = 200;
+    /// Part of the last step by which a controlled displacement passes its value, before the step is ended there: well above rounding.
+    pub const PASSES: f64 = 1e-3;
     /// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.
     pub const MOST_TARGETS: usize = 8;
 }
@@ -647,6 +656,15 @@ pub mod damped {
     pub const INFINITE: f64 = 1e-10;
     /// Number of modes with room if a frequency is given.
     pub const UP_TO: usize = 100;
+}
+
+pub mod speeds {
+    /// Difference of a frequency from the speed, relative to it, that ends the search for a critical speed: roots have eleven digits.
+    pub const CLOSE: f64 = 1e-10;
+    /// A larger difference at the end of the search is a jump of the frequency.
+    pub const CONTINUOUS: f64 = 1e-6;
+    /// Most steps of a search; halving alone reaches the tolerance in 34.
+    pub const MOST_STEPS: usize = 60;
 }
 
 pub mod shape {

@@ -4,16 +4,16 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 10] = [
-    ("base", 6350),
+    ("base", 6500),
     ("linear", 4250),
-    ("mechanics", 27_800),
-    ("deck", 4000),
-    ("model", 20_600),
+    ("mechanics", 28_100),
+    ("deck", 4450),
+    ("model", 20_950),
     ("solve", 30_900),
-    ("results", 8500),
+    ("results", 9050),
     ("study", 4000),
     ("sweep", 1500),
-    ("program", 4700),
+    ("program", 4850),
 ];
 
 #[test]

@@ -5,6 +5,7 @@ mod elements;
 mod joint_coordinates;
 mod joints;
 mod materials;
+mod profiles;
 mod shear_areas;
 mod shear_rigid;
 mod shells;

@@ -299,7 +299,13 @@ tolerance = 0.1
     // The words of the directions, with their quotes.
     let place = |word: &str| text.find(word).map(|start| [start, start + word.len()]).unwrap();
     let stop = DisplacementTarget { node: 1, dof: 1, value: -0.8, pass: 2, place: place("\"uy\"") };
-    let path = ArcLength { first: model.analysis.nominal_step(), stop: Some(stop), steps: Some(50), growth: 4.0 };
+    let path = ArcLength {
+        first: model.analysis.nominal_step(),
+        stop: Some(stop),
+        steps: Some(50),
+        increment: None,
+        growth: 4.0,
+    };
     assert_eq!(model.analysis.step_length, StepLength::ArcLength(path));
     let expect = &model.expects[0];
     assert_eq!(expect.at, ExpectAt::Analysis);

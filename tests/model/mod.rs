@@ -11,5 +11,6 @@ mod output;
 mod plausibility;
 mod record;
 mod records;
+mod releases;
 mod rotations;
 mod tables_of_positions;

@@ -313,7 +313,7 @@ fn units_of_records_are_compared_with_the_deck() {
             Some("has displacements in CM, and the ground takes it for accelerations"),
         ),
         (si, &moved(""), "scale = 9.81", &g, Some("`history = \"acceleration\"`")),
-        (si, &moved(", history = \"acceleration\""), "", &g, Some("no `scale` converts it")),
+        (si, &moved(", history = \"acceleration\""), "", &g, Some("its values are converted to the units SI")),
         (si, &moved(", history = \"velocity\", scale = 0.01"), "", &velocity, None),
         (si, &moved(", history = \"velocity\""), "", &velocity, Some("is in CM/S")),
         (si, &moved(", history = \"acceleration\", scale = 0.01"), "", &velocity, Some("`history = \"velocity\"`")),
@@ -329,6 +329,27 @@ fn units_of_records_are_compared_with_the_deck() {
             None => assert!(!found.contains("record.csv"), "{label}{keys}{used}: {found}"),
         }
     }
+}
+
+/// With `units` a record in g is converted as by its scale, to the last bit; a scale where it acts, or `scale = 1.0`, leaves it alone.
+#[test]
+fn records_are_converted_to_the_units_of_the_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let values: String = (0..=400).map(|k| format!("{:.6}\n", pulse(k))).collect();
+    let record = format!("A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 401, DT= .005 SEC\n{values}");
+    let scaled = SHAKEN.replace("\"quake\" }", "\"quake\", scale = 2.0 }");
+    let motion = |units: &str, used: &str, keys: &str| {
+        let amplitude =
+            format!("[amplitudes.quake]\nkind = \"table\"\nfile = \"record.csv\"\nafter = \"zero\"\n{keys}\n");
+        assert_eq!(run(folder, &format!("{units}{OSCILLATOR}{used}{amplitude}"), &record, "out").0, 0);
+        rows(folder, "out", "x")
+    };
+    let (si, mm) = ("units = \"SI\"\n", "units = \"mm-t-s\"\n");
+    assert_eq!(motion(si, SHAKEN, ""), motion(si, SHAKEN, "scale = 9.80665"));
+    assert_eq!(motion(mm, SHAKEN, ""), motion(mm, SHAKEN, "scale = 9806.65"));
+    assert_eq!(motion(si, SHAKEN, "scale = 1.0"), motion("", SHAKEN, "scale = 1.0"));
+    assert_eq!(motion(si, &scaled, ""), motion("", &scaled, ""));
 }
 
 /// The hash of a run is that of its records too: other numbers, another hash.

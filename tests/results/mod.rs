@@ -1,6 +1,7 @@
 //! The files of the output folder, and what reads them.
 
 mod compare;
+mod drifts;
 mod error_bars;
 mod expect;
 mod files;

@@ -133,6 +133,7 @@ pub fn model() -> Model {
         output: Output {
             units: None,
             nodes: vec![2, 0],
+            drifts: vec![],
             cadence: Cadence::Steps(1),
             cadence_is_open: false,
             energy: true,

@@ -11,6 +11,10 @@ pub enum CurveShape {
     Spline,
     /// Splines between corners of the polyline.
     SplineWithCorners,
+    /// One spline whose second derivative is zero at both ends.
+    Natural,
+    /// One spline whose slope is zero at both ends.
+    Clamped,
     /// No overshoot: extremes lie at points, slopes follow Fritsch and Carlson (1980); at rest at both ends.
     Monotone,
 }
@@ -38,6 +42,8 @@ enum Passage {
     Rest,
     /// Two slopes, one on each side.
     Corner,
+    /// With the second derivative zero, at an end.
+    Free,
 }
 
 /// A polyline has a corner if the change of slope exceeds this part of the slope range nearby. Eight samples of a period give 0.41, six
@@ -244,6 +250,9 @@ impl Chords {
         }
         let is_corner = self.is_corner(k);
         match shape {
+            CurveShape::Natural if is_end => Passage::Free,
+            CurveShape::Clamped if is_end => Passage::Rest,
+            CurveShape::Natural | CurveShape::Clamped => Passage::Smooth,
             CurveShape::Monotone => {
                 if is_end {
                     Passage::Rest
@@ -284,15 +293,16 @@ fn spline_slopes(points: &[[f64; 2]], chords: &Chords, passages: &[Passage], sha
     slopes
 }
 
-/// One spline through at least two points: end slopes are zero or those of the neighbouring points, the inner slopes make the second
-/// derivative continuous.
+/// One spline through at least two points: end slopes are zero, those of the neighbouring points, or without curvature; the inner slopes make the
+/// second derivative continuous.
 fn spline(points: &[[f64; 2]], ends: [Passage; 2], out: &mut [[f64; 2]]) {
     let n = points.len();
     let backwards: Vec<[f64; 2]> = points.iter().rev().take(4).copied().collect();
     let end = |passage: Passage, points: &[[f64; 2]]| if passage == Passage::Rest { 0.0 } else { end_slope(points) };
     let (first, last) = (end(ends[0], &points[..n.min(4)]), end(ends[1], &backwards));
     // Elimination of a tridiagonal system whose diagonal dominates.
-    let mut rows: Vec<[f64; 2]> = vec![[0.0, first]];
+    let chord = |k: usize| (points[k + 1][1] - points[k][1]) / (points[k + 1][0] - points[k][0]);
+    let mut rows: Vec<[f64; 2]> = vec![if ends[0] == Passage::Free { [0.5, 1.5 * chord(0)] } else { [0.0, first] }];
     for k in 1..n - 1 {
         let [before, after] = [k - 1, k].map(|i| (points[i + 1][0] - points[i][0]).recip());
         let [rise, fall] = [k - 1, k].map(|i| points[i + 1][1] - points[i][1]);
@@ -301,9 +311,10 @@ fn spline(points: &[[f64; 2]], ends: [Passage; 2], out: &mut [[f64; 2]]) {
         let right = 3.0 * (rise * before * before + fall * after * after) - before * of_above;
         rows.push([after / diagonal, right / diagonal]);
     }
-    let mut next = last;
+    let [above, of_above] = rows[n - 2];
+    let mut next = if ends[1] == Passage::Free { (3.0 * chord(n - 2) - of_above) / (2.0 - above) } else { last };
     for k in (0..n - 1).rev() {
-        let own = if k == 0 { first } else { rows[k][1] - rows[k][0] * next };
+        let own = rows[k][1] - rows[k][0] * next;
         out[k] = [own, next];
         next = own;
     }
@@ -404,6 +415,37 @@ mod tests {
         assert!(coarse[0] / fine[0] > 13.0 && coarse[1] / fine[1] > 3.5, "{coarse:?} {fine:?}");
         // ω⁴h²/8 ≈ 0.38 for 32 samples.
         assert!(fine[1] < 0.4, "{fine:?}");
+    }
+
+    /// Values and the integral of scipy.interpolate.CubicSpline with `bc_type` "natural" and "clamped" (SciPy 1.17).
+    #[test]
+    fn natural_and_clamped_splines_are_those_of_scipy() {
+        let points = vec![[0.0, 1.0], [0.5, -0.5], [0.7, 2.0], [1.6, 2.0], [2.0, 0.3], [3.1, 1.7]];
+        let known = [
+            (
+                CurveShape::Natural,
+                [-0.6138609811262612, 0.6737796226352796, 3.9737089309528226, 1.0129354084846527, 1.0683575457852303],
+                3.8016231852438516,
+            ),
+            (
+                CurveShape::Clamped,
+                [0.1097243257587393, 0.6195039386024945, 4.079174988477493, 0.9719989105993101, 1.5157124753231348],
+                4.445216919929049,
+            ),
+        ];
+        for (shape, values, integral) in known {
+            let curve = CubicCurve::new(points.clone(), shape);
+            for (t, value) in [0.2, 0.6, 1.0, 1.8, 2.9].into_iter().zip(values) {
+                assert!((curve.value(t) - value).abs() < 1e-13, "{shape:?} {t}: {}", curve.value(t));
+            }
+            assert!((curve.primitives(3.1)[0] - integral).abs() < 1e-13);
+            let end = if shape == CurveShape::Natural { 1 } else { 0 };
+            // Derivatives are differences of values of size 1 over 0.2.
+            assert!(curve.rates(0.0, false)[end].abs() < 1e-11 && curve.rates(3.1, true)[end].abs() < 1e-11);
+        }
+        // Two points alone have one straight line.
+        let line = CubicCurve::new(vec![[0.0, 1.0], [2.0, 5.0]], CurveShape::Natural);
+        assert!((line.value(0.5) - 2.0).abs() < 1e-15 && line.is_straight());
     }
 
     /// A cubic is its own spline, and its slope at the ends is found from four points.

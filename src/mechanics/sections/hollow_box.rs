@@ -3,6 +3,7 @@
 use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::Profile;
+use super::rounded::RoundedBox;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
 use super::stresses::Outline;
@@ -24,6 +25,11 @@ pub static KIND: SectionKind = SectionKind {
             about: "Thickness of the walls: one value, or that of the walls normal to y and that of those normal to z.",
         },
         Key {
+            name: "corner_radii",
+            form: Form::Pair,
+            about: "Radii of the corners outside and inside, above 0, of walls of one thickness. Default: none, sharp corners.",
+        },
+        Key {
             name: "fibres",
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 2].",
@@ -38,7 +44,12 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     let (width, height) = (given.require_positive("width"), given.require_positive("height"));
     let walls = given.require("thickness")?;
     let (web, flange) = (*walls.first()?, *walls.last()?);
-    Some(CrossSection::Shape(Box::new(HollowBox { width: width?, height: height?, web, flange })))
+    let sharp = HollowBox { width: width?, height: height?, web, flange };
+    if !given.has("corner_radii") {
+        return Some(CrossSection::Shape(Box::new(sharp)));
+    }
+    let radii = given.require_positive_pair("corner_radii")?;
+    Some(CrossSection::Shape(Box::new(RoundedBox { sharp, radii })))
 }
 
 /// A rectangular hollow section.

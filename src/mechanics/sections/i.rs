@@ -3,6 +3,7 @@
 use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
+use super::rounded::RolledI;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, pair};
 use super::stresses::Outline;
@@ -32,6 +33,11 @@ pub static KIND: SectionKind = SectionKind {
             about: "Thickness of the lower flange, if the flanges differ.",
         },
         Key {
+            name: "root_radius",
+            form: Form::Number,
+            about: "Radius between web and flanges of a rolled section with equal flanges, above 0. Default: none, sharp corners.",
+        },
+        Key {
             name: "fibres",
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
@@ -47,7 +53,11 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     let flanges = pair(given, ["flange_thickness", "top_flange_thickness", "bottom_flange_thickness"]);
     let ([top_width, bottom_width], [top_flange, bottom_flange]) = (widths?, flanges?);
     let shape = I { height: height?, top_width, bottom_width, web: web?, top_flange, bottom_flange };
-    Some(CrossSection::Shape(Box::new(shape)))
+    if !given.has("root_radius") {
+        return Some(CrossSection::Shape(Box::new(shape)));
+    }
+    let root_radius = given.positive("root_radius")?;
+    Some(CrossSection::Shape(Box::new(RolledI { plates: shape, root_radius })))
 }
 
 /// An I-section.

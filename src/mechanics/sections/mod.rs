@@ -14,6 +14,7 @@ pub mod i;
 pub mod l;
 mod profile;
 pub mod rectangle;
+pub mod rounded;
 pub mod section;
 pub mod section_shape;
 pub mod stresses;

@@ -9,6 +9,7 @@ use crate::data::{Beam, BeamElement, Part, PartIndex, PartKind};
 use crate::mesh::MeshElement;
 use crate::own_damping;
 use crate::part_context::PartContext;
+use crate::parts::ReleasedEnd;
 use crate::report::Owner;
 use crate::sections;
 use crate::values::{chosen, flag, keys, vec3};
@@ -17,6 +18,7 @@ use base::math::quadrature::lobatto;
 use base::math::{Mat3, Vec3};
 use deck::Deck;
 use deck::beams as words;
+use deck::words::Directions;
 use deck::words::Vector;
 use mechanics::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use std::collections::HashSet;
@@ -99,7 +101,7 @@ struct Line<'b, 'd> {
 impl<'d> Line<'_, 'd> {
     /// Makes elements along the segments of a group of the mesh, as yet without their sections.
     fn group_elements(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
-        let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end);
+        let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end, release);
         cx.report.reject_unused("a beam made of a group of the mesh", &unused);
         let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
         // The group is read also without an orientation, whose lack has been reported.
@@ -223,6 +225,7 @@ impl<'d> Line<'_, 'd> {
         let gradings = gradings(&self.beam.grading, &counts, cx)?;
         lengths?;
         let frames = frames.filter(|_| sound)?;
+        self.release_ends(&mut path, &frames, cx);
         let (inner, _) = lobatto(self.order + 1);
         let mut nodes = vec![path[0]];
         let mut made = Vec::new();
@@ -261,6 +264,29 @@ impl<'d> Line<'_, 'd> {
                 path[at] = cx.nodes.add_dependent(format!("{}.{which}", self.name), x, path[at], &offset.span);
                 cx.nodes.connect(path[at], true);
             }
+        }
+    }
+
+    /// For a beam with releases, replaces the ends of a path by nodes that joints hold to them.
+    fn release_ends(&self, path: &mut [usize], frames: &[Mat3], cx: &mut PartContext) {
+        let (Some(release), Some(first), Some(last)) = (&self.beam.release, frames.first(), frames.last()) else {
+            return;
+        };
+        let end = path.len() - 1;
+        for (at, which, released, axes) in [(0, "start", &release.start, first), (end, "end", &release.end, last)] {
+            let Some(Directions(dofs)) = released.as_ref().map(|at| at.value) else { continue };
+            if let Some(at) = released.as_ref().filter(|_| dofs[..3].contains(&true)) {
+                let hint = "name rotations: \"rx\" is torsion, \"ry\" and \"rz\" bending about the local axes";
+                cx.report.error_with::<()>(&at.span, "the end of a beam releases no translations", hint);
+                continue;
+            }
+            let x = cx.nodes.x(path[at]);
+            let node = cx.nodes.add(format!("{}.released_{which}", self.name), false, x);
+            cx.nodes.connect(node, true);
+            let held = [3, 4, 5].map(|dof| !dofs[dof]);
+            let name = format!("{}.{which}", self.name);
+            cx.parts.releases.push(ReleasedEnd { name, ends: [path[at], node], held, axes: *axes });
+            path[at] = node;
         }
     }
 

@@ -301,7 +301,7 @@ fn members<'d>(finder: &mut Finder<'_, 'd>, among: &'d At<deck::words::Names>, g
             let radius = given.or_else(|| radius_of(scene, leaf)).filter(|radius| *radius > 0.0);
             let nodes = match leaf {
                 Place::Body(body) => vec![scene.bodies.get(body)?.node],
-                Place::Part(_) | Place::Edge(..) | Place::Joint(_) => Vec::new(),
+                Place::Part(_) | Place::Edge(..) | Place::Joint(_) | Place::Drift(_) => Vec::new(),
                 _ => scene.nodes_of(leaf),
             };
             match radius {

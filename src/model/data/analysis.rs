@@ -92,6 +92,14 @@ impl Analysis {
         matches!(self.kind, AnalysisKind::Modal(ModesAsked { damped: true, .. }) | AnalysisKind::Response(_))
     }
 
+    /// The speeds of rotation over which modes are found.
+    pub fn speeds(&self) -> &[f64] {
+        match &self.kind {
+            AnalysisKind::Modal(asked) => &asked.speeds,
+            _ => &[],
+        }
+    }
+
     /// True where modes are found, and listed.
     pub fn lists_modes(&self) -> bool {
         self.has_modes() && self.response().is_none_or(|response| response.method == ResponseMethod::Modal)

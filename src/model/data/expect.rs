@@ -39,6 +39,10 @@ pub enum ExpectAt {
     Response(usize, OverFrequencies),
     /// Columns of the table of links or of contacts, and the magnitude of the force of a contact.
     Part(PartIndex),
+    /// Columns of drifts.csv, by the place in [`super::Output::drifts`].
+    Drift(usize),
+    /// Columns of critical_speeds.csv, of the speed at this place of its list.
+    CriticalSpeed(usize),
     /// Force and moment on the first end of a joint.
     Joint(usize),
     /// Largest values over the shells from one place in [`Model::parts`] to before another: of von Mises stress and plastic strain.

@@ -10,6 +10,8 @@ pub struct Output {
     pub units: Option<String>,
     /// Nodes whose histories go to nodes.csv, in deck order (bodies are not among them).
     pub nodes: Vec<usize>,
+    /// The relative displacements in drifts.csv, in deck order.
+    pub drifts: Vec<Drift>,
     /// The times of the histories.
     pub cadence: Cadence,
     /// True where the deck does not give these times.
@@ -36,6 +38,15 @@ pub struct Output {
     pub fields: Option<Cadence>,
     /// Seconds of run time between two checkpoints; `None`: only when the run is stopped.
     pub checkpoint: Option<f64>,
+}
+
+/// The displacement of a node relative to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drift {
+    /// Its name.
+    pub name: String,
+    /// The node that it is relative to, and the node whose displacement it is.
+    pub ends: [usize; 2],
 }
 
 /// The times of output to histories or fields; t = 0 and the end are always among them.

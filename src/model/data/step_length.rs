@@ -48,6 +48,8 @@ pub struct ArcLength {
     pub stop: Option<DisplacementTarget>,
     /// Number of steps after which the run ends wherever it is.
     pub steps: Option<usize>,
+    /// Size of the displacement of `stop` in each step, in place of an arc.
+    pub increment: Option<f64>,
     /// Longest arc, as a multiple of the first step.
     pub growth: f64,
 }

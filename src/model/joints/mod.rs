@@ -6,6 +6,7 @@ pub mod gears;
 use crate::data::{History, Joint, Node, PrescribedMotion};
 use crate::joints::coordinate::{CoordinateKeys, Joints, PlacedJoint};
 use crate::links::ModelLinks;
+use crate::parts::ReleasedEnd;
 use crate::places::ends::EndTable;
 use crate::places::nodes::Nodes;
 use crate::report::{Owner, Report};
@@ -179,6 +180,13 @@ fn initial_rates(
     let size = size(&from).max(size(&to)).max(driven.abs());
     let rest = nowhere * if coordinate.lock.is_rotational() { 1.0 } else { extent };
     (known && (given - driven).abs() > rest.max(DIGITS * size)).then_some((given, driven))
+}
+
+/// The joint that holds a released end of a beam to its point.
+pub fn released(release: &ReleasedEnd) -> Joint {
+    let place = Vec3::zeros();
+    let held = translations([true; 3], &place).chain(rotations(release.held, &release.axes));
+    Joint::new(release.name.clone(), release.ends, held.collect(), false)
 }
 
 /// Rows between nodes at one place, about global axes at t = 0.

@@ -70,11 +70,16 @@ fn nodal_load<'d>(
     // For a load with `part` in place of `at`, this is the only error to report.
     let names_part = load.part.is_some() && load.at.is_none();
     let spots = if names_part { Vec::new() } else { scene.spots(&owner, "at", &load.at, Reach::Nodes, report) };
-    let (force, moment) = (vec3_or_zero(&load.force), vec3_or_zero(&load.moment));
-    let keys = ["force", "moment", "force_per_length", "local", "force_per_area", "pressure"];
+    if let (Some(_), Some(total)) = (&load.force, &load.total_force) {
+        report.error::<()>(&total.span, "a load has `force` or `total_force`, not both");
+    }
+    let given = if load.total_force.is_some() { &load.total_force } else { &load.force };
+    let share = if load.total_force.is_some() { 1.0 / spots.len().max(1) as f64 } else { 1.0 };
+    let (force, moment) = (vec3_or_zero(given) * share, vec3_or_zero(&load.moment));
+    let keys = ["force", "total_force", "moment", "force_per_length", "local", "force_per_area", "pressure"];
     let unused = keys!(load; part, projected, profile);
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
-    if load.force.is_none() && load.moment.is_none() && !unread {
+    if given.is_none() && load.moment.is_none() && !unread {
         report.error_with::<()>(
             owner.span,
             "this load is empty",
@@ -89,7 +94,7 @@ fn nodal_load<'d>(
         if topology.is_loose(&spot, "this load", report) {
             continue;
         }
-        for (first, part, place) in [(0, &force, span(&load.force)), (3, &moment, span(&load.moment))] {
+        for (first, part, place) in [(0, &force, span(given)), (3, &moment, span(&load.moment))] {
             let lost = (0..3).filter(|&i| part[i] != 0.0 && !topology.is_taken(spot.node, first + i));
             let lost = directions(lost.map(|i| first + i));
             if let Some(place) = place.filter(|_| topology.is_complete() && !lost.is_empty()) {

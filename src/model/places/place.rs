@@ -12,6 +12,7 @@ pub enum Place {
     Body(usize),
     Set(usize),
     Joint(usize),
+    Drift(usize),
     Part(PartIndex),
     /// An edge of a surface, counted from 0.
     Edge(PartIndex, usize),
@@ -33,17 +34,18 @@ impl Place {
             Place::Body(_) => "body",
             Place::Set(_) => "set",
             Place::Joint(_) => "joint",
+            Place::Drift(_) => "drift",
             Place::Part(part) => part.kind.word(),
             Place::Edge(..) => "edge of a shell",
             Place::Group(_) => "group of the mesh",
         }
     }
 
-    /// False for joints, links and contacts, which only connect existing nodes.
+    /// False for joints, links, contacts and drifts, which only connect existing nodes.
     pub fn has_nodes(self) -> bool {
         match self {
             Place::Part(part) => part.kind.is_deformable(),
-            Place::Joint(_) => false,
+            Place::Joint(_) | Place::Drift(_) => false,
             Place::Point(_) | Place::Body(_) | Place::Set(_) | Place::Edge(..) | Place::Group(_) => true,
         }
     }

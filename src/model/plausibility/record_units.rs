@@ -1,4 +1,4 @@
-//! Records in other units than the deck: headers of data bases give the unit, and values are not converted.
+//! Records in other units than the deck. Headers of data bases give the unit; values are converted where the deck has `units` and no scale.
 
 use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
@@ -42,10 +42,38 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
             report.warn(used.place, message, remedy(quantity));
             continue;
         }
+        if let Some(factor) = records[index].as_ref().and_then(|record| conversion(deck, index, record)) {
+            note_conversion(deck, &used, (file, unit), factor, report);
+            continue;
+        }
         let given = [words.scale.as_ref().map(|scale| scale.value), used.scale];
         let factor = given.iter().flatten().product::<f64>().abs();
         check_factor(deck, &used, (file, unit), given.iter().any(Option::is_some).then_some(factor), report);
     }
+}
+
+/// The factor from the unit that the header of a record names to the units of the deck, where the deck leaves the conversion to the program:
+/// `units` are given, and no scale stands with the amplitude or where it moves anything.
+pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
+    let (name, words) = &deck.amplitudes.0[index];
+    let (quantity, si) = record.unit.as_ref()?.known?;
+    let [length, _, time] = deck.units.as_ref()?.value.scales();
+    let is_this = |used: &Use| used.amplitude.as_ref().is_some_and(|own| own.value == name.value);
+    let used: Vec<Use> = uses(deck).into_iter().filter(is_this).collect();
+    let leaves = words.scale.is_none() && used.iter().all(|used| used.scale.is_none() && used.quantity == quantity);
+    (leaves && !used.is_empty()).then(|| si * time.powi(quantity.power_of_time()) / length)
+}
+
+/// Notes that a record is converted, unless it is in the units of the deck already.
+fn note_conversion(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), factor: f64, report: &mut Report) {
+    let (Some(units), true) = (&deck.units, factor != 1.0) else { return };
+    let message =
+        format!("the record `{file}` is in {}, and its values are converted to the units {}", unit.name, units.label());
+    report.note(
+        used.place,
+        message,
+        format!("that is `scale = {}`; `scale = 1.0` takes the numbers as they are", short(factor)),
+    );
 }
 
 /// Where a record of this quantity belongs.

@@ -30,6 +30,7 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.loading.pressures.iter_mut().flat_map(|load| &mut load.faces).flat_map(Face::nodes_mut).for_each(&mut *of);
     model.damping.nodal.iter_mut().for_each(|damping| of(&mut damping.node));
     model.output.nodes.iter_mut().for_each(&mut *of);
+    model.output.drifts.iter_mut().flat_map(|drift| &mut drift.ends).for_each(&mut *of);
     for expect in &mut model.expects {
         if let ExpectAt::Node(node) = &mut expect.at {
             of(node);

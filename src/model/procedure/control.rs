@@ -1,6 +1,6 @@
 //! Control of a static analysis: `control` of `[analysis]` and the words that go with it.
 
-use crate::data::{ArcLength, History, Iteration, Method, Restraint, Update};
+use crate::data::{ArcLength, DisplacementTarget, History, Iteration, Method, Restraint, Update};
 use crate::places::nodes::Topology;
 use crate::plausibility::usage::named_amplitudes;
 use crate::procedure::displacement_targets::displacement_target;
@@ -12,6 +12,9 @@ use base::names::short;
 use deck::Deck;
 use deck::analysis as words;
 use mechanics::amplitude::Amplitude;
+
+/// Steps to the value of `stop` with control by displacement, unless the deck says otherwise.
+const INCREMENTS: f64 = 100.0;
 
 /// The arc-length steps of the deck; `None` for time steps. A displacement to stop at must be an unknown, so supports are known.
 pub fn control<'d>(
@@ -25,18 +28,27 @@ pub fn control<'d>(
     let first = scene.analysis.nominal_step();
     if report.is_spoiled(&analysis.span, "control") {
         // Whatever it was to be, it is not held against the words that go with it.
-        return Some(ArcLength { first, stop: None, steps: None, growth: 1.0 });
+        return Some(ArcLength { first, stop: None, steps: None, increment: None, growth: 1.0 });
     }
-    let Some(at) = analysis.control.as_ref().filter(|at| at.value == words::Control::ArcLength) else {
-        let keys = keys!(analysis; stop, steps, growth);
+    let Some(at) = analysis.control.as_ref().filter(|at| at.value != words::Control::Time) else {
+        let keys = keys!(analysis; stop, increment, growth);
         report.reject_unused("`control = \"time\"`", &keys);
+        reject_steps(analysis, report);
         return None;
     };
     if scene.analysis.is_dynamic() {
-        return report.error(&at.span, "arc-length control needs `kind = \"static\"`, and this analysis is dynamic");
+        let by = if at.value == words::Control::Displacement { "displacement" } else { "arc-length" };
+        let message = format!("{by} control needs `kind = \"static\"`, and this analysis is dynamic");
+        return report.error(&at.span, message);
     }
     check_iteration(scene.deck, report);
     check_history(scene, amplitudes, topology, report);
+    if let (Some(stage), None) = (&scene.stage, &analysis.stop)
+        && let Some(stop) = stage.table().stop.as_ref().filter(|stop| stop.time.is_none())
+    {
+        let hint = "such as { at = \"crown\", quantity = \"uz\", value = -0.1 }";
+        report.error_with::<()>(&stop.span, "a stage that follows a path stops at a displacement", hint);
+    }
     let stop = analysis.stop.as_ref().and_then(|stop| displacement_target("`stop`", stop, scene, topology, report));
     let steps = analysis.steps.as_ref().map(|_| report.count("steps", &analysis.steps, 1));
     let growth = report.positive("growth", &analysis.growth).unwrap_or(f64::INFINITY);
@@ -46,7 +58,52 @@ pub fn control<'d>(
             "`growth` must be at least 1: `time_step` sets the first step, which is the shortest",
         );
     }
-    Some(ArcLength { first, stop, steps, growth })
+    if at.value == words::Control::Displacement {
+        return by_displacement(analysis, at, stop, report);
+    }
+    report.reject_unused("`control = \"arc-length\"`", &keys!(analysis; increment));
+    Some(ArcLength { first, stop, steps, increment: None, growth })
+}
+
+/// Reports a number of steps where their length is wanted.
+fn reject_steps(analysis: &words::Analysis, report: &mut Report) {
+    let Some(steps) = &analysis.steps else { return };
+    let hint = match &analysis.end_time {
+        Some(end) if steps.value > 0 => {
+            format!("time_step = {} makes {} steps", short(end.value / steps.value as f64), steps.value)
+        }
+        _ => "`time_step` is their length".to_owned(),
+    };
+    report.error_with::<()>(&steps.span, "`steps` does not apply to `control = \"time\"`", hint);
+}
+
+/// Steps of equal displacement up to the value of `stop`.
+fn by_displacement<'d>(
+    analysis: &'d words::Analysis,
+    control: &'d At<words::Control>,
+    stop: Option<DisplacementTarget>,
+    report: &mut Report<'d>,
+) -> Option<ArcLength> {
+    report.reject_unused("`control = \"displacement\"`, whose steps are equal", &keys!(analysis; steps, growth));
+    if analysis.stop.is_none() && !report.is_spoiled(&control.span, "stop") {
+        let hint = "such as stop = { at = \"roof\", quantity = \"ux\", value = 0.3 }";
+        return report.error_with(
+            &control.span,
+            "displacement control needs `stop`, the displacement that it moves",
+            hint,
+        );
+    }
+    let stop = stop?;
+    if let Some(at) = analysis.stop.as_ref().and_then(|at| at.pass.as_ref()) {
+        report.error::<()>(&at.span, "a displacement that steps move passes its value once");
+    }
+    let increment = report.positive("increment", &analysis.increment).unwrap_or(stop.value.abs() / INCREMENTS);
+    if let Some(at) = analysis.increment.as_ref().filter(|at| at.value > stop.value.abs()) {
+        let message = format!("`increment` is larger than the displacement that it leads to, which is {}", stop.value);
+        report.error::<()>(&at.span, message);
+    }
+    let first = increment / stop.value.abs();
+    Some(ArcLength { first, stop: Some(stop), steps: None, increment: Some(increment), growth: 1.0 })
 }
 
 /// The iteration along a path, with the current tangent, which gives the direction of the path.

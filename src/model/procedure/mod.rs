@@ -75,8 +75,15 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
         return analysis;
     }
     let is_static = word == words::AnalysisKind::Static;
-    let end_time = report.require_positive(&owner, "end_time", &analysis.end_time);
-    let (time_step, error_tolerance) = time_step(&owner, analysis, is_static, report);
+    let is_moved = is_static && analysis.control.as_ref().is_some_and(|at| at.value == words::Control::Displacement);
+    let end_time = match &analysis.end_time {
+        None if is_moved => Some(1.0),
+        end_time => report.require_positive(&owner, "end_time", end_time),
+    };
+    let (time_step, error_tolerance) = match is_moved {
+        true => (end_time, None),
+        false => time_step(&owner, analysis, is_static, report),
+    };
     let least_step = report.positive("least_step", &analysis.least_step);
     if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
         && step > end

@@ -6,15 +6,20 @@
 use crate::data::{Analysis, AnalysisKind, History, Model, ModesAsked, StepLength};
 use crate::procedure::extent::{count, extent};
 use crate::procedure::response::{is_harmonic, keys_of_response, response};
-use crate::report::Report;
+use crate::report::{Owner, Report};
 use crate::values::{flag, keys, span};
 use base::diagnostic::{Diagnostic, Span};
 use deck::Deck;
 use deck::analysis::{self as words, AnalysisKind as Word};
+use deck::words::Spacing;
 use mechanics::amplitude::Amplitude;
 
 /// End time of the static analysis, equal to the load factor.
 const END: f64 = 1.0;
+/// Speeds of rotation unless the deck says how many.
+const SPEEDS: usize = 21;
+/// Most speeds of rotation.
+const MOST_SPEEDS: usize = 10_000;
 /// Load steps; they are halved where they fail.
 const STEP: f64 = 0.1;
 /// Shortest load step.
@@ -27,7 +32,7 @@ pub fn modes<'d>(
     word: Word,
     report: &mut Report<'d>,
 ) -> Option<Analysis> {
-    let of_modal = keys!(analysis; up_to, damped);
+    let of_modal = keys!(analysis; up_to, damped, speeds);
     let what = match word {
         Word::Static => "a static analysis",
         Word::Dynamic => "a dynamic analysis",
@@ -41,7 +46,7 @@ pub fn modes<'d>(
         report.reject_unused(what, &keys_of_response(analysis));
         return None;
     }
-    let of_paths = keys!(analysis; control, stop, steps, growth);
+    let of_paths = keys!(analysis; control, stop, increment, steps, growth);
     report.reject_unused(what, &of_paths);
     if word == Word::Buckling {
         report.reject_unused(what, &of_modal);
@@ -55,11 +60,37 @@ pub fn modes<'d>(
         Word::FrequencyResponse => AnalysisKind::Response(response(analysis, place, report)),
         Word::Buckling => AnalysisKind::Buckling(count(analysis, report)),
         _ => {
-            AnalysisKind::Modal(ModesAsked { extent: extent(analysis, report), damped: flag(&analysis.damped, false) })
+            let damped = flag(&analysis.damped, false);
+            let speeds = speeds(analysis, damped, report);
+            AnalysisKind::Modal(ModesAsked { extent: extent(analysis, report), damped, speeds })
         }
     };
     let step_length = StepLength::Fixed { step: STEP };
     Some(Analysis { kind, begin: 0.0, end_time: END, stage: None, step_length, least_step: LEAST_STEP, plane })
+}
+
+/// Reads `speeds`; empty where the deck has none.
+fn speeds<'d>(analysis: &'d words::Analysis, damped: bool, report: &mut Report<'d>) -> Vec<f64> {
+    let Some(range) = &analysis.speeds else { return Vec::new() };
+    if !damped {
+        let hint =
+            "`damped = true` takes account of gyroscopic moments, without which modes do not depend on the speed";
+        report.error_with::<()>(&range.span, "`speeds` needs complex modes", hint);
+    }
+    let from = report.not_negative("from", &range.from, 0.0);
+    let to = report.require_positive(&Owner::new("`speeds`", &range.span), "to", &range.to);
+    let steps = report.count("steps", &range.steps, SPEEDS);
+    if let Some(at) = range.steps.as_ref().filter(|_| !(2..=MOST_SPEEDS).contains(&steps)) {
+        report.error::<()>(&at.span, format!("`steps` must be 2 to {MOST_SPEEDS}"));
+    }
+    match (to, &range.to) {
+        (Some(to), Some(at)) if to <= from => {
+            report.error::<()>(&at.span, format!("`to` must be above `from`, which is {from}"));
+            Vec::new()
+        }
+        (Some(to), _) => Spacing::Linear.between(from, to, steps.clamp(2, MOST_SPEEDS)),
+        (None, _) => Vec::new(),
+    }
 }
 
 /// Says of the keys of times that they have no effect.

@@ -30,7 +30,7 @@ pub fn keys_of_response(analysis: &Analysis) -> [(&'static str, Option<&Span>); 
 /// Reads the keys of a frequency response, with the modes that its method needs.
 pub fn response<'d>(analysis: &'d Analysis, place: &'d Span, report: &mut Report<'d>) -> ResponseAsked {
     let what = "a frequency response";
-    report.reject_unused(what, &keys!(analysis; damped));
+    report.reject_unused(what, &keys!(analysis; damped, speeds));
     let method = match chosen(&analysis.method) {
         ResponseWord::Direct => ResponseMethod::Direct,
         ResponseWord::Modal => ResponseMethod::Modal,

@@ -30,8 +30,8 @@ fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     }
     let Some(analysis) = &sequence.whole.analysis else { return };
     let keys = keys!(
-        analysis; kind, control, end_time, time_step, stop, steps, growth, modes, up_to, damped, frequencies,
-        method, damping_ratio
+        analysis; kind, control, end_time, time_step, stop, increment, steps, growth, modes, up_to, damped, speeds,
+        frequencies, method, damping_ratio
     );
     report.reject_unused("a deck with `[[stages]]`, which have kinds, durations and steps of their own", &keys);
 }
@@ -46,14 +46,14 @@ fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
         return;
     }
     of_modes.iter().for_each(|&index| check_new(sequence, index, report));
-    for expect in sequence.whole.expect.iter().filter(|expect| expect.mode.is_some() && expect.stage.is_none()) {
+    for expect in sequence.whole.expect.iter().filter(|expect| expect.is_of_modes() && expect.stage.is_none()) {
         if of_modes.len() > 1 {
             let hint = "several stages have modes";
             report.error_with::<()>(&expect.span, "an expected value of a mode needs `stage` here", hint);
         }
     }
     let responses = of_modes.iter().filter(|&&index| responds(sequence.stages[index].table)).count();
-    let others = sequence.whole.expect.iter().filter(|expect| expect.mode.is_none() && expect.time.is_none());
+    let others = sequence.whole.expect.iter().filter(|expect| !expect.is_of_modes() && expect.time.is_none());
     for expect in others.filter(|expect| expect.stage.is_none()) {
         let is_open = if expect.frequency.is_some() { responses > 1 } else { responses > 0 };
         if is_open {
@@ -164,8 +164,8 @@ fn check_expected<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
             continue;
         }
         let has_modes = named.is_some_and(|named| sequence.stages[named].has_modes());
-        let (message, hint) = match (&expect.mode, &expect.frequency) {
-            (Some(_), _) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
+        let (message, hint) = match (expect.is_of_modes(), &expect.frequency) {
+            (true, _) => ("no modes are found there", "`mode` is expected of a modal or a buckling stage"),
             (_, Some(_)) => ("no response is found there", "`frequency` is expected of a stage of frequency response"),
             _ if has_modes => ("no time passes in this stage", "expect a `mode`, or name another stage"),
             _ => ("what this is expected of is not there", "name a stage in which it is"),

@@ -8,7 +8,7 @@ use deck::Deck;
 use deck::analysis::{self as words, Analysis};
 use deck::expect::Expect;
 use deck::loads::Load;
-use deck::stages::{Stage, StageKind};
+use deck::stages::{Stage, StageKind, Stop, StopQuantity};
 use deck::words::{Maybe, Names, Table};
 use mechanics::amplitude::Amplitude;
 use std::collections::HashSet;
@@ -218,6 +218,28 @@ impl<'d> CurrentStage<'d> {
         all.filter(|(_, expect)| here(expect)).map(|(index, _)| index).collect()
     }
 
+    /// The `stop` of a stage that follows a path, as that of `[analysis]`. Rotations and loads do not stop a path.
+    fn path_stop(&self) -> Maybe<Table<words::DisplacementTarget>> {
+        let table = self.table();
+        table.control.as_ref().filter(|at| at.value != words::Control::Time)?;
+        let given = table.stop.as_ref()?;
+        let stop: &Stop = &given.value;
+        let word = |quantity: StopQuantity| match quantity {
+            StopQuantity::Ux => Some(words::Displacement::Ux),
+            StopQuantity::Uy => Some(words::Displacement::Uy),
+            StopQuantity::Uz => Some(words::Displacement::Uz),
+            StopQuantity::Rx | StopQuantity::Ry | StopQuantity::Rz => None,
+        };
+        let quantity = stop.quantity.as_ref()?;
+        let target = words::DisplacementTarget {
+            at: stop.at.clone(),
+            quantity: Some(At { value: word(quantity.value)?, span: quantity.span.clone() }),
+            value: stop.value.clone(),
+            pass: None,
+        };
+        Some(At { value: Table::new(target), span: given.span.clone() })
+    }
+
     /// The stage as `[analysis]` of its deck. Its time counts from the beginning of the stage with the duration of the deck, so that steps
     /// fit into it exactly, also after a stop.
     fn analysis(&self) -> Analysis {
@@ -237,18 +259,20 @@ impl<'d> CurrentStage<'d> {
         let least_step = table.least_step.clone().or_else(|| all.and_then(|all| all.least_step.clone()));
         Analysis {
             kind: Some(At { value: word, span: place(span(&table.kind)) }),
-            control: None,
+            control: table.control.clone().filter(|_| !has_modes),
             end_time: (!has_modes).then(|| At { value: *duration, span: place(span(&table.duration)) }),
             time_step: table.time_step.clone().filter(|_| !has_modes),
             error_tolerance: table.error_tolerance.clone().or(general).filter(|_| !has_modes),
             least_step: least_step.filter(|_| !has_modes),
-            stop: None,
-            steps: None,
-            growth: None,
+            stop: self.path_stop(),
+            increment: table.increment.clone(),
+            steps: table.steps.clone(),
+            growth: table.growth.clone(),
             plane: all.and_then(|all| all.plane.clone()),
             modes: table.modes.clone(),
             up_to: table.up_to.clone(),
             damped: table.damped.clone(),
+            speeds: table.speeds.clone(),
             frequencies: table.frequencies.clone(),
             method: table.method.clone(),
             damping_ratio: table.damping_ratio.clone(),

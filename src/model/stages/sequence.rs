@@ -47,7 +47,7 @@ impl PlannedStage<'_> {
     /// True if the stage can give an expected value, of a mode, at a frequency or at a time; a peak over frequencies must name the stage.
     pub fn reads(&self, expect: &Expect) -> bool {
         let responds = self.kind == StageKind::FrequencyResponse;
-        match (expect.mode.is_some(), expect.frequency.is_some()) {
+        match (expect.is_of_modes(), expect.frequency.is_some()) {
             (true, _) => self.has_modes(),
             (_, true) => responds,
             _ if responds => name_of(&expect.stage) == Some(self.name.as_str()),

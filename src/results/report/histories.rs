@@ -18,9 +18,8 @@ const TIMES: usize = 1_500;
 /// The number of times below which names are left out instead of further times.
 const FEW_TIMES: usize = 200;
 
-/// The table that goes over frequencies, and the column of these.
-const RESPONSE: &str = "response.csv";
-const OVER_FREQUENCY: &str = "frequency";
+/// Tables that do not go over time, and the column that they go over.
+const OVER: [(&str, &str); 2] = [("response.csv", "frequency"), ("campbell.csv", "speed")];
 
 /// A table over time.
 pub struct History {
@@ -30,9 +29,9 @@ pub struct History {
     pub names: Vec<String>,
     /// The names of the columns with numbers, but for the time.
     pub columns: Vec<String>,
-    /// The column that rows go over: the time, or the frequency of a response.
+    /// The column that rows go over: the time, the frequency of a response, or the speed of rotation.
     pub over: &'static str,
-    /// The times, or frequencies, that are shown.
+    /// The times, frequencies or speeds that are shown.
     pub times: Vec<f32>,
     /// The numbers by time, name and column; NaN where there is none.
     pub values: Vec<f32>,
@@ -51,7 +50,7 @@ impl Places {
     fn of(rows: &TableReader, over: &str) -> Places {
         let is = |place: &usize, wanted: bool| rows.is_key(*place) == wanted;
         let time = rows.column("time");
-        let when = [rows.column("step"), if over == OVER_FREQUENCY { rows.column(over) } else { time }];
+        let when = [rows.column("step"), if over == "time" { time } else { rows.column(over) }];
         // Curves go on from stage to stage.
         let all = (0..rows.header.len()).filter(|&place| rows.header[place] != STAGE);
         let keys = all.clone().filter(|place| is(place, true)).collect();
@@ -93,7 +92,7 @@ impl History {
     pub fn read(folder: &Path, file: &str) -> io::Result<Option<History>> {
         let path = folder.join(file);
         let mut rows = TableReader::open(&path)?;
-        let over = if file == RESPONSE { OVER_FREQUENCY } else { "time" };
+        let over = OVER.iter().find(|(table, _)| *table == file).map_or("time", |(_, column)| *column);
         let places = Places::of(&rows, over);
         let Some(time) = places.when[1] else { return Ok(None) };
         let mut names: Vec<String> = Vec::new();

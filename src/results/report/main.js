@@ -44,6 +44,21 @@ function energy(history) {
   parent.append(controls);
 }
 
+/** Columns of other tables with rows at the same times, for force over displacement: by a label, the table, the place of the name and the column. */
+function columnsBeside(history, all) {
+  const most = 400, beside = new Map(), { times, over } = history;
+  for (const other of all) {
+    const alike = other !== history && other.over === over && other.times.length === times.length && other.times.every((t, i) => t === times[i]);
+    if (!alike) continue;
+    other.names.forEach((name, i) => {
+      for (const column of other.columns.filter(column => column !== "step")) {
+        if (beside.size < most) beside.set([`${other.file}:`, name, column].filter(Boolean).join(" "), { history: other, name: i, column });
+      }
+    });
+  }
+  return beside;
+}
+
 function browse(all) {
   const parent = byId("histories-plot"), controls = make("div", { className: "controls" });
   const [plot, whole] = plotWith(parent);
@@ -60,12 +75,18 @@ function browse(all) {
     };
     const motions = columns.filter(name => ["ux", "uy", "uz"].includes(name));
     let y = motions.length ? motions.reduce((a, b) => (reach(b) > reach(a) ? b : a)) : columns.find(name => name !== "step");
+    const others = columnsBeside(history, all);
     let [x, ticked] = [history.over, []];
+    const along = i => {
+      if (x === history.over) return history.times;
+      const other = others.get(x);
+      return other ? other.history.line(other.name, other.column) : history.line(i, x);
+    };
     const draw = () => {
       const series = ticked.map(i => ({
         name: names[i] || y,
         colour: colour(i),
-        x: x === history.over ? history.times : history.line(i, x),
+        x: along(i),
         y: y === history.over ? history.times : history.line(i, y),
         band: history.band(y),
       }));
@@ -73,7 +94,7 @@ function browse(all) {
     };
     selects = [
       choice(controls, "Column", [...columns, history.over], y, value => ((y = value), draw())),
-      choice(controls, "over", [history.over, ...columns], x, value => ((x = value), draw())),
+      choice(controls, "over", [history.over, ...columns, ...others.keys()], x, value => ((x = value), draw())),
     ];
     list = keys(whole, names, i => i < 6, chosen => ((ticked = chosen), draw()));
   };

@@ -2,8 +2,11 @@
 
 mod bars;
 mod bodies;
+mod campbell;
 mod contact_pairs;
 mod contacts;
+mod critical_speeds;
+mod drifts;
 mod energy;
 mod joints;
 mod layers;
@@ -25,6 +28,7 @@ use super::table::TableKind;
 /// All tables, in the order in which a reader looks for them.
 pub static TABLES: &[&TableKind] = &[
     &nodes::TABLE,
+    &drifts::TABLE,
     &bodies::TABLE,
     &energy::TABLE,
     &links::TABLE,
@@ -41,6 +45,8 @@ pub static TABLES: &[&TableKind] = &[
     &mode_parts::TABLE,
     &mode_shapes::TABLE,
     &response::TABLE,
+    &campbell::TABLE,
+    &critical_speeds::TABLE,
     &steps::TABLE,
 ];
 

@@ -12,7 +12,10 @@ use crate::step::equilibrium::EquilibriumSolver;
 use crate::step::residual;
 use crate::step::trial::{Stage, Step};
 use crate::strategy::arc_length::{ArcLengthConstraint, Condition, PathCondition, StepMotion};
-use crate::tolerances::arc_length::{BENT, CHANGE, DESIRED, HARD, MOST_STEPS, MOST_TARGETS, STRAIGHT, TRIES};
+use crate::tolerances::arc_length::{
+    BENT, CHANGE, CREEPING_STEPS, CREEPS, DESIRED, DESIRED_WITH_HISTORY, HARD, MOST_STEPS, MOST_TARGETS, PASSES,
+    STRAIGHT, TRIES,
+};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::integrators::load_steps;
@@ -27,6 +30,8 @@ pub struct ArcLengthController {
     targets: Targets,
     /// Start of the change of loads or prescribed motion.
     begin: f64,
+    /// Desired number of iterations of a step.
+    desired: f64,
     /// Length of the first step, once it is known.
     unit: Option<f64>,
     /// Ratio of the next step length to the first one, and the least allowed ratio.
@@ -35,11 +40,16 @@ pub struct ArcLengthController {
     /// Cutbacks before the current step, and those due to a sharp bend.
     cuts: usize,
     bent: usize,
+    /// Number of steps, and the displacement then, at which the path has last come on by a noticeable part.
+    marked: usize,
+    mark: f64,
     /// The displacement at the end of a path that did not reach its `stop`.
     pub short_of_stop: Option<f64>,
 }
 
-keep!(ArcLengthController { solver, constraint, targets, unit, size, cuts, bent, short_of_stop } without { path, begin, least });
+keep!(ArcLengthController {
+    solver, constraint, targets, unit, size, cuts, bent, marked, mark, short_of_stop
+} without { path, begin, desired, least });
 
 /// An equilibrium, with its target if it lies at one.
 struct Found {
@@ -55,12 +65,16 @@ impl ArcLengthController {
             solver,
             constraint: ArcLengthConstraint::new(cx, ws),
             targets: Targets::new(cx.model, path),
-            begin: cx.excitation.begin(),
+            // Loads of earlier stages have begun before.
+            begin: cx.excitation.begin().max(cx.model.analysis.begin),
             unit: None,
+            desired: if cx.system.history > 0 { DESIRED_WITH_HISTORY } else { DESIRED },
             size: 1.0,
             least: cx.model.analysis.least_step / path.first,
             cuts: 0,
             bent: 0,
+            marked: 0,
+            mark: 0.0,
             short_of_stop: None,
             path: path.clone(),
         }
@@ -74,6 +88,9 @@ impl ArcLengthController {
         if !march.resumes {
             self.apply_initial_loads(march)?;
             march.notify_start()?;
+            if let Some(watch) = march.stop_watch.as_deref_mut() {
+                watch.begin(march.cx, march.ws, march.state);
+            }
             if self.begin >= march.cx.model.analysis.end_time {
                 return Err(march.failed(Failure::NoLoadIncrement { time: march.state.time }));
             }
@@ -111,6 +128,9 @@ impl ArcLengthController {
                 || self.path.steps.is_some_and(|steps| march.recorder.counts.steps + 1 >= steps);
             self.notify(march, &found, dt, ends)?;
             if ends {
+                if let (Some(watch), Some(stop)) = (march.stop_watch.as_deref_mut(), &self.path.stop) {
+                    watch.recall(self.targets.is_stop(stop, found.reached));
+                }
                 self.short_of_stop = self.path.stop.filter(|stop| !self.targets.is_stop(stop, found.reached)).map(
                     |DisplacementTarget { node, dof, .. }| {
                         march.state.nodes[node].moved(&march.cx.model.nodes[node].x)[dof]
@@ -123,7 +143,28 @@ impl ArcLengthController {
                 return Err(march.failed(Failure::TooManySteps { steps }));
             }
             self.choose_size(&found);
+            self.check_progress(march)?;
         }
+    }
+
+    /// Ends a path that creeps: steps shorter than the first that lead nowhere, as where hinges without hardening open and close.
+    ///
+    /// # Errors
+    /// [`Failure::PathCreeps`].
+    fn check_progress(&mut self, march: &mut March) -> Result<(), Outcome> {
+        let moved = |node: usize| march.state.nodes[node].moved(&march.cx.model.nodes[node].x);
+        let now = match &self.path.stop {
+            Some(stop) => moved(stop.node)[stop.dof],
+            None => (0..march.state.nodes.len()).map(|node| moved(node).amax()).fold(0.0, f64::max),
+        };
+        let (steps, scale) = (march.recorder.counts.steps, now.abs().max(self.mark.abs()));
+        if self.size >= 1.0 || (now - self.mark).abs() >= CREEPS * scale {
+            (self.marked, self.mark) = (steps, now);
+        } else if steps >= self.marked + CREEPING_STEPS {
+            let from = self.mark;
+            return Err(march.failed(Failure::PathCreeps { steps: steps - self.marked, from, to: now }));
+        }
+        Ok(())
     }
 
     /// Finds the next equilibrium; `None` where the step is to be tried again at half the length.
@@ -134,6 +175,7 @@ impl ArcLengthController {
         let March { cx, ws, state, .. } = march;
         let (to, condition) = match self.unit {
             // The first step is one of load: there is no arc before it.
+            _ if self.path.increment.is_some() => (state.time, self.next_displacement(cx, state)),
             None => (self.begin + self.size * self.path.first, None),
             Some(unit) => (state.time, Some(Condition::Arc(self.size * unit))),
         };
@@ -156,6 +198,15 @@ impl ArcLengthController {
         (self.size, self.cuts) = (0.5 * self.size, self.cuts + 1);
         march.count_cut();
         Ok(None)
+    }
+
+    /// The displacement of the next step towards `stop`, which the last step passes a little, so that it ends there.
+    fn next_displacement(&self, cx: &Context, state: &State) -> Option<Condition> {
+        let (stop, increment) = (self.path.stop?, self.path.increment?);
+        let left = stop.value - state.nodes[stop.node].moved(&cx.model.nodes[stop.node].x)[stop.dof];
+        let most = self.size * increment;
+        let by = if left.abs() <= most * (1.0 + PASSES) { left * (1.0 + PASSES) } else { most.copysign(left) };
+        Some(Condition::Displacement { node: stop.node, dof: stop.dof, by })
     }
 
     /// Finds the equilibrium at the time `to`, or where the condition holds. The step ends at the first target that it passes; its index is
@@ -215,7 +266,7 @@ impl ArcLengthController {
         self.solver.grows = self.constraint.loads_grow(cx, &ws.trial);
         // A first step may have ended early at a target, even before loads begin.
         let whole = self.path.first / (to - self.begin).abs().max(self.least * self.path.first);
-        let is_one = self.unit.is_some() || to > self.begin;
+        let is_one = self.unit.is_some() || self.path.increment.is_some() || to > self.begin;
         if is_one && *self.unit.get_or_insert(found.motion.length * whole) == 0.0 {
             let time = state.time;
             return Err(march.failed(Failure::NoLoadIncrement { time }));
@@ -240,8 +291,10 @@ impl ArcLengthController {
 
     /// Chooses the size of the next step by the iterations of this one, unless this ended at a target.
     fn choose_size(&mut self, found: &Found) {
-        if found.reached.is_none() {
-            let mut change = (DESIRED / found.report.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
+        if self.path.increment.is_some() {
+            self.size = if self.cuts > 0 { self.size } else { (2.0 * self.size).min(1.0) };
+        } else if found.reached.is_none() {
+            let mut change = (self.desired / found.report.iterations as f64).sqrt().clamp(1.0 / CHANGE, CHANGE);
             if self.cuts > 0 || found.motion.cosine < STRAIGHT {
                 change = change.min(1.0);
             }

@@ -105,7 +105,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
         factorizations,
         solves,
         warnings,
-        response: None,
+        ..Modes::default()
     })
 }
 

@@ -114,7 +114,7 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         ModeExtent::Count(count) => list.truncate(count),
         ModeExtent::UpTo(frequency) => list.retain(|mode| mode.frequency() <= frequency),
     }
-    let mut warnings = gyroscopic.warnings;
+    let mut warnings = gyroscopic.warnings.clone();
     if let (found, ModeExtent::Count(count)) = (list.len(), extent)
         && found < count
     {
@@ -124,10 +124,11 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         warnings
             .push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
     }
+    list.iter_mut().for_each(|mode| mode.whirl = gyroscopic.whirl(at, mode));
     let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();
     let (factorizations, solves) = (natural + pencil.factorizations, pencil.solves);
     let (kind, masses) = (ModeKind::Natural, shapes.masses);
-    Ok(Modes { kind, list, masses, unstable, factorizations, solves, warnings, response: None })
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, warnings, ..Modes::default() })
 }
 
 /// The motions without stiffness. Each is a root at zero, whatever its damping. The roots are multiple. With too few vectors a Krylov space

@@ -45,6 +45,8 @@ pub enum ModesFault {
     NoBuckling,
     /// Nothing that is harmonic moves anything.
     NothingExcites,
+    /// Modes over speeds of rotation are asked for, and nothing rotates.
+    NothingSpins,
     /// A signal has stopped the search.
     Stopped,
     /// There is no memory.
@@ -64,6 +66,7 @@ keep_either!(ModesFault {
     9 => TooLarge(needed),
     10 => NothingExcites,
     11 => Stopped,
+    12 => NothingSpins,
 });
 
 impl From<TooLarge> for ModesFault {
@@ -114,6 +117,10 @@ impl fmt::Display for ModesFault {
             ModesFault::NothingExcites => {
                 write!(f, "nothing that is harmonic moves anything: loads act on supports alone, or are zero")
             }
+            ModesFault::NothingSpins => write!(
+                f,
+                "no body spins at t = 0, so `speeds` has nothing to turn: give the rotor an angular velocity in `[[initial]]`, whose axis counts"
+            ),
             ModesFault::Stopped => write!(f, "a signal has stopped the search"),
             ModesFault::TooLarge(error) => error.fmt(f),
         }

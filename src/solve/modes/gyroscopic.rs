@@ -4,13 +4,17 @@
 //! − Jω~ − π~)θ̇ − π̇~θ. About an axis of symmetry the first two terms cancel.
 
 use super::linearized::Linearized;
+use super::mode::EigenMode;
+use crate::system::ConsistentMass;
 use crate::tolerances::gyroscopic::SYMMETRIC;
-use base::math::{Mat3, skew};
+use base::math::{Mat3, Vec3, angular, linear, skew};
 
 /// The matrices of the bodies that spin.
 pub struct Gyroscopic {
     /// The rows of the rotations of a node, with the matrices of θ̇ and of θ.
     blocks: Vec<([Option<usize>; 3], Mat3, Mat3)>,
+    /// The sum of the angular momenta, whose direction is that of the spin.
+    momentum: Vec3,
     /// Neglected terms, in words.
     pub warnings: Vec<String>,
 }
@@ -18,7 +22,7 @@ pub struct Gyroscopic {
 impl Gyroscopic {
     /// The matrices of the bodies that spin in a state.
     pub fn of(at: &Linearized) -> Gyroscopic {
-        let mut gyroscopic = Gyroscopic { blocks: Vec::new(), warnings: Vec::new() };
+        let mut gyroscopic = Gyroscopic { blocks: Vec::new(), momentum: Vec3::zeros(), warnings: Vec::new() };
         let links = &at.system.rigid_links;
         for inertia in &at.system.inertias {
             let mut root = inertia.node;
@@ -44,6 +48,7 @@ impl Gyroscopic {
             }
             let J = inertia.J(node);
             let momentum = J * omega;
+            gyroscopic.momentum += momentum;
             let varies = skew(&omega) * J - J * skew(&omega);
             if varies.norm() > SYMMETRIC * momentum.norm() {
                 gyroscopic.warnings.push(format!(
@@ -62,6 +67,32 @@ impl Gyroscopic {
     /// True where anything spins.
     pub fn acts(&self) -> bool {
         !self.blocks.is_empty()
+    }
+
+    /// The sense of the orbits of a mode, weighted by mass and inertia, as in [`EigenMode::whirl`].
+    pub fn whirl(&self, at: &Linearized, mode: &EigenMode) -> Option<f64> {
+        let e = self.momentum.try_normalize(0.0)?;
+        if mode.root[1] == 0.0 || mode.quadrature.is_empty() {
+            return None;
+        }
+        let (mut sense, mut size) = (0.0, 0.0);
+        let mut orbit = |weight: f64, u: Vec3, ahead: Vec3| {
+            let across = |v: Vec3| v - e * e.dot(&v);
+            sense += 2.0 * weight * e.dot(&u.cross(&ahead));
+            size += weight * (across(u).norm_squared() + across(ahead).norm_squared());
+        };
+        for inertia in &at.system.inertias {
+            let (u, ahead) = (&mode.shape[inertia.node], &mode.quadrature[inertia.node]);
+            orbit(inertia.mass, linear(u), linear(ahead));
+            if inertia.rotary {
+                let J = inertia.J(&at.state.nodes[inertia.node]);
+                orbit(0.5 * (J.trace() - e.dot(&(J * e))), angular(u), angular(ahead));
+            }
+        }
+        for (node, _, mass) in at.system.consistent.iter().flat_map(ConsistentMass::pairs) {
+            orbit(mass, linear(&mode.shape[node]), linear(&mode.quadrature[node]));
+        }
+        (size > 0.0).then(|| sense / size)
     }
 
     /// Hands the entries of the matrix of rates to `visit`.

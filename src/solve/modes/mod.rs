@@ -17,6 +17,7 @@ mod response;
 mod rest;
 mod shape;
 mod shares;
+mod speeds;
 mod steady;
 
 pub use fault::ModesFault;
@@ -25,6 +26,7 @@ pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, ModeKind, Modes, Share};
 pub use response::complex_solver;
 pub use rest::{multipliers_at_rest, own_stiffnesses};
+pub use speeds::{CriticalSpeed, SpeedMode, SpeedModes};
 pub use steady::{Response, ResponseProgress, ResponseRow, ResponseSoFar};
 
 use crate::system::assembly::Assembly;
@@ -57,7 +59,10 @@ fn find_with(
 ) -> Result<Modes, ModesFault> {
     match &at.model.analysis.kind {
         AnalysisKind::Dynamic | AnalysisKind::Static => Ok(Modes::default()),
-        AnalysisKind::Modal(asked) if asked.damped => damped::damped_modes(at, linear),
+        AnalysisKind::Modal(asked) if asked.damped => {
+            let modes = damped::damped_modes(at, (&mut *linear.0, &mut *linear.1))?;
+            if asked.speeds.is_empty() { Ok(modes) } else { speeds::over_speeds(at, &asked.speeds, modes, linear) }
+        }
         AnalysisKind::Modal(_) => modal::natural_modes(at, linear),
         AnalysisKind::Buckling(_) => buckling::buckling_modes(at, linear),
         AnalysisKind::Response(asked) => response::find_response(at, asked, linear, progress),

@@ -46,7 +46,7 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
         }
         _ => {}
     }
-    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, warnings, response: None })
+    Ok(Modes { kind, list, masses: shapes.masses, unstable, factorizations, solves, warnings, ..Modes::default() })
 }
 
 /// Natural frequencies up to a value, without zeros; the cost is counted.

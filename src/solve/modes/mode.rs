@@ -1,5 +1,6 @@
 //! Data of a mode.
 
+use super::speeds::{CriticalSpeed, SpeedModes};
 use super::steady::Response;
 use base::math::Vec6;
 use linear::eigen::Complex;
@@ -35,6 +36,10 @@ pub struct Modes {
     pub warnings: Vec<String>,
     /// The response that has been found by them, or directly.
     pub response: Option<Response>,
+    /// Modes over the speeds of rotation that are asked for.
+    pub speeds: Vec<SpeedModes>,
+    /// Critical speeds within the range of these, the lowest first.
+    pub critical_speeds: Vec<CriticalSpeed>,
 }
 
 /// A mode: the motion is the real part of shape × exp(root t), or the shape of buckling at a load factor.
@@ -54,6 +59,8 @@ pub struct EigenMode {
     pub participation: [f64; 6],
     /// Parts of the strain energy, in the order of [`model::Model::parts`].
     pub shares: Vec<Share>,
+    /// Sense of its orbits: 1 circular with the spin of bodies, −1 against it; `None` where nothing spins or the mode does not oscillate.
+    pub whirl: Option<f64>,
     /// Frequency below which rounding hides a motion with stiffness, which is listed as zero; `None` otherwise.
     pub lost: Option<f64>,
 }

@@ -102,7 +102,17 @@ impl Shapes {
         if lambda == 0.0 {
             shares.clear();
         }
-        EigenMode { root, factor: None, shape, quadrature: Vec::new(), modal_mass, participation, shares, lost }
+        EigenMode {
+            root,
+            factor: None,
+            shape,
+            quadrature: Vec::new(),
+            modal_mass,
+            participation,
+            shares,
+            whirl: None,
+            lost,
+        }
     }
 
     /// The mode of a complex root and vector z = (φ, s φ).
@@ -133,7 +143,17 @@ impl Shapes {
             shares.clear();
         }
         let participation = [0.0; 6];
-        EigenMode { root, factor: None, shape, quadrature, modal_mass: 0.0, participation, shares, lost: None }
+        EigenMode {
+            root,
+            factor: None,
+            shape,
+            quadrature,
+            modal_mass: 0.0,
+            participation,
+            shares,
+            whirl: None,
+            lost: None,
+        }
     }
 
     /// The mode of buckling at a load factor, with a vector of strain energy ½.
@@ -152,6 +172,7 @@ impl Shapes {
             modal_mass: 0.0,
             participation,
             shares,
+            whirl: None,
             lost,
         }
     }

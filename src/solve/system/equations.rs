@@ -36,7 +36,7 @@ pub struct System {
     /// The bodies that turn by their angular momentum in implicit schemes.
     turning_bodies: Vec<TurningBody>,
     /// The consistent mass matrices, element by element.
-    pub(super) consistent: Vec<ConsistentMass>,
+    pub consistent: Vec<ConsistentMass>,
     /// The dependent nodes, sorted such that a master precedes its dependent nodes.
     pub rigid_links: Vec<RigidLink>,
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.

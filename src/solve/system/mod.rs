@@ -56,7 +56,7 @@ pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};
 pub use excitation::{Excitation, Prescribed, between};
 pub use group::Group;
-pub use inertia::Inertia;
+pub use inertia::{ConsistentMass, Inertia};
 pub use joints::JointState;
 pub use loads::Loading;
 pub use mass_scaling::{MassScaling, ScaledPart};

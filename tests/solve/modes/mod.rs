@@ -2,6 +2,7 @@
 
 mod buckling;
 mod closed_forms;
+mod critical_speeds;
 mod damped;
 mod exact;
 mod files;

@@ -90,7 +90,7 @@ pub fn response(
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let (kind, masses, response) = (ModeKind::Natural, shapes.masses, Some(response));
-    Ok(Modes { kind, list, masses, unstable, factorizations, solves, warnings, response })
+    Ok(Modes { kind, list, masses, unstable, factorizations, solves, warnings, response, ..Modes::default() })
 }
 
 /// Error from modes that were not found, in words, where it may be visible.

@@ -57,6 +57,13 @@ fn path(model: &Model, control: &ArcLength) -> String {
         let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
         format!(", or until {direction} of {node} = {}", stop.value)
     });
+    if let (Some(increment), Some(stop)) = (control.increment, &control.stop) {
+        let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
+        return format!(
+            "static, by displacement: {direction} of {node} moves to {} in steps of {increment}, loads follow",
+            stop.value
+        );
+    }
     let end = model.analysis.end_time;
     format!("static, by arc length to load factor t = {end}{stop}; the first increment of t is {}", control.first)
 }

@@ -1,0 +1,112 @@
+//! The modes of a run as lines for the terminal and the log.
+
+use base::names::to_digits;
+use model::Model;
+use solve::modes::{EigenMode, ModeKind, Modes};
+use std::fmt::Write;
+
+/// Modes that are listed; modes.csv has all.
+const LISTED: usize = 20;
+/// Digits of frequencies and masses.
+const DIGITS: usize = 5;
+
+/// A table of the modes: frequency, period, damping and effective mass, or load factor; and the critical speeds.
+pub fn lines(modes: &Modes, model: &Model) -> Vec<String> {
+    if modes.list.is_empty() || modes.response.is_some() {
+        return Vec::new();
+    }
+    let mut lines = match modes.kind {
+        ModeKind::Buckling => of_buckling(&modes.list),
+        ModeKind::Natural if model.analysis.damps_modes() => of_damped(&modes.list),
+        ModeKind::Natural => of_natural(modes),
+    };
+    if let Some(more) = modes.list.len().checked_sub(LISTED).filter(|more| *more > 0) {
+        lines.push(format!("  and {more} more in modes.csv"));
+    }
+    if !modes.speeds.is_empty() {
+        lines.extend(of_critical_speeds(modes));
+    }
+    lines
+}
+
+/// Rows of cells, right-aligned under their headings.
+fn table(headings: &[&str], rows: Vec<Vec<String>>) -> Vec<String> {
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells.chain([headings[column].chars().count()]).max().unwrap_or_default()
+    };
+    let widths: Vec<usize> = (0..headings.len()).map(width).collect();
+    let line = |cells: Vec<&str>| {
+        cells.iter().zip(&widths).fold(String::new(), |mut line, (cell, width)| {
+            // A String takes every character.
+            let _ = write!(line, "  {cell:>width$}");
+            line
+        })
+    };
+    let head = line(headings.to_vec());
+    [head].into_iter().chain(rows.iter().map(|row| line(row.iter().map(String::as_str).collect()))).collect()
+}
+
+fn digits(value: f64) -> String {
+    to_digits(value, DIGITS)
+}
+
+fn period(mode: &EigenMode) -> String {
+    if mode.frequency() > 0.0 { digits(1.0 / mode.frequency()) } else { String::new() }
+}
+
+fn of_natural(modes: &Modes) -> Vec<String> {
+    let share = |mass: f64, axis: usize| match modes.masses[axis] > 0.0 {
+        true => format!("{:.1} %", 100.0 * mass / modes.masses[axis] + 0.0),
+        false => String::new(),
+    };
+    let row = |(number, mode): (usize, &EigenMode)| {
+        let own = [number.to_string(), digits(mode.frequency()), period(mode)];
+        own.into_iter().chain((0..3).map(|axis| share(mode.effective_mass(axis), axis))).collect()
+    };
+    let mut rows: Vec<Vec<String>> = (1..).zip(&modes.list).take(LISTED).map(row).collect();
+    let sum = |axis: usize| share(modes.list.iter().map(|mode| mode.effective_mass(axis)).sum(), axis);
+    rows.push(["sum".to_owned(), String::new(), String::new()].into_iter().chain((0..3).map(sum)).collect());
+    table(&["mode", "frequency", "period", "mass x", "mass y", "mass z"], rows)
+}
+
+fn of_damped(list: &[EigenMode]) -> Vec<String> {
+    let spins = list.iter().any(|mode| mode.whirl.is_some());
+    let row = |(number, mode): (usize, &EigenMode)| {
+        let damping = mode.damping_ratio().map_or(String::new(), |ratio| format!("{} %", to_digits(100.0 * ratio, 3)));
+        let own = [number.to_string(), digits(mode.frequency()), period(mode), damping];
+        own.into_iter().chain(spins.then(|| whirl_in_words(mode.whirl))).collect()
+    };
+    let headings = ["mode", "frequency", "period", "damping", "whirl"];
+    table(&headings[..if spins { 5 } else { 4 }], (1..).zip(list).take(LISTED).map(row).collect())
+}
+
+fn of_buckling(list: &[EigenMode]) -> Vec<String> {
+    let row = |(number, mode): (usize, &EigenMode)| vec![number.to_string(), mode.factor.map_or(String::new(), digits)];
+    table(&["mode", "load factor"], (1..).zip(list).take(LISTED).map(row).collect())
+}
+
+fn of_critical_speeds(modes: &Modes) -> Vec<String> {
+    let range = [modes.speeds.first(), modes.speeds.last()].map(|at| at.map_or(0.0, |at| at.speed));
+    if modes.critical_speeds.is_empty() {
+        return vec![format!("no critical speed from {} to {}", digits(range[0]), digits(range[1]))];
+    }
+    let row = |(number, critical): (usize, &solve::modes::CriticalSpeed)| {
+        let damping =
+            critical.mode.damping_ratio().map_or(String::new(), |ratio| format!("{} %", to_digits(100.0 * ratio, 3)));
+        vec![number.to_string(), digits(critical.speed), damping, whirl_in_words(critical.mode.whirl)]
+    };
+    let rows = (1..).zip(&modes.critical_speeds).take(LISTED).map(row).collect();
+    table(&["critical", "speed", "damping", "whirl"], rows)
+}
+
+/// "forward", "backward" of orbits that are nearly circular or elliptic, "planar" of those along lines.
+fn whirl_in_words(whirl: Option<f64>) -> String {
+    /// Orbits with a smaller sense are lines to the eye.
+    const PLANAR: f64 = 0.01;
+    match whirl {
+        None => String::new(),
+        Some(whirl) if whirl.abs() < PLANAR => "planar".to_owned(),
+        Some(whirl) => format!("{} {}", if whirl > 0.0 { "forward" } else { "backward" }, to_digits(whirl.abs(), 2)),
+    }
+}

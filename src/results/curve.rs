@@ -1,0 +1,166 @@
+//! A column of one table over a column of another, as force over displacement.
+
+use super::disk::at;
+use super::table::STAGE;
+use super::table_reader::{TableReader, fields, number, text};
+use serde::Serialize;
+use std::io;
+use std::path::Path;
+use std::str::FromStr;
+
+/// A column of the rows of some names, summed: `reactions.csv:* ux:value`; with `-` in front its negative.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CurveAxis {
+    /// The whole word.
+    pub word: String,
+    is_negative: bool,
+    file: String,
+    /// The name of the rows, in which `*` stands for anything; empty for rows about the whole scene.
+    name: String,
+    column: String,
+}
+
+impl FromStr for CurveAxis {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<CurveAxis, String> {
+        let (is_negative, rest) = match word.strip_prefix('-') {
+            Some(rest) => (true, rest),
+            None => (false, word),
+        };
+        let parsed = rest.split_once(':').and_then(|(file, rest)| {
+            let (name, column) = rest.rsplit_once(':').unwrap_or(("", rest));
+            let is_whole = file.ends_with(".csv") && !column.is_empty();
+            is_whole.then(|| (file.to_owned(), name.to_owned(), column.to_owned()))
+        });
+        let (file, name, column) =
+            parsed.ok_or("write FILE:NAME:COLUMN, such as `nodes.csv:tip:ux`, or FILE:COLUMN")?;
+        Ok(CurveAxis { word: word.to_owned(), is_negative, file, name, column })
+    }
+}
+
+/// A curve over the rows of the tables.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Curve {
+    /// The times.
+    pub time: Vec<f64>,
+    /// The values of the first axis.
+    pub x: Vec<f64>,
+    /// The values of the second axis.
+    pub y: Vec<f64>,
+}
+
+impl Curve {
+    /// Reads a curve from a folder of results.
+    ///
+    /// # Errors
+    /// A table cannot be read, has no such column or names, or both tables have rows at other times; the error names it.
+    pub fn read(folder: &Path, [x, y]: [&CurveAxis; 2]) -> io::Result<Curve> {
+        let ([time, x_values], [other, y_values]) = (x.read(folder)?, y.read(folder)?);
+        if time != other {
+            let why = format!("{} and {} have rows at other times, so neither goes over the other", x.file, y.file);
+            return Err(at(folder, io::Error::other(why)));
+        }
+        Ok(Curve { time, x: x_values, y: y_values })
+    }
+
+    /// ∫ y dx along the curve, by trapezoids.
+    pub fn work(&self) -> f64 {
+        let pairs = self.x.windows(2).zip(self.y.windows(2));
+        pairs.map(|(x, y)| 0.5 * (x[1] - x[0]) * (y[0] + y[1])).sum()
+    }
+}
+
+impl CurveAxis {
+    /// The times and the values, one for each time of output.
+    fn read(&self, folder: &Path) -> io::Result<[Vec<f64>; 2]> {
+        let path = folder.join(&self.file);
+        let mut rows = TableReader::open(&path)?;
+        let place = |rows: &TableReader, name: &str| {
+            rows.column(name).ok_or_else(|| at(&path, io::Error::other(format!("there is no column `{name}`"))))
+        };
+        let (time_at, place_of_value) = (place(&rows, "time")?, place(&rows, &self.column)?);
+        let step_at = rows.column("step");
+        let width = rows.header.len();
+        let keys: Vec<usize> = (0..width).filter(|&key| rows.is_key(key) && rows.header[key] != STAGE).collect();
+        let (mut times, mut values, mut found) = (Vec::new(), Vec::new(), 0);
+        let mut before = None;
+        let sign = if self.is_negative { -1.0 } else { 1.0 };
+        let mut ragged = None;
+        while let Some(row) = rows.next_row()? {
+            let row: Vec<&[u8]> = fields(row).collect();
+            if row.len() != width {
+                ragged = Some(row.len());
+                break;
+            }
+            let now = (step_at.map(|step| number(row[step]).to_bits()), number(row[time_at]));
+            if before != Some(now) {
+                before = Some(now);
+                times.push(now.1);
+                values.push(0.0);
+            }
+            let name = keys.iter().map(|&key| text(row[key]).into_owned()).collect::<Vec<_>>().join(" ");
+            if matches(&self.name, &name) {
+                found += 1;
+                if let Some(sum) = values.last_mut() {
+                    *sum += sign * number(row[place_of_value]);
+                }
+            }
+        }
+        if let Some(count) = ragged {
+            return Err(rows.ragged(count));
+        }
+        if found == 0 {
+            let why = match keys.is_empty() {
+                true => "its rows are about the whole scene: write FILE:COLUMN".to_owned(),
+                false => format!("no row is about `{}`", self.name),
+            };
+            return Err(at(&path, io::Error::other(why)));
+        }
+        Ok([times, values])
+    }
+}
+
+/// Whether a name is that of a pattern in which `*` stands for anything.
+fn matches(pattern: &str, name: &str) -> bool {
+    match pattern.split_once('*') {
+        None => pattern == name,
+        Some((head, rest)) => name.strip_prefix(head).is_some_and(|name| {
+            (0..=name.len()).filter(|&from| name.is_char_boundary(from)).any(|from| matches(rest, &name[from..]))
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Force over displacement of two supports: sums by pattern, a sign, and the work of the curve by hand.
+    #[test]
+    fn columns_of_two_tables_make_a_curve() {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::write(
+            dir.path().join("nodes.csv"),
+            "step,time,node,ux\n0,0.0,a,9.0\n0,0.0,tip,0.0\n1,0.5,a,9.0\n1,0.5,tip,1.0\n2,1.0,a,9.0\n2,1.0,tip,3.0\n",
+        )
+        .unwrap();
+        let text = "step,time,node,direction,value\n0,0.0,a,ux,0.0\n0,0.0,b,ux,0.0\n0,0.0,b,uy,7.0\n1,0.5,a,ux,-2.0\n1,0.5,b,ux,-3.0\n\
+                    1,0.5,b,uy,7.0\n2,1.0,a,ux,-2.0\n2,1.0,b,ux,-4.0\n2,1.0,b,uy,7.0\n";
+        std::fs::write(dir.path().join("reactions.csv"), text).unwrap();
+        let axis = |word: &str| word.parse::<CurveAxis>().unwrap();
+        let [x, y] = [axis("nodes.csv:tip:ux"), axis("-reactions.csv:* ux:value")];
+        let curve = Curve::read(dir.path(), [&x, &y]).unwrap();
+        assert_eq!((&curve.x, &curve.y), (&vec![0.0, 1.0, 3.0], &vec![0.0, 5.0, 6.0]));
+        assert_eq!(curve.work(), 2.5 + 11.0);
+        let error = |x: &str| Curve::read(dir.path(), [&axis(x), &y]).unwrap_err().to_string();
+        assert!(error("nodes.csv:tip:uz").contains("no column `uz`"));
+        assert!(error("nodes.csv:top:ux").contains("no row is about `top`"));
+        assert!(error("nodes.csv:ux").contains("no row is about ``"));
+        std::fs::write(dir.path().join("steps.csv"), "step,time,iterations\n0,0.0,1\n").unwrap();
+        assert!(error("steps.csv:iterations").contains("other times"));
+        assert!("nodes.csv".parse::<CurveAxis>().is_err() && "nodes:tip:ux".parse::<CurveAxis>().is_err());
+        for (pattern, name, is) in [("*", "", true), ("a*c", "abc", true), ("a*c", "ab", false), ("*b*", "abc", true)] {
+            assert_eq!(matches(pattern, name), is, "{pattern} {name}");
+        }
+    }
+}

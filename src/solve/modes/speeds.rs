@@ -1,0 +1,151 @@
+//! Complex modes over speeds of rotation, and the critical speeds among them.
+//!
+//! The k-th lowest frequency is a continuous function of the speed, also where modes cross or exchange their shapes. A critical speed is a root of
+//! its difference from the speed.
+
+use super::damped::damped_modes;
+use super::fault::ModesFault;
+use super::linearized::Linearized;
+use super::mode::Modes;
+use crate::system::assembly::Assembly;
+use crate::tolerances::speeds::{CLOSE, CONTINUOUS, MOST_STEPS};
+use base::names::short;
+use linear::Solver;
+use linear::eigen::Complex;
+use mechanics::state::State;
+
+/// The modes at a speed of rotation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeedModes {
+    /// The speed of the body that spins fastest.
+    pub speed: f64,
+    /// The modes, by their frequency.
+    pub list: Vec<SpeedMode>,
+}
+
+/// A mode at a speed, without its shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpeedMode {
+    /// Growth rate and angular frequency, 0 or more.
+    pub root: Complex,
+    /// As in [`super::EigenMode::whirl`].
+    pub whirl: Option<f64>,
+}
+
+/// A speed that is the frequency of a mode.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CriticalSpeed {
+    /// The speed.
+    pub speed: f64,
+    /// The mode.
+    pub mode: SpeedMode,
+}
+
+impl SpeedMode {
+    /// The part of critical damping; `None` where nothing oscillates nor decays.
+    pub fn damping_ratio(&self) -> Option<f64> {
+        let size = self.root[0].hypot(self.root[1]);
+        (size > 0.0).then(|| -self.root[0] / size + 0.0)
+    }
+}
+
+/// A scene whose spin is scaled.
+struct Spinning<'s, 'a> {
+    at: &'s Linearized<'a>,
+    state: State,
+    /// The speed of the fastest node as the state has it.
+    fastest: f64,
+    /// Factorizations and solutions so far.
+    effort: [usize; 2],
+}
+
+/// Adds to the modes of a state those over speeds of rotation.
+///
+/// # Errors
+/// Nothing spins, or the reason why there are no modes at one of the speeds.
+pub fn over_speeds(
+    at: &Linearized,
+    speeds: &[f64],
+    mut modes: Modes,
+    (solver, assembly): (&mut Solver, &mut Assembly),
+) -> Result<Modes, ModesFault> {
+    let omegas = at.state.nodes.iter().map(|node| node.omega).filter(|omega| at.spins(omega));
+    let fastest = omegas.map(|omega| omega.norm()).fold(0.0, f64::max);
+    if fastest == 0.0 {
+        return Err(ModesFault::NothingSpins);
+    }
+    let mut spinning = Spinning { at, state: at.state.clone(), fastest, effort: [0; 2] };
+    let mut found: Vec<SpeedModes> = Vec::with_capacity(speeds.len());
+    let mut critical = Vec::new();
+    for &speed in speeds {
+        at.check_stop()?;
+        let list = spinning.modes(speed, (&mut *solver, &mut *assembly))?;
+        let next = SpeedModes { speed, list };
+        if let Some(before) = found.last() {
+            for k in 0..before.list.len().min(next.list.len()) {
+                critical.extend(spinning.critical(k, [before, &next], (&mut *solver, &mut *assembly))?);
+            }
+        }
+        found.push(next);
+    }
+    critical.sort_by(|a: &CriticalSpeed, b| a.speed.total_cmp(&b.speed));
+    if let Some(SpeedModes { speed, list }) = found.last()
+        && let Some(highest) = list.last().map(|mode| mode.root[1]).filter(|highest| highest < speed)
+    {
+        modes.warnings.push(format!(
+            "modes are known up to an angular frequency of {} at the speed {}: critical speeds above may be missing (more `modes`)",
+            short(highest),
+            short(*speed)
+        ));
+    }
+    modes.factorizations += spinning.effort[0];
+    modes.solves += spinning.effort[1];
+    Ok(Modes { speeds: found, critical_speeds: critical, ..modes })
+}
+
+impl Spinning<'_, '_> {
+    /// The modes at a speed, by their frequency.
+    fn modes(&mut self, speed: f64, linear: (&mut Solver, &mut Assembly)) -> Result<Vec<SpeedMode>, ModesFault> {
+        for (node, given) in self.state.nodes.iter_mut().zip(&self.at.state.nodes) {
+            node.omega = given.omega * (speed / self.fastest);
+        }
+        let modes = damped_modes(&Linearized { state: &self.state, ..*self.at }, linear)?;
+        self.effort[0] += modes.factorizations;
+        self.effort[1] += modes.solves;
+        let mode = |mode: &super::EigenMode| SpeedMode { root: [mode.root[0], mode.root[1].abs()], whirl: mode.whirl };
+        let mut list: Vec<SpeedMode> = modes.list.iter().map(mode).collect();
+        list.sort_by(|a, b| a.root[1].total_cmp(&b.root[1]));
+        Ok(list)
+    }
+
+    /// The critical speed of the k-th frequency between two speeds, by regula falsi with halved weights (Illinois); `None` where there is none.
+    fn critical(
+        &mut self,
+        k: usize,
+        ends: [&SpeedModes; 2],
+        (solver, assembly): (&mut Solver, &mut Assembly),
+    ) -> Result<Option<CriticalSpeed>, ModesFault> {
+        let [mut a, mut b] = ends.map(|end| end.speed);
+        let [mut at_a, mut at_b] = ends.map(|end| end.list[k].root[1] - end.speed);
+        if (at_a > 0.0) == (at_b > 0.0) {
+            return Ok(None);
+        }
+        for _ in 0..MOST_STEPS {
+            let speed = (a * at_b - b * at_a) / (at_b - at_a);
+            let list = self.modes(speed, (&mut *solver, &mut *assembly))?;
+            let Some(&mode) = list.get(k) else { return Ok(None) };
+            let apart = mode.root[1] - speed;
+            if apart.abs() <= CLOSE * speed || (b - a).abs() <= CLOSE * speed {
+                // A frequency that jumps, where a damped motion begins to oscillate, meets no speed.
+                return Ok((apart.abs() <= CONTINUOUS * speed).then_some(CriticalSpeed { speed, mode }));
+            }
+            if (apart > 0.0) == (at_b > 0.0) {
+                at_a *= 0.5;
+            } else {
+                (a, at_a) = (b, at_b);
+            }
+            (b, at_b) = (speed, apart);
+        }
+        Ok(None)
+    }
+}
