@@ -1340,6 +1340,16 @@ fn releases_and_shares() {
 }
 
 #[test]
+fn loads_on_beams() {
+    let load = |keys: &str| portal_and(&format!("[[loads]]\npart = \"portal\"\n{keys}\n"));
+    assert_eq!(load("distance = 1.0\nforce = [0.0, 0.0, -1.0]"), "");
+    assert_snapshot!("load_beyond_a_beam", load("distance = 99.0\nforce = [0.0, 0.0, -1.0]\nfollower = true"));
+    assert_snapshot!("load_on_a_beam_of_nothing", load("distance = 1.0"));
+    let block = "[[loads]]\npart = \"block\"\ndistance = 1.0\nforce = [0.0, 0.0, -1.0]\nat = \"feet\"";
+    assert_snapshot!("load_along_a_body", portal_and(block));
+}
+
+#[test]
 fn comments_and_signs_of_others() {
     assert_snapshot!("comment_of_c", portal(&[("height = 0.05", "height = 0.05 // half")]));
     assert_snapshot!("minus_of_mathematics", portal(&[("[0.0, 0.0, -100.0]", "[0.0, 0.0, \u{2212}100.0]")]));

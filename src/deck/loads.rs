@@ -16,6 +16,9 @@ pub struct Load {
     pub part: Maybe<Names>,
     /// Force, global components.
     pub force: Maybe<Vector>,
+    /// Distance along the beams of `part` from their start, 0 or more, at which `force` and `moment` act, instead of `at`. Member end forces are exact;
+    /// section forces within that element are not.
+    pub distance: Maybe<f64>,
     /// Force that the nodes of `at` share in equal parts, global components, instead of `force`.
     pub total_force: Maybe<Vector>,
     /// Moment, global components.

@@ -153,6 +153,7 @@ pub fn expand<'i>(root: &mut DeTable<'i>, words: &'i [ProfileWords]) -> (Vec<Dia
                 }
             }
             Err([message, hint]) => {
+                table.remove("shape");
                 problems.push(Diagnostic::error(message).at(name).hint(hint));
                 spoiled.push(Spoiled { table: Some(place.clone()), key: "shape".to_owned() });
             }

@@ -53,3 +53,29 @@ fn nodes_share_a_total_force() {
     assert_eq!(model.loading.nodal.len(), 4);
     assert!(model.loading.nodal.iter().all(|load| load.force == rdsolve::math::Vec3::new(2.0, 0.0, 0.0)));
 }
+
+/// A cantilever of one element under a force and a moment at a third of its length: the deflection of its end is F a² (3l − a)/(6 E I) and
+/// M a (2l − a)/(2 E I). Elements of third order hold the deflection under a force at their end, so by reciprocity that of the end is exact.
+#[test]
+fn forces_act_between_nodes() {
+    let deflection = |load: &str, elements: usize| {
+        let text = format!(
+            "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[sections.s]\nshape = \"general\"\naxial_stiffness = 1e7\n\
+             bending_stiffness = [1000.0, 1000.0]\ntorsional_stiffness = 1000.0\nshear_stiffness = [1e7, 1e7]\n[points]\na = [0.0, 0.0, 0.0]\n\
+             b = [3.0, 0.0, 0.0]\n[[beams]]\nname = \"beam\"\npath = [\"a\", \"b\"]\nelements = {elements}\nshear = false\nsection = \"s\"\n\
+             orientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n[[loads]]\npart = \"beam\"\ndistance = 1.0\n{load}\n"
+        );
+        let model = read_deck(&text);
+        let end = crate::support::node(&model, "b");
+        let done = run_to_the_end(&model, &mut |frame: &Frame| {
+            vec![frame.state.nodes[end].moved(&frame.model.nodes[end].x).z]
+        });
+        done.rows.last().unwrap()[0]
+    };
+    for elements in [1, 2, 3] {
+        let force = deflection("force = [0.0, 0.0, 0.001]", elements) / (0.001 * 8.0 / 6000.0);
+        // A moment about −y lifts the end.
+        let moment = deflection("moment = [0.0, -0.001, 0.0]", elements) / (0.001 * 5.0 / 2000.0);
+        assert!((force - 1.0).abs() < 1e-6 && (moment - 1.0).abs() < 1e-6, "{elements}: {force} {moment}");
+    }
+}

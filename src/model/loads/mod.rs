@@ -1,9 +1,11 @@
 //! `[[loads]]`: forces and moments at nodes.
 
 pub mod per_length;
+pub mod placed;
 pub mod spread;
 
 use crate::data::{Actors, Load, Pressure};
+use crate::loads::placed::placed_load;
 use crate::loads::spread::spread_load;
 use crate::places::nodes::Topology;
 use crate::procedure::stops::NamedActors;
@@ -36,7 +38,9 @@ pub fn loads<'d>(
     for load in &scene.deck.loads {
         let first = [loads.nodal.len(), loads.pressures.len()];
         let amplitude = amplitude(scene, load, report);
-        if is_spread(load) {
+        if load.distance.is_some() {
+            loads.nodal.extend(placed_load(scene, load, amplitude, topology, report));
+        } else if is_spread(load) {
             let (nodal, pressure) = spread_load(scene, load, amplitude, topology, report);
             loads.nodal.extend(nodal);
             loads.pressures.extend(pressure);
