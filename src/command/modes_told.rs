@@ -51,6 +51,14 @@ fn digits(value: f64) -> String {
     to_digits(value, DIGITS)
 }
 
+/// A damping ratio in percent; nothing of none, zero of rounding.
+fn percent(ratio: Option<f64>) -> String {
+    /// Roots have eleven digits.
+    const ROUNDING: f64 = 1e-9;
+    let cell = |ratio: f64| format!("{} %", to_digits(100.0 * if ratio.abs() < ROUNDING { 0.0 } else { ratio }, 3));
+    ratio.map_or(String::new(), cell)
+}
+
 fn period(mode: &EigenMode) -> String {
     if mode.frequency() > 0.0 { digits(1.0 / mode.frequency()) } else { String::new() }
 }
@@ -73,7 +81,7 @@ fn of_natural(modes: &Modes) -> Vec<String> {
 fn of_damped(list: &[EigenMode]) -> Vec<String> {
     let spins = list.iter().any(|mode| mode.whirl.is_some());
     let row = |(number, mode): (usize, &EigenMode)| {
-        let damping = mode.damping_ratio().map_or(String::new(), |ratio| format!("{} %", to_digits(100.0 * ratio, 3)));
+        let damping = percent(mode.damping_ratio());
         let own = [number.to_string(), digits(mode.frequency()), period(mode), damping];
         own.into_iter().chain(spins.then(|| whirl_in_words(mode.whirl))).collect()
     };
@@ -92,8 +100,7 @@ fn of_critical_speeds(modes: &Modes) -> Vec<String> {
         return vec![format!("no critical speed from {} to {}", digits(range[0]), digits(range[1]))];
     }
     let row = |(number, critical): (usize, &solve::modes::CriticalSpeed)| {
-        let damping =
-            critical.mode.damping_ratio().map_or(String::new(), |ratio| format!("{} %", to_digits(100.0 * ratio, 3)));
+        let damping = percent(critical.mode.damping_ratio());
         vec![number.to_string(), digits(critical.speed), damping, whirl_in_words(critical.mode.whirl)]
     };
     let rows = (1..).zip(&modes.critical_speeds).take(LISTED).map(row).collect();
