@@ -295,7 +295,7 @@ fn units_of_records_are_compared_with_the_deck() {
     };
     let (si, mm) = ("units = \"SI\"\n", "units = \"mm-t-s\"\n");
     let cases: [(&str, &str, &str, &str, Option<&str>); 17] = [
-        ("", SHAKEN, "", &g, Some("is in G, and nothing says how much that is")),
+        ("", SHAKEN, "", &g, Some("is in G, and its numbers are taken as they are")),
         ("", SHAKEN, "scale = 1.0", &g, None),
         (si, SHAKEN, "", &g, Some("`scale = 9.807`")),
         (si, SHAKEN, "scale = 9.81", &g, None),
@@ -317,7 +317,7 @@ fn units_of_records_are_compared_with_the_deck() {
         (si, &moved(", history = \"velocity\", scale = 0.01"), "", &velocity, None),
         (si, &moved(", history = \"velocity\""), "", &velocity, Some("is in CM/S")),
         (si, &moved(", history = \"acceleration\", scale = 0.01"), "", &velocity, Some("`history = \"velocity\"`")),
-        ("", SHAKEN, "", &record("ACCELERATION", "COUNTS"), Some("is in COUNTS, and nothing says")),
+        ("", SHAKEN, "", &record("ACCELERATION", "COUNTS"), Some("is in COUNTS, and its numbers are taken")),
     ];
     for (label, used, keys, record, said) in cases {
         let amplitude =
