@@ -9,8 +9,11 @@ use std::fmt::Write;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+/// A rolled profile: its number, then height, width, thickness of the web and of the flange, and root radius, in mm.
+type Rolled = (u32, [f64; 5]);
+
 /// IPE: number, then height, width, thickness of the web and of the flange, and root radius, in mm.
-const IPE: [(u32, [f64; 5]); 18] = [
+const IPE: [Rolled; 18] = [
     (80, [80.0, 46.0, 3.8, 5.2, 5.0]),
     (100, [100.0, 55.0, 4.1, 5.7, 7.0]),
     (120, [120.0, 64.0, 4.4, 6.3, 7.0]),
@@ -32,7 +35,7 @@ const IPE: [(u32, [f64; 5]); 18] = [
 ];
 
 /// HE A: number, then height, width, thickness of the web and of the flange, and root radius, in mm.
-const HEA: [(u32, [f64; 5]); 24] = [
+const HEA: [Rolled; 24] = [
     (100, [96.0, 100.0, 5.0, 8.0, 12.0]),
     (120, [114.0, 120.0, 5.0, 8.0, 12.0]),
     (140, [133.0, 140.0, 5.5, 8.5, 12.0]),
@@ -60,7 +63,7 @@ const HEA: [(u32, [f64; 5]); 24] = [
 ];
 
 /// HE B: number, then height, width, thickness of the web and of the flange, and root radius, in mm.
-const HEB: [(u32, [f64; 5]); 24] = [
+const HEB: [Rolled; 24] = [
     (100, [100.0, 100.0, 6.0, 10.0, 12.0]),
     (120, [120.0, 120.0, 6.5, 11.0, 12.0]),
     (140, [140.0, 140.0, 7.0, 12.0, 12.0]),
@@ -88,7 +91,7 @@ const HEB: [(u32, [f64; 5]); 24] = [
 ];
 
 /// The families, with the words before or after the number.
-const FAMILIES: [(&str, &[(u32, [f64; 5])]); 3] = [("IPE", &IPE), ("HEA", &HEA), ("HEB", &HEB)];
+const FAMILIES: [(&str, &[Rolled]); 3] = [("IPE", &IPE), ("HEA", &HEA), ("HEB", &HEB)];
 /// Millimetres of the units of length of a section.
 const UNITS: [(&str, f64); 5] = [("m", 1e-3), ("cm", 0.1), ("mm", 1.0), ("in", 1.0 / 25.4), ("ft", 1.0 / 304.8)];
 /// Radii of the corners of hollow sections over their thickness, outside and inside.

@@ -102,7 +102,10 @@ fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), fact
             }
         }
         (None, None) => {
-            let message = format!("the record `{file}` is in {}, and its numbers are taken as they are: nothing says how much that is", unit.name);
+            let message = format!(
+                "the record `{file}` is in {}, and its numbers are taken as they are: nothing says how much that is",
+                unit.name
+            );
             let hint = match unit.known {
                 Some((_, si)) => format!(
                     "`scale = {}` in metres and seconds, {} in millimetres and seconds; 1.0 where the deck has this unit",
