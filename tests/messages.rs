@@ -1334,6 +1334,7 @@ fn profiles() {
 fn releases_and_shares() {
     let of = |keys: &str| portal(&[("elements = 12", &format!("elements = 12\n{keys}"))]);
     assert_snapshot!("release_of_translations", of("release = { start = [\"ux\", \"ry\"], ends = \"ry\" }"));
+    assert_snapshot!("foundation_that_pushes", of("foundation = [0.0, 0.0, -1e7]"));
     assert_snapshot!("hinges_of_others", of("hinges = \"start\"\nreleases = [\"ry\"]"));
     let both = "force = [0.0, 0.0, -100.0]\ntotal_force = [0.0, 0.0, -100.0]";
     assert_snapshot!("force_and_share", portal(&[("force = [0.0, 0.0, -100.0]", both)]));

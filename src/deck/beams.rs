@@ -55,6 +55,9 @@ pub struct Beam {
     pub offset_start: Maybe<Vector>,
     /// Rigid offset from the last point of the path to the end of the beam, global components at t = 0. Default: none.
     pub offset_end: Maybe<Vector>,
+    /// Stiffness per length of an elastic foundation, force per length squared, along global x, y and z, 0 or more. It acts on the nodes as
+    /// springs to the ground, which links.csv lists. Default: none.
+    pub foundation: Maybe<Vector>,
     /// Rotations that the ends release, in the local axes of the beam: `{ start = ["ry", "rz"], end = "ry" }`. A released end is a node of its own, held to
     /// its point in all other directions. Not with `group`. Default: none.
     pub release: Maybe<Table<Release>>,

@@ -79,3 +79,21 @@ fn forces_act_between_nodes() {
         assert!((force - 1.0).abs() < 1e-6 && (moment - 1.0).abs() < 1e-6, "{elements}: {force} {moment}");
     }
 }
+
+/// A long beam on an elastic foundation under a force at its middle: F λ/(2 k) with λ⁴ = k/(4 E I) (M. Hetényi, Beams on Elastic Foundation,
+/// 1946). Ends 15/λ away change it by e⁻¹⁵, and elements half as long as 1/λ hold its shape to 1e-6.
+#[test]
+fn beams_lie_on_an_elastic_foundation() {
+    let text = "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[sections.s]\nshape = \"general\"\naxial_stiffness = 1e7\n\
+                bending_stiffness = [1000.0, 1000.0]\ntorsional_stiffness = 1000.0\nshear_stiffness = [1e7, 1e7]\n[points]\na = [-15.0, 0.0, 0.0]\n\
+                m = [0.0, 0.0, 0.0]\nb = [15.0, 0.0, 0.0]\n[[beams]]\nname = \"rail\"\npath = [\"a\", \"m\", \"b\"]\nelements = 30\nshear = false\n\
+                section = \"s\"\norientation = [0.0, 1.0, 0.0]\nfoundation = [1.0, 1.0, 4000.0]\n[[supports]]\nat = \"a\"\nfix = [\"rx\"]\n\
+                [[loads]]\nat = \"m\"\nforce = [0.0, 0.0, -0.08]\n";
+    let model = read_deck(text);
+    let middle = crate::support::node(&model, "m");
+    let done = run_to_the_end(&model, &mut |frame: &Frame| {
+        vec![frame.state.nodes[middle].moved(&frame.model.nodes[middle].x).z]
+    });
+    let found = done.rows.last().unwrap()[0] / (-0.08 / 8000.0);
+    assert!((found - 1.0).abs() < 1e-5, "{found}");
+}

@@ -1,8 +1,10 @@
 //! `[[links]]`: their ends and laws.
 
+pub mod foundation;
 pub mod pretension;
 
 use crate::data::{Link, LinkKind, Load, OwnDamping};
+use crate::links::foundation::foundations;
 use crate::links::pretension::pretension;
 use crate::own_damping::of_spring;
 use crate::places::axes::axes;
@@ -80,6 +82,7 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
             links.list.push(Link { name, ends, kind, own_damping, failure, take_up });
         }
     }
+    links.list.extend(foundations(scene, nodes, report));
     links
 }
 
