@@ -486,7 +486,7 @@ impl Failure {
                 short(*time)
             ),
             Failure::PathCreeps { steps, from, to } => format!(
-                "the path creeps: in {steps} steps, each shorter than the first, the displacement has gone from {} to {}. Where parts yield \
+                "the path creeps: in {steps} steps the displacement has gone from {} to {}. Where parts yield \
                  without hardening, hinges open and close in every step: give the material a hardening modulus of a hundredth of its \
                  `youngs_modulus`, `tolerance` = 1e-4 in `[iteration]`, or `control` = \"displacement\"",
                 to_digits(*from, 5),

@@ -382,8 +382,9 @@ pub mod arc_length {
     pub const MOST_STEPS: usize = 100_000;
     /// Part of the displacement by which a path comes on noticeably.
     pub const CREEPS: f64 = 1e-3;
-    /// Number of steps, shorter than the first, in which a path that does not come on creeps.
-    pub const CREEPING_STEPS: usize = 200;
+    /// Number of steps in which a path that does not come on creeps: steps shorter than the first, and others, of which a fine path needs some
+    /// hundreds to turn.
+    pub const CREEPING_STEPS: [usize; 2] = [200, 2000];
     /// Part of the last step by which a controlled displacement passes its value, before the step is ended there: well above rounding.
     pub const PASSES: f64 = 1e-3;
     /// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.

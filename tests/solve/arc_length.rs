@@ -738,3 +738,20 @@ fn frame_without_hardening_does_not_creep() {
     let moved = follow_to_the_end(&read(&moved.replace("growth = 5.0\n", "")), &[("roof", 0)]);
     assert!((moved.rows.last().unwrap()[0] - last[0]).abs() < 1e-3, "{last:?} {:?}", moved.rows.last());
 }
+
+/// A bar that yields with hardly any hardening lets the load creep on, and with it the elastic bar whose displacement is to end the path: by the
+/// ratio of the moduli, 1e-6, a step.
+#[test]
+fn a_path_that_leads_nowhere_ends() {
+    let text = "[analysis]\nkind = \"static\"\ncontrol = \"arc-length\"\nend_time = 1.0\ntime_step = 0.1\ngrowth = 1.0\n\
+                stop = { at = \"r\", quantity = \"ux\", value = 0.0015 }\n[materials.weak]\nmodel = \"elastic-plastic\"\n\
+                youngs_modulus = 1e3\npoisson_ratio = 0.3\nyield_stress = 1.0\nhardening_modulus = 1e-3\n[points]\na = [0.0, 0.0, 0.0]\n\
+                p = [1.0, 0.0, 0.0]\nq = [0.0, 1.0, 0.0]\nr = [1.0, 1.0, 0.0]\n[[bars]]\nname = \"weak\"\npath = [\"a\", \"p\"]\narea = 1.0\n\
+                material = \"weak\"\n[[bars]]\nname = \"strong\"\npath = [\"q\", \"r\"]\naxial_stiffness = 1e3\n[[supports]]\n\
+                at = [\"a\", \"q\"]\nfix = \"translations\"\n[[supports]]\nat = [\"p\", \"r\"]\nfix = [\"uy\", \"uz\"]\n\
+                [[loads]]\nat = [\"p\", \"r\"]\nforce = [2.0, 0.0, 0.0]\n";
+    let done = follow(&read(text), &[("r", 0)]);
+    let Outcome::Failed { failure, .. } = &done.outcome else { panic!("{:?}", done.outcome) };
+    assert!(failure.to_string().contains("the path creeps: in 2000 steps the displacement has gone from 0.001"), "{failure}");
+    assert!(failure.to_string().contains("`control` = \"displacement\""), "{failure}");
+}

@@ -147,7 +147,8 @@ impl ArcLengthController {
         }
     }
 
-    /// Ends a path that creeps: steps shorter than the first that lead nowhere, as where hinges without hardening open and close.
+    /// Ends a path that creeps: many steps that lead nowhere, as where hinges without hardening open and close. Steps shorter than the first are
+    /// sooner too many.
     ///
     /// # Errors
     /// [`Failure::PathCreeps`].
@@ -158,9 +159,10 @@ impl ArcLengthController {
             None => (0..march.state.nodes.len()).map(|node| moved(node).amax()).fold(0.0, f64::max),
         };
         let (steps, scale) = (march.recorder.counts.steps, now.abs().max(self.mark.abs()));
-        if self.size >= 1.0 || (now - self.mark).abs() >= CREEPS * scale {
+        let most = CREEPING_STEPS[usize::from(self.size >= 1.0)];
+        if (now - self.mark).abs() >= CREEPS * scale {
             (self.marked, self.mark) = (steps, now);
-        } else if steps >= self.marked + CREEPING_STEPS {
+        } else if steps >= self.marked + most {
             let from = self.mark;
             return Err(march.failed(Failure::PathCreeps { steps: steps - self.marked, from, to: now }));
         }
