@@ -158,6 +158,9 @@ fn of_table(folder: &Path, file: &str) -> io::Result<Vec<ColumnSummary>> {
     Ok(names.into_iter().zip(found).filter_map(summary).collect())
 }
 
+/// Whether a column, by its file and its name, is to be shown.
+type Takes<'t> = dyn Fn(&str, &str) -> bool + 't;
+
 /// The columns of numbers of the rows of one name.
 struct Series {
     name: String,
@@ -200,7 +203,7 @@ fn series(rows: &mut TableReader, takes: &dyn Fn(&str) -> bool) -> io::Result<(V
 fn filtered(
     folder: &Path,
     file: &str,
-    (filter, takes): (&Filter, &dyn Fn(&str, &str) -> bool),
+    (filter, takes): (&Filter, &Takes),
     doubts: &mut Vec<String>,
 ) -> io::Result<Vec<ColumnSummary>> {
     let path = folder.join(file);
