@@ -752,6 +752,9 @@ fn a_path_that_leads_nowhere_ends() {
                 [[loads]]\nat = [\"p\", \"r\"]\nforce = [2.0, 0.0, 0.0]\n";
     let done = follow(&read(text), &[("r", 0)]);
     let Outcome::Failed { failure, .. } = &done.outcome else { panic!("{:?}", done.outcome) };
-    assert!(failure.to_string().contains("the path creeps: in 2000 steps the displacement has gone from 0.001"), "{failure}");
+    assert!(
+        failure.to_string().contains("the path creeps: in 2000 steps the displacement has gone from 0.001"),
+        "{failure}"
+    );
     assert!(failure.to_string().contains("`control` = \"displacement\""), "{failure}");
 }
