@@ -1,6 +1,6 @@
 //! Steel profiles by their names: `profile = "IPE 200"` of a section stands for its shape and dimensions.
 //!
-//! I and H profiles have the nominal dimensions of EN 10365, with root radii. Hollow sections have the radii that EN 10210-2 calculates with, 1.5 and
+//! I and H profiles have the nominal dimensions of EN 10365, angles those of EN 10056-1, with root radii. Hollow sections have the radii that EN 10210-2 calculates with, 1.5 and
 //! 1.0 times the thickness at the outer and the inner corner. Pipes are given by diameter and thickness.
 
 use super::Spoiled;
@@ -90,6 +90,23 @@ const HEB: [Rolled; 24] = [
     (1000, [1000.0, 300.0, 19.0, 36.0, 30.0]),
 ];
 
+/// Equal angles: leg and thickness in mm, then the radius between the legs.
+const L: [[f64; 3]; 13] = [
+    [40.0, 4.0, 6.0],
+    [50.0, 5.0, 7.0],
+    [60.0, 6.0, 8.0],
+    [70.0, 7.0, 9.0],
+    [75.0, 8.0, 9.0],
+    [80.0, 8.0, 10.0],
+    [90.0, 9.0, 11.0],
+    [100.0, 10.0, 12.0],
+    [100.0, 12.0, 12.0],
+    [120.0, 12.0, 13.0],
+    [150.0, 15.0, 16.0],
+    [180.0, 18.0, 18.0],
+    [200.0, 20.0, 18.0],
+];
+
 /// The families, with the words before or after the number.
 const FAMILIES: [(&str, &[Rolled]); 3] = [("IPE", &IPE), ("HEA", &HEA), ("HEB", &HEB)];
 /// Millimetres of the units of length of a section.
@@ -174,6 +191,14 @@ fn at<'i>(place: &Span, value: DeValue<'i>) -> Spanned<DeValue<'i>> {
     Spanned::new(place.clone(), value)
 }
 
+/// A shape with its dimensions in mm.
+struct Shape {
+    word: &'static str,
+    sizes: Vec<(&'static str, f64)>,
+    /// Radii of the corners, of a hollow section.
+    radii: Option<[f64; 2]>,
+}
+
 /// The keys of the shape of a profile, with the length of a millimetre in the unit of the deck.
 fn keys_of(text: &str, millimetre: f64) -> Result<String, [String; 2]> {
     let plain: String = text.to_uppercase().replace(['×', '*'], "X").replace(',', ".");
@@ -181,37 +206,58 @@ fn keys_of(text: &str, millimetre: f64) -> Result<String, [String; 2]> {
     let letters = plain.find(|c: char| c.is_ascii_digit()).unwrap_or(plain.len());
     let (family, rest) = plain.split_at(letters);
     let numbers: Option<Vec<f64>> = rest.split('X').map(|number| number.parse().ok().filter(|x| *x > 0.0)).collect();
-    let mut keys = String::new();
-    let mut add = |key: &str, value: f64| {
+    let numbers = numbers.unwrap_or_default();
+    let shape = match family {
+        "CHS" | "PIPE" | "TUBE" => pipe(&numbers),
+        "SHS" | "RHS" => hollow(&numbers),
+        "L" => angle(&numbers),
+        _ => rolled(family, rest),
+    };
+    let Shape { word, sizes, radii } = shape.map_err(|hint| [format!("there is no profile `{text}` here"), hint])?;
+    let mut keys = format!("shape = \"{word}\"\n");
+    for (key, value) in sizes {
         // A String takes every character.
         let _ = writeln!(keys, "{key} = {:?}", value * millimetre);
-    };
-    let unknown = |hint: String| Err([format!("there is no profile `{text}` here"), hint]);
-    match (family, numbers.as_deref()) {
-        ("CHS" | "PIPE" | "TUBE", Some(&[diameter, thickness])) => {
-            add("diameter", diameter);
-            add("thickness", thickness);
-            return Ok(format!("shape = \"tube\"\n{keys}"));
-        }
-        ("SHS" | "RHS", Some(&[first, ref more @ ..])) if (1..=2).contains(&more.len()) => {
-            let thickness = more[more.len() - 1];
-            let second = if more.len() == 2 { more[0] } else { first };
-            add("height", first.max(second));
-            add("width", first.min(second));
-            add("thickness", thickness);
-            let [outer, inner] = CORNERS.map(|radius| radius * thickness * millimetre);
-            return Ok(format!("shape = \"box\"\n{keys}corner_radii = [{outer:?}, {inner:?}]\n"));
-        }
-        ("CHS" | "PIPE" | "TUBE", _) => {
-            return unknown("a pipe is \"CHS 114.3x5\": diameter and thickness in mm".to_owned());
-        }
-        ("SHS" | "RHS", _) => {
-            return unknown(
-                "a hollow section is \"SHS 100x5\" or \"RHS 200x100x8\": sides and thickness in mm".to_owned(),
-            );
-        }
-        _ => {}
     }
+    if let Some([outer, inner]) = radii.map(|radii| radii.map(|radius| radius * millimetre)) {
+        let _ = writeln!(keys, "corner_radii = [{outer:?}, {inner:?}]");
+    }
+    Ok(keys)
+}
+
+fn pipe(numbers: &[f64]) -> Result<Shape, String> {
+    let &[diameter, thickness] = numbers else {
+        return Err("a pipe is \"CHS 114.3x5\": diameter and thickness in mm".to_owned());
+    };
+    Ok(Shape { word: "tube", sizes: vec![("diameter", diameter), ("thickness", thickness)], radii: None })
+}
+
+fn hollow(numbers: &[f64]) -> Result<Shape, String> {
+    let [a, b, thickness] = match *numbers {
+        [side, thickness] => [side, side, thickness],
+        [a, b, thickness] => [a, b, thickness],
+        _ => return Err("a hollow section is \"SHS 100x5\" or \"RHS 200x100x8\": sides and thickness in mm".to_owned()),
+    };
+    let sizes = vec![("height", a.max(b)), ("width", a.min(b)), ("thickness", thickness)];
+    Ok(Shape { word: "box", sizes, radii: Some(CORNERS.map(|radius| radius * thickness)) })
+}
+
+fn angle(numbers: &[f64]) -> Result<Shape, String> {
+    let size = match *numbers {
+        [leg, thickness] => Some([leg, thickness]),
+        [a, b, thickness] if a == b => Some([a, thickness]),
+        _ => None,
+    };
+    let known = size.and_then(|size| L.iter().find(|[leg, thickness, _]| [*leg, *thickness] == size));
+    let Some(&[leg, thickness, radius]) = known else {
+        let known: Vec<String> = L.iter().map(|[leg, thickness, _]| format!("{leg}x{thickness}")).collect();
+        return Err(format!("known are the equal angles {}", known.join(", ")));
+    };
+    let sizes = vec![("height", leg), ("width", leg), ("thickness", thickness), ("root_radius", radius)];
+    Ok(Shape { word: "l", sizes, radii: None })
+}
+
+fn rolled(family: &str, rest: &str) -> Result<Shape, String> {
     // "HE 200 A" is "HEA 200".
     let (family, number) = match (family, rest.strip_suffix('A'), rest.strip_suffix('B')) {
         ("HE", Some(number), _) => ("HEA", number),
@@ -219,16 +265,14 @@ fn keys_of(text: &str, millimetre: f64) -> Result<String, [String; 2]> {
         _ => (family, rest),
     };
     let Some((_, list)) = FAMILIES.iter().find(|(word, _)| *word == family) else {
-        return unknown("known are IPE, HEA, HEB, CHS, SHS and RHS; of others give `shape` and dimensions".to_owned());
+        return Err("known are IPE, HEA, HEB, L, CHS, SHS and RHS; of others give `shape` and dimensions".to_owned());
     };
     let Some((_, size)) = list.iter().find(|(known, _)| number.parse() == Ok(*known)) else {
         let known: Vec<String> = list.iter().map(|(number, _)| number.to_string()).collect();
-        return unknown(format!("{family} has {}", known.join(", ")));
+        return Err(format!("{family} has {}", known.join(", ")));
     };
-    for (key, value) in ["height", "width", "web_thickness", "flange_thickness", "root_radius"].into_iter().zip(size) {
-        add(key, *value);
-    }
-    Ok(format!("shape = \"i\"\n{keys}"))
+    let keys = ["height", "width", "web_thickness", "flange_thickness", "root_radius"];
+    Ok(Shape { word: "i", sizes: keys.into_iter().zip(*size).collect(), radii: None })
 }
 
 #[cfg(test)]
@@ -259,6 +303,9 @@ mod tests {
         }
         assert_eq!(numbers("CHS 114,3 x 5")[0], ("diameter".to_owned(), 114.3));
         assert_eq!(numbers("RHS 100×200×8")[..2], [("height".to_owned(), 200.0), ("width".to_owned(), 100.0)]);
+        assert_eq!(numbers("L 100x10")[3], ("root_radius".to_owned(), 12.0));
+        assert_eq!(numbers("L100x100x10"), numbers("L 100x10"));
+        assert!(keys_of("L 100x65x8", 1.0).unwrap_err()[1].contains("equal angles"));
         assert_eq!(numbers("SHS 100x5")[2], ("thickness".to_owned(), 5.0));
         for (name, hint) in [
             ("IPE 210", "IPE has 80"),

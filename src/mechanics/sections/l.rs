@@ -3,6 +3,7 @@
 use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
+use super::rounded::RolledL;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
 use super::stresses::Outline;
@@ -23,6 +24,11 @@ pub static KIND: SectionKind = SectionKind {
             about: "Thickness of the legs: one value, or that of the upright leg and that of the flat leg.",
         },
         Key {
+            name: "root_radius",
+            form: Form::Number,
+            about: "Radius between legs of one thickness, above 0; the inner edges of their ends have half of it. Default: none, sharp corners.",
+        },
+        Key {
             name: "fibres",
             form: Form::Counts,
             about: "Fibres along the longest wall and through the thickness of each, even numbers, where the material yields. Default: [8, 4].",
@@ -37,7 +43,12 @@ fn read(given: &mut Given, _: bool) -> Option<CrossSection> {
     let (width, height) = (given.require_positive("width"), given.require_positive("height"));
     let walls = given.require("thickness")?;
     let (vertical, horizontal) = (*walls.first()?, *walls.last()?);
-    Some(CrossSection::Shape(Box::new(L { height: height?, width: width?, vertical, horizontal })))
+    let legs = L { height: height?, width: width?, vertical, horizontal };
+    if !given.has("root_radius") {
+        return Some(CrossSection::Shape(Box::new(legs)));
+    }
+    let root_radius = given.positive("root_radius")?;
+    Some(CrossSection::Shape(Box::new(RolledL { legs, root_radius })))
 }
 
 /// An angle section.

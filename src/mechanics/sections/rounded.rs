@@ -1,9 +1,10 @@
 //! Sections with rounded corners: rolled I sections with root radii, and rectangular hollow sections.
 
-use super::dimensions::smaller;
+use super::dimensions::{rectangles, smaller};
 use super::fibres::Fibre;
 use super::hollow_box::HollowBox;
 use super::i::I;
+use super::l::L;
 use super::section::Section;
 use super::section_shape::SectionShape;
 use super::stresses::Outline;
@@ -17,6 +18,8 @@ struct Corner {
     arm: f64,
     /// Second moment about its centroid, parallel to a side.
     moment: f64,
+    /// Product moment about its centroid, of a corner that opens towards y and z alike.
+    product: f64,
 }
 
 impl Corner {
@@ -27,7 +30,8 @@ impl Corner {
         let centroid = radius * (1.0 - 4.0 / (3.0 * PI));
         let of_circle = radius.powi(4) * (PI / 16.0 - 4.0 / (9.0 * PI)) + 0.25 * PI * (radius * centroid).powi(2);
         let moment = radius.powi(4) / 3.0 - of_circle - area * arm * arm;
-        Corner { area, arm, moment }
+        let product = radius.powi(4) * (19.0 / 24.0 - 0.25 * PI) - area * arm * arm;
+        Corner { area, arm, moment, product }
     }
 
     /// Adds four corners at (±y, ±z) with a sign.
@@ -97,6 +101,90 @@ impl SectionShape for RolledI {
 
     fn half_depth(&self) -> f64 {
         self.plates.half_depth()
+    }
+}
+
+/// A rolled angle of one thickness: a radius between the legs, and half of it at the inner edges of their ends (EN 10056-1).
+#[derive(Debug, Clone, PartialEq)]
+pub struct RolledL {
+    /// The legs with sharp corners.
+    pub legs: L,
+    /// Radius between the legs.
+    pub root_radius: f64,
+}
+
+impl RolledL {
+    /// The corners with their sign and the place of their centroids, from the outer edges: the root, and what both ends lack.
+    fn corners(&self) -> [(f64, Corner, [f64; 2]); 3] {
+        let L { height, width, vertical: t, .. } = self.legs;
+        let (root, toe) = (Corner::new(self.root_radius), Corner::new(0.5 * self.root_radius));
+        [
+            (1.0, root, [t + root.arm; 2]),
+            (-1.0, toe, [t - toe.arm, height - toe.arm]),
+            (-1.0, toe, [width - toe.arm, t - toe.arm]),
+        ]
+    }
+
+    /// The centroid of the sharp legs from the outer edges, and the shift of that of the rounded ones from there.
+    fn centroids(&self) -> [[f64; 2]; 2] {
+        let L { height, width, vertical: t, .. } = self.legs;
+        let plates = [([0.5 * t, 0.5 * height], t, height), ([0.5 * (width + t), 0.5 * t], width - t, t)];
+        let (area, sharp, _) = rectangles(&plates);
+        let corners = self.corners();
+        let whole = area + corners.iter().map(|(sign, corner, _)| sign * corner.area).sum::<f64>();
+        let shift = [0, 1].map(|axis| {
+            let moment = |(sign, corner, at): &(f64, Corner, [f64; 2])| sign * corner.area * (at[axis] - sharp[axis]);
+            corners.iter().map(moment).sum::<f64>() / whole
+        });
+        [sharp, shift]
+    }
+}
+
+impl SectionShape for RolledL {
+    fn section(&self, nu: f64) -> Result<Section, String> {
+        let L { height, width, vertical, horizontal } = self.legs;
+        if vertical != horizontal {
+            return Err("`root_radius` needs legs of one thickness".to_owned());
+        }
+        let mut section = self.legs.section(nu)?;
+        smaller(("root_radius", self.root_radius), ("the shorter leg", width.min(height) - vertical), "it must be less than")?;
+        smaller(("root_radius", 0.5 * self.root_radius), ("thickness", vertical), "half of it must be less than")?;
+        let [sharp, [y0, z0]] = self.centroids();
+        for (sign, corner, at) in self.corners() {
+            let (y, z) = (at[0] - sharp[0], at[1] - sharp[1]);
+            section.area += sign * corner.area;
+            section.Iy += sign * (corner.moment + corner.area * z * z);
+            section.Iz += sign * (corner.moment + corner.area * y * y);
+            section.Iyz += sign * (corner.product + corner.area * y * z);
+        }
+        section.Iy -= section.area * z0 * z0;
+        section.Iz -= section.area * y0 * y0;
+        section.Iyz -= section.area * y0 * z0;
+        let [ys, zs] = section.shear_center;
+        Ok(Section { shear_center: [ys - y0, zs - z0], ..section })
+    }
+
+    fn default_fibres(&self, share: Option<usize>) -> Result<[usize; 2], String> {
+        self.legs.default_fibres(share)
+    }
+
+    /// Fibres of the sharp legs with the area of the rounded ones, about their own centroid.
+    fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
+        let mut fibres = self.legs.lay_fibres(counts, section)?;
+        let whole: f64 = fibres.iter().map(|fibre| fibre.area).sum();
+        fibres.iter_mut().for_each(|fibre| fibre.area *= section.area / whole);
+        Ok(fibres)
+    }
+
+    fn outline(&self, nu: f64, section: &Section) -> Option<Outline> {
+        let [_, [y0, z0]] = self.centroids();
+        let Outline::Points(mut points) = self.legs.outline(nu, section)? else { return None };
+        points.iter_mut().for_each(|point| point.at = [point.at[0] - y0, point.at[1] - z0]);
+        Some(Outline::Points(points))
+    }
+
+    fn half_depth(&self) -> f64 {
+        self.legs.half_depth()
     }
 }
 
@@ -200,6 +288,21 @@ mod tests {
             let fibres = shape.lay_fibres([8, 2], &section).unwrap();
             close(fibres.iter().map(|fibre| fibre.area).sum(), section.area, 1e-14);
         }
+    }
+
+    /// EN 10056-1, L 100 x 100 x 10: 19.2 cm², 177 cm⁴, principal moments 280 and 73.0 cm⁴, centroid at 2.82 cm.
+    #[test]
+    fn equal_angle_of_the_standard() {
+        let legs = L { height: 100.0, width: 100.0, vertical: 10.0, horizontal: 10.0 };
+        let shape = RolledL { legs, root_radius: 12.0 };
+        let section = shape.section(0.3).unwrap();
+        let principal = [section.Iy - section.Iyz, section.Iy + section.Iyz];
+        let found = [section.area / 1e2, section.Iy / 1e4, section.Iz / 1e4, principal[0] / 1e4, principal[1] / 1e4];
+        found.into_iter().zip([19.2, 177.0, 177.0, 280.0, 73.0]).for_each(|(found, known)| close(found, known, 2.5e-3));
+        let [sharp, shift] = shape.centroids();
+        close(sharp[0] + shift[0], 28.2, 2e-3);
+        // The shear centre stays at the corner of the middle lines.
+        close(section.shear_center[0], 5.0 - sharp[0] - shift[0], 1e-12);
     }
 
     /// I_t of IPE 200, HE 300 B and HE 200 A in the tables of rolling mills: 6.98, 185 and 20.98 cm⁴.
