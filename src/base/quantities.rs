@@ -92,6 +92,50 @@ impl fmt::Display for Unit {
     }
 }
 
+/// A system of units by the symbols of its quantities.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct UnitSystem {
+    /// The word of the deck.
+    pub name: &'static str,
+    /// Length, mass, time and force.
+    pub base: [&'static str; 4],
+    /// Stress and energy, which have names.
+    pub named: [&'static str; 2],
+}
+
+/// All systems of units.
+pub const UNIT_SYSTEMS: [UnitSystem; 5] = [
+    UnitSystem { name: "SI", base: ["m", "kg", "s", "N"], named: ["Pa", "J"] },
+    UnitSystem { name: "m-kg-s", base: ["m", "kg", "s", "N"], named: ["Pa", "J"] },
+    UnitSystem { name: "mm-t-s", base: ["mm", "t", "s", "N"], named: ["MPa", "mJ"] },
+    UnitSystem { name: "mm-kg-s", base: ["mm", "kg", "s", "mN"], named: ["kPa", "µJ"] },
+    UnitSystem { name: "mm-kg-ms", base: ["mm", "kg", "ms", "kN"], named: ["GPa", "J"] },
+];
+
+impl UnitSystem {
+    /// The system with a name; `None` if there is none.
+    pub fn find(name: &str) -> Option<&'static UnitSystem> {
+        UNIT_SYSTEMS.iter().find(|system| system.name == name)
+    }
+}
+
+impl Unit {
+    /// The unit in symbols of a system, such as `N/mm`; in words without one, such as `force/length`.
+    pub fn text(self, system: Option<&UnitSystem>) -> String {
+        let Some(UnitSystem { base: [length, mass, time, force], named: [stress, energy], .. }) = system else {
+            return self.to_string();
+        };
+        match self {
+            Unit::Stress => (*stress).to_owned(),
+            Unit::Energy => (*energy).to_owned(),
+            _ => {
+                let words = [("length", length), ("mass", mass), ("time", time), ("force", force)];
+                words.into_iter().fold(self.to_string(), |text, (word, symbol)| text.replace(word, symbol))
+            }
+        }
+    }
+}
+
 /// The axes that components refer to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axes {
@@ -181,10 +225,10 @@ const fn energy(name: &'static str, meaning: &'static str) -> Column {
 }
 
 /// The first column of every table.
-pub const STEP: Column = Column::scalar("step", "number of accepted steps so far; 0 is the initial state", Unit::Count);
+pub const STEP: Column = Column::scalar("step", "number of accepted steps, 0 in the initial state", Unit::Count);
 /// The second column of every table.
 pub const TIME: Column =
-    Column::scalar("time", "time at the end of the step; of a path by arc length, the load factor", Unit::Time);
+    Column::scalar("time", "time at the end of the step, or the load factor of a path by arc length", Unit::Time);
 
 /// The position of a node or a body, x y z.
 pub const POSITION: [Column; 3] = vector(["x", "y", "z"], "position", Unit::Length);
@@ -559,4 +603,20 @@ pub const MOTION: [&[Column]; 7] =
 /// Names of columns, in their order.
 pub fn names(groups: &[&'static [Column]]) -> Vec<&'static str> {
     groups.iter().copied().flatten().map(|column| column.name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_have_symbols() {
+        let text = |unit: Unit, name: &str| unit.text(UnitSystem::find(name));
+        assert_eq!(text(Unit::Acceleration, "mm-kg-ms"), "mm/ms²");
+        assert_eq!(text(Unit::MomentPerLength, "mm-t-s"), "N·mm/mm");
+        assert_eq!(text(Unit::Stress, "mm-kg-s"), "kPa");
+        assert_eq!(text(Unit::Energy, "SI"), "J");
+        assert_eq!(text(Unit::Moment, "unknown"), "force·length");
+        assert_eq!(text(Unit::Radian, "SI"), "rad");
+    }
 }

@@ -1,4 +1,4 @@
-//! `rdsolve report DIR`: one HTML file of a folder of results.
+//! `rdsolve report DIR`: one HTML file of a folder of results, or one picture of its scene.
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
@@ -8,20 +8,33 @@ use clap::Args;
 
 use super::console::{complain, print, say};
 use super::exit::Exit;
-use results::report::page;
+use results::report::{View, page, scene_picture};
 
 #[derive(Debug, Args)]
 #[command(
     after_help = "The page opens without a network: status, plan, counts, expectations, the deck if it is still that of the \
 run, plots of all tables, energy balance, and the moving scene (of fields.pvd if the run wrote it: [output] fields). Long \
-histories are thinned, which it says."
+histories are thinned, which it says. --picture draws one time of this scene as SVG, for light and dark paper: \
+rdsolve report cab.out --picture --time 0.05 --magnify 10"
 )]
 pub struct ReportArgs {
     /// The folder of results
     dir: PathBuf,
-    /// The file to write [default: the folder's name with .html, in the current folder]
+    /// The file to write [default: the folder's name with .html or .svg, in the current folder]
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
+    /// Draw one time of the scene as a picture (SVG) instead of the page
+    #[arg(long)]
+    picture: bool,
+    /// The time that the picture shows, or the number of the mode [default: the last time, or the first mode]
+    #[arg(long, value_name = "TIME", requires = "picture", allow_negative_numbers = true)]
+    time: Option<f64>,
+    /// The factor of the displacements in the picture
+    #[arg(long, value_name = "FACTOR", requires = "picture", default_value_t = 1.0, value_parser = positive)]
+    magnify: f64,
+    /// The width of the picture in pixels; its height is three quarters of it
+    #[arg(long, value_name = "PIXELS", requires = "picture", default_value_t = 480.0, value_parser = positive)]
+    width: f64,
     /// Replace a file that is there already
     #[arg(long)]
     overwrite: bool,
@@ -30,11 +43,17 @@ pub struct ReportArgs {
     quiet: bool,
 }
 
-/// Writes the HTML file of a folder of results.
+/// A number above 0.
+fn positive(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|number: &f64| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| "a number above 0 is needed".into())
+}
+
+/// Writes the HTML file of a folder of results, or the picture of its scene.
 ///
 /// # Errors
-/// [`Exit::Usage`] where the file is there already, [`Exit::InputOutput`] where results cannot be read or the file cannot be
-/// written; the reason has been shown.
+/// [`Exit::Usage`] if the file exists, [`Exit::InputOutput`] if results cannot be read or the file cannot be written; the reason has been
+/// shown.
 pub fn report(args: &ReportArgs) -> Result<(), Exit> {
     let fault = |what: String| {
         complain(&what);
@@ -53,7 +72,7 @@ pub fn report(args: &ReportArgs) -> Result<(), Exit> {
     if !args.overwrite && file.exists() {
         return Err(exists());
     }
-    let page = page(&args.dir).map_err(|error| fault(format!("cannot read results: {error}")))?;
+    let (page, time) = contents(args).map_err(|error| fault(format!("cannot read results: {error}")))?;
     let mut options = OpenOptions::new();
     let options = if args.overwrite {
         options.write(true).create(true).truncate(true)
@@ -65,12 +84,25 @@ pub fn report(args: &ReportArgs) -> Result<(), Exit> {
         Err(error) => return Err(fault(format!("cannot write `{name}`: {error}"))),
         Ok(()) => {}
     }
-    if args.quiet { Ok(()) } else { print(&format!("{name}, {:.1} MB\n", page.len() as f64 / 1e6)) }
+    let size = page.len() as f64;
+    let what =
+        time.map_or_else(|| format!("{:.1} MB", 1e-6 * size), |time| format!("t = {time}, {:.1} kB", 1e-3 * size));
+    if args.quiet { Ok(()) } else { print(&format!("{name}, {what}\n")) }
 }
 
-/// The file that is written where the user names none: `cab.out` becomes `cab.html`, and dots within a name stay.
+/// The text of the file, and the time that a picture shows.
+fn contents(args: &ReportArgs) -> std::io::Result<(String, Option<f32>)> {
+    if !args.picture {
+        return Ok((page(&args.dir)?, None));
+    }
+    let view = View { time: args.time, magnify: args.magnify, width: args.width };
+    scene_picture(&args.dir, &view).map(|(picture, time)| (picture, Some(time)))
+}
+
+/// The default file: `cab.out` becomes `cab.html` or `cab.svg`, and dots within a name stay.
 fn default(args: &ReportArgs) -> std::io::Result<PathBuf> {
     let folder = args.dir.canonicalize()?;
     let name = folder.file_name().map_or("report".into(), |name| name.to_string_lossy().into_owned());
-    Ok(PathBuf::from(format!("{}.html", name.strip_suffix(".out").unwrap_or(&name))))
+    let kind = if args.picture { "svg" } else { "html" };
+    Ok(PathBuf::from(format!("{}.{kind}", name.strip_suffix(".out").unwrap_or(&name))))
 }

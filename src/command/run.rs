@@ -114,11 +114,11 @@ pub struct Case<'a> {
     pub files: &'a HashMap<PathBuf, Vec<u8>>,
 }
 
-/// Runs a variant of a deck on one thread, without a word, into a folder of its own, and leaves its result unmarked. It goes on from the
-/// checkpoint that a run which was stopped, or killed where the deck asks for checkpoints, has left.
+/// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. It continues from the
+/// checkpoint of a stopped run, or of a killed run whose deck requests checkpoints.
 ///
 /// # Errors
-/// What has kept it from running: errors of the deck as text, or one of input/output.
+/// The obstacle: errors of the deck as text, or an error of input/output.
 pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status, CaseFault> {
     let Case { sets, folder, deck, files } = *case;
     let began = Instant::now();
@@ -170,12 +170,12 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
     Ok(end.status)
 }
 
-/// Ends a case before anything of it is written where a signal has come while it was read or planned, which may take long.
+/// Ends a case before it writes anything, if a signal came during the possibly long reading and planning.
 fn go_on_unless(stop: &AtomicBool) -> Result<(), CaseFault> {
     if stop.load(Ordering::Relaxed) { Err(CaseFault::Stopped) } else { Ok(()) }
 }
 
-/// Refuses a case that has read other files than those by which its folder is named.
+/// Refuses a case if its files differ from those in the name of its folder.
 fn refuse_changed(loaded: &Loaded, files: &HashMap<PathBuf, Vec<u8>>) -> Result<(), CaseFault> {
     let origin = &loaded.model.origin;
     let mesh = origin.mesh.iter().map(|mesh| (&mesh.path, mesh.digest));
@@ -196,7 +196,7 @@ fn left_over(folder: &Path, origin: &CheckpointOrigin) -> Option<Checkpoint> {
     Checkpoint::read(folder).ok().flatten().filter(|found| found.origin.difference(origin).is_none())
 }
 
-/// What keeps a case of a sweep from running.
+/// The obstacle that keeps a case of a sweep from running.
 pub enum CaseFault {
     /// Its deck has errors, which are these.
     Deck(String),
@@ -222,7 +222,7 @@ fn stages_in_words(loaded: &Loaded) -> Vec<String> {
     loaded.models().into_iter().map(stage_begins).collect()
 }
 
-/// The number of threads without `--threads`: all cores, but no more than that option takes.
+/// The number of threads without `--threads`: all cores, up to the limit of that option.
 fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from).min(MAX_THREADS as usize)
 }
@@ -241,7 +241,7 @@ struct Job<'a> {
     overwrite: bool,
     /// The checkpoints; `None` where none are written.
     checkpoints: Option<CheckpointsWanted>,
-    /// True where the result stands as soon as it is written; otherwise somebody else marks it, and removes the checkpoint.
+    /// True if the result is final once written; otherwise the caller marks it, and removes the checkpoint.
     marks: bool,
     quiet: bool,
     mesh_error: bool,
@@ -262,13 +262,14 @@ impl Job<'_> {
             version: VERSION.to_owned(),
             instructions: instructions(),
             title: model.title.clone(),
+            units: model.output.units.clone().unwrap_or_default(),
             deck: source.path.clone(),
             sets: sets.clone(),
             deck_hash: hash.clone(),
         }
     }
 
-    /// Runs the scene, or what is left of it after a checkpoint, and writes its files; an error is one of input/output.
+    /// Runs the scene, or the rest of it after a checkpoint, and writes its files; an error is one of input/output.
     fn compute(&self, run: &mut Run, checkpoint: Option<Checkpoint>) -> io::Result<(End, RunResult, Vec<String>)> {
         let resumes = checkpoint.is_some();
         let log = self.begin(resumes)?;
@@ -325,7 +326,7 @@ impl Job<'_> {
         Ok((end, result, lines))
     }
 
-    /// Writes the result, and takes away a checkpoint that no longer serves; whoever marks a case does both when its files are safe.
+    /// Writes the result, and removes a useless checkpoint; for a case the caller does both when its files are safe.
     fn leave(&self, result: &RunResult, checkpoint_serves: bool) -> io::Result<()> {
         if !self.marks {
             return result.write_unmarked(self.folder);
@@ -337,7 +338,7 @@ impl Job<'_> {
         }
     }
 
-    /// Makes the folder ready, and says in the log what is run, or that it goes on.
+    /// Prepares the folder, and notes the run or its continuation in the log.
     fn begin(&self, resumes: bool) -> io::Result<Log> {
         if resumes {
             let mut log = Log::open(self.folder, true)?;
@@ -366,12 +367,12 @@ impl Job<'_> {
         Ok(watchers)
     }
 
-    /// What runs the stages of the deck.
+    /// The runner of the stages of the deck.
     fn stages(&self) -> StageRunner<'_> {
         StageRunner { loaded: self.loaded, threads: self.threads, stop: self.stop }
     }
 
-    /// The time that all took, of which the steps and their output took the `whole`.
+    /// The time of the whole run; the steps and their output needed the `whole`.
     fn timings_of(&self, observing: Duration, whole: Duration) -> Timings {
         Timings {
             loop_s: whole.saturating_sub(observing).as_secs_f64(),

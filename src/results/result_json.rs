@@ -26,7 +26,7 @@ pub enum Status {
     ExpectationMissed,
     /// A signal has stopped the run after a whole step.
     Stopped,
-    /// The memory does not hold what the run asks for.
+    /// The memory is too small for the run.
     TooLittleMemory,
 }
 
@@ -52,7 +52,7 @@ pub struct RunResult {
     pub exit_code: u8,
     /// The reason for the end in one sentence. It is empty when done, unless a path ended before its `stop`.
     pub reason: String,
-    /// The time up to which results are valid, where the run did not come to its end.
+    /// The time up to which results are valid, if the run stopped early.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub valid_until: Option<f64>,
     /// The deck and the program that the results come from.
@@ -66,7 +66,7 @@ pub struct RunResult {
     pub counts: ReportedCounts,
     /// The time that the run took.
     pub timings: Timings,
-    /// What is known of the errors of the results.
+    /// The estimated errors of the results.
     #[serde(flatten)]
     pub errors: ReportedErrors,
     /// Largest departure from orthogonality that a first- or second-order rotation update left to be corrected.
@@ -75,9 +75,9 @@ pub struct RunResult {
     /// Largest gap that a joint was left with at the end of a step, relative to the largest coordinate of the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub joint_violation: Option<f64>,
-    /// The largest resident memory of the process; `None` where the system does not tell.
+    /// The largest resident memory of the process; `None` if the system does not report it.
     pub peak_memory_bytes: Option<u64>,
-    /// The warnings about the deck and the results, in the order in which they arose.
+    /// The warnings about the deck and the results, in the order of their occurrence.
     pub warnings: Vec<String>,
     /// The judgements on the expectations, in the order of the deck.
     pub expectations: Vec<Verdict>,
@@ -87,13 +87,16 @@ pub struct RunResult {
 /// and program.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct RunOrigin {
-    /// The version of the program, with the commit it was built from where that was known.
+    /// The version of the program, with its commit if known.
     pub version: String,
     /// The level of instructions that it used.
     pub instructions: String,
     /// The title of the deck; empty where it has none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub title: String,
+    /// The system of units of the deck; empty where it has none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub units: String,
     /// The path of the deck, as it was given.
     pub deck: String,
     /// The overrides, as they were given: `KEY=VALUE`.
@@ -103,7 +106,7 @@ pub struct RunOrigin {
 }
 
 impl RunOrigin {
-    /// The same in lines for the log.
+    /// The origin in lines for the log.
     pub fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("rdsolve {}, deck {}", self.version, self.deck)];
         lines.extend(self.sets.iter().map(|set| format!("--set {set}")));
@@ -141,21 +144,21 @@ pub struct ReportedCounts {
     pub solves: usize,
     /// The number of cutbacks: attempts at a step that were given up for a shorter one.
     pub cuts: usize,
-    /// The number of elements and links that have failed, where any may.
+    /// The number of failed elements and links, if the scene can fail.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failed: Option<usize>,
 }
 
-/// What is known of the errors of the results.
+/// The estimated errors of the results.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ReportedErrors {
     /// The error of automatic steps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_error: Option<ReportedStepError>,
-    /// What mass scaling adds to the scene.
+    /// The mass that mass scaling adds to the scene.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_scaling: Option<ReportedMasses>,
-    /// The run with a coarser mesh, by which the errors of the mesh are known.
+    /// The run with a coarser mesh, which estimates the errors of the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<ReportedMesh>,
     /// The errors of the largest values of all columns.
@@ -163,7 +166,7 @@ pub struct ReportedErrors {
     pub error_bars: Vec<ErrorBar>,
 }
 
-/// What automatic steps leave of error, relative to the largest motion.
+/// The error of automatic steps, relative to the largest motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ReportedStepError {
     /// `error_tolerance` of the deck.
@@ -172,7 +175,7 @@ pub struct ReportedStepError {
     pub estimate: Option<f64>,
     /// The tolerance that the steps followed.
     pub tolerance: f64,
-    /// Number of runs made besides this one, by which the error is known, ...
+    /// Number of other runs for the estimate, ...
     pub other_runs: usize,
     /// ... their steps, ...
     pub other_steps: usize,
@@ -182,22 +185,22 @@ pub struct ReportedStepError {
     pub other_factorizations: usize,
 }
 
-/// What mass scaling adds to the scene, in its first stage with time.
+/// The mass that mass scaling adds to the scene, in its first stage with time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReportedMasses {
     /// `mass_scaling_step` of the deck.
     pub critical_step: f64,
-    /// Mass of the scene without what is added.
+    /// Mass of the scene without the added mass.
     pub mass: f64,
     /// Mass that is added, ...
     pub added: f64,
     /// ... and its share of the mass of the scene.
     pub share: f64,
-    /// The parts with mass of their own, in the order of the deck.
+    /// The parts with mass, in the order of the deck.
     pub parts: Vec<ReportedPartMass>,
 }
 
-/// What mass scaling adds to a part.
+/// The mass that mass scaling adds to a part.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReportedPartMass {
     /// Its name.
@@ -208,7 +211,7 @@ pub struct ReportedPartMass {
     pub rotary: usize,
     /// ... and of all.
     pub elements: usize,
-    /// Mass without what is added.
+    /// Mass without the added mass.
     pub mass: f64,
     /// Mass that is added, ...
     pub added: f64,
@@ -235,14 +238,14 @@ impl From<&MassScaling> for ReportedMasses {
     }
 }
 
-/// The run with a coarser mesh, by which the errors of the mesh are known.
+/// The run with a coarser mesh, which estimates the errors of the mesh.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReportedMesh {
     /// The overrides that ask for it.
     pub sets: Vec<String>,
-    /// The factor by which its errors are taken to be larger.
+    /// The assumed ratio of its errors to the errors of this run.
     pub apart: f64,
-    /// The names of parts whose mesh is the same, so that nothing is known of its error.
+    /// The names of parts with the same mesh in both runs, whose error is therefore unknown.
     pub unchanged: Vec<String>,
     /// Its steps, ...
     pub steps: usize,
@@ -296,7 +299,7 @@ fn unmarked(dir: &Path) -> PathBuf {
     dir.join(UNMARKED)
 }
 
-/// Marks a run as one that has come to its end: gives its result the name by which it is known.
+/// Marks a run as finished by giving its result file the final name.
 ///
 /// # Errors
 /// There is no result, or the system refuses.
@@ -305,12 +308,12 @@ pub fn mark(dir: &Path) -> io::Result<()> {
     std::fs::rename(&path, dir.join(NAME)).map_err(|error| at(&path, error))
 }
 
-/// The largest resident memory of this process so far, which Linux tells; `None` elsewhere.
+/// The largest resident memory of this process so far on Linux; `None` elsewhere.
 pub fn peak_memory_bytes() -> Option<u64> {
     process_bytes("VmHWM:").map(|bytes| bytes as u64)
 }
 
-/// A size of this process by its name in `/proc/self/status`, in bytes; `None` where the system does not tell.
+/// A size of this process by its name in `/proc/self/status`, in bytes; `None` if the system does not report it.
 pub fn process_bytes(name: &str) -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix(name))?;

@@ -4,13 +4,13 @@ use super::source::{CRATES, lines_below};
 
 /// Lines of the sources below src by crate, `program` for what lies beside them.
 const BUDGET: [(&str, usize); 10] = [
-    ("base", 6500),
+    ("base", 6560),
     ("linear", 4250),
     ("mechanics", 28_350),
     ("deck", 4550),
     ("model", 21_100),
     ("solve", 30_900),
-    ("results", 9050),
+    ("results", 9900),
     ("study", 4000),
     ("sweep", 1500),
     ("program", 4850),

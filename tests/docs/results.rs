@@ -8,7 +8,10 @@ use serde_json::Value;
 use std::fmt::Write;
 
 fn results_reference() -> String {
-    let mut text = format!("\nEvery table begins with `step`, {}, and `time`, {}.\n", STEP.meaning, TIME.meaning);
+    let mut text = format!(
+        "\nEvery table begins with two columns. `step` is the {}. `time` is the {}.\n",
+        STEP.meaning, TIME.meaning
+    );
     for table in TABLES {
         let _ = write!(text, "\n### {}\n\n{}\n\n", table.file, table.about);
         text += "| column | meaning | unit | axes | positive |\n|---|---|---|---|---|\n";

@@ -7,6 +7,7 @@ use rdsolve::model::Cadence;
 use rdsolve::output::report::page as page_of;
 use serde_json::Value;
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 
 const PLATE: &str = r#"
@@ -79,19 +80,38 @@ fn sound(page: &str) {
     for word in ["http:", "https:", "src=", "@import", "url(", "{{"] {
         assert!(!page.contains(word), "{word}");
     }
-    assert_eq!((page.matches("<script").count(), page.matches("</script>").count()), (2, 2));
+    assert_eq!((page.matches("<script").count(), page.matches("</script>").count()), (3, 3));
     assert!(page.starts_with("<!DOCTYPE html>") && page.trim_end().ends_with("</html>"));
 }
 
-/// What the page's script reads.
-pub fn data(page: &str) -> Value {
-    let begin = page.split_once("id=\"data\">").unwrap().1;
-    serde_json::from_str(begin.split_once("</script>").unwrap().0).unwrap()
+/// What the page's script reads, with the bytes of its numbers.
+pub fn data(page: &str) -> (Value, Vec<u8>) {
+    let json = |id: &str| -> Value {
+        let begin = page.split_once(&format!("id=\"{id}\">")).unwrap().1;
+        serde_json::from_str(begin.split_once("</script>").unwrap().0).unwrap()
+    };
+    let packed = BASE64_STANDARD.decode(json("packed").as_str().unwrap()).unwrap();
+    let mut bytes = Vec::new();
+    flate2::read::ZlibDecoder::new(&packed[..]).read_to_end(&mut bytes).unwrap();
+    (json("data"), bytes)
 }
 
-pub fn floats(base64: &Value) -> Vec<f32> {
+/// Rows of numbers as the page reads them.
+pub fn floats(bytes: &[u8], from: &Value) -> Vec<f32> {
+    let [place, count, width] = [0, 1, 2].map(|k| from[k].as_u64().unwrap() as usize);
+    let (mut found, mut at) = (vec![0.0; count], place);
+    for column in 0..width {
+        for number in found[column.min(count)..].iter_mut().step_by(width) {
+            *number = f32::from_be_bytes([0, 1, 2, 3].map(|byte| bytes[at + byte * count]));
+            at += 1;
+        }
+    }
+    found
+}
+
+fn places(base64: &Value) -> Vec<u32> {
     let bytes = BASE64_STANDARD.decode(base64.as_str().unwrap()).unwrap();
-    bytes.as_chunks().0.iter().map(|&four| f32::from_le_bytes(four)).collect()
+    bytes.as_chunks().0.iter().map(|&four| u32::from_le_bytes(four)).collect()
 }
 
 #[test]
@@ -103,20 +123,20 @@ fn shells_with_fields_move_and_names_are_only_names() {
     // The deck is that of the run to the last byte, so its text is there; plan and counts too.
     assert!(page.contains("[materials.steel]") && page.contains("<h2>Plan</h2>") && page.contains("factorizations"));
 
-    let data = data(&page);
+    let (data, bytes) = data(&page);
     let scene = &data["scene"];
-    let (x0, u, times) = (floats(&scene["x0"]), floats(&scene["u"]), floats(&scene["times"]));
+    let (x0, u, times) = (floats(&bytes, &scene["x0"]), floats(&bytes, &scene["u"]), floats(&bytes, &scene["times"]));
     assert_eq!((x0.len(), u.len()), (3 * 12, 5 * 3 * 12));
     assert_eq!(times, [0.0, 0.25, 0.5, 0.75, 1.0]);
     let names: Vec<&str> = scene["fields"].as_array().unwrap().iter().map(|f| f["name"].as_str().unwrap()).collect();
     assert!(names.contains(&"von_mises_top") && names.contains(&"von_mises_bottom"), "{names:?}");
-    assert!(scene["fields"].as_array().unwrap().iter().all(|field| floats(&field["values"]).len() == 5 * 6));
+    assert!(scene["fields"].as_array().unwrap().iter().all(|field| floats(&bytes, &field["values"]).len() == 5 * 6));
 
     // Numbers of the tables, as they are there.
     let table = |name: &str| data["histories"].as_array().unwrap().iter().find(|t| t["file"] == name).unwrap().clone();
     let nodes = table("nodes.csv");
     assert_eq!(nodes["names"], serde_json::json!(["a", "b", "c", "d"]));
-    let (columns, values) = (nodes["columns"].as_array().unwrap(), floats(&nodes["values"]));
+    let (columns, values) = (nodes["columns"].as_array().unwrap(), floats(&bytes, &nodes["values"]));
     let uz = columns.iter().position(|column| column == "uz").unwrap();
     // At the fifth time, of the second of four nodes.
     let last = values[(4 * 4 + 1) * columns.len() + uz];
@@ -133,14 +153,110 @@ fn shells_with_fields_move_and_names_are_only_names() {
 #[test]
 fn without_fields_bodies_and_nodes_are_points() {
     let (_, page) = page(BALL, 0);
-    let data = data(&page);
+    let (data, bytes) = data(&page);
     let scene = &data["scene"];
     assert_eq!(scene["labels"], serde_json::json!(["ball"]));
-    let u = floats(&scene["u"]);
+    let u = floats(&bytes, &scene["u"]);
     // A free body moves at its speed; Float32 keeps seven digits.
     assert!((u[u.len() - 3] - 1.0).abs() < 1e-6, "{u:?}");
     // 101 times are all there.
     assert!(!page.contains("shown are"));
+}
+
+/// Runs a deck and returns its folder, to draw pictures of it.
+fn results(deck: &str, code: i32) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("x.toml"), deck).unwrap();
+    rdsolve(folder.path(), &["run", "x.toml", "-o", "x.out", "--quiet"]).code(code);
+    folder
+}
+
+fn picture(folder: &Path, options: &[&str]) -> String {
+    rdsolve(folder, &[&["report", "x.out", "--picture", "--quiet", "--overwrite"], options].concat()).code(0);
+    fs::read_to_string(folder.join("x.svg")).unwrap()
+}
+
+/// The points of the paths with a word in their tag, in pixels: four steps are one.
+fn points(picture: &str, word: &str) -> Vec<[f64; 2]> {
+    let mut found = Vec::new();
+    for tag in picture.split('<').filter(|tag| tag.starts_with("path") && tag.contains(word)) {
+        let steps = tag.split_once(" d=\"").unwrap().1.split('"').next().unwrap().replace('-', " -");
+        let numbers = steps.split(|c: char| c.is_alphabetic() || c == ' ').filter_map(|text| text.parse::<f64>().ok());
+        let mut at = [0.0; 2];
+        for step in numbers.collect::<Vec<_>>().as_chunks::<2>().0 {
+            at = [at[0] + step[0] / 4.0, at[1] + step[1] / 4.0];
+            found.push(at);
+        }
+    }
+    found
+}
+
+fn extent(points: &[[f64; 2]], k: usize) -> f64 {
+    let all = || points.iter().map(|point| point[k]);
+    all().fold(f64::MIN, f64::max) - all().fold(f64::MAX, f64::min)
+}
+
+/// The plate lies in the plane of x and y, and is seen from above: six faces, none behind another, at the scale of the bar.
+#[test]
+fn a_picture_shows_a_plate_at_its_scale_and_names_are_only_names() {
+    let folder = results(&format!("{PLATE}{FIELDS}"), 5);
+    let picture = picture(folder.path(), &["--width", "400"]);
+    assert!(picture.starts_with("<svg ") && picture.contains("viewBox=\"0 0 400 300\""));
+    assert!(picture.contains("A plate &lt;script&gt;alert(&#39;x&#39;)&lt;/script&gt; &amp; co"));
+    for text in ["von Mises (force/length²)", ">t = 1<", "prefers-color-scheme:dark"] {
+        assert!(picture.contains(text), "{text}");
+    }
+    let bar = picture.split_once("class=\"s\"").unwrap().1;
+    let pixels: f64 = bar.split_once("v4h-").unwrap().1.split('v').next().unwrap().parse().unwrap();
+    let length: f64 = bar.split_once("\"end\">").unwrap().1.split(' ').next().unwrap().parse().unwrap();
+    let faces = points(&picture, "color=");
+    for k in 0..2 {
+        // Coordinates are whole quarters of a pixel; the bar is written to a tenth.
+        let side = extent(&faces, k) * length / pixels;
+        assert!((side - 1.0).abs() < 0.01, "a side of 1 is drawn {side} long");
+    }
+    let fills = picture.split_once("<g class=\"f").unwrap().1.split_once("</g>").unwrap().0;
+    assert_eq!(fills.matches('z').count(), 6);
+}
+
+/// Of a box three faces are seen, and its start is dashed.
+#[test]
+fn a_picture_hides_what_lies_behind() {
+    let shape = "shape = { kind = \"box\", size = [0.1, 0.2, 0.3] }\n[output]\nfields = { format = \"vtu\" }\n";
+    let folder = results(&BALL.replace("shape = { kind = \"sphere\", radius = 0.1 }", shape), 0);
+    let picture = picture(folder.path(), &["--time", "0.5"]);
+    let fills = picture.split_once("<g class=\"f").unwrap().1.split_once("</g>").unwrap().0;
+    assert_eq!(fills.matches('z').count(), 3);
+    assert!(picture.contains(">t = 0.5<") && !points(&picture, "class=\"g\"").is_empty());
+}
+
+/// A body without fields is a disc; displacements can be magnified, and what makes no picture is refused with its cause.
+#[test]
+fn a_picture_of_points_and_its_options() {
+    let folder = results(BALL, 0);
+    let shown = picture(folder.path(), &["--magnify", "2.5"]);
+    assert!(shown.contains("<circle") && shown.contains("t = 1, displacements × 2.5"));
+    let refused = |options: &[&str], code| {
+        let done = rdsolve(folder.path(), &[&["report", "x.out", "-o", "y.svg"], options].concat()).code(code);
+        String::from_utf8(done.get_output().stderr.clone()).unwrap()
+    };
+    assert!(refused(&["--picture", "--time", "2"], 6).contains("no time 2: they go from 0 to 1"));
+    assert!(refused(&["--picture", "--magnify", "0"], 2).contains("a number above 0"));
+    assert!(refused(&["--time", "1"], 2).contains("--picture"));
+    fs::remove_file(folder.path().join("x.out/bodies.csv")).unwrap();
+    assert!(refused(&["--picture"], 6).contains("format = \"vtu\""));
+    assert!(!folder.path().join("y.svg").exists());
+}
+
+/// Without `units`, labels have words such as `length`.
+#[test]
+fn axes_and_legends_have_the_units_of_the_deck() {
+    let (folder, page) = page(&format!("units = \"mm-t-s\"\n{BALL}"), 0);
+    for label in ["time (s)", "x (mm)", "vx (mm/s)", "kinetic (mJ)"] {
+        assert!(page.contains(label), "{label}");
+    }
+    let picture = picture(folder.path(), &[]);
+    assert!(picture.contains(">t = 1 s<") && picture.contains(" (mm)<"));
 }
 
 #[test]
@@ -154,9 +270,9 @@ fn a_table_alone_is_enough_and_an_unfinished_run_says_so() {
     let page = fs::read_to_string(folder.path().join("page.html")).unwrap();
     sound(&page);
     assert!(page.contains("unfinished"));
-    let data = data(&page);
+    let (data, bytes) = data(&page);
     assert!(data["scene"].is_null());
-    assert_eq!(floats(&data["histories"][0]["times"]), [0.0, 0.1]);
+    assert_eq!(floats(&bytes, &data["histories"][0]["times"]), [0.0, 0.1]);
 }
 
 #[test]
@@ -223,24 +339,24 @@ fn the_page_of_every_deck_shows_its_tables() {
         support::write(&model, folder.path(), STEPS);
         let page = page_of(folder.path()).unwrap_or_else(|error| panic!("{name}: {error}"));
         sound(&page);
-        let data = data(&page);
+        let (data, bytes) = data(&page);
         for history in data["histories"].as_array().unwrap() {
-            drawable(&name, history, folder.path());
+            drawable(&name, history, &bytes, folder.path());
         }
-        moves(&name, &data["scene"]);
+        moves(&name, &data["scene"], &bytes);
         pages += 1;
     }
     assert!(pages > 50, "{pages}");
 }
 
 /// A history is as long as its table, has the numbers of its last row, and is not blank where the table is not.
-fn drawable(deck: &str, history: &Value, folder: &Path) {
+fn drawable(deck: &str, history: &Value, bytes: &[u8], folder: &Path) {
     let file = history["file"].as_str().unwrap();
     let mut reader = csv::Reader::from_path(folder.join(file)).unwrap();
     let header: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
     let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
     let (columns, names) = (history["columns"].as_array().unwrap(), history["names"].as_array().unwrap());
-    let (times, values) = (floats(&history["times"]), floats(&history["values"]));
+    let (times, values) = (floats(bytes, &history["times"]), floats(bytes, &history["values"]));
     assert!(times.iter().all(|time| time.is_finite()), "{deck}: {file}");
     assert_eq!(values.len(), times.len() * names.len() * columns.len(), "{deck}: {file}");
     let mut written: Vec<&str> = rows.iter().map(|row| &row[1]).collect();
@@ -276,26 +392,25 @@ fn drawable(deck: &str, history: &Value, folder: &Path) {
 }
 
 /// A scene has a place for each point at each time, and its cells name points that are there.
-fn moves(deck: &str, scene: &Value) {
+fn moves(deck: &str, scene: &Value, bytes: &[u8]) {
     if scene.is_null() {
         return;
     }
-    let (times, x0, u) = (floats(&scene["times"]), floats(&scene["x0"]), floats(&scene["u"]));
+    let (times, x0, u) = (floats(bytes, &scene["times"]), floats(bytes, &scene["x0"]), floats(bytes, &scene["u"]));
     assert!(!times.is_empty() && !x0.is_empty() && x0.len().is_multiple_of(3), "{deck}");
     assert_eq!(u.len(), times.len() * x0.len(), "{deck}");
     assert!(x0.iter().chain(&u).chain(&times).all(|number| number.is_finite()), "{deck}");
     let cells = BASE64_STANDARD.decode(scene["kinds"].as_str().unwrap()).unwrap().len();
-    let places = |key: &str| floats(&scene[key]).into_iter().map(f32::to_bits).collect::<Vec<u32>>();
     for (key, per, of) in [("triangles", 3, "triangleCells"), ("lines", 2, "lineCells"), ("edges", 2, "")] {
-        let points = places(key);
+        let points = places(&scene[key]);
         assert!(points.iter().all(|&point| (point as usize) < x0.len() / 3), "{deck}: {key}");
         if !of.is_empty() {
-            let of = places(of);
+            let of = places(&scene[of]);
             assert!(of.len() == points.len() / per && of.iter().all(|&cell| (cell as usize) < cells), "{deck}: {key}");
         }
     }
     for field in scene["fields"].as_array().unwrap() {
-        let values = floats(&field["values"]);
+        let values = floats(bytes, &field["values"]);
         assert_eq!(values.len(), times.len() * cells, "{deck}: {}", field["name"]);
         assert!(values.iter().all(|value| value.is_finite()), "{deck}: {}", field["name"]);
     }

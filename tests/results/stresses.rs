@@ -70,11 +70,11 @@ fn fields_have_stresses_of_beams() {
     // The page colours elements by them: W σ = M in each at the last of eleven times.
     let mut command = assert_cmd::Command::cargo_bin("rdsolve").unwrap();
     command.current_dir(folder.path()).args(["report", "deck.out"]).assert().code(0);
-    let data = crate::results::report::data(&fs::read_to_string(folder.path().join("deck.html")).unwrap());
+    let (data, bytes) = crate::results::report::data(&fs::read_to_string(folder.path().join("deck.html")).unwrap());
     let fields = data["scene"]["fields"].as_array().unwrap();
     for (name, value) in [("sigma_max", 1e8), ("sigma_min", -1e8), ("tau_max", 0.0), ("von_mises", 1e8)] {
         let field = fields.iter().find(|field| field["name"] == name).unwrap();
-        let values = crate::results::report::floats(&field["values"]);
+        let values = crate::results::report::floats(&bytes, &field["values"]);
         assert_eq!(values.len(), 11 * 2, "{name}");
         // Float32 has seven digits; rounding of forces is 1e-10 of the largest.
         values[20..].iter().for_each(|x| assert!((f64::from(*x) - value).abs() < 100.0, "{name} {x}"));

@@ -1,5 +1,5 @@
 "use strict";
-// The numbers of the page: base64 of little-endian arrays, read when first asked for.
+// The numbers of the page: places of cells are base64 of little-endian arrays; all others are in one packed text.
 
 const DATA = JSON.parse(document.getElementById("data").textContent);
 
@@ -8,19 +8,33 @@ function bytes(base64) {
   for (let i = 0; i < text.length; i++) out[i] = text.charCodeAt(i);
   return out;
 }
-const floats = base64 => new Float32Array(bytes(base64).buffer);
+let UNPACKED = new Uint8Array();
+async function unpack() {
+  const packed = new Blob([bytes(JSON.parse(document.getElementById("packed").textContent))]);
+  UNPACKED = new Uint8Array(await new Response(packed.stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer());
+}
+/** Rows of a width from the unpacked bytes: the highest bytes of all numbers first, column by column. */
+function floats([place, count, width]) {
+  const out = new Float32Array(count), whole = new Uint32Array(out.buffer);
+  for (let column = 0, at = place; column < width; column++) {
+    for (let i = column; i < count; i += width, at++) {
+      whole[i] = (UNPACKED[at] << 24) | (UNPACKED[at + count] << 16) | (UNPACKED[at + 2 * count] << 8) | UNPACKED[at + 3 * count];
+    }
+  }
+  return out;
+}
 const places = base64 => new Uint32Array(bytes(base64).buffer);
 
 /** A table over time: `line(name, column)` is one number a time. */
 class History {
   constructor(from) {
-    Object.assign(this, { file: from.file, over: from.over, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels, bands: from.bands });
+    Object.assign(this, { file: from.file, over: from.over, names: from.names, columns: from.columns, kinds: from.kinds, labels: from.labels, bands: from.bands, overLabel: from.over_label });
     this.times = floats(from.times);
     this.values = floats(from.values);
   }
   /** What a column is, with its unit, for an axis. */
   label(column) {
-    return this.labels[this.columns.indexOf(column)] ?? column;
+    return column === this.over ? this.overLabel : (this.labels[this.columns.indexOf(column)] ?? column);
   }
   /** Half the width of the band within which the error of a column lies; 0 where it is not known. */
   band(column) {

@@ -1,8 +1,12 @@
 //! The data that the scripts of the page read: numbers, and the moving scene.
 
+use base::names::short;
 use base64::prelude::{BASE64_STANDARD, Engine};
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use std::io::Write;
 
-/// The moving scene, thinned to what a page can carry; points and cells are named by their places from 0.
+/// The moving scene, thinned to the capacity of a page; points and cells are numbered from 0.
 #[derive(Default)]
 pub struct PageScene {
     /// The times that are shown.
@@ -29,9 +33,61 @@ pub struct PageScene {
     pub labels: Vec<String>,
     /// The number of times before thinning.
     pub all: usize,
+    /// Whether the times are numbers of modes and parts of their periods.
+    pub is_modes: bool,
 }
 
-/// Numbers as the page reads them: base64 of little-endian Float32.
-pub fn numbers(values: &[f32]) -> String {
-    BASE64_STANDARD.encode(values.iter().flat_map(|value| value.to_le_bytes()).collect::<Vec<u8>>())
+impl PageScene {
+    /// Whether there is a face, a line or a named point at any time.
+    pub fn is_seen(&self) -> bool {
+        !self.times.is_empty() && !(self.triangles.is_empty() && self.lines.is_empty() && self.labels.is_empty())
+    }
+
+    /// The number of the time nearest to one, from 0; without one, the last time, or the first of a mode.
+    ///
+    /// # Errors
+    /// The time lies before the first or after the last of the scene.
+    pub fn frame(&self, time: Option<f64>) -> Result<usize, String> {
+        let last = self.times.len() - 1;
+        let Some(time) = time else { return Ok(if self.is_modes { 0 } else { last }) };
+        let off = |frame: &usize| (f64::from(self.times[*frame]) - time).abs();
+        let [from, to] = [0, last].map(|frame| f64::from(self.times[frame]));
+        let room = 1e-6 * from.abs().max(to.abs());
+        if !(from.min(to) - room..=from.max(to) + room).contains(&time) {
+            return Err(format!(
+                "the results have no time {}: they go from {} to {}",
+                short(time),
+                short(from),
+                short(to)
+            ));
+        }
+        Ok((0..=last).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(last))
+    }
+}
+
+/// All numbers of a page. Of each array the highest bytes of all numbers come first, column by column, because alike bytes compress well.
+#[derive(Default)]
+pub struct PageNumbers(Vec<u8>);
+
+impl PageNumbers {
+    /// Adds rows of a width, and returns what the page needs to read them: the place, the number of numbers, the width.
+    pub fn add(&mut self, values: &[f32], width: usize) -> [usize; 3] {
+        let (place, width) = (self.0.len(), width.max(1));
+        for byte in (0..4).rev() {
+            for column in 0..width {
+                self.0.extend(values.iter().skip(column).step_by(width).map(|value| value.to_le_bytes()[byte]));
+            }
+        }
+        [place, values.len(), width]
+    }
+
+    /// The numbers as the page reads them: base64 of what zlib makes of the bytes.
+    ///
+    /// # Errors
+    /// None, as memory takes the bytes.
+    pub fn packed(self) -> std::io::Result<String> {
+        let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
+        packed.write_all(&self.0)?;
+        Ok(BASE64_STANDARD.encode(packed.finish()?))
+    }
 }

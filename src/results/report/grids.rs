@@ -1,12 +1,11 @@
-//! The moving scene is read from the grids of the fields: triangles, lines and edges, where they are over time, and what their
-//! cells carry.
+//! Reads the moving scene from the grids of the fields: triangles, lines and edges, their places over time, and the data of their cells.
 
-use super::data::{PageScene, numbers};
+use super::data::{PageNumbers, PageScene};
 use crate::at;
 use crate::table_reader::{TableReader, fields, text};
 use crate::vtu::APPENDED;
 use base::math::curved_faces::{facets, ring};
-use base::quantities::SECTION_STRESSES;
+use base::quantities::{SECTION_STRESSES, Unit};
 use base::text_file::{read_regular, read_text};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::bufread::ZlibDecoder;
@@ -15,16 +14,16 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// The largest number of numbers over all times that a page carries.
-const NUMBERS: usize = 4_000_000;
+const NUMBERS: usize = 800_000;
 /// The largest number of times.
 const GRIDS: usize = 150;
 /// The largest number of points: a scene with more of them is not shown.
 const POINTS: usize = 1_000_000;
 
-/// The kinds of parts, in the order in which the page numbers them.
+/// The kinds of parts, in the order of their numbers on the page.
 const KINDS: [&str; 5] = ["beam", "bar", "shell", "link", "body"];
 
-/// The scene of a folder; `None` where it has no grids, and the inner error, in words, where a page cannot carry them.
+/// The scene of a folder; `None` if it has no grids. The inner error says in words why a page cannot hold the scene.
 ///
 /// # Errors
 /// A file cannot be read, or is no grid of this program; the error names it.
@@ -45,7 +44,8 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     if displacement.len() != points.len() {
         return Err(first.wrong("a displacement for each point"));
     }
-    scene.x0 = points.iter().zip(&displacement).map(|(x, u)| (x - u) as f32).collect();
+    let origin = far_origin(&points);
+    scene.x0 = points.iter().zip(&displacement).enumerate().map(|(i, (x, u))| (x - u - origin[i % 3]) as f32).collect();
     cells(&first, &kinds, count, &mut scene)?;
 
     let names: Vec<String> = first.scalars_of_cells();
@@ -61,16 +61,15 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
         }
         let grid = Grid::read(folder.join(file))?;
         let u = grid.array("displacement", 3)?;
-        if u.len() != 3 * count {
-            return Err(grid.wrong("the points of the first grid"));
+        let of_cells: Vec<Vec<f64>> =
+            scene.fields.iter().map(|(name, _)| grid.array(name, 1)).collect::<io::Result<_>>()?;
+        // A stage may have other bodies: the page counts the times that are left out.
+        if u.len() != 3 * count || of_cells.iter().any(|values| values.len() != scene.kinds.len()) {
+            continue;
         }
         scene.times.push(*time as f32);
         scene.u.extend(u.iter().map(|&u| u as f32));
-        for (name, values) in &mut scene.fields {
-            let of_cells = grid.array(name, 1)?;
-            if of_cells.len() != scene.kinds.len() {
-                return Err(grid.wrong("the cells of the first grid"));
-            }
+        for ((_, values), of_cells) in scene.fields.iter_mut().zip(of_cells) {
             values.extend(of_cells.iter().map(|&value| value as f32));
         }
         for (name, values) in of_beams.iter_mut().filter(|_| has_beams) {
@@ -97,11 +96,18 @@ fn stresses_of_beams(grid: &Grid, name: &str, scene: &PageScene, out: &mut Vec<f
     Ok(())
 }
 
+/// The first point of a scene so far from the origin that seven digits do not resolve it; else the origin.
+fn far_origin(points: &[f64]) -> [f64; 3] {
+    let Some(&first) = points.as_chunks::<3>().0.first() else { return [0.0; 3] };
+    let reach = |from: [f64; 3]| points.iter().enumerate().map(|(i, x)| (x - from[i % 3]).abs()).fold(0.0, f64::max);
+    if reach([0.0; 3]) > 1e3 * reach(first) { first } else { [0.0; 3] }
+}
+
 /// Pictures of a mode in one swing.
 const PHASES: usize = 16;
 /// The largest number of pictures of all modes.
 const PICTURES: usize = 640;
-/// Largest displacement of a mode as it is shown, as a part of the size of the scene.
+/// The largest displacement of a displayed mode, as a part of the size of the scene.
 const SWING: f64 = 0.1;
 
 /// The modes of a folder as a moving scene, and their number: each swings once, one after the other. The time is the number of the mode
@@ -119,7 +125,8 @@ pub fn modes(folder: &Path) -> io::Result<Option<(PageScene, usize)>> {
     if count > POINTS {
         return Ok(None);
     }
-    let mut scene = PageScene { x0: points.iter().map(|x| *x as f32).collect(), ..PageScene::default() };
+    let mut scene =
+        PageScene { x0: points.iter().map(|x| *x as f32).collect(), is_modes: true, ..PageScene::default() };
     cells(&first, &kinds, count, &mut scene)?;
     let bounds = (0..3).map(|axis| {
         let of = || points.iter().skip(axis).step_by(3).copied();
@@ -184,7 +191,7 @@ fn kinds(path: &Path) -> io::Result<Vec<u8>> {
 /// A grid as this program writes it.
 struct Grid {
     path: PathBuf,
-    /// What stands before the numbers.
+    /// The text before the numbers.
     text: String,
     /// The compressed arrays, and the end of the file.
     data: Vec<u8>,
@@ -237,7 +244,7 @@ impl Grid {
     }
 }
 
-/// The bytes of a compressed array, which begins with the numbers of its blocks; `None` where they are not as written.
+/// The bytes of a compressed array, which begins with the numbers of its blocks; `None` if they are inconsistent.
 fn inflate(data: &[u8]) -> Option<Vec<u8>> {
     let head = data.as_chunks::<8>().0;
     let number = |k: usize| head.get(k).map(|&eight| u64::from_le_bytes(eight) as usize);
@@ -325,19 +332,20 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io:
 }
 
 impl PageScene {
-    /// The scene as the scripts of the page read it.
-    pub fn json(&self) -> serde_json::Value {
+    /// The scene as the scripts of the page read it, with the units of its legend and of its clock.
+    pub fn json(&self, result: &super::result::Result, numbers: &mut PageNumbers) -> serde_json::Value {
+        let shown = |unit: Unit| if self.is_modes { String::new() } else { unit.text(result.units()) };
         let fields: Vec<_> = self
             .fields
             .iter()
-            .map(|(name, values)| serde_json::json!({ "name": name, "values": numbers(values) }))
+            .map(|(name, values)| serde_json::json!({ "name": name, "values": numbers.add(values, self.kinds.len()) }))
             .collect();
         let places =
             |places: &[u32]| BASE64_STANDARD.encode(places.iter().flat_map(|p| p.to_le_bytes()).collect::<Vec<_>>());
         serde_json::json!({
-            "times": numbers(&self.times),
-            "x0": numbers(&self.x0),
-            "u": numbers(&self.u),
+            "times": numbers.add(&self.times, 1),
+            "x0": numbers.add(&self.x0, 3),
+            "u": numbers.add(&self.u, self.x0.len()),
             "triangles": places(&self.triangles),
             "triangleCells": places(&self.triangle_cells),
             "lines": places(&self.lines),
@@ -345,6 +353,8 @@ impl PageScene {
             "edges": places(&self.edges),
             "kinds": BASE64_STANDARD.encode(&self.kinds),
             "fields": fields,
+            "units": { "displacement": shown(Unit::Length), "von mises": shown(Unit::Stress) },
+            "clock": if self.is_modes { String::new() } else { result.clock() },
             "labels": self.labels,
         })
     }

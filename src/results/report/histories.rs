@@ -1,11 +1,12 @@
-//! The numbers of tables over time, thinned to what a page can carry: every so many times, and where there are too many names,
-//! some of them, evenly.
+//! The numbers of tables over time, thinned to the capacity of a page: times at regular distances, and names at regular distances if there
+//! are too many.
 
-use super::data::numbers;
+use super::data::PageNumbers;
+use super::result::Result;
 use crate::table::STAGE;
 use crate::table_reader::{TableReader, fields, number, text};
 use crate::tables;
-use base::quantities::Column;
+use base::quantities::{Column, Unit, UnitSystem};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::io;
@@ -25,7 +26,7 @@ const OVER: [(&str, &str); 2] = [("response.csv", "frequency"), ("campbell.csv",
 pub struct History {
     /// The name of the file.
     pub file: String,
-    /// The names of what rows are about, as `tip` or `roof 3`; one empty name where they are about the whole scene.
+    /// The subjects of rows, as `tip` or `roof 3`; one empty name for the whole scene.
     pub names: Vec<String>,
     /// The names of the columns with numbers, but for the time.
     pub columns: Vec<String>,
@@ -144,7 +145,7 @@ impl History {
         Some((0..self.times.len()).map(|t| self.values[(t * self.names.len() + name) * width + column]).collect())
     }
 
-    /// Says what has been left out; empty where all is shown.
+    /// A sentence about the omitted data; empty if all data is shown.
     pub fn left_out(&self) -> String {
         let mut parts = Vec::new();
         if self.times.len() < self.all[0] {
@@ -157,17 +158,25 @@ impl History {
     }
 
     /// The history as the scripts of the page read it, with the error bars that result.json has.
-    pub fn json(&self, result: &Value) -> Value {
+    pub fn json(&self, result: &Result, numbers: &mut PageNumbers) -> Value {
+        let (units, clock) = (result.units(), result.clock());
+        let over = match self.over {
+            OVER_FREQUENCY => format!(" ({})", Unit::Frequency.text(units)),
+            _ if clock.is_empty() => clock,
+            _ => format!(" ({})", clock.trim()),
+        };
+        let label = |column: &String| label(described(&self.file, column), column, units);
         json!({
             "file": self.file,
             "over": self.over,
             "names": self.names,
             "columns": self.columns,
             "kinds": self.columns.iter().map(|column| described(&self.file, column).map(|known| known.kind)).collect::<Vec<_>>(),
-            "labels": self.columns.iter().map(|column| label(&self.file, column)).collect::<Vec<_>>(),
-            "bands": self.columns.iter().map(|column| band(result, &self.file, column)).collect::<Vec<_>>(),
-            "times": numbers(&self.times),
-            "values": numbers(&self.values),
+            "labels": self.columns.iter().map(label).collect::<Vec<_>>(),
+            "over_label": self.over.to_owned() + &over,
+            "bands": self.columns.iter().map(|column| band(&result.json, &self.file, column)).collect::<Vec<_>>(),
+            "times": numbers.add(&self.times, 1),
+            "values": numbers.add(&self.values, self.names.len() * self.columns.len()),
         })
     }
 }
@@ -177,7 +186,7 @@ fn described(file: &str, column: &str) -> Option<Column> {
     tables::of_file(file)?.columns().find(|known| known.name == column)
 }
 
-/// Half the width of the band that the error bars of a column make, over all its rows and times; 0 where there are none.
+/// Half the width of the band of error bars of a column, over all rows and times; 0 without error bars.
 fn band(result: &Value, file: &str, column: &str) -> f64 {
     let mut bars = result["error_bars"].as_array().into_iter().flatten();
     let bar = bars.find(|bar| bar["table"] == file && bar["column"] == column);
@@ -186,9 +195,9 @@ fn band(result: &Value, file: &str, column: &str) -> f64 {
 }
 
 /// A column with its unit, for an axis.
-fn label(file: &str, column: &str) -> String {
-    match described(file, column) {
-        Some(known) => format!("{column} ({})", known.unit),
+fn label(known: Option<Column>, column: &str, units: Option<&UnitSystem>) -> String {
+    match known {
+        Some(known) => format!("{column} ({})", known.unit.text(units)),
         None => column.to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! Pieces of HTML, in which every text has gone through [`escaped`].
+//! Pieces of HTML; every text in them is [`escaped`].
 
 /// A text that may stand anywhere in HTML, in an attribute too.
 pub fn escaped(text: &str) -> String {

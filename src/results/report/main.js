@@ -1,7 +1,7 @@
 // Puts the page together: the scene, the energy, the histories, the steps.
 
 const byId = id => document.getElementById(id);
-const histories = DATA.histories.map(from => new History(from));
+let histories = [];
 const table = file => histories.find(history => history.file === file);
 
 /** A plot with a list of lines to tick beside it. */
@@ -35,7 +35,8 @@ function energy(history) {
       base = y;
       return area;
     });
-    plot.show(drawn, { x: "time", y: stacked ? "energy, stored and dissipated, stacked (force·length)" : "energy (force·length)" });
+    const unit = history.label("kinetic").replace(/^kinetic/, "");
+    plot.show(drawn, { x: history.label(history.over), y: (stacked ? "energy, stored and dissipated, stacked" : "energy") + unit });
   };
   keys(whole, names, i => names[i] !== "mechanical", chosen => ((ticked = chosen), draw()));
   const controls = make("div", { className: "controls" }), box = make("input", { type: "checkbox" });
@@ -140,6 +141,7 @@ function stage(from) {
   const offered = ["none", "displacement", ...first, ...present.filter(name => !first.includes(name))];
   for (const name of offered) select.append(make("option", { value: name, textContent: wordy(name) }));
   select.value = first[0] ?? "displacement";
+  const unit = field => from.units[field === "displacement" ? field : field.startsWith("von_mises") ? "von mises" : ""] ?? "";
   const ranges = new Map(), rangeOf = field => ranges.get(field) ?? ranges.set(field, scene.range(field)).get(field);
   byId("names-label").hidden = !scene.labels.length;
   if (scene.edges.length > 60000) byId("edges").checked = false;
@@ -161,9 +163,9 @@ function stage(from) {
       line: rgb(style("--faint")),
       plain: dark() ? [0.5, 0.53, 0.57] : [0.72, 0.74, 0.77],
     });
-    byId("clock").textContent = `t = ${few(scene.times[frame], 5)}`;
+    byId("clock").textContent = `t = ${few(scene.times[frame], 5)}${from.clock}`;
     byId("legend").hidden = !shown;
-    byId("legend-name").textContent = wordy(field);
+    byId("legend-name").textContent = wordy(field) + (unit(field) && ` (${unit(field)})`);
     byId("legend-least").textContent = few(least);
     byId("legend-most").textContent = few(most);
     aside(seen);
@@ -262,12 +264,17 @@ function stage(from) {
   draw();
 }
 
-const plain = histories.filter(history => history.columns.some(name => name !== "step"));
-const shown = [["energy", table("energy.csv"), energy], ["steps", table("steps.csv"), steps]];
-for (const [id, history, show] of shown) {
-  byId(id).hidden = !history;
-  if (history) show(history);
+async function start() {
+  await unpack();
+  histories = DATA.histories.map(from => new History(from));
+  const plain = histories.filter(history => history.columns.some(name => name !== "step"));
+  const shown = [["energy", table("energy.csv"), energy], ["steps", table("steps.csv"), steps]];
+  for (const [id, history, show] of shown) {
+    byId(id).hidden = !history;
+    if (history) show(history);
+  }
+  byId("histories").hidden = !plain.length;
+  if (plain.length) browse(plain);
+  if (DATA.scene) stage(DATA.scene);
 }
-byId("histories").hidden = !plain.length;
-if (plain.length) browse(plain);
-if (DATA.scene) stage(DATA.scene);
+start().catch(problem => document.body.prepend(make("p", { textContent: `The plots cannot be drawn: ${problem.message}. A browser of 2023 or newer is needed.` })));

@@ -7,16 +7,19 @@ mod data;
 mod grids;
 mod histories;
 pub mod html;
+mod picture;
 mod points;
 mod result;
+mod view;
 
 use super::disk::at;
 use super::tables::TABLES;
-use base::quantities::{ENERGY, Unit};
+use base::quantities::{ENERGY, Unit, UnitSystem};
 use base::text_file::read_regular;
-use data::PageScene;
+use data::{PageNumbers, PageScene};
 use histories::History;
 use html::escaped;
+pub use picture::View;
 use serde_json::{Value, json};
 use std::fs;
 use std::io;
@@ -24,7 +27,7 @@ use std::path::Path;
 
 /// The page with marks where the parts go.
 const PAGE: &str = include_str!("page.html");
-/// The style of the page, which that of a study shares.
+/// The style of the page, also used for the page of a study.
 pub const STYLE: &str = include_str!("page.css");
 /// The column with the energy that the time integration has dissipated or made.
 const BALANCE: &str = "numerical";
@@ -37,47 +40,86 @@ const SCRIPTS: [&str; 6] = [
     include_str!("main.js"),
 ];
 
+/// The data of a page or a picture of a folder.
+struct Contents {
+    result: result::Result,
+    histories: Vec<History>,
+    scene: Option<PageScene>,
+    /// Sentences on omitted data.
+    notes: Vec<String>,
+}
+
+impl Contents {
+    fn read(folder: &Path) -> io::Result<Contents> {
+        let files = table_files(folder)?;
+        let json = result_json(&folder.join("result.json"))?;
+        if json.is_null() && files.iter().any(|file| file == "study.csv") {
+            return Err(at(folder, io::Error::other("a study, whose page is study.html there")));
+        }
+        if files.is_empty() && json.is_null() {
+            return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
+        }
+        let result = result::Result::of(folder, json);
+        let mut histories = Vec::new();
+        for file in &files {
+            histories.extend(History::read(folder, file)?.filter(|history| !history.times.is_empty()));
+        }
+        let mut notes: Vec<String> = histories.iter().map(History::left_out).filter(|note| !note.is_empty()).collect();
+        let scene = scene(folder, &histories, &mut notes)?;
+        Ok(Contents { result, histories, scene, notes })
+    }
+}
+
+/// The scene of the modes, else of the fields, else of the points; a note names omitted times.
+fn scene(folder: &Path, histories: &[History], notes: &mut Vec<String>) -> io::Result<Option<PageScene>> {
+    let scene = match grids::modes(folder)? {
+        Some((scene, all)) => {
+            let shown = scene.times.last().map_or(0.0, |time| time.floor());
+            notes.push(format!(
+                "scene: modes 1 to {shown} of {all} swing one after the other; t is the number of the mode and the part of its period"
+            ));
+            Some(scene)
+        }
+        None => match grids::scene(folder)? {
+            Some(Ok(scene)) if scene.is_seen() => Some(scene),
+            Some(Err(reason)) => {
+                notes.push(reason);
+                points::scene(histories)
+            }
+            _ => points::scene(histories),
+        },
+    };
+    if let Some(scene) = scene.as_ref().filter(|scene| scene.times.len() < scene.all) {
+        notes.push(format!("scene: shown are {} of {} times", scene.times.len(), scene.all));
+    }
+    Ok(scene)
+}
+
+/// The picture of a folder at one time, as SVG, and that time.
+///
+/// # Errors
+/// As for [`page`]; the results have nothing to see, or not the time that is asked for.
+pub fn scene_picture(folder: &Path, view: &View) -> io::Result<(String, f32)> {
+    let Contents { result, scene, .. } = Contents::read(folder)?;
+    let none = "no scene: the results have neither field files nor nodes or bodies. Add `fields = { format = \"vtu\" }` to [output] and run again";
+    let scene = scene.filter(PageScene::is_seen).ok_or_else(|| at(folder, io::Error::other(none)))?;
+    let frame = scene.frame(view.time).map_err(|error| at(folder, io::Error::other(error)))?;
+    Ok((picture::draw(&scene, &result, &result.title(folder), frame, view), scene.times[frame]))
+}
+
 /// The page of a folder.
 ///
 /// # Errors
 /// The folder holds no results, or a file in it cannot be read; the error names it.
 pub fn page(folder: &Path) -> io::Result<String> {
-    let files = table_files(folder)?;
-    let json = result_json(&folder.join("result.json"))?;
-    if json.is_null() && files.iter().any(|file| file == "study.csv") {
-        return Err(at(folder, io::Error::other("a study, whose page is study.html there")));
-    }
-    if files.is_empty() && json.is_null() {
-        return Err(at(folder, io::Error::other("no results: neither a table nor result.json")));
-    }
-    let result = result::Result::of(folder, json);
-    let mut histories = Vec::new();
-    for file in &files {
-        histories.extend(History::read(folder, file)?.filter(|history| !history.times.is_empty()));
-    }
-    let mut notes: Vec<String> = histories.iter().map(History::left_out).filter(|note| !note.is_empty()).collect();
-    let modes = grids::modes(folder)?;
-    if let Some((scene, all)) = &modes {
-        let shown = scene.times.last().map_or(0.0, |time| time.floor());
-        notes.push(format!(
-            "scene: modes 1 to {shown} of {all} swing one after the other; t is the number of the mode and the part of its period"
-        ));
-    }
-    let scene = match modes.map(|(scene, _)| Some(Ok(scene))).map_or_else(|| grids::scene(folder), Ok)? {
-        Some(Ok(scene)) => Some(scene),
-        Some(Err(reason)) => {
-            notes.push(reason);
-            points::scene(&histories)
-        }
-        None => points::scene(&histories),
-    };
-    if let Some(scene) = scene.as_ref().filter(|scene| scene.times.len() < scene.all) {
-        notes.push(format!("scene: shown are {} of {} times", scene.times.len(), scene.all));
-    }
+    let Contents { result, histories, scene, notes } = Contents::read(folder)?;
     let title = result.title(folder);
+    let (units, mut numbers) = (result.units(), PageNumbers::default());
+    let history = |history: &History| history.json(&result, &mut numbers);
+    let histories_json: Vec<Value> = histories.iter().map(history).collect();
     let all = json!({
-        "histories": histories.iter().map(|history| history.json(&result.json)).collect::<Vec<Value>>(),
-        "scene": scene.as_ref().map(PageScene::json),
+        "histories": histories_json,
+        "scene": scene.as_ref().map(|scene| scene.json(&result, &mut numbers)),
     });
     let notes: String = notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();
     let notes = if notes.is_empty() { notes } else { format!("<ul class=\"note\">{notes}</ul>\n") };
@@ -87,17 +129,17 @@ pub fn page(folder: &Path) -> io::Result<String> {
         ("{{style}}", STYLE.to_owned()),
         ("{{status}}", result.status()),
         ("{{expectations}}", result.expectations()),
-        ("{{energy}}", energy(&histories)),
+        ("{{energy}}", energy(&histories, units)),
         ("{{notes}}", notes),
         ("{{numbers}}", result.numbers()),
         ("{{texts}}", result.texts()),
-        ("{{data}}", html::data("data", &all)),
+        ("{{data}}", html::data("data", &all) + &html::data("packed", &numbers.packed()?.into())),
         ("{{script}}", scripts),
     ];
     Ok(filled(PAGE, &parts))
 }
 
-/// Replaces the marks of a text in one pass: what is put in is never looked at again, whatever marks it holds.
+/// Replaces the marks of a text in one pass, so that marks inside inserted text stay as they are.
 fn filled(page: &str, parts: &[(&str, String)]) -> String {
     let mut out = String::with_capacity(page.len() + parts.iter().map(|(_, text)| text.len()).sum::<usize>());
     let mut rest = page;
@@ -119,7 +161,7 @@ fn filled(page: &str, parts: &[(&str, String)]) -> String {
 }
 
 /// A table of the energies at the start, at the end and at their largest, and a sentence on the energy balance.
-fn energy(histories: &[History]) -> String {
+fn energy(histories: &[History], units: Option<&UnitSystem>) -> String {
     let has_balance = |history: &&History| history.columns.iter().any(|name| name == BALANCE);
     let Some(history) = histories.iter().find(has_balance) else { return String::new() };
     let is_energy = |name: &&String| ENERGY.iter().any(|known| known.unit == Unit::Energy && known.name == *name);
@@ -141,14 +183,15 @@ fn energy(histories: &[History]) -> String {
         }
     }
     let part = if largest > 0.0 { format!("{:.2} %", 100.0 * lost / largest) } else { "0".into() };
-    let table = html::table(&["energy", "first", "last", "largest in size"], &rows);
+    let head = format!("energy ({})", Unit::Energy.text(units));
+    let table = html::table(&[&head, "first", "last", "largest in size"], &rows);
     format!(
         "{table}<p class=\"note\">Energy balance: the algorithmic dissipation (`numerical`, the remainder of the balance) is at most {part} of the largest \
          energy, at the times shown.</p>\n"
     )
 }
 
-/// The tables of a folder, in the order in which a reader looks for them.
+/// The tables of a folder, in the order of [`TABLES`].
 fn table_files(folder: &Path) -> io::Result<Vec<String>> {
     let mut names = Vec::new();
     for entry in fs::read_dir(folder).map_err(|e| at(folder, e))? {

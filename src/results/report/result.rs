@@ -4,12 +4,13 @@ use super::html::{escaped, table};
 use crate::log;
 use base::diagnostic::composed;
 use base::names::short;
+use base::quantities::{Unit, UnitSystem};
 use base::text_file::read_text;
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
-/// The outcome of a run as result.json has it, or as far as the log tells of a run that is not finished.
+/// The outcome of a run from result.json, or from the log of an unfinished run.
 pub struct Result {
     /// The object in result.json; null where there is no such file.
     pub json: Value,
@@ -30,6 +31,18 @@ impl Result {
         let found = deck.iter().flat_map(|deck| [PathBuf::from(deck), beside.join(deck)]);
         let text = found.filter_map(|path| read_text(path).ok()).find(|text| digest(&composed(text), &sets) == hash);
         Result { json, deck, text }
+    }
+
+    /// The system of units of the deck.
+    pub fn units(&self) -> Option<&'static UnitSystem> {
+        UnitSystem::find(self.json["units"].as_str()?)
+    }
+
+    /// The symbol of time behind a blank; empty without units, and in statics, where the time counts load steps.
+    pub fn clock(&self) -> String {
+        let plan = self.json["plan"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let moves = plan.map(str::trim_start).any(|line| line.starts_with("analysis    dynamic"));
+        self.units().filter(|_| moves).map_or(String::new(), |units| format!(" {}", Unit::Time.text(Some(units))))
     }
 
     /// The title of the deck; without one, the name of the deck or of the folder.
@@ -150,7 +163,7 @@ fn significant(number: f64) -> String {
     }
 }
 
-/// The hash that a run takes of a deck without a mesh.
+/// The hash of a deck without a mesh, as a run computes it.
 fn digest(text: &str, sets: &[&str]) -> String {
     let mut hasher = Sha256::new();
     hasher.update(text);

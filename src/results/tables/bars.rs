@@ -9,7 +9,7 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "bars.csv",
-    about: "One row for each element of each bar. Written if `[output] sections` asks for resultants and there are bars.",
+    about: "One row for each element of each bar. Written with `[output] sections` if there are bars.",
     columns: &[&[
         Column::key("bar", "name of the bar"),
         Column::key("element", "number of the element along the bar, from 0"),

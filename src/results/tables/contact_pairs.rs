@@ -12,16 +12,17 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "contact_pairs.csv",
-    about: "One row for each contact and each two of its bodies, parts and points that touch: what they exert on the first, the surface, all \
-            touches together. Among bodies the first is the one that the deck names earlier. What does not touch has no row, nor does a \
-            part that touches itself. Written if `[output] contacts = { by = \"pairs\" }`, or \"both\", and there are contacts.",
+    about: "One row for each contact and each two of its bodies, parts and points that touch. Forces and moments act on the first of the two, \
+            the surface, and sum all points in contact. Among bodies the first is the one that the deck names earlier. Pairs that do not touch \
+            have no row, and neither has a part that touches itself. Written with `[output] contacts = { by = \"pairs\" }` or \"both\" if \
+            there are contacts.",
     columns: &[
         &[
             Column::key("contact", "name of the contact"),
             Column::key("surface", "the body or part that is touched; `ground` for a surface without a body"),
             Column::key(
                 "with",
-                "the body, part or point that touches; a node that several parts share counts to the first of them",
+                "the body, part or point in contact; a node of several parts counts for the first of them",
             ),
         ],
         &CONTACT_PAIR,
@@ -46,19 +47,19 @@ pub static TABLE: TableKind = TableKind {
     answers: None,
 };
 
-/// What each node belongs to, for the names of what touches: a body or a part.
+/// The owner of each node, a body or a part, for the names in contact pairs.
 struct NodeOwners {
     /// Names of bodies, then of parts, then `ground`.
     names: Vec<String>,
-    /// The place in `names` for each node; that of the node beyond their number where it belongs to neither.
+    /// The place in `names` for each node; `names.len()` plus the node for a point without an owner.
     of_node: Vec<usize>,
-    /// What is touched in each contact.
+    /// The touched surface of each contact.
     touched: Vec<Touched>,
 }
 
-/// What is touched in a contact.
+/// The touched surface of a contact.
 enum Touched {
-    /// A shape; its node tells whose.
+    /// A shape; its node gives the owner.
     Shape,
     /// Faces or lines of the part at this place in the names.
     Part(usize),
@@ -142,7 +143,7 @@ struct OrderedTouch {
     pair: (usize, [usize; 2]),
     /// The place among all touches.
     place: usize,
-    /// −1 where what is touched comes second.
+    /// −1 if the touched surface comes second.
     sign: f64,
 }
 

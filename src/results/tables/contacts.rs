@@ -9,8 +9,8 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "contacts.csv",
-    about: "One row for each contact: its least clearance and what all its points together exert on the surface. Written if \
-            `[output] contacts` asks for it and there are contacts.",
+    about: "One row for each contact: its least clearance, and the force and moment of all its points on the surface. Written with `[output] \
+            contacts` if there are contacts.",
     columns: &[&[Column::key("contact", "name of the contact")], &CONTACT],
     wanted: |model| {
         model.output.contacts.is_some_and(|rows| rows != ContactRows::Pairs) && model.has(PartKind::Contact)
@@ -40,7 +40,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     values(contact).get(index).copied()
 }
 
-/// The columns of one contact, and the magnitude of the force, which only `[[expect]]` asks for.
+/// The columns of one contact, and the magnitude of the force for `[[expect]]`.
 fn values(contact: &ContactState) -> [f64; 9] {
     let ContactState { touching, gap, f, m } = *contact;
     [touching as f64, gap, f.x, f.y, f.z, m.x, m.y, m.z, f.norm()]

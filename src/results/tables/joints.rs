@@ -1,4 +1,4 @@
-//! joints.csv: coordinates of the joints, what acts along them, and what they exert on their first parts.
+//! joints.csv: coordinates of the joints, forces along them, and forces and moments on their first parts.
 
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
@@ -9,9 +9,9 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "joints.csv",
-    about: "One row for each joint. Written if `[output] joints = true` and there are joints. The first three numbers are those of \
-            joints with a coordinate, and empty for others. Forces and moments act on its first part, as those of links \
-            and those in reactions.csv do, which leave out what motors, springs, stops and friction add.",
+    about: "One row for each joint. Written with `[output] joints = true` if there are joints. Joints without a coordinate leave the first \
+            three numbers empty. Forces and moments act on the first part, like those of links. They include motors, springs, stops and \
+            friction, which reactions.csv excludes.",
     columns: &[&[Column::key("joint", "name of the joint")], &JOINT_COORDINATE, &JOINT_REACTION],
     wanted: |model| model.output.joints && of_deck(model).next().is_some(),
     needs: NEEDS,
@@ -29,7 +29,7 @@ pub static TABLE: TableKind = TableKind {
 /// Springs count the turns, constraints carry the rest.
 const NEEDS: Wanted = Wanted::REACTIONS.with(Wanted::LINKS);
 
-/// The joints that stand in the deck or in its attachments; supports have rows of their own elsewhere.
+/// The joints of the deck and its attachments; supports have rows in another table.
 fn of_deck(model: &Model) -> impl Iterator<Item = &Joint> {
     model.constraints.joints.iter().filter(|joint| !joint.supports)
 }
@@ -46,7 +46,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     values(joint, frame)?.get(index).copied()
 }
 
-/// The columns of one joint; `None` where the frame does not have it. What a joint has none of is no number.
+/// The columns of one joint; `None` where the frame does not have it. Quantities that a joint lacks are not numbers.
 fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
     let (made, held) = (frame.model.constraints.joints.get(joint)?, frame.derived.joints.get(joint)?);
     let (mut f, mut m) = (held.f, held.m);
@@ -56,7 +56,7 @@ fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
         let link = coordinate.spring.and_then(|spring| frame.derived.links.get(spring));
         let [along, speed, _] = coordinate.lock.gap(from, to);
         (q, rate) = link.map_or((along, speed), |link| (link.elongation, link.rate));
-        // What acts besides the constraint equations, positive on the second end.
+        // Forces besides those of the constraint equations, positive on the second end.
         let acting = motor(coordinate, frame) - link.map_or(0.0, |link| link.force);
         effort = held.drive + acting;
         let [G, _] = coordinate.lock.gradient(from, to);

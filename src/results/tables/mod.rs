@@ -25,7 +25,7 @@ mod steps;
 
 use super::table::TableKind;
 
-/// All tables, in the order in which a reader looks for them.
+/// All tables, in their order for readers.
 pub static TABLES: &[&TableKind] = &[
     &nodes::TABLE,
     &drifts::TABLE,

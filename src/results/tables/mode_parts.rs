@@ -15,7 +15,7 @@ pub static TABLE: TableKind = TableKind {
         Column::key("kind", "`beam`, `bar`, `shell`, `link` or `contact`"),
         Column::key("part", "name of the part"),
         Column::scalar("strain", "part of the strain energy of the mode", Unit::One)
-            .positive("stores energy; negative: its stress takes more stiffness than it has"),
+            .positive("stored energy; negative if the stress reduces the stiffness below zero"),
     ]],
     wanted: |model| model.analysis.lists_modes() && !model.parts.is_empty(),
     needs: Wanted::MODES,

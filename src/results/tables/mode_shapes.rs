@@ -11,7 +11,7 @@ const fn component(name: &'static str, meaning: &'static str, unit: Unit) -> Col
     Column::scalar(name, meaning, unit).kind(meaning).in_axes(Axes::Global)
 }
 
-const SHAPE: &str = "displacement of the shape, of which the largest anywhere is 1";
+const SHAPE: &str = "displacement of the shape, scaled so that the largest is 1";
 const TURN: &str = "rotation of the shape";
 const AHEAD: &str = "the same a quarter of a period later, less its decay, of a damped mode; 0 of others: cos ωt of the one and sin ωt of \
                      the other make up the motion";

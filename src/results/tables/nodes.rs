@@ -31,7 +31,7 @@ pub static TABLE: TableKind = TableKind {
     every_step: false,
     extent: |extent| {
         let (model, nodes) = (extent.model, &extent.model.output.nodes);
-        // Positions stay what they are at t = 0 where nothing moves.
+        // Without motion, positions keep their values at t = 0.
         let positions = |node: usize| extent.moving(node)[..3].iter().filter(|moves| **moves).count();
         let numbers = nodes.iter().map(|&node| positions(node) + extent.motion(node, [1, 2])).sum();
         Rows::named(nodes.iter().map(|&node| model.nodes[node].label.as_str()), numbers)

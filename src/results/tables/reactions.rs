@@ -9,10 +9,10 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "reactions.csv",
-    about: "One row for each restrained or prescribed degree of freedom, also of ends of joints, links and contact surfaces on the \
-            ground (`joint.to`, `link.from`, `contact.surface`); and six rows for each joint between two parts: what the joint \
-            exerts on its first part (`from`), at that end, by its constraints and its drive; joints.csv has what motors, springs, \
-            stops and friction add. Written if `[output] reactions = true`.",
+    about: "One row for each restrained or prescribed degree of freedom. Ends of joints, links and contact surfaces on the ground count too \
+            (`joint.to`, `link.from`, `contact.surface`). Six rows for each joint between two parts: force and moment of its constraints and \
+            its drive on its first part (`from`), at that end. joints.csv also includes motors, springs, stops and friction. Written with \
+            `[output] reactions = true`.",
     columns: &[&[
         Column::key("node", "name of the supported node, of the end on the ground, or of the joint"),
         Column::key("direction", "`ux uy uz` for forces, `rx ry rz` for moments; global"),
@@ -61,7 +61,7 @@ fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     held.filter(|(restraint, _)| is_here(restraint)).map(|(_, value)| *value).reduce(|sum, value| sum + value)
 }
 
-/// What a joint exerts on its first part, in the order of [`DIRECTIONS`].
+/// The force and moment of a joint on its first part, in the order of [`DIRECTIONS`].
 fn of_joint(joint: &JointState) -> [f64; 6] {
     let [f, m] = [joint.f, joint.m];
     [f.x, f.y, f.z, m.x, m.y, m.z]
@@ -75,7 +75,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
         let node = &model.nodes[restraint.node];
         table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value).end()
     })?;
-    // A joint that holds a node to its support carries what the support does.
+    // A joint between a node and its support transmits the force of the support.
     model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(
         |(joint, state_of)| {
             DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {

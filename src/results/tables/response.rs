@@ -10,9 +10,9 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "response.csv",
-    about: "One row for each frequency, ascending, and each node that `[output] nodes` chooses, and each body: amplitude and phase of its steady \
-            motion about the state; the amplitude of its velocity is 2π `frequency` times as large, that of its acceleration the square of it. \
-            Empty where the undamped scene has no steady motion. Written with `kind = \"frequency-response\"`.",
+    about: "One row for each frequency in ascending order and each body and node that `[output] nodes` chooses. Its columns are amplitude and \
+            phase of the steady motion about the state. Multiply by 2π `frequency` for the amplitude of the velocity, and by its square for \
+            that of the acceleration. The table is empty where the undamped scene has no steady motion. Written with `kind = \"frequency-response\"`.",
     columns: &[&[RESPONSE_FREQUENCY], &[Column::key("node", "name of the node or body")], &RESPONSE],
     wanted: |model| model.analysis.response().is_some() && !(model.output.nodes.is_empty() && model.bodies.is_empty()),
     needs: Wanted::MODES,

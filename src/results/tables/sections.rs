@@ -9,13 +9,13 @@ use std::io;
 
 pub static TABLE: TableKind = TableKind {
     file: "sections.csv",
-    about: "One row for each integration point of each beam element. Forces and moments are those that the part of the beam \
-            beyond the point, on the side of larger `s`, exerts on the part before it; moments are about the centroid. \
-            With { at = \"ends\" } rows are those of both ends of each element, in balance with what acts at the nodes there; with \
-            { at = \"both\" } they come besides. Stresses are those of the elastic section under the resultants, at its extreme points: \
-            corners, faces of walls, middles of sides, the edge of a tube. Where the material yields they are those of the fibres, at integration \
-            points alone, and von Mises stress has no shear stress where that does not enter the yield condition. They are empty for sections of \
-            shape \"general\". Written if `[output] sections` asks for it and there are beams.",
+    about: "One row for each integration point of each beam element. The part of the beam at larger `s` exerts these forces and moments \
+            on the part before the point. Moments are about the centroid. With { at = \"ends\" } there is one row for each end of each \
+            element, in equilibrium with the forces at the nodes. With { at = \"both\" } the table has both kinds of rows. Stresses are \
+            those of the elastic section under the resultants, at its extreme points: corners, faces of walls, middles of sides, the edge \
+            of a tube. If the material yields, they are those of the fibres, at integration points alone. The von Mises stress then has \
+            no shear stress unless the yield condition contains it. Sections of shape \"general\" have none. Written with `[output] \
+            sections` if there are beams.",
     columns: &[
         &[
             Column::key("beam", "name of the beam"),

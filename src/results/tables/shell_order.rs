@@ -1,5 +1,5 @@
-//! The order in which elements of shells are written: that of the deck, which is not that of the frame where a part of the mesh
-//! has triangles and quadrilaterals.
+//! The order of shell elements in tables: the order of the deck. The order in a frame differs if a part of the mesh has triangles and
+//! quadrilaterals.
 
 use model::{Model, Part, PartType, Shell};
 use solve::{Frame, ShellState};

@@ -1,4 +1,4 @@
-//! steps.csv: what the steps cost, at the times at which tables have rows.
+//! steps.csv: the cost of the steps, at the times of the rows of tables.
 
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
