@@ -10,10 +10,11 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-from scenes import PROGRAM, ROOT, build
+from scenes import PROGRAM, ROOT, build, picture_head
 
 FRAME = ROOT / "decks" / "first"
 LARGER = 8.0
+TITLE = "A block of 120 kg at 4 m/s meets a cab on rubber mounts"
 INK, SOFT, BLUE, RED = "#24292f", "#b8c0c8", "#1f6feb", "#c4432b"
 
 # Parts in the order of their nodes; the sills come back to where they start.
@@ -104,13 +105,12 @@ def main() -> None:
     peak = max(sway, key=lambda s: s[1])[0]
     rest = nodes[0.0]
     out = [
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 900 400" font-family="Helvetica, Arial, sans-serif">',
-        '<rect width="900" height="400" fill="white"/>',
+        picture_head(900, 400, TITLE),
         block(bodies[0.0]["block"], SOFT, 0.5),
         cab(rest, rest, 1.0, SOFT, 2.0),
         cab(nodes[peak], rest, LARGER, BLUE, 2.4),
         block(bodies[peak]["block"], RED, 0.75),
-        text(24, 28, "A block of 120 kg at 4 m/s meets a cab on rubber mounts", size=14),
+        text(24, 28, TITLE, size=14),
         text(24, 388, "at rest", "#7d8790"),
         text(74, 388, f"t = {peak:.3f} s, displacements x {LARGER:g}", BLUE),
         text(290, 388, "cab 1.5 x 1.2 x 1.6 m", "#7d8790"),

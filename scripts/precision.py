@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Error against run time of four scenes, and what schemes do where steps are too long: the picture and the table of the README.
 
-    scripts/precision.py            # some minutes; draws decks/precision.svg, prints both tables as Markdown
+    scripts/precision.py            # some minutes; draws docs/pictures/precision.svg, prints both tables as Markdown
 
 Each scene is a `rdsolve study` of its deck, with schemes and automatic steps; other programs' loops are marked with crosses (see
 the README for where they come from; measured on another machine). Then scripts/stability.py. Python's standard library only.
@@ -114,10 +114,10 @@ def picture(panels: list[tuple[Panel, list[dict]]]) -> str:
     legend.append(f'<text x="{LEFT}" y="{foot}">dashed: automatic steps; x: best of other programs</text>')
     style = (
         ".p{font:12px sans-serif}.p text{fill:#57606a}.p .rule{stroke:#808890;stroke-opacity:.25}.p .edge{fill:none;stroke:#808890}"
-        ".p .mark{stroke:#c4432b;stroke-width:1.8;fill:none}"
+        ".p .mark{stroke:#c4432b;stroke-width:1.8;fill:none}@media(prefers-color-scheme:dark){.p text{fill:#9198a1}}"
     )
     label = "Error against the time of the loop, four scenes"
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {whole:.0f} {foot + 10:.0f}" class="p" role="img" aria-label="{label}">'
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {whole:.0f} {foot + 10:.0f}" class="p" role="img"><title>{label}</title>'
     return "\n".join([head, f"<style>{style}</style>", *parts, *legend, "</svg>\n"])
 
 
@@ -125,7 +125,7 @@ def main() -> None:
     build()
     with tempfile.TemporaryDirectory() as folder:
         panels = [(panel, study(panel, Path(folder) / panel.folder)) for panel in PANELS]
-    (ROOT / "decks" / "precision.svg").write_text(picture(panels))
+    (ROOT / "docs" / "pictures" / "precision.svg").write_text(picture(panels))
     print()
     stability.main()
 

@@ -16,6 +16,18 @@ from typing import Callable, NamedTuple
 ROOT = Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "target" / "release" / "rdsolve"
 
+# Colours of pictures on light ground, and the same on dark ground.
+ON_DARK = {"#24292f": "#e6edf3", "#7d8790": "#9198a1", "#b8c0c8": "#6e7681", "#e4e8ec": "#30363d", "#1f6feb": "#4493f8", "#c4432b": "#f85149"}
+
+
+def picture_head(width: float, height: float, title: str) -> str:
+    """The head of an SVG file that names itself and follows the light or dark setting of the reader."""
+    rules = "".join(f'[stroke="{light}"]{{stroke:{dark}}}[fill="{light}"]{{fill:{dark}}}' for light, dark in ON_DARK.items())
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {height:g}" font-family="Helvetica, Arial, sans-serif" font-size="13" role="img">'
+        f"<title>{title}</title><style>@media(prefers-color-scheme:dark){{{rules}}}</style>"
+    )
+
 
 def build() -> None:
     subprocess.run(["cargo", "build", "--release", "--locked", "--quiet"], cwd=ROOT, check=True)

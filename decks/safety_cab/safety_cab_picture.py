@@ -1,4 +1,4 @@
-"""Draws decks/safety_cab/blows.svg: the tractor at rest (grey) and where the struck corner has gone the farthest, three times.
+"""Draws docs/pictures/blows.svg: the tractor at rest (grey) and where the struck corner has gone the farthest, three times.
 
 Python's standard library only.
 """
@@ -128,11 +128,11 @@ def panel(name: str, folder: Path) -> list[str]:
 
 def main() -> None:
     scenes.build()
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {3 * WIDTH} {HEIGHT}" font-family="sans-serif" font-size="13">']
+    out = [scenes.picture_head(3 * WIDTH, HEIGHT, "A tractor with a cab at rest and where the struck corner has gone the farthest, after three blows")]
     with tempfile.TemporaryDirectory() as folder:
         for i, name in enumerate(cab.BLOWS):
             out += [f'<g transform="translate({i * WIDTH} 0)">', *panel(name, Path(folder) / "out"), "</g>"]
-    (cab.FOLDER / "blows.svg").write_text("\n".join(out + ["</svg>", ""]))
+    (scenes.ROOT / "docs" / "pictures" / "blows.svg").write_text("\n".join(out + ["</svg>", ""]))
 
 
 if __name__ == "__main__":

@@ -5,11 +5,14 @@
 //! - docs/deck.md: every table and key, from the JSON Schema of the deck;
 //! - docs/results.md: every column of every table of results, from their registry;
 //! - docs/validation.md: what decks expect and what comes out, handed over by the test that runs them all;
+//! - docs/gallery.md: every deck, with its title and its picture;
 //! - every ```toml block: a deck where it has `[analysis]`, else words that a deck may have;
 //! - every command in a ```sh block, every link.
 
+mod book;
 mod deck;
 mod examples;
+mod gallery;
 mod pages;
 mod prose;
 mod results;

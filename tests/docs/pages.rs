@@ -142,6 +142,27 @@ fn docs_show_commands_that_exist() {
     }
 }
 
+/// Options in backticks, alone or behind `rdsolve`, with the help of all commands.
+#[test]
+fn docs_name_options_that_exist() {
+    let commands = ["run", "check", "report", "compare", "study", "sweep", "summary", "schema", "init", "completions"];
+    let help = |command: &&str| rdsolve(&[command, "--help"]).output().unwrap().stdout;
+    let known: Vec<u8> = commands.iter().flat_map(help).collect();
+    let known = String::from_utf8(known).unwrap();
+    for page in pages().iter().filter(|page| !page.ends_with("CHANGELOG.md")) {
+        let text = blocks(&read(page)).iter().fold(read(page), |text, block| text.replace(&block.text, ""));
+        for code in
+            text.split('`').skip(1).step_by(2).filter(|code| code.starts_with("--") || code.starts_with("rdsolve "))
+        {
+            for option in code.split(' ').filter(|word| word.starts_with("--") && !word.contains(':')) {
+                let name = option.split('=').next().unwrap();
+                let exists = name.starts_with("--version") || known.split([' ', ',', '\n']).any(|word| word == name);
+                assert!(exists, "{}: no command has `{option}`", page.display());
+            }
+        }
+    }
+}
+
 #[test]
 fn links_of_docs_lead_somewhere() {
     for page in pages() {

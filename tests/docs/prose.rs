@@ -24,10 +24,10 @@ const TURNS: [&str; 14] = [
     " by itself",
     " at hand",
 ];
-/// Largest share of flagged sentences in pages, in per cent.
-const PAGES: usize = 8;
+/// Largest share of flagged sentences in pages, in per cent: the level reached.
+const PAGES: usize = 3;
 /// Largest share of flagged sentences in comments, in per cent: the level reached.
-const CODE: usize = 10;
+const CODE: usize = 2;
 
 /// Paragraphs of prose: lines of a page outside of code, tables and headings, with list items on their own.
 fn paragraphs(lines: impl Iterator<Item = String>) -> Vec<String> {
