@@ -6,13 +6,13 @@
 //!  below them, used by them, knowing nothing of them:  base  linear  mechanics
 //! ```
 //!
-//! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change; [`state::State`]
-//! changes when a step is accepted; everything else that is written belongs to the workspace of a step. Everything moves as
+//! Each arrow is one function, and nothing flows back. [`model::Model`] and [`plan::Plan`] never change, and [`state::State`]
+//! changes when a step is accepted. All other changing data belongs to the workspace of a step. Everything moves as
 //! nodes: a rigid body is a node with inertia, and an element sees nodes only. Forces and matrices at nodes rigidly attached
 //! to a body are transferred to the body's node in one place, [`system::assembly`]. An integration scheme is a handful of
 //! numbers, [`integrators::Coefficients`]. A [`study`] stands above all that: it runs the program itself many times.
 //!
-//! Formulas and code share their symbols; "(58)" is equation 58 of Rojek & Kleiber, Nonlinear dynamic FE analysis of
+//! Formulas and code share their symbols. "(58)" is equation 58 of Rojek & Kleiber, Nonlinear dynamic FE analysis of
 //! structures consisting of rigid and deformable parts, Part I (1993).
 //!
 //! | Thing | In formulas | In code |

@@ -3,7 +3,7 @@
 use clap::Args;
 use std::path::PathBuf;
 
-/// The largest number that `--threads` takes: more threads gain nothing, and the system refuses to start thousands of them.
+/// The largest number for `--threads`: more threads gain nothing, and the system refuses to start thousands of them.
 pub const MAX_THREADS: i64 = 64;
 
 #[derive(Debug, Args)]
@@ -20,8 +20,8 @@ pub struct DeckArgs {
 pub struct CheckArgs {
     #[command(flatten)]
     pub deck: DeckArgs,
-    /// Write the matrices of the scene as the deck draws it, without loads, into this folder: K.mtx, M.mtx, C.mtx where anything damps,
-    /// G.mtx where there are joints (Matrix Market), and dofs.csv, the node and direction of each row
+    /// Write the matrices of the undeformed scene without loads into this folder (Matrix Market): K.mtx, M.mtx, C.mtx with damping, G.mtx
+    /// with joints, and dofs.csv, the node and direction of each row
     #[arg(long, value_name = "DIR")]
     pub export_matrices: Option<PathBuf>,
     /// Find the first natural period of the scene as the deck draws it, without loads
@@ -44,8 +44,8 @@ pub struct RunArgs {
     /// Threads to use, from 1 to 64; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
     pub threads: Option<u8>,
-    /// Make another run with half as many elements in each part, or a degree less, and tell the error that the mesh leaves in expected
-    /// values and in the largest value of each column
+    /// Make another run with half as many elements in each part, or a degree less, and estimate the error of the mesh in expected values
+    /// and in the largest value of each column
     #[arg(long)]
     pub mesh_error: bool,
     /// Show errors only
@@ -54,7 +54,7 @@ pub struct RunArgs {
     /// Write into a folder that already holds files, and replace results there
     #[arg(long, conflicts_with = "resume")]
     pub overwrite: bool,
-    /// Go on from the checkpoint in the folder, which a run has left that was stopped; from the beginning where there is none yet
+    /// Continue from the checkpoint of a stopped run in the folder; start from the beginning if there is none
     #[arg(long)]
     pub resume: bool,
 }

@@ -19,7 +19,7 @@ use solve::system::System;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-/// Prints the plan of a deck, with what it costs, on standard output; diagnostics go to standard error.
+/// Prints the plan of a deck and its cost on standard output; diagnostics go to standard error.
 ///
 /// # Errors
 /// The deck is invalid or cannot be read, or its matrix does not fit into memory; the reason has been shown.
@@ -82,7 +82,7 @@ fn take(forecast: &mut Option<Forecast>, run: &Run, model: &Model) -> Result<(),
     forecast.iter_mut().try_for_each(|forecast| forecast.take(run, model.nodes.len())).map_err(too_large)
 }
 
-/// Adds a line about the memory of the whole run, and warns where that may be too little.
+/// Adds a line about the memory of the whole run, and warns if it may be too little.
 fn add_memory(text: &mut Explanation, forecast: Option<&Forecast>, source: &Source) -> Result<(), Exit> {
     let Some(forecast) = forecast else { return Ok(()) };
     text.computed.push(("memory", forecast.in_words()));
@@ -91,7 +91,7 @@ fn add_memory(text: &mut Explanation, forecast: Option<&Forecast>, source: &Sour
         .map(|warning| warning.into_iter().for_each(|warning| show(&[Diagnostic::warning(warning)], source)))
 }
 
-/// Writes the matrices of the scene; says what was written.
+/// Writes the matrices of the scene, and reports their files.
 fn export(
     folder: &Path,
     (model, system, plan): (&Model, &System, &Plan),
@@ -106,7 +106,7 @@ fn export(
     Ok(format!("{} in {}", written.join(", "), folder.display()))
 }
 
-/// The system and the plan of a later stage, as far as they are known before the state that it begins with.
+/// The system and the plan of a later stage, as far as they are known without its initial state.
 fn planned(model: &mut Model) -> Result<(System, Plan), Exit> {
     let system = System::new(model).map_err(|error| {
         complain(&error);

@@ -1,4 +1,4 @@
-//! The checkpoints of a run: when they are due, and what is written.
+//! The checkpoints of a run: their times and their contents.
 
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
 use std::io;
@@ -13,16 +13,16 @@ use std::time::Duration;
 pub struct CheckpointsWanted {
     /// What they belong to.
     pub origin: CheckpointOrigin,
-    /// The seconds between two; `None` where only a signal asks for one.
+    /// The seconds between two; `None` if only a signal requests one.
     pub apart: Option<f64>,
-    /// True where one is kept at the end of the run, which may then be made longer.
+    /// True if the end of the run keeps one, so that the run can be extended.
     pub keeps_last: bool,
 }
 
 /// Writes checkpoints into the folder of a run.
 pub struct Checkpoints {
     folder: PathBuf,
-    /// What is written; its memory serves again.
+    /// The next checkpoint; its memory is reused.
     next: Checkpoint,
     /// Raised by the clock.
     due: Arc<AtomicBool>,
@@ -30,7 +30,7 @@ pub struct Checkpoints {
     _clock: Option<Sender<()>>,
     /// True once the first has been written, or was there.
     any: bool,
-    /// True where one is kept at the end of a run, which may then be made longer.
+    /// True if the end of a run keeps one, so that the run can be extended.
     keeps_last: bool,
 }
 
@@ -54,7 +54,7 @@ impl Checkpoints {
         Checkpoints { folder: folder.to_owned(), next, due, _clock: clock, any: false, keeps_last }
     }
 
-    /// The same where there is one in the folder already.
+    /// The same checkpoints, if the folder already has one.
     #[must_use]
     pub fn after_another(self, any: bool) -> Checkpoints {
         Checkpoints { any, ..self }
@@ -65,12 +65,12 @@ impl Checkpoints {
         if at_end { self.keeps_last } else { self.due.load(Ordering::Relaxed) }
     }
 
-    /// True where the last was that of the end of the run.
+    /// True if the last one was written at the end of the run.
     pub fn is_over(&self) -> bool {
         self.next.origin.is_over
     }
 
-    /// Notes what the stages before the one under way have left.
+    /// Records the results of the stages before the current one.
     pub fn begin_stage(&mut self, stages: Vec<u8>) {
         self.next.stages = stages;
     }

@@ -39,7 +39,7 @@ pub struct CompareArgs {
     /// Leave these columns out: ux, nodes.csv, nodes.csv:ux; repeatable
     #[arg(long, value_name = "COLUMN", value_delimiter = ',')]
     ignore: Vec<Selector>,
-    /// Show what does not agree only
+    /// Show differences only
     #[arg(long)]
     quiet: bool,
 }
@@ -47,8 +47,8 @@ pub struct CompareArgs {
 /// Compares two folders of results column by column and prints the differences.
 ///
 /// # Errors
-/// [`Exit::CheckFailed`] where they do not agree, [`Exit::Usage`] where an option names no column, [`Exit::InputOutput`] where
-/// a folder cannot be read; the reason has been shown.
+/// [`Exit::CheckFailed`] if they differ, [`Exit::Usage`] if an option names no column, [`Exit::InputOutput`] if a folder cannot be read;
+/// the reason has been shown.
 pub fn compare(args: &CompareArgs) -> Result<(), Exit> {
     let settings = Settings {
         tolerances: args.tolerance.clone(),
@@ -76,7 +76,7 @@ pub fn compare(args: &CompareArgs) -> Result<(), Exit> {
     }
 }
 
-/// Says that an option names no column of either folder, with the nearest name that there is.
+/// Reports that an option names no column of either folder, with the nearest name.
 fn unknown(selector: &Selector, comparison: &Comparison) {
     let (file, column) = (selector.file.as_deref(), selector.column.as_deref());
     let parts = comparison.known.iter().filter_map(|known| known.split_once(':'));
@@ -160,7 +160,7 @@ fn place(by: Matched, time: f64, key: &[u8]) -> String {
     if name.is_empty() { format!("{what} {time}") } else { format!("{what} {time}, {name}") }
 }
 
-/// What rows are matched by, in a word.
+/// The number that pairs rows, in a word.
 fn word(by: Matched) -> &'static str {
     match by {
         Matched::Time => "time",
@@ -177,7 +177,7 @@ fn frames(by: Matched, count: u64, more: &str) -> String {
     }
 }
 
-/// Lines on what a table of columns does not show: how many rows were matched, and what only one side has.
+/// Lines about rows outside the table of columns: the number of paired rows, and the rows of one side alone.
 fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String {
     let mut text = String::new();
     let mut say = |line: String| text += &format!("{line}\n");
@@ -233,7 +233,7 @@ fn remarks(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String 
     text + &of_status(comparison, names, quiet)
 }
 
-/// A line about how the two runs ended; none where that is as it should be and nobody asks.
+/// A line about the ends of the two runs; none if they agree and `quiet` is set.
 fn of_status(comparison: &Comparison, names: &[String; 2], quiet: bool) -> String {
     match &comparison.status {
         Some([a, b]) if a != b => {

@@ -1,4 +1,4 @@
-//! What is printed: results for a script on standard output, diagnostics on standard error.
+//! Output: results for scripts on standard output, diagnostics on standard error.
 
 use super::exit::Exit;
 use base::diagnostic::{Diagnostic, Source, plain};
@@ -74,7 +74,7 @@ fn message_as_json(severity: &str, message: &str) -> String {
     serde_json::json!({ "severity": severity, "message": message }).to_string()
 }
 
-/// Writes a line as it is, styling included, to standard error; there is nowhere to report that it cannot be written.
+/// Writes a styled line to standard error; a failure to write cannot be reported anywhere.
 fn write(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }

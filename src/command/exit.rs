@@ -2,10 +2,10 @@
 
 use std::process::ExitCode;
 
-/// The way in which the program ends; the numbers are the exit codes that scripts rely on.
+/// How the program ends; scripts rely on the numbers of these exit codes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Exit {
-    /// What the command line asks for has been done.
+    /// The command has succeeded.
     Done = 0,
     /// The program itself has a fault.
     Internal = 1,

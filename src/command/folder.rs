@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// A folder of the current folder that is named after a deck. Only the last extension is replaced, so that `a.v1.toml` and
 /// `a.v2.toml` have a folder each.
 pub fn named_after(deck: &Path, extension: &str) -> PathBuf {
-    // A deck on standard input has no name of its own.
+    // A deck on standard input has no name.
     let stem = if is_standard_input(deck) { OsStr::new("deck") } else { deck.file_stem().unwrap_or_default() };
     let mut name = stem.to_owned();
     name.push(".");
@@ -20,7 +20,7 @@ pub fn named_after(deck: &Path, extension: &str) -> PathBuf {
 /// Makes sure that a folder is new, or empty, or given up by `--overwrite`.
 ///
 /// # Errors
-/// [`Exit::Usage`] where it holds files, [`Exit::InputOutput`] where it cannot be read; the reason has been shown.
+/// [`Exit::Usage`] if it holds files, [`Exit::InputOutput`] if it cannot be read; the reason has been shown.
 pub fn require_free(folder: &Path, overwrite: bool) -> Result<(), Exit> {
     let entries = match std::fs::read_dir(folder) {
         Ok(mut entries) => entries.next().is_some(),

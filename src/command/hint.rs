@@ -2,7 +2,7 @@
 
 use base::names::nearest;
 
-/// The commands, as they are written.
+/// The commands, by their names on the command line.
 pub const COMMANDS: [&str; 11] =
     ["run", "check", "compare", "report", "study", "sweep", "summary", "init", "schema", "completions", "man"];
 

@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 #[derive(Debug, Args)]
 pub struct InitArgs {
-    /// What the deck is about
+    /// The subject of the deck
     #[arg(value_enum, default_value_t = DeckKind::Frame)]
     kind: DeckKind,
 }

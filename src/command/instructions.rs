@@ -1,7 +1,6 @@
 //! Which of the programs of a release runs. A release is a folder with the program built for several levels of instructions, named
-//! `rdsolve` (any processor), `rdsolve-x86-64-v3` and `rdsolve-x86-64-v4`. The first one gives way to the best of those beside it that
-//! the processor has, or to the one that is asked for: it becomes that program, with the same process, arguments and open files.
-//! A program that stands alone, as a build leaves it, runs itself.
+//! `rdsolve` (any processor), `rdsolve-x86-64-v3` and `rdsolve-x86-64-v4`. The first program replaces itself by the best one beside it for
+//! this processor, or by the requested one. Process, arguments and open files stay. A single program, the result of a build, runs itself.
 
 use super::console::{complain, show_json};
 use super::exit::Exit;
@@ -10,7 +9,7 @@ use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
 use study::INSTRUCTIONS;
 
-/// The option that asks for a level.
+/// The option for a level.
 const OPTION: &str = "--instructions";
 
 /// The programs that there are, and the processor.
@@ -29,13 +28,13 @@ struct Installation {
 }
 
 impl Installation {
-    /// What there is beside this program; `None` where the system does not tell its path, or levels are not known.
+    /// The programs beside this one; `None` if its path or the levels are unknown.
     fn here() -> Option<Installation> {
         let path = std::env::current_exe().ok()?;
         Installation::at(path, Level::BUILT_FOR?, Level::of_processor(), |path| path.is_file())
     }
 
-    /// What there is beside a program.
+    /// The programs beside a program.
     fn at(path: PathBuf, own: Level, processor: Level, exists: impl Fn(&Path) -> bool) -> Option<Installation> {
         let name = path.file_name()?.to_str()?.to_owned();
         let suffix = |level: Level| format!("-{}", level.name());
@@ -73,7 +72,7 @@ impl Installation {
         }
         match self.beside.iter().find(|(level, _)| *level == wish) {
             Some(_) if wish > self.processor => {
-                Err(format!("this processor has not the instructions of {}\n  {}", wish.name(), self.help()))
+                Err(format!("this processor lacks the instructions of {}\n  {}", wish.name(), self.help()))
             }
             None => Err(format!("there is no program for {} in this installation\n  {}", wish.name(), self.help())),
             there => Ok(there),
@@ -87,7 +86,7 @@ impl Installation {
         levels.map(Level::name).collect()
     }
 
-    /// What can be asked for instead.
+    /// The available levels.
     fn help(&self) -> String {
         match &self.levels()[..] {
             [own] => format!("help: there is {own} alone; a release, made by scripts/release, has several"),
@@ -96,7 +95,7 @@ impl Installation {
     }
 }
 
-/// The levels that the option may name in this installation; `None` where there is one alone.
+/// The levels for the option in this installation; `None` if there is only one.
 pub fn several() -> Option<Vec<&'static str>> {
     Installation::here().map(|here| here.levels()).filter(|levels| levels.len() > 1)
 }
@@ -104,8 +103,8 @@ pub fn several() -> Option<Vec<&'static str>> {
 /// Becomes the program that is to run in place of this one, if there is another: it then does not return.
 ///
 /// # Errors
-/// [`Exit::Usage`] where the level that is asked for cannot be had, [`Exit::InputOutput`] where the other program does not start;
-/// the reason has been shown.
+/// [`Exit::Usage`] if the requested level is not available, [`Exit::InputOutput`] if the other program does not start; the reason has been
+/// shown.
 pub fn settle() -> Result<(), Exit> {
     let refuse = |message: &str, exit: Exit| {
         if std::env::args_os().any(|argument| argument == "--json") {
@@ -132,7 +131,7 @@ pub fn settle() -> Result<(), Exit> {
     }
 }
 
-/// The level that the command line asks for, or else the environment. What is no level on the command line is told by clap later.
+/// The level requested by the command line, or else by the environment. Clap reports other words on the command line later.
 fn wish() -> Result<Option<Level>, String> {
     if let Some(word) = asked(std::env::args_os().skip(1)) {
         return Ok(level_of(&word));
@@ -150,7 +149,7 @@ fn level_of(word: &OsStr) -> Option<Level> {
     Level::ALL.into_iter().find(|level| word == level.name())
 }
 
-/// The value of the option among arguments. They are not parsed for it, which would be done twice where another program follows.
+/// The value of the option among arguments. The arguments are not parsed here, because the other program would parse them again.
 fn asked(mut arguments: impl Iterator<Item = OsString>) -> Option<OsString> {
     while let Some(argument) = arguments.next().filter(|argument| argument != "--") {
         if argument == OPTION {
@@ -163,8 +162,8 @@ fn asked(mut arguments: impl Iterator<Item = OsString>) -> Option<OsString> {
     None
 }
 
-/// Becomes the program of a level, with the same arguments and in the same process; returns only where that fails. What it
-/// starts in its turn shall have the same level.
+/// Becomes the program of a level, with the same arguments and in the same process; returns only on failure. Processes that it starts shall
+/// have the same level.
 #[cfg(unix)]
 fn become_program(path: &Path, level: Level) -> std::io::Error {
     use std::os::unix::process::CommandExt;
@@ -188,7 +187,7 @@ mod tests {
     use super::*;
     use clap::ValueEnum;
 
-    /// A folder with these files, one of which runs.
+    /// A folder with these files and the running one among them.
     fn folder(runs: &str, own: Level, processor: Level, files: &[&str]) -> Installation {
         let exists = |path: &Path| files.iter().any(|file| path == Path::new("/opt").join(file));
         Installation::at(Path::new("/opt").join(runs), own, processor, exists).unwrap()
@@ -230,7 +229,7 @@ mod tests {
     fn what_cannot_be_had_is_told_with_what_there_is() {
         let older = folder("rdsolve", Any, V3, &RELEASE);
         let told = chosen(&older, Some(V4)).unwrap_err();
-        assert_eq!(told, "this processor has not the instructions of x86-64-v4\n  help: there are x86-64, x86-64-v3");
+        assert_eq!(told, "this processor lacks the instructions of x86-64-v4\n  help: there are x86-64, x86-64-v3");
         let alone = folder("rdsolve", V4, V4, &RELEASE[..1]);
         let told = chosen(&alone, Some(V3)).unwrap_err();
         assert!(

@@ -18,13 +18,13 @@ use std::path::{Path, PathBuf};
 /// A deck that can be run.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The scene that the deck describes, in its first stage where it has stages.
+    /// The scene of the deck, in its first stage.
     pub model: Model,
     /// The scene in the other stages.
     pub later: Vec<Model>,
-    /// What mass scaling adds in the first stage that has it, once planned.
+    /// The mass scaling of the first stage that has any, once planned.
     pub mass_scaling: Option<MassScaling>,
-    /// The warnings and notes about the deck, in the order in which they are shown.
+    /// The warnings and notes about the deck, in the order of their display.
     pub warnings: Vec<Diagnostic>,
     /// The texts that the places of diagnostics refer to.
     pub source: Source,
@@ -55,7 +55,7 @@ impl Loaded {
 /// the usage is wrong.
 ///
 /// # Errors
-/// [`Exit::InputOutput`] where the deck cannot be read, [`Exit::DeckInvalid`] or [`Exit::Usage`] where it has errors.
+/// [`Exit::InputOutput`] if the deck cannot be read, [`Exit::DeckInvalid`] or [`Exit::Usage`] if it has errors.
 pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded, Exit> {
     let source = Source::new(path.display().to_string(), text(path)?, sets).with_options(options);
     build(source, sets).map_err(|(problems, source)| {
@@ -67,7 +67,7 @@ pub fn load(path: &Path, sets: &[String], options: Vec<String>) -> Result<Loaded
 /// Builds the model of a deck that has been read.
 ///
 /// # Errors
-/// All that is wrong, with the texts that its places refer to.
+/// All faults, with the texts of their places.
 pub fn build(source: Source, sets: &[String]) -> Result<Loaded, (Vec<Diagnostic>, Source)> {
     let (models, said) = model::read_stages(&source);
     let mut models = models.into_iter();
@@ -125,7 +125,7 @@ pub fn text(path: &Path) -> Result<String, Exit> {
     })
 }
 
-/// Counts what is wrong in a last line, and tells wrong options from a wrong deck.
+/// Counts the errors in a last line, and distinguishes wrong options from a wrong deck.
 fn conclude(problems: &[Diagnostic], source: &Source) -> Exit {
     let errors: Vec<&Diagnostic> = problems.iter().filter(|problem| problem.is_error()).collect();
     let in_option = |problem: &&Diagnostic| problem.place.as_ref().is_some_and(|place| source.is_option(place));
@@ -139,8 +139,7 @@ fn conclude(problems: &[Diagnostic], source: &Source) -> Exit {
     Exit::DeckInvalid
 }
 
-/// The system and the plan of a deck for a number of threads, and what the plan warns of; with it the times of output are
-/// settled.
+/// The system and the plan of a deck for a number of threads, and the warnings of the plan; this also fixes the times of output.
 ///
 /// # Errors
 /// [`Exit::DeckInvalid`] where the scene cannot be computed as the deck asks; the reason has been shown.
@@ -162,11 +161,11 @@ pub fn plan(loaded: &mut Loaded, threads: usize) -> Result<(System, Plan, Vec<Di
 pub enum Unfit {
     /// There are no equations for it.
     System(String),
-    /// What the deck asks for is out of reach.
+    /// The demands of the deck cannot be met.
     Deck(Vec<Diagnostic>),
 }
 
-/// The same without a word.
+/// Like `plan`, but returns the errors instead of printing them.
 ///
 /// # Errors
 /// The reason why the scene cannot be computed as the deck asks.
@@ -200,7 +199,7 @@ pub fn model_stage(model: &Model) -> &str {
     model.analysis.stage.as_ref().map_or("", |stage| &stage.name)
 }
 
-/// The same of one model.
+/// The system and the plan of one model, with the warnings of the plan.
 fn prepare_model(model: &mut Model, threads: usize) -> Result<(System, Plan, Vec<Diagnostic>), Unfit> {
     let system = System::new(model).map_err(Unfit::System)?;
     let plan = Plan::new(model, &system, threads);
@@ -215,7 +214,7 @@ fn prepare_model(model: &mut Model, threads: usize) -> Result<(System, Plan, Vec
     Ok((system, plan, warnings))
 }
 
-/// Warnings about a sound model that only its plan can tell.
+/// Warnings about a valid model that need its plan.
 fn plan_warnings(plan: &Plan, model: &Model, system: &System) -> Vec<Diagnostic> {
     let redundant = redundant_constraints(plan, model, system).into_iter().map(Diagnostic::warning);
     redundant.chain(much_mass_added(system)).collect()

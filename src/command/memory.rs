@@ -1,4 +1,4 @@
-//! The memory that a run takes, forecast before its first step.
+//! The memory of a run, forecast before its first step.
 
 use super::console::{complain, show};
 use super::exit::Exit;
@@ -11,31 +11,31 @@ use solve::Run;
 
 /// Forecasts are within this factor of the peak of a run.
 const WITHIN: f64 = 1.3;
-/// Bytes below which no forecast is made: the program itself takes a good part of them.
+/// Bytes below which there is no forecast: the program itself occupies a good part of them.
 const SMALL: f64 = 64e6;
-/// Nodes below which matrices that come later are too small to matter.
+/// Nodes below which later matrices are too small to matter.
 const FEW_NODES: usize = 500;
 
-/// A forecast of the memory that a process takes for a run, from what it has taken so far.
+/// A forecast of the memory of a run, from the memory of the process so far.
 pub struct Forecast {
     /// Resident bytes at the end of planning.
     planned: f64,
     /// Bytes of data at that time, touched or not.
     data: f64,
-    /// The parts of the stage that takes most, each with its name.
+    /// The parts of the stage with the largest memory, each with its name.
     parts: Vec<(&'static str, f64)>,
     /// Bytes that this stage has not taken yet.
     ahead: f64,
 }
 
 impl Forecast {
-    /// Begins at the end of planning; `None` where the system does not tell what the process takes.
+    /// Begins at the end of planning; `None` if the memory of the process is unknown.
     pub fn begin() -> Option<Forecast> {
         let (planned, data) = (process_bytes("VmRSS:")?, process_bytes("VmData:")?);
         Some(Forecast { planned, data, parts: Vec::new(), ahead: 0.0 })
     }
 
-    /// Takes account of a run that has been made, while it and all that stays beside it is there.
+    /// Includes a finished run while its memory and all that remains beside it is in use.
     ///
     /// # Errors
     /// The memory does not hold a matrix that the run will need.
@@ -75,14 +75,14 @@ impl Forecast {
         format!("about {} at the peak of a run: {}", amount(whole), parts.join(", "))
     }
 
-    /// Compares the forecast with what the process may still take. Where it is too little even for a forecast that is too high by its own
-    /// error, the run is refused; a warning is returned as a warning.
+    /// Compares the forecast with the memory still available to the process. If the memory is too little even for a forecast reduced by its
+    /// error, the run is refused; a warning is returned.
     ///
     /// # Errors
     /// The memory will end before the run does; the reason has been shown.
     pub fn judge(&self) -> Result<Option<String>, Exit> {
         let (Some(available), Some(now)) = (available_memory(), process_bytes("VmRSS:")) else { return Ok(None) };
-        // What a limit on addresses grants is known when it is asked; the memory is given back untouched.
+        // Only an allocation shows what a limit on addresses grants; the memory is returned untouched.
         let grants = |bytes: f64| Vec::<u8>::new().try_reserve_exact(bytes as usize).is_ok();
         self.weigh(now + available, &grants).map_err(|said| {
             complain(&said);
@@ -90,7 +90,7 @@ impl Forecast {
         })
     }
 
-    /// The same with the bytes that the process may have in all, and whether a limit on addresses grants so many more.
+    /// Compares the forecast with the available bytes; `grants` says whether a limit on addresses allows so many more.
     fn weigh(&self, free: f64, grants: &dyn Fn(f64) -> bool) -> Result<Option<String>, String> {
         let whole = sum(&self.parts);
         let fits = |part: f64| whole * part <= free && grants(self.ahead * part);
@@ -114,7 +114,7 @@ fn sum(parts: &[(&'static str, f64)]) -> f64 {
     parts.iter().map(|(_, bytes)| bytes).sum()
 }
 
-/// Forecasts the memory of a run that has been made, and refuses one for which there is too little; a warning is returned, and shown unless
+/// Forecasts the memory of a finished run, and refuses a run for which there is too little; a warning is returned, and shown unless
 /// `quiet`.
 ///
 /// # Errors
@@ -137,7 +137,7 @@ pub fn require_memory(
 mod tests {
     use super::*;
 
-    /// 1000 MB, of which 300 are to come, against more than that, less by less than the error of a forecast, and less by more.
+    /// 1000 MB, 300 of them still to come, against more memory, less by less than the error of a forecast, and less by more.
     #[test]
     fn too_little_memory_is_warned_of_or_refused() {
         let forecast = Forecast { planned: 7e8, data: 0.0, parts: vec![("all", 1e9)], ahead: 3e8 };

@@ -1,4 +1,4 @@
-//! `run --mesh-error`: the error that the mesh leaves, told by another run with a coarser one.
+//! `run --mesh-error`: the error of the mesh, estimated by another run with a coarser one.
 
 use base::diagnostic::Source;
 use model::{self, Model};
@@ -13,7 +13,7 @@ use std::io;
 use std::sync::atomic::AtomicBool;
 use study::{CoarserMesh, coarser};
 
-/// What is to know the error of the mesh.
+/// The receivers of the error of the mesh.
 pub struct Judged<'j> {
     /// The expectations of the run, which has come to its end.
     pub expectations: &'j mut Expectations,
@@ -21,7 +21,7 @@ pub struct Judged<'j> {
     pub bars: &'j mut ErrorBars,
 }
 
-/// Makes the other run and lets expectations and tables know what it tells.
+/// Makes the other run, and passes its estimate to expectations and tables.
 ///
 /// # Errors
 /// The reason why the error is not known, in a sentence.
@@ -79,7 +79,7 @@ pub fn of_file(parts: &[String]) -> String {
     )
 }
 
-/// Reads what the run with the coarser mesh has at the times of the other.
+/// Reads the values of the run with the coarser mesh at the times of the other run.
 struct Coarser<'j> {
     expectations: Expectations,
     bars: ErrorBars,

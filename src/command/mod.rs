@@ -1,4 +1,4 @@
-//! The command line: one file per command, and what they share: arguments, exit codes, the console, reading a deck.
+//! The command line: one file per command, and common parts: arguments, exit codes, the console, reading a deck.
 
 mod arguments;
 mod check;
@@ -62,8 +62,8 @@ pub struct Cli {
     /// Show diagnostics as JSON, one object a line, on standard error
     #[arg(long, global = true)]
     json: bool,
-    /// Use a lower level of instructions than the best that this processor has; there is a choice in a release alone, and
-    /// the same level gives the same bits on every processor [default: the best; environment: RDSOLVE_INSTRUCTIONS]
+    /// Use a lower level of instructions than the best of this processor; only a release has several. The same level gives the same bits on
+    /// every processor [default: the best; environment: RDSOLVE_INSTRUCTIONS]
     #[arg(long, global = true, value_name = "LEVEL")]
     instructions: Option<processor::Level>,
 }
@@ -72,7 +72,7 @@ pub struct Cli {
 enum Command {
     /// Run a deck: tables, field files and result.json go to a folder
     Run(RunArgs),
-    /// Read and validate a deck, and print what would be computed, what is omitted and why, mass, loads and the time it takes; writes nothing
+    /// Read and validate a deck, and print the computed and the omitted parts with reasons, mass, loads and the expected time; writes nothing
     Check(CheckArgs),
     /// Compare two folders of results within tolerances, for regression tests
     Compare(compare::CompareArgs),
@@ -102,7 +102,7 @@ pub fn parse() -> Result<Cli, Exit> {
     instructions::settle()?;
     let word = std::env::args_os().nth(1).unwrap_or_default().to_string_lossy().into_owned();
     let parsed = Cli::try_parse();
-    // Clap takes a word that is no command for a deck, and calls what follows it one argument too many.
+    // Clap mistakes a word that is no command for a deck, and rejects the next word as one argument too many.
     let may_be_misspelt = match &parsed {
         Ok(cli) => cli.command.is_none() && !Path::new(&word).exists(),
         Err(error) => error.kind() == ErrorKind::ArgumentConflict,
@@ -114,7 +114,7 @@ pub fn parse() -> Result<Cli, Exit> {
     parsed.map_err(|error| error.exit())
 }
 
-/// Does what the command line asks for.
+/// Executes a parsed command line.
 pub fn execute(cli: Cli) -> Exit {
     if let Some(missing) = processor::missing() {
         let built = processor::built_for();
@@ -126,7 +126,7 @@ pub fn execute(cli: Cli) -> Exit {
     }
     signals::survive_file_limits();
     signals::name_want_of_memory();
-    // The level of instructions is settled before anything is parsed; clap only tells words that are none.
+    // The level of instructions is settled before parsing; clap only reports words that are no level.
     let Cli { instructions: _, .. } = cli;
     if cli.json {
         console::show_json();
@@ -143,7 +143,7 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Command::Schema(args)), _) => schema::schema(&args),
         (Some(Command::Completions(args)), _) => shell_completions::completions(&args, Cli::command()),
         (Some(Command::Man), _) => shell_completions::man(Cli::command()),
-        // Clap asks for a deck before it lets this happen.
+        // Clap requires a deck before this point.
         (None, None) => Err(Exit::Usage),
     };
     done.err().unwrap_or(Exit::Done)

@@ -1,5 +1,5 @@
-//! The levels of instructions of x86-64: the one that the program was built for, and the one that the processor at hand has. Without
-//! what it was built for a program dies of an illegal instruction, wherever it first meets one.
+//! The levels of instructions of x86-64: the level of the build, and the level of the processor. A program that lacks instructions of its
+//! build dies at the first such instruction.
 
 use clap::ValueEnum;
 
@@ -71,7 +71,7 @@ pub fn built_for() -> &'static str {
     }
 }
 
-/// What the program was built with and the processor has not; `None` where it has all that is asked about.
+/// The instructions of the build that the processor lacks; `None` if it has all.
 #[cfg(target_arch = "x86_64")]
 pub fn missing() -> Option<&'static str> {
     let cpu = raw_cpuid::CpuId::new();

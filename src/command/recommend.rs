@@ -1,5 +1,5 @@
-//! What `rdsolve study --recommend` goes over where neither the deck nor the command says it: the default time steps, and
-//! automatic steps around the error that is wanted. Where the deck names no scheme, these have one of another family, which confirms the reference.
+//! The default settings of `rdsolve study --recommend`: the default time steps, and automatic steps around the wanted error. If the deck
+//! names no scheme, these include one of another family, which confirms the reference.
 
 use base::words::rungs;
 use model::Model;

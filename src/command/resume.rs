@@ -1,4 +1,4 @@
-//! `--resume`: what a run goes on from.
+//! `--resume`: the state from which a run continues.
 
 use super::console::{complain, say};
 use super::exit::Exit;
@@ -11,7 +11,7 @@ use results::{holds_run, log, result_json};
 use sha2::{Digest, Sha256};
 use std::path::Path;
 
-/// Entries of a deck on which a checkpoint does not depend; the end of the run is compared by itself.
+/// Entries of a deck that a checkpoint does not depend on; the end of the run is compared separately.
 const FREE: [[&str; 2]; 2] = [["analysis", "end_time"], ["output", "checkpoint"]];
 
 /// Where a run begins.
@@ -32,7 +32,7 @@ impl Begins {
     }
 }
 
-/// The digest of what the text of a deck says that a checkpoint depends on.
+/// The digest of the text of a deck on which a checkpoint depends.
 pub fn deck_digest(text: &str) -> String {
     hex(&Sha256::digest(what_must_stay(text)))
 }
@@ -41,7 +41,7 @@ fn hex(digest: &[u8]) -> String {
     digest.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
-/// What checkpoints of this deck belong to; `deck` is its [`deck_digest`].
+/// The origin of checkpoints of this deck; `deck` is its [`deck_digest`].
 pub fn checkpoint_origin(loaded: &Loaded, deck: String, mesh_error: bool) -> CheckpointOrigin {
     let origin = &loaded.model.origin;
     // As the deck names them, wherever it is run from.
@@ -64,7 +64,7 @@ pub fn checkpoint_origin(loaded: &Loaded, deck: String, mesh_error: bool) -> Che
     }
 }
 
-/// What a deck says that a checkpoint depends on: comments and spaces between do not count.
+/// The text of a deck on which a checkpoint depends: without comments and spaces between words.
 fn what_must_stay(text: &str) -> String {
     let Ok(mut deck) = text.parse::<toml::Table>() else { return text.to_owned() };
     for [table, key] in FREE {
@@ -75,11 +75,11 @@ fn what_must_stay(text: &str) -> String {
     deck.to_string()
 }
 
-/// Finds the checkpoint in a folder from which a run of this origin, and of a deck with this hash, is to go on.
+/// Finds the checkpoint of a folder for a run of this origin, and of a deck with this hash.
 ///
 /// # Errors
-/// [`Exit::Usage`] where the folder holds something else, [`Exit::InputOutput`] where it cannot be read, and the code with which the run
-/// ended where it has come to its end, [`Exit::Done`] among them. The reason has been shown.
+/// [`Exit::Usage`] if the folder holds something else, [`Exit::InputOutput`] if it cannot be read. A finished run returns its exit code,
+/// including [`Exit::Done`]. The reason has been shown.
 pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Begins, Exit> {
     let place = folder.display();
     let checkpoint = Checkpoint::read(folder).map_err(|error| {
@@ -120,7 +120,7 @@ pub fn resume(folder: &Path, origin: &CheckpointOrigin, hash: &str) -> Result<Be
     Ok(Begins::Anew)
 }
 
-/// Says of a run that has come to its end what it has said then; `None` where there is no result.
+/// Repeats the last message of a finished run; `None` if there is no result.
 fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exit> {
     let (place, text) = (folder.display(), read_text(folder.join(result_json::NAME)).ok()?);
     let result: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
@@ -135,7 +135,7 @@ fn ended(folder: &Path, (hash, origin): (&str, &CheckpointOrigin)) -> Option<Exi
         "not-converged" => Exit::NotConverged,
         "expectation-missed" => Exit::CheckFailed,
         "too-little-memory" => Exit::TooLittleMemory,
-        // A run that is stopped before its first step is done leaves no checkpoint.
+        // A run that stops before the end of its first step has no checkpoint.
         "stopped" if result["counts"]["steps"] == 0 => return None,
         _ => {
             complain(&format!("the run in `{place}` was stopped, and its checkpoint is gone"));

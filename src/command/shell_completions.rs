@@ -7,7 +7,7 @@ use clap_complete::Shell;
 
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
-    /// The shell, which reads what is printed
+    /// The shell that reads the output
     #[arg(value_enum)]
     shell: Shell,
 }

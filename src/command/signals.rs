@@ -1,4 +1,4 @@
-//! Signals that ask a run to end, and the end of the process that started it.
+//! Signals that request the end of a run, and the end of the process that started it.
 
 use super::console::complain;
 use super::exit::Exit;
@@ -32,8 +32,8 @@ pub fn stop_on_signals(flag: &Arc<AtomicBool>) -> io::Result<()> {
     Ok(())
 }
 
-/// Ends the process, with a word and the exit code of a run that is stopped, as long as there is nothing to bring to an end: while a deck
-/// is read and planned. Dropped, it leaves signals to [`stop_on_signals`].
+/// Ends the process with a message and the exit code of a stopped run, while a deck is read and planned and there are no results to
+/// complete. Dropping it passes signals to [`stop_on_signals`].
 pub struct EndAtOnce {
     #[cfg(unix)]
     handle: Option<signal_hook::iterator::Handle>,
@@ -89,13 +89,13 @@ impl Drop for EndAtOnce {
 pub fn survive_file_limits() {
     #[cfg(unix)]
     {
-        // A signal that is caught does nothing more; where it cannot be caught, it ends the process as before.
+        // A caught signal has no other effect; a signal that cannot be caught ends the process as before.
         let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, Arc::default());
     }
 }
 
-/// Gives want of memory an exit code of its own. Where an allocation fails, the standard library says so and aborts; a panic, which may
-/// abort as well, is a fault of the program and keeps its signal.
+/// Gives insufficient memory a separate exit code. After a failed allocation, the standard library prints a message and aborts. A panic,
+/// which may abort as well, is a fault of the program and keeps its signal.
 pub fn name_want_of_memory() {
     #[cfg(unix)]
     {
@@ -112,8 +112,8 @@ pub fn name_want_of_memory() {
     }
 }
 
-/// Whether whoever started the process has asked for a signal to be ignored, as `nohup` does. Where the system does not tell,
-/// it counts as ignored, so that nothing is caught that was to be ignored.
+/// Whether whoever started the process has asked for a signal to be ignored, as `nohup` does. If the system does not report it, the signal
+/// counts as ignored, so that an ignored signal stays ignored.
 #[cfg(unix)]
 fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();

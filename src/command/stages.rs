@@ -17,14 +17,14 @@ use solve::plan::Plan;
 use solve::system::System;
 use solve::{Counts, Handover, Outcome, Run, StepError};
 
-/// What the stages of a run, or its only one, have left to be told at the end.
+/// The reports of the stages of a run for its end.
 #[derive(Default)]
 pub struct StagesTold {
     /// Warnings about the results.
     pub warnings: Vec<String>,
     /// What was not judged.
     pub remarks: Vec<String>,
-    /// What time integration took from the energy, in a line for each stage.
+    /// The change of energy by time integration, in a line for each stage.
     pub energy: Vec<String>,
     /// The effort of all.
     pub counts: Counts,
@@ -34,7 +34,7 @@ pub struct StagesTold {
     pub rotation_drift: f64,
     /// Largest gap of a joint; `None` without joints.
     pub joint_violation: Option<f64>,
-    /// The number of elements and links that have failed; `None` where none can.
+    /// The number of failed elements and links; `None` if none can fail.
     pub failed: Option<usize>,
     /// The error of automatic steps, in the last stage that has them.
     pub step_error: Option<StepError>,
@@ -53,7 +53,7 @@ struct PastStage {
     state: State,
     /// The effort up to then.
     counts: Counts,
-    /// What else it leaves to the next, as [`Run::keep_end`] has it.
+    /// Other state for the next stage, as [`Run::keep_end`] has it.
     left: Vec<u8>,
 }
 
@@ -64,7 +64,7 @@ keep!(PastStage: Default { state, counts, left });
 struct Course {
     /// The stages that have come to their ends.
     past: Vec<PastStage>,
-    /// Those of them that a checkpoint holds and that have not been gone through again, the last first.
+    /// The stages in a checkpoint that have not been passed again, the last first.
     recalled: Vec<PastStage>,
     /// The checkpoint in the stage after these; `None` once it has been taken up.
     checkpoint: Option<Checkpoint>,
@@ -75,7 +75,7 @@ impl Course {
     fn to(checkpoint: Option<Checkpoint>) -> io::Result<Course> {
         let mut course = Course { checkpoint, ..Course::default() };
         if let Some(checkpoint) = &course.checkpoint {
-            // What has been told by then is read where the run goes on.
+            // Reports up to a checkpoint are read when the run continues.
             let mut told = StagesTold::default();
             let mut snapshot = Snapshot::of(checkpoint.stages.clone());
             course.recalled.keep(&mut snapshot);
@@ -88,7 +88,7 @@ impl Course {
         Ok(course)
     }
 
-    /// What a checkpoint in the stage under way has to hold of this.
+    /// The part of this that a checkpoint in the current stage must hold.
     fn so_far(&mut self, told: &mut StagesTold) -> Vec<u8> {
         let mut snapshot = Snapshot::taken();
         self.past.keep(&mut snapshot);
@@ -142,7 +142,7 @@ fn stop_missed(run: &Run, model: &Model) -> Option<String> {
     missed.then(|| format!("{} did not come to {} before the stage was over", stop.label, stop.value))
 }
 
-/// Says of a static stage that stopped before its time what it was still taking off.
+/// Reports a static stage that stopped before its end while it was still unloading.
 fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> {
     let holds_back = model.analysis.stage.as_ref()?.holds_back;
     let left = (model.analysis.end_time - end_time?) / model.analysis.duration();
@@ -155,7 +155,7 @@ fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> 
     })
 }
 
-/// Says of a static stage that stopped before its time that gravity had not come in full: nothing brings on the rest.
+/// Reports a static stage that stopped before gravity was complete: no later stage adds the rest.
 fn weight_left(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> {
     let analysis = &model.analysis;
     let stage = analysis.stage.as_ref()?;
@@ -169,21 +169,21 @@ fn weight_left(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String
     })
 }
 
-/// The next stage in which time passes, ready to be planned.
+/// The next stage with time, ready for planning.
 struct NextStage {
     model: Model,
     system: System,
-    /// What it begins with; `None` at t = 0.
+    /// Its initial state; `None` at t = 0.
     handover: Option<Handover>,
 }
 
-/// What comes after a stage.
+/// The event after a stage.
 enum Next {
     Stage(Box<NextStage>),
     End(Outcome),
 }
 
-/// What runs the stages of a deck.
+/// Runs the stages of a deck.
 pub struct StageRunner<'a> {
     /// The deck.
     pub loaded: &'a Loaded,
@@ -194,8 +194,7 @@ pub struct StageRunner<'a> {
 }
 
 impl StageRunner<'_> {
-    /// Runs the first stage, or the only one, and then the others as long as each comes to its end; or goes on from a checkpoint in any
-    /// of them.
+    /// Runs the first stage, and the others as long as each reaches its end; or continues from a checkpoint in any of them.
     ///
     /// # Errors
     /// Results cannot be written, the checkpoint does not fit, or there is no memory for the solver of a stage.
@@ -253,10 +252,10 @@ impl StageRunner<'_> {
             checkpoints.begin_stage(course.so_far(told));
         }
         let (outcome, state) = run.run(watchers);
-        // The stages to come have matrices of their own.
+        // Later stages have other matrices.
         run.forget_matrix();
         told.take(run, model, state.as_ref().map(|state| state.time));
-        // A checkpoint in a later stage needs what this one leaves; after the last there is none.
+        // A checkpoint in a later stage needs the end of this one; the last stage has no successor.
         let has_later = course.past.len() < self.loaded.later.len();
         if let (Outcome::Done, Some(state), true) = (&outcome, &state, has_later) {
             let mut left = Snapshot::taken();
@@ -277,8 +276,8 @@ impl StageRunner<'_> {
         Ok(plan)
     }
 
-    /// Hands the state over to the next stage in which time passes, after the modes about it where stages between ask for them. `ends` are
-    /// the times at which stages have ended.
+    /// Passes the state to the next stage with time, and computes the modes about it if stages between request them. `ends` are the end
+    /// times of the stages.
     fn next_stage(
         &self,
         (before, run): (&Model, &Run),
@@ -314,7 +313,7 @@ impl StageRunner<'_> {
         Ok(Next::End(outcome))
     }
 
-    /// The model of the next stage, which was planned otherwise, after those that have ended at these times.
+    /// The model of the next stage, planned again for the actual ends of the earlier stages.
     fn planned_anew(&self, ends: &[f64], planned: &Model) -> io::Result<Model> {
         model::replan(&self.loaded.source, ends, planned).map_err(|why| {
             let at = ends.last().copied().map(instant).unwrap_or_default();

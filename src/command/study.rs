@@ -72,22 +72,22 @@ pub struct StudyArgs {
     /// CSV file of reference values, relative to the current folder
     #[arg(long, value_name = "FILE")]
     reference: Option<PathBuf>,
-    /// Measure against what the finest runs tend to, even if the deck names a reference
+    /// Use the limit of the finest runs as reference, even if the deck names a reference
     #[arg(long, conflicts_with = "reference")]
     finest: bool,
     /// Quantities on which errors are measured: tip.uz,block.x
     #[arg(long, alias = "quantity", value_name = "NAME.QUANTITY", value_delimiter = ',')]
     quantities: Vec<String>,
-    /// Number of intervals between the times at which errors are taken
+    /// Number of intervals between the times of comparison
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     samples: Option<u64>,
     /// Name the cheapest setting for these errors
     #[arg(long, value_name = "ERROR", value_delimiter = ',', value_parser = positive)]
     wanted_error: Vec<f64>,
-    /// What the picture draws errors against: seconds, or counts, which do not scatter
+    /// Horizontal axis of the picture: seconds, or counts, which do not scatter
     #[arg(long, value_name = "COST", value_enum, default_value_t)]
     axis: Cost,
-    /// Print the deck lines of the cheapest setting that reaches this error, and nothing else; exit code 5 where none does
+    /// Print only the deck lines of the cheapest setting with this error; exit code 5 if there is none
     #[arg(long, value_name = "ERROR", value_parser = positive, conflicts_with = "wanted_error")]
     recommend: Option<f64>,
     /// Runs of each setting
@@ -207,7 +207,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
     Ok(())
 }
 
-/// What a study ends with.
+/// The outcome of a study.
 struct Outcome {
     /// The text for standard output.
     text: String,
@@ -256,7 +256,7 @@ fn exit(fault: StudyFault, source: &Source) -> Exit {
     }
 }
 
-/// What the explicit schemes of a study lack: masses at free degrees of freedom. The runs would each fail for the same reason.
+/// The obstacle for the explicit schemes of a study: free degrees of freedom without mass. The runs would each fail for the same reason.
 fn massless(model: &Model) -> Result<Vec<Diagnostic>, Exit> {
     let listed = model.study.iter().flat_map(|study| &study.schemes).map(|choice| &choice.scheme);
     let own = model.study.as_ref().is_none_or(|study| study.schemes.is_empty()).then_some(&model.solution.scheme);
@@ -291,7 +291,7 @@ impl StudyArgs {
 
     /// Options that stand for keys of `[study]`, with their values in TOML.
     fn keys(&self) -> Result<Vec<(&'static str, String)>, Exit> {
-        // Strings are written in JSON, which TOML reads as they are.
+        // Strings are written in JSON, which is valid TOML.
         let texts = |list: &[String]| serde_json::Value::from(list.to_vec()).to_string();
         let numbers = |list: &[f64]| {
             let list: Vec<String> = list.iter().map(|number| format!("{number:?}")).collect();

@@ -1,4 +1,4 @@
-//! `rdsolve sweep sweep.toml`: many variants of one deck, in parallel here or as one shard of many, and one table of what they come to.
+//! `rdsolve sweep sweep.toml`: many variants of one deck, in parallel here or as one shard of many, and one table of their results.
 
 use super::arguments::MAX_THREADS;
 use super::console::{complain, counted, print, say, show};
@@ -48,10 +48,10 @@ pub struct SweepArgs {
     /// One case by its number from 1, every N-th from the I-th on, or those that failed
     #[arg(long, value_name = "I | I/N | failed")]
     case: Option<Choice>,
-    /// Print the cases with what has become of them, and run nothing
+    /// Print the cases with their states, and run nothing
     #[arg(long)]
     list: bool,
-    /// Write the summary of what stands, and run nothing
+    /// Write the summary of the complete cases, and run nothing
     #[arg(long, conflicts_with_all = ["list", "case"])]
     collect: bool,
     /// Show errors only
@@ -87,7 +87,7 @@ impl FromStr for Choice {
 /// Runs the cases of a sweep that do not stand yet, and writes their summary.
 ///
 /// # Errors
-/// The exit code of a sweep in which not all chosen cases stand; the reason has been shown.
+/// The exit code of a sweep with incomplete chosen cases; the reason has been shown.
 pub fn sweep(args: &SweepArgs) -> Result<(), Exit> {
     let reading = EndAtOnce::on_signals();
     let (file, sweep_folder) = read(&args.sweep)?;
@@ -167,13 +167,13 @@ fn list(folder: &SweepFolder, cases: &Cases, chosen: &[usize]) -> Result<(), Exi
     print(&chosen.iter().map(line).collect::<String>())
 }
 
-/// What all threads of a sweep share.
+/// The data shared by all threads of a sweep.
 struct Pool<'p> {
     /// True for a case that is still to be run.
     is_open: &'p (dyn Fn(usize) -> bool + Sync),
     /// The locks of the folders.
     locks: &'p SharedLock,
-    /// The digest of what the deck says.
+    /// The digest of the deck.
     deck: &'p str,
 }
 
@@ -188,7 +188,7 @@ struct Sweep<'s> {
 }
 
 impl Sweep<'_> {
-    /// Runs the chosen cases that do not stand yet, so many at once; with `again` those that failed too.
+    /// Runs the incomplete cases among the chosen ones, so many at once; with `again` also the failed ones.
     fn run(&self, chosen: &[usize], again: bool, jobs: usize) -> Result<(), Exit> {
         let is_open = |case: usize| match self.folder.state(case) {
             CaseState::Pending => true,
@@ -251,7 +251,7 @@ impl Sweep<'_> {
         };
         if !(pool.is_open)(case) {
             drop(lock);
-            // What this process has made to look is empty.
+            // The folder made for the check is empty.
             let _ = fs::remove_dir(&folder);
             return Ok(None);
         }
@@ -287,9 +287,9 @@ impl Sweep<'_> {
         bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
     }
 
-    /// Says what has become of the chosen cases.
+    /// Reports the states of the chosen cases.
     fn conclude(&self, chosen: &[usize], states: &[CaseState]) -> Result<(), Exit> {
-        /// Failures that are told; all of them are in the summary.
+        /// The number of reported failures; the summary has all of them.
         const TOLD: usize = 20;
         let of = |is: fn(&CaseState) -> bool| chosen.iter().filter(|&&case| is(&states[case])).count();
         let failed = of(|state| matches!(state, CaseState::Failed(_)));

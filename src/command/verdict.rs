@@ -16,14 +16,14 @@ pub struct End {
     pub status: Status,
     /// The reason in a sentence without a full stop; it is empty where all went as the deck asks.
     pub reason: String,
-    /// The time up to which results are valid, where the run did not come to its end.
+    /// The time up to which results are valid, if the run stopped early.
     pub valid_until: Option<f64>,
-    /// True where that lies before the time at which it ended.
+    /// True if that time lies before the end.
     pub is_valid_before: bool,
 }
 
 impl End {
-    /// The reason and what it means for the results.
+    /// The reason and its consequence for the results.
     pub fn sentence(&self) -> String {
         let valid = match self.valid_until {
             Some(_) if self.reason.contains('\n') => "\n  results are valid up to ",
@@ -38,7 +38,7 @@ impl End {
     }
 }
 
-/// Judges the end of a run, which may be `short` of where a path was to stop. An error is one of input/output.
+/// Judges the end of a run, which may be `short` of the end of a path. An error is one of input/output.
 pub fn end(outcome: Outcome, short: Option<String>, expectations: &[Verdict]) -> io::Result<End> {
     let mut is_valid_before = false;
     let (status, reason, valid_until) = match outcome {
@@ -83,7 +83,7 @@ pub fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     ))
 }
 
-/// What the time integration took from the energy of the motion or added to it, in a line; `None` where nothing moves.
+/// The change of energy by time integration, in a line; `None` if nothing moves.
 pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
     let motion = balance.motion();
     if model.analysis.kind != AnalysisKind::Dynamic {
@@ -119,7 +119,7 @@ fn of_motion(energy: f64, balance: &Balance) -> String {
 
 /// The warning about a static analysis whose loads do other work than is stored and dissipated.
 pub fn work_warning(run: &Run) -> Option<String> {
-    /// Part of the energy that is missed by steps which jump, or bend between their ends; a gap that closes in one of twenty leaves 0.03.
+    /// Part of the energy lost by steps that jump, or bend between their ends; a gap that closes in one of twenty steps loses 0.03.
     const SEEN: f64 = 0.04;
     let (missed, energy) = run.missed_work()?;
     if missed.abs() <= SEEN * energy {
@@ -134,8 +134,7 @@ pub fn work_warning(run: &Run) -> Option<String> {
     ))
 }
 
-/// The warning about automatic steps of central differences that are stable and no more: where the motion itself lies in the fastest modes
-/// they do not resolve it.
+/// The warning about automatic steps of central differences at the limit of stability: they do not resolve a motion in the fastest modes.
 pub fn overshoot_warning(run: &Run) -> Option<String> {
     /// A larger part is no error of ordinary steps.
     const SEEN: f64 = 0.1;
@@ -148,11 +147,11 @@ pub fn overshoot_warning(run: &Run) -> Option<String> {
     })
 }
 
-/// The warning about an energy balance that no one should take on trust; `None` where it is sound.
+/// The warning about a bad energy balance; `None` if it is good.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     /// A larger part of the energy of the motion at the end is seen in the results.
     const SEEN: f64 = 0.02;
-    /// The same of the largest energy on the way, which is less strict: an impact takes some and gives it back within a step.
+    /// The limit for the largest energy on the way. It is less strict, because an impact stores and returns energy within a step.
     const ON_THE_WAY: f64 = 0.2;
     if model.analysis.kind != AnalysisKind::Dynamic {
         return None;
@@ -199,7 +198,7 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     }
 }
 
-/// The first time within the run at which the velocity of positions that supports and joints prescribe jumps.
+/// The first time within the run at which a prescribed velocity of a support or a joint jumps.
 fn velocity_jump(model: &Model) -> Option<f64> {
     let [begin, end] = [model.analysis.begin, model.analysis.end_time];
     let motions = model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref());
@@ -208,7 +207,7 @@ fn velocity_jump(model: &Model) -> Option<f64> {
     jumps.filter(|time| (begin..end).contains(time) && *time > begin).min_by(f64::total_cmp)
 }
 
-/// The warning about a scheme that damps nothing where material yields and steps are hard to take, from the effort of the steps.
+/// The warning about an undamped scheme with yielding material and difficult steps, from the effort of the steps.
 pub fn ringing_warning(effort: Counts, model: &Model) -> Option<String> {
     /// The ratio of step to period, times 2π, of modes that no step resolves.
     const UNRESOLVED: f64 = 30.0;
@@ -242,7 +241,7 @@ fn plus_minus(by_steps: Option<f64>, by_mesh: Option<f64>) -> String {
     told.collect()
 }
 
-/// What is left of error in the largest value of each column, in lines for the log.
+/// The error of the largest value of each column, in lines for the log.
 pub fn error_bars_in_words(bars: &[ErrorBar]) -> Vec<String> {
     let title = "largest values, and bounds of their errors by estimate:".to_owned();
     let line = |bar: &ErrorBar| {
@@ -253,10 +252,10 @@ pub fn error_bars_in_words(bars: &[ErrorBar]) -> Vec<String> {
     if bars.is_empty() { Vec::new() } else { std::iter::once(title).chain(bars.iter().map(line)).collect() }
 }
 
-/// The number of digits of values and of what was expected.
+/// The number of digits of values and of expected values.
 const DIGITS: usize = 7;
 
-/// The line on an expectation: whether it is met, its value, what was expected, and the error.
+/// The line on an expectation: whether it is met, its value, the expected value, and the error.
 pub fn line(v: &Verdict) -> String {
     let mark = if v.passed { "ok  " } else { "MISS" };
     let value = v.value.map_or("no value".to_string(), |value| to_digits(value, DIGITS));

@@ -4,10 +4,10 @@ use super::instructions::several;
 use super::processor::{Level, built_for};
 use std::sync::OnceLock;
 
-/// The version, with the commit that it was built from where that was known.
+/// The version, with its commit if known.
 pub const VERSION: &str = env!("RDSOLVE_VERSION");
 
-/// The instructions in use: the level, in a release; another build leaves products of matrices to what the processor has besides.
+/// The instructions in use: the level, in a release; in other builds, products of matrices use all instructions of the processor.
 pub fn instructions() -> String {
     match Level::BUILT_FOR {
         Some(level) if cfg!(feature = "portable") => level.name().to_owned(),

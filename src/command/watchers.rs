@@ -15,7 +15,7 @@ use solve::{Frame, Observer, OtherRun};
 use std::io;
 use std::path::Path;
 
-/// All who watch the run, in the order in which a step is shown to them.
+/// All watchers of the run, in the order of their calls.
 pub struct Watchers {
     /// The log of the run.
     pub log: Log,
@@ -23,7 +23,7 @@ pub struct Watchers {
     pub files: Files,
     /// The values that the deck expects.
     pub expectations: Expectations,
-    /// The errors that are left in the largest values, where anything tells them.
+    /// The errors in the largest values, if there is an estimate.
     pub bars: Option<ErrorBars>,
     /// The bar on the terminal.
     pub progress: Progress,
@@ -34,7 +34,7 @@ pub struct Watchers {
 }
 
 impl Watchers {
-    /// Those of a run of this model, which writes into a folder that is there; with `bars`, errors are to be told.
+    /// The watchers of a run of this model, which writes into an existing folder; with `bars`, errors are estimated.
     ///
     /// # Errors
     /// A file cannot be made.
@@ -50,7 +50,7 @@ impl Watchers {
         })
     }
 
-    /// Those of a run that goes on in a folder, to be told by [`Watchers::go_on`] from where.
+    /// The watchers of a continued run in a folder; [`Watchers::go_on`] sets the place of the continuation.
     pub fn waiting(log: Log, folder: &Path, model: &Model, [quiet, bars]: [bool; 2]) -> Watchers {
         Watchers {
             log,
@@ -66,7 +66,7 @@ impl Watchers {
     /// Goes on from a checkpoint in the stage of this model.
     ///
     /// # Errors
-    /// A file is not what it was at the checkpoint.
+    /// A file has changed since the checkpoint.
     pub fn go_on(&mut self, model: &Model, checkpoint: Vec<u8>) -> io::Result<()> {
         let (mut snapshot, mut mark) = (Snapshot::of(checkpoint), FilesMark::default());
         mark.keep(&mut snapshot);
@@ -77,7 +77,7 @@ impl Watchers {
         self.files.go_on(model, mark)
     }
 
-    /// Keeps what stands behind the files in a checkpoint.
+    /// Keeps the state besides the files in a checkpoint.
     fn keep_rest(&mut self, snapshot: &mut Snapshot) {
         let Watchers { log, expectations, bars, files: _, progress: _, modes: _, checkpoints: _ } = self;
         log.keep(snapshot);

@@ -1,5 +1,5 @@
-//! run.checkpoint: all that a run needs to go on as if it had never stopped, and what it belongs to. It is written beside the one before
-//! and moved into its place, and closed by a digest: a reader finds a whole one, or none.
+//! run.checkpoint: the state from which a run continues as if it had never stopped, and the origin of that state. It is written beside the
+//! one before and moved into its place, and closed by a digest: a reader finds a whole one, or none.
 
 use super::disk::{UNFINISHED, at, create};
 use base::snapshot::{Keep, Snapshot, keep};
@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 
 /// The name of the checkpoint in the output folder.
 pub const NAME: &str = "run.checkpoint";
-/// The first line of a checkpoint, by which it is known.
+/// The first line of every checkpoint.
 const HEAD: &[u8] = b"rdsolve checkpoint 1\n";
 /// The number of bytes of the digest at the end.
 const DIGEST: usize = 32;
@@ -21,7 +21,7 @@ const DIGEST: usize = 32;
 pub struct CheckpointOrigin {
     /// The version of the program, with its commit.
     pub version: String,
-    /// The digest of what the deck says, but for what may change.
+    /// The digest of the deck without the entries that may change.
     pub deck: String,
     /// The overrides, as they were given, without those of what may change.
     pub sets: Vec<String>,
@@ -33,14 +33,14 @@ pub struct CheckpointOrigin {
     pub files: Vec<(String, String)>,
     /// True with `--mesh-error`.
     pub mesh_error: bool,
-    /// The level of instructions that the run used, which may change: a scheduler sends it to another machine.
+    /// The level of instructions of the run. It may change, because a scheduler may continue the run on another machine.
     pub instructions: String,
 }
 
 keep!(CheckpointOrigin: Default { version, deck, sets, end_time, is_over, files, mesh_error, instructions });
 
 impl CheckpointOrigin {
-    /// What differs from the checkpoint in what is to be run now, in words; `None` where nothing does.
+    /// The differences between the checkpoint and the run that would continue it, in words; `None` if there are none.
     pub fn difference(&self, now: &CheckpointOrigin) -> Option<String> {
         let list = |sets: &[String]| match sets {
             [] => "none".to_owned(),
@@ -67,7 +67,7 @@ impl CheckpointOrigin {
     }
 }
 
-/// A checkpoint: what it belongs to, and what the stages before, those who watch the run and the run itself need.
+/// A checkpoint: its origin, and the states of earlier stages, of the watchers and of the run itself.
 #[derive(Debug, Default)]
 pub struct Checkpoint {
     /// What it belongs to.
@@ -94,7 +94,7 @@ impl Checkpoint {
         dir.join(NAME)
     }
 
-    /// Writes the checkpoint of a folder, safe on the disk before it takes the place of the one before.
+    /// Writes the checkpoint of a folder to the disk completely, then replaces the earlier one.
     ///
     /// # Errors
     /// It cannot be written; the one before then stands.
@@ -145,7 +145,7 @@ impl Checkpoint {
         if snapshot.is_used_up() { Ok(Some(checkpoint)) } else { Err(torn()) }
     }
 
-    /// Takes the checkpoint of a folder away, if there is one, and what a run that was killed while it wrote one has left.
+    /// Removes the checkpoint of a folder, and an unfinished one of a killed run.
     ///
     /// # Errors
     /// It cannot be removed.

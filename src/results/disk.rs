@@ -1,11 +1,11 @@
-//! What every file of the output folder shares: errors that name the file, new files that never lead through links, and small
-//! files that are there whole or not at all.
+//! Common to all files of the output folder: errors name the file, new files never follow links, and small files appear complete or not at
+//! all.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Adds the file that an error is about to its message, and the remedy where the file cannot grow.
+/// Adds the name of the file to the message of an error, and the remedy if the file cannot grow.
 pub fn at(path: &Path, error: io::Error) -> io::Error {
     let remedy = match error.kind() {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
@@ -22,7 +22,7 @@ pub fn at(path: &Path, error: io::Error) -> io::Error {
 /// The ending that the name of a file has while it is not whole yet.
 pub const UNFINISHED: &str = ".tmp";
 
-/// Makes a new file for writing. An older file or link of this name is removed first; what a link leads to stays as it is.
+/// Makes a new file for writing. An older file or link of this name is removed first; the target of a link remains.
 ///
 /// # Errors
 /// Something that is neither a file nor a link has this name, or the system refuses; the error does not name the file.
@@ -33,11 +33,11 @@ pub fn create(path: &Path) -> io::Result<File> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         Err(error) => return Err(error),
     }
-    // What is written goes to the end, so that a file that somebody cuts short meanwhile gets no hole, and shows it by its length.
+    // Each write appends: if another process truncates the file, no hole arises, and the length shows the loss.
     OpenOptions::new().append(true).create_new(true).open(path)
 }
 
-/// Whether an open file still stands under its name. Where the system has no inodes, any file of that name counts.
+/// Whether an open file still stands under its name. On systems without inodes, any file of that name counts.
 pub fn is_same(file: &File, path: &Path) -> bool {
     let (Ok(open), Ok(named)) = (file.metadata(), fs::symlink_metadata(path)) else { return false };
     #[cfg(unix)]
@@ -64,7 +64,7 @@ pub fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
         fs::rename(name, path)
     };
     write().map_err(|error| {
-        // What has been written is of no use, and on a full disk it is in the way.
+        // The unfinished file is useless, and occupies space on a full disk.
         let _ = fs::remove_file(name);
         at(path, error)
     })
@@ -76,7 +76,7 @@ pub fn replace(path: &Path, text: &[u8]) -> io::Result<()> {
 /// The disk does not take them.
 #[cfg(target_os = "linux")]
 pub fn make_safe(within: &Path, _folders: &[PathBuf]) -> io::Result<()> {
-    // One call for the whole file system: to wait for each file of a case by itself takes several milliseconds.
+    // One call for the whole file system: waiting for each file of a case separately costs several milliseconds.
     rustix::fs::syncfs(File::open(within)?).map_err(|error| at(within, error.into()))
 }
 

@@ -11,12 +11,12 @@ use serde::Serialize;
 use solve::{Frame, Observer, OtherRun, Wanted};
 use std::io;
 
-/// The names that `quantity` may take for one thing, over all tables that know it.
+/// The names that `quantity` may have for one thing, over all tables with such rows.
 pub fn quantities(at: ExpectAt) -> Vec<&'static str> {
     answers(at).flat_map(|answers| (answers.quantities)(at)).collect()
 }
 
-/// What the solver must compute where a quantity of one thing is expected.
+/// The quantities that the solver must compute for an expected quantity of one thing.
 pub fn needs(at: ExpectAt, quantity: &str) -> Wanted {
     find(at, quantity).map_or(Wanted::NOTHING, |(answers, _)| answers.needs)
 }
@@ -27,7 +27,7 @@ fn answers(at: ExpectAt) -> impl Iterator<Item = &'static Answers> {
     all.filter(move |answers| !(answers.quantities)(at).is_empty())
 }
 
-/// The answers that a quantity of one thing is among, and its index there; `None` where no table has it.
+/// The answers with a quantity of one thing, and its index among them; `None` if no table has it.
 fn find(at: ExpectAt, quantity: &str) -> Option<(&'static Answers, usize)> {
     answers(at).find_map(|answers| {
         let index = (answers.quantities)(at).iter().position(|name| *name == quantity)?;
@@ -42,7 +42,7 @@ pub struct Verdict {
     pub label: String,
     /// The computed value; `None` where the run never came to it.
     pub value: Option<f64>,
-    /// The time at which the value was taken.
+    /// The time of the sample.
     pub time: Option<f64>,
     /// The value that the deck expects, in the units of the deck.
     pub expected: f64,
@@ -52,7 +52,7 @@ pub struct Verdict {
     /// The error that automatic steps leave in the computed value, a bound by estimate, in its unit.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_error: Option<f64>,
-    /// The error that the mesh leaves in it, likewise.
+    /// The same bound for the error by the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_error: Option<f64>,
     /// The largest error that passes; 0 for a bound.
@@ -80,12 +80,12 @@ keep!(Expectations { watches } without { end_time });
 
 struct Watch {
     expect: Expect,
-    /// True where the stage under way has what is expected.
+    /// True if the current stage has the expected thing.
     is_here: bool,
-    /// The answers that the quantity is among and its index there; `None` where there is no quantity of that name.
+    /// The answers with this quantity, and its index among them; `None` if no quantity has that name.
     quantity: Option<(&'static Answers, usize)>,
     sample: Option<Sample>,
-    /// The same at the beginning of the stage under way.
+    /// The sample at the beginning of the current stage.
     of_stages_before: Option<Sample>,
     history: ComparedHistory,
     /// Both of the run before, ...
@@ -109,7 +109,7 @@ struct Sample {
 keep!(Sample: Default { time, value, other });
 
 impl Sample {
-    /// Keeps the value of another run where it is that of the time of the sample.
+    /// Keeps the value of another run at the time of the sample.
     fn read(sample: &mut Option<Sample>, time: f64, value: f64, end_time: f64) {
         if let Some(sample) = sample.as_mut().filter(|own| (own.time - time).abs() <= 1e-9 * end_time) {
             sample.other = Some(value);
@@ -139,27 +139,27 @@ impl Expectations {
         self.watches.sort_by_key(|watch| watch.expect.index);
     }
 
-    /// The times at which a run with another mesh has to be seen.
+    /// The times at which a run with another mesh must have frames.
     pub fn times_for_mesh(&self) -> Vec<f64> {
         let all = self.watches.iter().flat_map(|watch| watch.history.times().iter().copied());
         all.chain(self.times_to_compare()).collect()
     }
 
-    /// Receives a frame of a run with another mesh, in which its own expectations find their values.
+    /// Receives a frame of a run with another mesh; the expectations of that run find the values.
     pub fn on_other_mesh(&mut self, theirs: &Expectations, frame: &Frame) {
         for (watch, theirs) in self.watches.iter_mut().zip(&theirs.watches) {
             watch.read(theirs.value(frame), frame.state.time, self.end_time);
         }
     }
 
-    /// Takes note that a run with a coarser mesh has come to its end, with errors that are larger by this factor.
+    /// Records that a run with a coarser mesh has ended; its errors are larger by this factor.
     pub fn on_coarser_mesh(&mut self, apart: f64) {
         for watch in &mut self.watches {
             watch.mesh_error = watch.told_by(watch.sample, &watch.unseen, apart, self.end_time);
         }
     }
 
-    /// Judges what has been taken so far, in the order of the deck.
+    /// Judges all samples so far, in the order of the deck.
     pub fn verdicts(&self) -> Vec<Verdict> {
         self.watches.iter().map(Watch::verdict).collect()
     }
@@ -278,7 +278,7 @@ impl Watch {
         }
     }
 
-    /// The error that another run tells, of which this history is known and what it has at the time of the sample of one of both.
+    /// The error estimated from the history of another run and its value at the time of either sample.
     fn told_by(&self, sample: Option<Sample>, other: &ComparedHistory, apart: f64, end_time: f64) -> Option<f64> {
         let pair = sample.and_then(|sample| Some([sample.value, sample.other?]));
         let anywhere = self.history.largest_differences(other, 1, 1e-9 * end_time);
@@ -291,7 +291,7 @@ impl Watch {
         (answers.value)(self.expect.at, index, frame)
     }
 
-    /// How far a value is from what is expected, or beyond its bound.
+    /// The distance of a value from the expected value, or from its bound.
     fn difference(&self, value: f64) -> f64 {
         let Expect { quantity, value: expected, tolerance, .. } = &self.expect;
         match tolerance {
@@ -306,7 +306,7 @@ impl Watch {
         }
     }
 
-    /// What a bound is a bound of: of the greatest absolute value the size, else the value.
+    /// The bounded number: the magnitude for the greatest absolute value, else the value.
     fn bounded(&self, value: f64) -> f64 {
         let is_size = match self.expect.at {
             ExpectAt::Response(_, over) => over == OverFrequencies::Abs,

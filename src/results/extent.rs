@@ -4,19 +4,19 @@ use model::{AnalysisKind, Model};
 use solve::plan::Plan;
 use std::collections::HashMap;
 
-/// A scene, and the degrees of freedom in which it moves.
+/// A scene, and its moving degrees of freedom.
 pub struct Extent<'a> {
     /// The model.
     pub model: &'a Model,
     plan: &'a Plan,
-    /// The axis normal to the plane in which everything moves, 0 to 2; `None` in space.
+    /// The axis normal to the plane of motion, 0 to 2; `None` for motion in space.
     plane: Option<usize>,
     /// The masters of the dependent nodes, by node.
     masters: HashMap<usize, usize>,
 }
 
 impl<'a> Extent<'a> {
-    /// The scene of a model, whose plan tells what moves.
+    /// The scene of a model; its plan contains the moving degrees of freedom.
     pub fn new(model: &'a Model, plan: &'a Plan) -> Extent<'a> {
         let moves = |dof| (0..model.nodes.len()).any(|node| plan.is_unknown(node, dof));
         let stays = |normal: usize| !moves(normal) && !moves(3 + (normal + 1) % 3) && !moves(3 + (normal + 2) % 3);
@@ -34,7 +34,7 @@ impl<'a> Extent<'a> {
         if self.plane.is_some() { [2, 1] } else { [3, 3] }
     }
 
-    /// For each of the six degrees of freedom of a node, whether it moves: by itself, with a body or as prescribed.
+    /// Whether each of the six degrees of freedom of a node moves: freely, with a body or as prescribed.
     pub fn moving(&self, node: usize) -> [bool; 6] {
         let of = |node: usize| -> [bool; 6] { std::array::from_fn(|dof| self.plan.is_unknown(node, dof)) };
         let mut moving = of(node);
@@ -45,7 +45,7 @@ impl<'a> Extent<'a> {
         if let Some(&master) = self.masters.get(&node) {
             let carried = of(master);
             let turns = carried[3..].contains(&true);
-            // A body that turns takes its nodes along wherever the scene goes.
+            // A body that turns displaces its nodes in all directions of the scene.
             let follows = |dof: usize| turns || (dof < 3 && carried[dof]);
             (0..6).for_each(|dof| moving[dof] |= follows(dof) && self.in_plane(dof));
         }

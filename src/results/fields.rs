@@ -1,11 +1,12 @@
 //! fields.pvd and fields_000000.vtu …: the moving scene for ParaView and its kin, one grid per written step; fields.csv
 //! names the parts that the grids number.
 //!
-//! Points of beams carry section forces, moments and extreme stresses, which are zero at other points. Cells carry the number of their part, the largest plastic strain where anything yields, whether they have failed (1) where anything may, and where there are shells their
-//! stress resultants with axis 1, zero on other cells.
+//! Points of beams carry section forces, moments and extreme stresses, which are zero at other points. Cells have the number of their part. If the scene can
+//! yield or fail, they have the largest plastic strain and the flag of failure (1). If there are shells, they have the stress resultants
+//! along axis 1, zero on other cells.
 //!
-//! Beams are curves through their nodes, each element with points of its own so that it can show its section axes; bars and
-//! links are lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
+//! Beams are curves through their nodes, with separate points for each element, because each has its section axes. Bars and links are
+//! lines, shells faces, bodies closed shapes. A grid is named after its step and listed only once it is whole.
 
 use super::disk::{at, replace};
 use super::run_list::RunList;
@@ -47,8 +48,8 @@ impl Grid {
         self.parts.push(part as i64);
     }
 
-    /// Adds a curve from the first node to the last, with points of its own; VTK lists the ends first. VTK spaces the parameter of
-    /// its curves evenly, and Lobatto points are not even, but the curve drawn passes through all of them.
+    /// Adds a curve from the first node to the last, with separate points; VTK lists the ends first. VTK spaces the parameter of its curves
+    /// evenly, and Lobatto points are not even, but the curve drawn passes through all of them.
     fn curve(&mut self, kind: Cell, part: usize, nodes: &[usize], axes: Mat3) {
         let (first, last) = (self.places.len(), self.places.len() + nodes.len() - 1);
         self.places.extend(nodes.iter().map(|&node| Place { node, arm: Vec3::zeros(), axes }));
@@ -58,7 +59,7 @@ impl Grid {
     /// Adds the cells of a part, or of one of the two shells that make it up.
     fn part(&mut self, part: usize, of: &Part) {
         let first = self.places.len();
-        // A surface has points of its own, one for each of its nodes, which its elements share.
+        // A surface has one point for each of its nodes, shared by its elements.
         let mut place = HashMap::new();
         for element in 0..of.elements() {
             match of.drawing(element) {
@@ -130,12 +131,12 @@ fn face(corners: usize) -> Cell {
     }
 }
 
-/// Whether a part is drawn. Contacts and what acts along joints are not, for what carries them is.
+/// Whether a part is drawn. Contacts and forces along joints are not drawn; their parts are.
 fn is_drawn(part: &Part) -> bool {
     part.kind().is_drawn() && part.is_listed()
 }
 
-/// Bytes of one grid at most: as a rule compression takes away half of them.
+/// The upper bound of the bytes of one grid; compression usually halves them.
 pub fn bytes(model: &Model) -> usize {
     let Grid { places, connectivity, offsets, .. } = Grid::of(model);
     let cells = offsets.len();
@@ -146,7 +147,7 @@ pub fn bytes(model: &Model) -> usize {
     8 * numbers + cells + arrays * ARRAY + ENDS
 }
 
-/// Bytes of an array without its numbers, and of what stands before and behind the arrays.
+/// Bytes of an array without its numbers, and of the text before and after the arrays.
 const ARRAY: usize = 150;
 const ENDS: usize = 600;
 
@@ -264,7 +265,7 @@ impl Fields {
         Ok(())
     }
 
-    /// Goes on with the grids of a checkpoint; what was drawn after it is drawn again.
+    /// Continues the grids of a checkpoint; grids after it are drawn again.
     ///
     /// # Errors
     /// The list cannot be written.
@@ -286,7 +287,7 @@ impl Fields {
         if frame.drawn { self.write(frame) } else { Ok(()) }
     }
 
-    /// Takes away the grids written so far, which a run that begins again does not write at the same steps.
+    /// Removes the grids so far: a run that starts again writes grids at other steps.
     ///
     /// # Errors
     /// One of them cannot be removed.
@@ -414,7 +415,7 @@ fn vectors(grid: &mut GridText, places: &[Place], name: &str, vector: impl Fn(&P
     grid.array(name, 3, places.iter().flat_map(|place| <[f64; 3]>::from(vector(place))));
 }
 
-/// Adds the points of a grid, and what they carry.
+/// Adds the points of a grid and their data.
 fn write_points(grid: &mut GridText, places: &[Place], frame: &Frame) {
     let (start, now) = (&frame.model.nodes, &frame.state.nodes);
     let arm = |p: &Place| now[p.node].R() * p.arm;

@@ -1,4 +1,4 @@
-//! The files that grow with a run: those the deck asks for are opened, and every accepted step is shown to each.
+//! The files that grow with a run: the deck selects the files, and every accepted step goes to each.
 
 use super::disk::at;
 use super::expect::needs;
@@ -40,7 +40,7 @@ impl OpenTable {
     }
 }
 
-/// Writes what the deck asks for. [`Files::finish`] ends the run however it went.
+/// Writes the files that the deck selects. [`Files::finish`] closes them after success and after failure.
 pub struct Files {
     dir: PathBuf,
     tables: Vec<OpenTable>,
@@ -78,7 +78,7 @@ impl Files {
     /// Goes on with the files of a checkpoint in the stage of this model, as they were then.
     ///
     /// # Errors
-    /// A file cannot be opened, or is not what it was.
+    /// A file cannot be opened, or has changed since the checkpoint.
     pub fn go_on(&mut self, model: &Model, mark: FilesMark) -> io::Result<()> {
         for mark in mark.tables {
             let Some(&kind) = TABLES.iter().find(|kind| kind.file == mark.file) else { continue };

@@ -11,13 +11,12 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Makes a folder, which is locked, ready for a run: what an older run has written there is removed, so that nothing of it is taken for a
-/// result of this one. Anything else stays: other files, what links lead to, and the files
-/// `read` by the run, such as its deck.
+/// Prepares a locked folder for a run: it removes the files of an older run, so that none passes for a result of this one. Anything else
+/// stays: other files, what links lead to, and the files `read` by the run, such as its deck.
 ///
 /// # Errors
-/// Without `overwrite`, the folder holds files; a file that no run has written, or that this run reads,
-/// is in the way. Then nothing has been removed.
+/// Without `overwrite`, the folder holds files. With it, a file that no run has written, or that this run reads, has a name that the run
+/// needs. Then nothing has been removed.
 pub fn claim(dir: &Path, overwrite: bool, models: &[&Model], read: &[PathBuf]) -> io::Result<()> {
     let files = entries(dir)?;
     if !overwrite && files.iter().any(|name| name != lock::NAME) {
@@ -59,15 +58,15 @@ fn place(path: &Path) -> Option<PathBuf> {
     Some(folder.canonicalize().ok()?.join(path.file_name()?))
 }
 
-/// The files of a folder that its list names, with what a run left unfinished.
+/// The files in the list of a folder, and unfinished files of a run.
 fn ours(dir: &Path) -> io::Result<HashSet<String>> {
     let listed = run_list::read(dir)?.unwrap_or_default();
     let unfinished: Vec<String> = listed.iter().map(|name| format!("{name}{UNFINISHED}")).collect();
     Ok(listed.into_iter().chain(unfinished).collect())
 }
 
-/// Removes files of a run. The result goes first, so that it never stands beside tables that are not its own, and the list last,
-/// so that whatever is left after a failure is still known.
+/// Removes files of a run. The result goes first, so that it never stands beside tables of another run. The list goes last, so that a
+/// failure leaves the remaining names known.
 fn take_away(dir: &Path, files: &[String], ours: &HashSet<String>) -> io::Result<()> {
     let remove = |name: &str| {
         let path = dir.join(name);
@@ -89,14 +88,14 @@ fn is_of_a_run(name: &str) -> bool {
     is_result || [log::NAME, run_list::NAME, lock::NAME, checkpoint::NAME].contains(&name)
 }
 
-/// Removes what an earlier run has left, and its folder unless something else is in it.
+/// Removes the files of an earlier run, and its folder if nothing else is in it.
 ///
 /// # Errors
 /// The folder cannot be read, or a file in it cannot be removed; the error names it.
 pub fn remove_run(dir: &Path) -> io::Result<()> {
     let files = entries(dir)?;
     let mut ours = ours(dir)?;
-    // A run that was killed leaves its lock.
+    // A killed run leaves its lock behind.
     ours.insert(lock::NAME.to_owned());
     take_away(dir, &files, &ours)?;
     remove_empty(dir)

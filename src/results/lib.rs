@@ -1,7 +1,7 @@
 //! The files of the output folder, and what reads them back: comparisons, reports.
 //!
-//! A table is one file of [`tables`] and one line of its list; [`Files`] opens those that the deck asks for and shows them every
-//! accepted step. Errors name the file.
+//! A table is one file of [`tables`] and one line of its list. [`Files`] opens the tables of the deck and passes every accepted step to
+//! each. Errors name the file.
 
 #![warn(missing_docs)]
 

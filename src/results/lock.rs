@@ -1,8 +1,8 @@
-//! run.lock: the mark of the process that writes into a folder. The operating system holds it as long as the process lives, so
-//! the one that a killed run leaves binds nobody on the same host; its text says who it is, for people and for other hosts.
+//! run.lock: the mark of the process that writes into a folder. The operating system holds the lock while the process lives, so that the
+//! lock of a killed run blocks nobody on the same host. Its text names the process for people and other hosts.
 //!
-//! Of a process of another host nobody here can tell whether it lives, so each renews its lock every [`RENEWED`]: one that has not been
-//! renewed for [`GIVEN_UP`], by the clock of the file system, is that of a host that died, and is taken over.
+//! Whether a process of another host lives cannot be asked. Each process therefore renews its lock every [`RENEWED`]. A lock that is older
+//! than [`GIVEN_UP`] by the clock of the file system belongs to a dead host and is replaced.
 
 use super::disk::{UNFINISHED, at, is_same};
 use std::fmt;
@@ -18,9 +18,9 @@ pub const NAME: &str = "run.lock";
 const RENEWED: Duration = Duration::from_secs(30);
 /// The time without one after which a lock of another host is taken over.
 const GIVEN_UP: Duration = Duration::from_secs(300);
-/// The time after which a lock that was taken over must still be ours: another host may have taken it over in the same moment.
+/// The time after which a replaced lock must still be ours: another host may replace it in the same moment.
 pub(super) const SETTLED: Duration = Duration::from_secs(1);
-/// The time after which a lock that another process is just taking or leaving is looked at again, and how often it is.
+/// The pause before another look at a lock that is just being taken or released, and the number of looks.
 pub(super) const TAKEN_OVER: (Duration, usize) = (Duration::from_millis(1), 200);
 
 /// The right to write into a folder. It is held until it is dropped, which removes the file.
@@ -56,7 +56,7 @@ impl Held {
 /// The locks that this process holds.
 static ALL_HELD: Mutex<Vec<Weak<Held>>> = Mutex::new(Vec::new());
 
-/// Has a lock renewed as long as it is held.
+/// Renews a lock periodically while it is held.
 pub(super) fn keep_alive(held: &Arc<Held>) {
     static BEGUN: Once = Once::new();
     let Ok(mut all) = ALL_HELD.lock() else { return };
@@ -68,7 +68,7 @@ pub(super) fn keep_alive(held: &Arc<Held>) {
                 std::thread::sleep(RENEWED);
                 let held: Vec<Arc<Held>> =
                     ALL_HELD.lock().map(|all| all.iter().filter_map(Weak::upgrade).collect()).unwrap_or_default();
-                // A lock that cannot be renewed is given up by others in time; the run itself finds the disk as it is.
+                // Other processes replace a lock that is not renewed in time; the run itself reports the failing disk elsewhere.
                 held.iter().for_each(|held| drop(held.renew()));
             }
         });
@@ -82,7 +82,7 @@ pub struct Holder {
     pub(super) process: u32,
     /// Seconds since 1970, UTC.
     began: u64,
-    /// The identifier of the boot of the host; empty where the system does not tell.
+    /// The identifier of the boot of the host; empty if the system has none.
     boot: String,
     /// Whether it renews its lock, which older versions of this program do not.
     renews: bool,
@@ -91,7 +91,7 @@ pub struct Holder {
 impl Holder {
     /// This process.
     pub(super) fn this() -> Holder {
-        // A sweep takes thousands of locks.
+        // A sweep acquires thousands of locks.
         static HOST_AND_BOOT: OnceLock<(String, String)> = OnceLock::new();
         let (host, boot) = HOST_AND_BOOT.get_or_init(|| {
             let line = |path: &str| fs::read_to_string(path).unwrap_or_default().trim().to_owned();
@@ -128,7 +128,7 @@ impl Holder {
         })
     }
 
-    /// Whether the process may still run, as far as the text of its lock can tell.
+    /// Whether the process may still run, judged by the text of its lock.
     pub(super) fn may_live(&self, this: &Holder) -> bool {
         if self.host != this.host {
             return true;
@@ -151,7 +151,7 @@ pub fn host() -> String {
 }
 
 impl FolderLock {
-    /// Takes the lock of a folder, which is made where there is none.
+    /// Acquires the lock of a folder, and creates the folder if needed.
     ///
     /// # Errors
     /// As for [`FolderLock::take`], or the folder cannot be made.
@@ -175,10 +175,10 @@ impl FolderLock {
         Err(unstable(&path))
     }
 
-    /// Takes a lock; `None` where the file that was locked does not stand under its name.
+    /// Acquires a lock; `None` if the locked file no longer has its name.
     fn take_once(dir: &Path, path: &Path) -> io::Result<Option<FolderLock>> {
         let this = Holder::this();
-        // No run makes symbolic links: the link is removed, and what it leads to stays.
+        // No run makes symbolic links: the link is removed, and its target remains.
         if fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink()) {
             fs::remove_file(path).map_err(|error| at(path, error))?;
         }
@@ -187,7 +187,7 @@ impl FolderLock {
         let locked = match file.try_lock() {
             Ok(()) => true,
             Err(TryLockError::WouldBlock) => return Err(busy(dir, path, holder(&mut file).as_ref())),
-            // On a file system without locks the text alone tells.
+            // On a file system without locks the text alone decides.
             Err(TryLockError::Error(_)) => false,
         };
         // The holder before may have removed the file between opening and locking.
@@ -225,8 +225,8 @@ pub(super) fn unstable(path: &Path) -> io::Error {
     ))
 }
 
-/// Whether the process of another host that holds a lock has died with its host: it has not renewed it for so long. Both times are those
-/// of the file system, for hosts may have clocks of their own.
+/// Whether the process of another host that holds a lock has died with its host: it has not renewed it for so long. Both times come from
+/// the file system, because clocks of hosts differ.
 pub(super) fn is_given_up(holder: &Holder, this: &Holder, file: &File, dir: &Path) -> bool {
     if !holder.renews || holder.host == this.host {
         return false;
@@ -319,7 +319,7 @@ mod tests {
         assert!(error.contains("on elsewhere") && error.contains("remove `"), "{error}");
     }
 
-    /// Sets back the time at which a lock was renewed last.
+    /// Sets back the time of the last renewal of a lock.
     fn age(path: &Path, by: Duration) {
         OpenOptions::new().write(true).open(path).unwrap().set_modified(SystemTime::now() - by).unwrap();
     }

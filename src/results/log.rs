@@ -33,7 +33,7 @@ keep!(Log { path_before, cut, passed, broken } without { path, file });
 /// Lines of one kind.
 #[derive(Default)]
 struct Events {
-    /// The number of steps with a line of their own, and of those after them.
+    /// The number of steps with separate lines, and the number of later steps.
     said: usize,
     more: usize,
     /// The cutbacks of those after them.
@@ -43,7 +43,7 @@ struct Events {
 keep!(Events { said, more, cutbacks });
 
 impl Events {
-    /// Counts a step; true where it has a line of its own.
+    /// Counts a step; true if it gets a separate line.
     fn count(&mut self, cutbacks: usize) -> bool {
         let tells = self.said < MOST_LINES;
         match tells {
@@ -93,7 +93,7 @@ impl Log {
 }
 
 impl Observer for Log {
-    /// Notes the steps that took cutbacks, what failed, and what a path goes through.
+    /// Notes steps with cutbacks, failures, and limit and bifurcation points of a path.
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
         self.see_path(frame)?;
         self.see_broken(frame)?;
@@ -126,7 +126,7 @@ impl Log {
         self.say(&format!("step {step} to t = {time}: {what}"))
     }
 
-    /// Notes what failed, where and why.
+    /// Notes each failure with its place and cause.
     fn see_broken(&mut self, frame: &Frame) -> io::Result<()> {
         for Broken { what, reason, place } in &frame.derived.broken {
             if self.broken.count(0) {
@@ -137,7 +137,7 @@ impl Log {
         Ok(())
     }
 
-    /// Says how many steps had no line of their own, at the end of a run, and begins to count anew.
+    /// At the end of a run, writes how many steps had no separate line, and restarts the count.
     ///
     /// # Errors
     /// The file cannot be written; the error names it.

@@ -5,8 +5,8 @@ use solve::modes::SceneMatrices;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// Writes K.mtx, M.mtx, C.mtx where anything damps, G.mtx where there are joints, and dofs.csv, the node and direction of each row, into a
-/// folder, which is made where there is none. Files of these names are replaced. Returns their names.
+/// Writes K.mtx, M.mtx, C.mtx (with damping), G.mtx (with joints), and dofs.csv, the node and direction of each row, into a folder, which
+/// is created if needed. Files of these names are replaced. Returns their names.
 ///
 /// # Errors
 /// A file cannot be written; the error names it.

@@ -28,7 +28,7 @@ impl Progress {
         Progress { bar, shown: Instant::now(), iterations: 0 }
     }
 
-    /// Clears the line for what is said next.
+    /// Clears the line for the next message.
     pub fn finish(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();

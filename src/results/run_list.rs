@@ -1,4 +1,4 @@
-//! run.list: the names of the files that a run has written into its folder. `--overwrite` takes these away and nothing else.
+//! run.list: the names of the files that a run has written into its folder. `--overwrite` removes these files and nothing else.
 
 use super::disk::at;
 use base::text_file::read_text;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// The name of the list in the output folder.
 pub const NAME: &str = "run.list";
-/// The first line of a list, by which it is known.
+/// The first line of every list.
 const HEAD: &str = "# written by this run; --overwrite takes it away";
 
 /// The list of a run that is going on.
@@ -37,7 +37,7 @@ impl RunList {
         Ok(list)
     }
 
-    /// Notes files that are about to be written, so that the list is whole however the run ends.
+    /// Adds files before they are written, so that the list is complete even after a crash.
     ///
     /// # Errors
     /// The list cannot be written; the error names it.
@@ -52,10 +52,10 @@ impl RunList {
     }
 }
 
-/// The names in the list of a folder, each that of a file in the folder itself; `None` where there is no list.
+/// The names in the list of a folder, without paths; `None` without a list.
 ///
 /// # Errors
-/// A file of this name that no run has written, or that leads elsewhere.
+/// A file of this name was not written by a run, or a link has this name.
 pub fn read(dir: &Path) -> io::Result<Option<Vec<String>>> {
     let path = dir.join(NAME);
     match fs::symlink_metadata(&path) {

@@ -1,6 +1,6 @@
-//! The lock of many folders at once: a hard link of one file stands as run.lock in each of them. A file system that does not give out the
-//! inodes of files that have just been removed (ext4 for minutes) looks at all of them whenever it makes a file: to make and remove a
-//! lock for each case of a sweep would make every case slower than the one before.
+//! The lock of many folders at once: a hard link of one file stands as run.lock in each of them. Some file systems (ext4 for minutes) do
+//! not reuse the inodes of removed files at once, and search all of them for each new file. A new lock for each case of a sweep would make
+//! every case slower than the one before.
 
 use super::disk::{at, is_same};
 use super::lock::{
@@ -14,17 +14,16 @@ use std::sync::{Arc, Mutex};
 /// The beginning and the ending of the name of the file that is linked, with host and process between.
 const NAMED: [&str; 2] = ["cases.", ".lock"];
 
-/// The right of this process to write into folders, of which it takes one after the other. It ends when this is dropped, and with it the
-/// file.
+/// The lock of this process for many folders, one after the other. It ends when this is dropped, and with it the file.
 #[derive(Debug)]
 pub struct SharedLock {
     own: FolderLock,
-    /// Held while a lock that somebody has left is taken away: all locks that a killed process has left are one file.
+    /// Held while an abandoned lock is removed: all abandoned locks of a killed process are one file.
     making_room: Mutex<()>,
 }
 
 impl SharedLock {
-    /// Makes the file in a folder, which must exist, and takes away those of processes that are gone.
+    /// Links the lock into an existing folder, and removes the files of dead processes.
     ///
     /// # Errors
     /// The file cannot be made; the error names it.
@@ -43,7 +42,7 @@ impl SharedLock {
                 }
                 made => made.map_err(|error| at(&path, error))?,
             };
-            // Who takes away what is left may take a file that is not locked yet for one.
+            // A process that cleans up may mistake a file that is not locked yet for an abandoned one.
             if matches!(file.try_lock(), Err(TryLockError::WouldBlock)) || !is_same(&file, &path) {
                 std::thread::sleep(TAKEN_OVER.0);
                 continue;
@@ -86,8 +85,8 @@ impl SharedLock {
         Err(busy(dir, &path, None))
     }
 
-    /// Takes away the lock that a process which is gone has left in a folder, if it has not gone by itself meanwhile; true where it was one
-    /// of another host. An error says who holds it.
+    /// Removes the lock of a dead process from a folder, if it is still there; true for a process of another host. An error says who holds
+    /// it.
     fn make_room(&self, dir: &Path, path: &Path) -> io::Result<bool> {
         let _one_at_a_time = self.making_room.lock();
         if fs::symlink_metadata(path).is_ok_and(|found| found.is_symlink()) {
@@ -109,7 +108,7 @@ impl SharedLock {
                 std::thread::sleep(TAKEN_OVER.0);
                 return Ok(false);
             }
-            // On a file system without locks the text alone tells.
+            // On a file system without locks the text alone decides.
             Err(TryLockError::Error(_)) => false,
         };
         if locked && !is_same(&file, path) {
@@ -125,7 +124,7 @@ impl SharedLock {
     }
 }
 
-/// Takes away the files that processes which are gone have left in a folder.
+/// Removes the files of dead processes from a folder.
 fn take_away_left(dir: &Path) -> io::Result<()> {
     let this = Holder::this();
     for entry in fs::read_dir(dir).map_err(|error| at(dir, error))? {
@@ -160,7 +159,7 @@ fn remove(path: &Path) -> io::Result<()> {
 mod tests {
     use super::*;
 
-    /// The names of what is in a folder.
+    /// The names of the files in a folder.
     fn names(dir: &Path) -> Vec<String> {
         let entries = fs::read_dir(dir).unwrap();
         entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
@@ -174,7 +173,7 @@ mod tests {
         let shared = SharedLock::new(root.path()).unwrap();
         let locks = dirs.each_ref().map(|dir| shared.take(dir).unwrap());
         for dir in &dirs {
-            // Neither this process nor another takes it a second time.
+            // Neither this process nor another acquires it a second time.
             for error in [shared.take(dir).unwrap_err(), FolderLock::take(dir).unwrap_err()] {
                 assert_eq!(error.kind(), ErrorKind::ResourceBusy);
                 assert!(error.to_string().contains(&format!("process {} on ", std::process::id())), "{error}");
@@ -186,7 +185,7 @@ mod tests {
         assert_eq!(names(root.path()).len(), 2);
     }
 
-    /// What a killed process leaves is one file in many folders, which two others may take over at the same time.
+    /// A killed process leaves one file in many folders; two others may acquire it at the same time.
     #[test]
     fn what_a_killed_process_has_left_is_free() {
         let root = tempfile::tempdir().unwrap();

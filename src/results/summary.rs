@@ -15,7 +15,7 @@ use std::collections::HashMap;
 use std::io;
 use std::path::Path;
 
-/// What a folder of results comes to.
+/// The extremes of a folder of results.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ResultSummary {
     /// The status of the run; "unfinished" where there is no result.json.
@@ -54,12 +54,12 @@ pub struct Extremum {
     pub value: f64,
     /// Its time.
     pub time: f64,
-    /// What its row is about; empty where it is about the whole scene.
+    /// The subject of its row; empty for the whole scene.
     pub at: String,
 }
 
 impl ResultSummary {
-    /// Reads a folder of results. What steps cost is left out. With a filter extremes are those of filtered columns.
+    /// Reads a folder of results. Costs of steps are omitted. With a filter, extremes are those of the filtered columns.
     ///
     /// # Errors
     /// There are no results, a file cannot be read, or its rows do not suit the filter; the error names it.

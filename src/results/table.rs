@@ -10,10 +10,10 @@ use std::io;
 /// The name of the column behind `step` and `time` that tables of a deck with stages have.
 pub const STAGE: &str = "stage";
 
-/// A function that writes the rows of one frame. It is made once a run, so that it may hold what a scene fixes for good.
+/// A function that writes the rows of one frame. It is made once a run, so that it can store constants of the scene.
 pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
 
-/// Whatever takes the rows of a table, field by field: its file, or what keeps an account of its numbers.
+/// Receives the rows of a table, field by field: a file, or an account of the numbers.
 pub trait WriteRow {
     /// Begins a row with the two columns that every table has.
     fn row(&mut self, step: usize, time: f64) -> &mut dyn WriteRow;
@@ -37,36 +37,35 @@ pub trait WriteRow {
     fn end(&mut self) -> io::Result<()>;
 }
 
-/// A kind of table: one constant in a file of its own, and one line of [`super::TABLES`].
+/// A kind of table: one constant in a separate file, and one line of [`super::TABLES`].
 pub struct TableKind {
     /// The name of the file in the output folder.
     pub file: &'static str,
-    /// What a row is about and when the table is written, in whole sentences.
+    /// The subject of a row and the condition for the table, in whole sentences.
     pub about: &'static str,
     /// The columns behind `step` and `time`, group by group.
     pub columns: &'static [&'static [Column]],
-    /// Whether the deck asks for it and the scene has something to put in.
+    /// Whether the deck requests the table and the scene has rows for it.
     pub wanted: fn(&Model) -> bool,
-    /// What the solver must compute for its rows.
+    /// The quantities that the solver must compute for its rows.
     pub needs: Wanted,
-    /// True where its last column is for what may fail, and is not there in a deck in which nothing may.
+    /// True if its last column counts failures; a deck without failure omits this column.
     pub tells_failures: bool,
-    /// True where it is shown every accepted step, so that a row may tell of all since the one before.
+    /// True if it receives every accepted step, for rows that sum all steps since the row before.
     pub every_step: bool,
-    /// What it has at one time, about.
+    /// The approximate number of rows and columns at one time.
     pub extent: fn(&Extent) -> Rows,
     /// Makes the function that writes its rows for one model.
     pub rows: fn(&Model) -> WriteRows,
-    /// What `[[expect]]` may ask about the things in its rows.
+    /// The quantities that `[[expect]]` may request of the things in its rows.
     pub answers: Option<Answers>,
 }
 
-/// The quantities of the things that a table has rows for, as `[[expect]]` asks for them: at any step, and whether or not the
-/// table is written.
+/// The quantities of the things in the rows of a table for `[[expect]]`: at any step, even if the table is not written.
 pub struct Answers {
     /// The names of the quantities of one thing; empty where the table knows nothing of it.
     pub quantities: fn(ExpectAt) -> Vec<&'static str>,
-    /// What the solver must compute for them.
+    /// The quantities that the solver must compute for them.
     pub needs: Wanted,
     /// The value of one of these quantities, given by its index, where the frame has it.
     pub value: fn(ExpectAt, usize, &Frame) -> Option<f64>,
@@ -78,13 +77,13 @@ impl TableKind {
         [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())
     }
 
-    /// Those that a scene has.
+    /// The columns that a scene has.
     pub fn columns_of(&self, model: &Model) -> impl Iterator<Item = Column> {
         let left_out = usize::from(self.tells_failures && !model.output.failures);
         self.columns().take(self.columns().count() - left_out)
     }
 
-    /// The header row, without a line break; in a deck of stages, each row says in which it is.
+    /// The header row, without a line break; a deck of stages has a column for the stage.
     pub fn header(&self, model: &Model) -> String {
         let mut names: Vec<&str> = self.columns_of(model).map(|column| column.name).collect();
         if model.analysis.stage.is_some() {

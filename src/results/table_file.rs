@@ -1,9 +1,8 @@
 //! A comma separated file that grows by whole rows, without allocating.
 //!
-//! Rows collect in memory and reach the file complete: where the file can grow no more it is cut back to its last whole row, and
-//! of a run that is killed a row is torn only where it crosses a page of the file at that very moment, which readers say. Numbers
-//! are the shortest text that reads back to the same double. The csv crate is for readers: its writer hands over whatever fills
-//! its buffer.
+//! Rows collect in memory and are written complete. If the file cannot grow, it is cut back to its last whole row. A killed run tears a row
+//! only if that row crosses a page of the file at that moment; readers report it. Numbers are the shortest text that reads back to the same
+//! double. The csv crate is for readers: its writer hands over whatever fills its buffer.
 
 use super::disk::{at, create, is_same};
 use super::table::WriteRow;
@@ -14,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 /// The number of bytes of finished rows that do not wait for the next flush.
 const ENOUGH: usize = 1 << 16;
-/// The number of bytes that the operating system takes at a time, whatever is killed meanwhile.
+/// The number of bytes that the operating system writes at a time, even if the process is killed meanwhile.
 const PAGE: usize = 1 << 12;
 
 /// A table of results that is being written.
@@ -23,7 +22,7 @@ pub struct TableFile {
     file: File,
     /// The number of bytes in the file, all of whole rows.
     written: u64,
-    /// The rows that wait, and the row that is being written.
+    /// The finished rows not yet written, and the current row.
     rows: Vec<u8>,
     digits: ryu::Buffer,
     /// The time of the row that is being written.
@@ -35,7 +34,7 @@ pub struct TableFile {
     empty: Option<EmptyFields>,
 }
 
-/// Fields that stayed empty because what they should hold is no finite number.
+/// Fields that stayed empty because their number is not finite.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct EmptyFields {
     /// The time of the first row that has one.
@@ -73,10 +72,10 @@ impl TableFile {
         Ok(table)
     }
 
-    /// Opens the table of a checkpoint and cuts off what was written after it.
+    /// Opens the table of a checkpoint and removes all later rows.
     ///
     /// # Errors
-    /// The file cannot be opened or cut, or is not what it was at the checkpoint; the error names it.
+    /// The file cannot be opened or cut, or has changed since the checkpoint; the error names it.
     pub fn reopen(dir: &Path, mark: TableMark) -> io::Result<TableFile> {
         let TableMark { file: name, written, stage, before_stage, empty } = mark;
         let path = dir.join(name);
@@ -144,7 +143,7 @@ impl TableFile {
         self.empty
     }
 
-    /// Hands the finished rows to the file, in pieces that end with a row and, but for a row that crosses one, within a page.
+    /// Writes the finished rows to the file, in pieces that end with a row and lie within one page, except for a row that crosses pages.
     ///
     /// # Errors
     /// The file cannot grow; it then ends with its last whole row, and the rows are lost.
@@ -174,7 +173,7 @@ impl TableFile {
         done.map_err(|e| at(&self.path, e))
     }
 
-    /// Makes sure that the file still stands under its name and holds what was written, nothing more.
+    /// Checks that the file still has its name and holds the written rows, nothing more.
     ///
     /// # Errors
     /// Somebody has taken it away, put another in its place or written to it.

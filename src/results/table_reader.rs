@@ -1,5 +1,5 @@
-//! Tables of an output folder are read back row by row and never held whole. A last line without its end was truncated when a run
-//! was killed: it is left out, which the reader of the table is told.
+//! Tables of an output folder are read back row by row and never held whole. A killed run may leave a last line without its end: it is
+//! omitted and reported to the reader.
 
 use super::disk::at;
 use super::table::STAGE;
@@ -17,15 +17,15 @@ const CHUNK: usize = 1 << 18;
 pub struct TableReader {
     path: PathBuf,
     reader: BufReader<File>,
-    /// The row at hand, without its line break.
+    /// The current row, without its line break.
     line: Vec<u8>,
     /// The names of the columns.
     pub header: Vec<String>,
-    /// For each column, whether it says what a row is about.
+    /// For each column, whether it is a key.
     keys: Vec<bool>,
     /// The number of rows so far, without the header.
     pub count: usize,
-    /// True where the last line had no end, which is known once all rows have been read.
+    /// True if the last line had no end; known after all rows have been read.
     pub truncated: bool,
 }
 
@@ -49,9 +49,9 @@ impl TableReader {
         Ok(rows)
     }
 
-    /// For each column, whether it says what a row is about. The definition of the table tells; in a table of another program
-    /// these are the leading columns behind `step` and `time` that hold text in the first row. Names of columns tell nothing:
-    /// `contact` is a name in one table and an energy in another.
+    /// For each column, whether it is a key. The definition of the table decides. In a table of another program, keys are the leading
+    /// columns after `step` and `time` with text in the first row. Names of columns do not decide: `contact` is a name in one table and an
+    /// energy in another.
     fn find_keys(&mut self) -> io::Result<Vec<bool>> {
         let file = self.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         if let Some(table) = tables::of_file(file) {
@@ -79,7 +79,7 @@ impl TableReader {
             .collect())
     }
 
-    /// Whether a column, given by its place from 0, says what a row is about.
+    /// Whether a column, given by its place from 0, is a key.
     pub fn is_key(&self, place: usize) -> bool {
         self.keys.get(place).copied().unwrap_or(false)
     }
@@ -96,7 +96,7 @@ impl TableReader {
         Ok(Some(&self.line))
     }
 
-    /// Reads the next line that ends a row; false where there is no whole one.
+    /// Reads the next line that ends a row; false if there is no whole one.
     fn read(&mut self) -> io::Result<bool> {
         self.line.clear();
         loop {
@@ -124,14 +124,14 @@ impl TableReader {
         Ok(true)
     }
 
-    /// The error that the row at hand has not as many fields as the header.
+    /// The error of a row with more or fewer fields than the header.
     pub fn ragged(&self, fields: usize) -> io::Error {
         let (row, columns) = (self.count, self.header.len());
         let text = format!("row {row} has {fields} fields, the header {columns}");
         at(&self.path, io::Error::new(io::ErrorKind::InvalidData, text))
     }
 
-    /// The place of a column from 0; `None` where there is none of that name.
+    /// The place of a column from 0; `None` if no column has that name.
     pub fn column(&self, name: &str) -> Option<usize> {
         self.header.iter().position(|other| other == name)
     }
@@ -154,11 +154,11 @@ pub fn text(field: &[u8]) -> Cow<'_, str> {
     }
 }
 
-/// What a field holds that says NaN: the result of a computation that has failed, where an empty field says that there is none.
+/// The bits of a field `NaN`, the result of a failed computation; an empty field means that there is no number.
 pub const FAILED: u64 = 0x7ff8_0000_0000_0002;
 
-/// The number of a field. An empty field, which stands for no number, is NaN; one that says NaN has the bits [`FAILED`]; any other
-/// text is a NaN that carries its hash, so that equal texts have equal bits.
+/// The number of a field. An empty field is NaN. A field `NaN` has the bits [`FAILED`]. Any other text is a NaN that contains its hash, so
+/// that equal texts have equal bits.
 pub fn number(field: &[u8]) -> f64 {
     if field.is_empty() {
         return f64::NAN;

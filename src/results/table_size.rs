@@ -1,4 +1,4 @@
-//! The sizes of tables are predicted before a run begins, and choose the times of their rows where the deck leaves these open.
+//! Predicts the sizes of tables before a run, and chooses the times of their rows if the deck does not.
 
 use super::extent::{Extent, Rows};
 use super::fields;
@@ -18,13 +18,13 @@ const COUNT: usize = 2;
 const TIME: usize = 15;
 /// The number of bytes of the step at the start of a row.
 const STEP: usize = 5;
-/// The number of bytes to which tables may grow where the deck leaves the times of their rows open.
+/// The size in bytes up to which tables may grow if the deck does not choose the times of their rows.
 const MOST: f64 = 20e6;
-/// The number of times that tables have even if they grow beyond that, for charts need as many.
+/// The minimum number of times, even in larger tables, because charts need as many.
 const FEWEST: f64 = 200.0;
-/// The number of times that tables of a large explicit run have at most: a row costs about half a step, which nobody needs of each.
+/// The maximum number of times of a large explicit run: a row costs about half a step.
 const EXPLICIT: f64 = 2000.0;
-/// The number of elements from which an explicit run is large.
+/// The number of elements of a large explicit run.
 const LARGE: usize = 1000;
 /// The number of bytes below which tables and fields, taken together, need no list of the largest.
 const SMALL: f64 = 10e6;
@@ -51,15 +51,15 @@ pub fn settle_cadence(model: &mut Model, plan: &Plan) {
     }
 }
 
-/// The number of bytes that each table takes for one time.
+/// The number of bytes of one time in each table.
 fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
     let extent = Extent::new(model, plan);
     let wanted = TABLES.iter().filter(|kind| (kind.wanted)(model));
     wanted.map(|kind| (kind.file, bytes(kind, model, &(kind.extent)(&extent)))).collect()
 }
 
-/// About how many bytes each table takes in a whole run, and all grids of the fields; `None` where nobody knows how many steps
-/// there will be. With automatic steps that are longer than the time between rows it is less.
+/// The approximate number of bytes of each table in a whole run, and of all grids of the fields; `None` if the number of steps is unknown.
+/// With automatic steps that are longer than the time between rows it is less.
 pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f64)>> {
     let times = times(model, model.output.cadence)?;
     let mut all: Vec<_> = sizes(model, plan).into_iter().map(|(file, size)| (file, size as f64 * times)).collect();
@@ -88,7 +88,7 @@ pub fn size_in_words(model: &Model, plan: &Plan) -> String {
     words
 }
 
-/// The number of times of a cadence; `None` where the deck does not tell.
+/// The number of times of a cadence; `None` if the deck leaves it open.
 fn times(model: &Model, cadence: Cadence) -> Option<f64> {
     let end = model.analysis.duration();
     match (cadence, &model.analysis.step_length) {

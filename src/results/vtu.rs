@@ -12,7 +12,7 @@ const OPEN: &str = "<?xml version=\"1.0\"?>\n\
     <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
     compressor=\"vtkZLibDataCompressor\">\n\
     <UnstructuredGrid>\n";
-/// What stands behind the cells, before the numbers.
+/// The text after the cells and before the numbers.
 pub const APPENDED: &str = "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
 /// The end of a grid, behind the numbers.
 const CLOSE: &str = "\n</AppendedData>\n</VTKFile>\n";
@@ -74,8 +74,7 @@ impl GridText {
         GridText { text: String::new(), data: Vec::new(), kept: 0, bytes: Vec::new(), coder, fault: None }
     }
 
-    /// Compresses an array whose numbers are the same in every grid, and returns the tag that stands for it. It must come before
-    /// the first grid begins.
+    /// Compresses an array of constant numbers for all grids, and returns its tag. It must come before the first grid begins.
     pub fn keep<T: Scalar>(&mut self, name: &str, components: usize, values: impl Iterator<Item = T>) -> String {
         self.text.clear();
         self.array(name, components, values);
@@ -110,8 +109,8 @@ impl GridText {
         self.compress();
     }
 
-    /// Appends the array to the data: the number of blocks, the bytes of a block, those of the last one where they are fewer, then the
-    /// compressed bytes of each block, each of these a UInt64; then the blocks.
+    /// Appends the array to the data. It consists of UInt64 numbers (the number of blocks, the bytes of a block, the bytes of a shorter
+    /// last block, the compressed bytes of each block) and the blocks.
     fn compress(&mut self) {
         let GridText { data, bytes, coder, fault, .. } = self;
         let blocks = bytes.chunks(BLOCK);
@@ -124,7 +123,7 @@ impl GridText {
             let begins = data.len();
             coder.reset();
             loop {
-                // What cannot be compressed becomes longer by a few bytes in ten thousand.
+                // Incompressible data grows by a few bytes in ten thousand.
                 data.reserve(block.len() + block.len() / 64 + 256);
                 let rest = &block[coder.total_in() as usize..];
                 match coder.compress_vec(rest, data, FlushCompress::Finish) {

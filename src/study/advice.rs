@@ -12,8 +12,8 @@ pub struct AdvisedPart {
     pub kind: &'static str,
     /// The name of the part.
     pub name: String,
-    /// The largest elastic energy of this part over the largest elastic energy of all parts together, each at any time. It is
-    /// `None`, as is the next, where the deck as it is did not come to its end.
+    /// The largest elastic energy of this part over the largest elastic energy of all parts together, each at any time. Like the next, it
+    /// is `None` if the original deck did not reach its end.
     pub peak_share: Option<f64>,
     /// The share of this part in the elastic energy summed over all times.
     pub mean_share: Option<f64>,
@@ -21,13 +21,13 @@ pub struct AdvisedPart {
     pub rigid: Result<StudyRun, String>,
 }
 
-/// What each part of a deck carries, and what making it rigid costs and saves.
+/// The share of each part of a deck in the energy, and the error and the saved time of a run with that part rigid.
 pub struct StudyAdvice {
     /// The quantities that errors are measured on.
     pub quantities: Vec<Quantity>,
-    /// The number of intervals between the times at which errors are taken.
+    /// The number of intervals between the times of comparison.
     pub samples: usize,
-    /// The run of the deck as it is.
+    /// The run of the original deck.
     pub base: StudyRun,
     /// The parts, in the order of the deck.
     pub parts: Vec<AdvisedPart>,
@@ -36,7 +36,7 @@ pub struct StudyAdvice {
 }
 
 impl StudyAdvice {
-    /// A table for standard output, which begins with the parts whose rigidity makes the least error.
+    /// A table for standard output, sorted by the error of a rigid part, smallest first.
     pub fn text(&self) -> String {
         let head = ["part", "kind", "energy, most", "mean", "error if rigid", "loop s", "saved", "unknowns", "status"];
         let percent = |part: Option<f64>| match part.map(|part| 100.0 * part) {

@@ -1,5 +1,5 @@
-//! What automatic steps were asked for, and what they reached: of each scheme the slope of one over the other, the largest ratio,
-//! and how far the ratios scatter.
+//! Requested and reached errors of automatic steps: for each scheme the slope of reached over requested error, the largest ratio, and the
+//! scatter of the ratios.
 
 use super::grid::StudyGrid;
 use super::run::{RunStatus, StudyRun};
@@ -13,7 +13,7 @@ pub struct AskedRun {
     pub asked: f64,
     /// The error; where it is not `resolved`, a bound of it.
     pub reached: f64,
-    /// True where the error is well above that of the reference.
+    /// True if the error clearly exceeds the error of the reference.
     pub resolved: bool,
     /// The error that the run itself says it has.
     pub estimate: Option<f64>,
@@ -32,11 +32,11 @@ pub struct Asked {
     pub largest: f64,
     /// The geometric mean of the ratios of resolved runs.
     pub mean: Option<f64>,
-    /// The geometric standard deviation of these ratios: the factor by which they scatter about their mean.
+    /// The geometric standard deviation of these ratios: their scatter about the mean as a factor.
     pub spread: Option<f64>,
 }
 
-/// What the automatic lines of a grid were asked for and reached.
+/// Requested and reached errors of the automatic lines of a grid.
 pub fn asked(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<Asked> {
     let lines = (0..grid.lines.len()).filter(|&line| grid.lines[line].automatic);
     let of = |line: usize| {

@@ -1,10 +1,10 @@
-//! asked.svg: the error that automatic steps reached over the one that was asked for. On the straight line both are the same.
+//! asked.svg: the reached error of automatic steps over the requested error. On the straight line both are the same.
 
 use super::asked::Asked;
 use super::chart::{Axis, FRAME, LETTER, legend, line, mark, open, pen, rules, titles};
 use super::grid::StudyGrid;
 
-/// The picture of what automatic steps reached; nothing where there are none.
+/// The picture of the reached errors; nothing without automatic steps.
 pub fn draw(grid: &StudyGrid, asked: &[Asked]) -> Option<String> {
     let [left, top, width, height] = FRAME;
     let runs = || asked.iter().flat_map(|of| &of.runs);
@@ -12,7 +12,7 @@ pub fn draw(grid: &StudyGrid, asked: &[Asked]) -> Option<String> {
     if all.is_empty() {
         return None;
     }
-    // One scale both ways, so that the line on which both are the same runs from corner to corner.
+    // Both axes have one scale, so that the line of equal errors runs from corner to corner.
     let (x, y) = (Axis::new(&all, [left, left + width]), Axis::new(&all, [top + height, top]));
     let letters = asked.iter().map(|of| grid.lines[of.line].label.chars().count()).max().unwrap_or(0).max(12);
     let mut out = open(left + width + 52.0 + LETTER * letters as f64, "Error reached against error asked for");

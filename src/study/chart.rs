@@ -1,4 +1,4 @@
-//! What pictures of studies are made of: axes by decades, a frame with rules, marks.
+//! The elements of pictures of studies: axes by decades, a frame with rules, marks.
 
 use base::names::short;
 use results::report::html::escaped;
@@ -11,7 +11,7 @@ pub const LETTER: f64 = 7.6;
 pub const FRAME: [f64; 4] = [70.0, 20.0, 560.0, 440.0];
 /// Colours that are legible on white and on black.
 const COLOURS: [&str; 8] = ["#3b7dd8", "#d9622b", "#2f9e63", "#b058c4", "#b38a12", "#1f9aa8", "#d14b6b", "#7c7f86"];
-/// Dashes, which tell curves apart where the colours are used up.
+/// Dashes, which distinguish curves of equal colour.
 const DASHES: [&str; 3] = ["", "7 4", "2 4"];
 
 /// A decimal logarithm from `low` to `high`, drawn from `from` to `to`.
@@ -38,7 +38,7 @@ impl Axis {
         self.from + part * (self.to - self.from)
     }
 
-    /// The values that get a rule, and whether each is a whole decade; parts of decades are ruled where these are few.
+    /// The values with a rule, and whether each is a whole decade; with few decades, parts of decades have rules too.
     fn marks(&self) -> Vec<(f64, bool)> {
         let wide = self.high - self.low;
         let parts: &[f64] = if wide < 2.5 { &[1.0, 2.0, 5.0] } else { &[1.0] };

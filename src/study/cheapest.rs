@@ -1,12 +1,12 @@
 //! The cost of an error on each line, as a range, and ranks: where ranges overlap nothing is ranked.
 //!
-//! A cost is known as well as its times repeat and as the reference is known. The least of it goes by the least times and the
-//! least errors that the bound of the reference allows, the most by median times and the largest errors.
+//! A cost is known as well as its times repeat and as the reference is known. The lower end uses the least times and the smallest errors
+//! within the bound of the reference, the upper end the median times and the largest errors.
 
 use super::grid::StudyGrid;
 use super::run::{StudyRun, spread};
 
-/// The factor by which the time of a single run may be off, on a machine with other work, where nothing was run twice.
+/// The factor by which the time of a single run may be off on a busy machine, if no setting ran twice.
 const ONCE: f64 = 1.5;
 /// Where the bound of the reference allows no error at all, this part of the error is taken, for logarithms.
 const NEXT_TO_NOTHING: f64 = 1e-3;
@@ -18,7 +18,7 @@ pub struct Cheapest {
     pub line: usize,
     /// The seconds of the time stepping.
     pub loop_s: f64,
-    /// The range in which these seconds lie; infinite at its upper end where the error may not be reached at all.
+    /// The range of these seconds; infinite at its upper end if the error may be out of reach.
     pub range: [f64; 2],
     /// One more than the number of lines that are cheaper for certain: lines with one rank are equal within noise.
     pub rank: usize,
@@ -67,13 +67,12 @@ pub fn cheapest(grid: &StudyGrid, runs: &[StudyRun], wanted: &[f64]) -> Vec<(f64
     wanted.iter().map(|&error| of(error)).collect()
 }
 
-/// The factor by which the time of a single run may be off: that by which others scatter, where they were run twice.
+/// The factor by which the time of a single run may be off: the scatter of the repeated runs.
 pub fn noise(runs: &[StudyRun]) -> f64 {
     spread(runs).unwrap_or(ONCE)
 }
 
-/// The range in which the seconds of a run lie: from the least to the median of its repeats, or of a single run by the `noise` of
-/// others.
+/// The range of the seconds of a run: from the least to the median of its repeats, or of a single run by the `noise` of others.
 pub fn seconds_range(run: &StudyRun, noise: f64) -> [f64; 2] {
     match run.times.len() {
         0 | 1 => [run.loop_s / noise, run.loop_s * noise],
@@ -81,7 +80,7 @@ pub fn seconds_range(run: &StudyRun, noise: f64) -> [f64; 2] {
     }
 }
 
-/// The least cost at which a line comes to an error, with its range.
+/// The least cost of a line with the wanted error, with its range.
 fn cost(resolutions: &[f64], runs: &[&StudyRun], line: usize, wanted: f64, noise: f64) -> Option<Cheapest> {
     let view = |error: &dyn Fn(&StudyRun) -> Option<f64>, loop_s: &dyn Fn(&StudyRun) -> f64| -> Vec<Seen> {
         let seen = runs.iter().filter_map(|run| {
@@ -90,7 +89,7 @@ fn cost(resolutions: &[f64], runs: &[&StudyRun], line: usize, wanted: f64, noise
         });
         seen.collect()
     };
-    // Errors that are bounds count as they are: the true error is at most as large.
+    // A bound counts as an error: the true error is at most as large.
     let (best, at_the_top) = least(resolutions, &view(&|run| run.error, &|run| run.loop_s), wanted)?;
     let low = |run: &StudyRun| Some(run.error_range()?[0].max(NEXT_TO_NOTHING * run.error?));
     let low = view(&low, &|run| seconds_range(run, noise)[0]);
@@ -101,7 +100,7 @@ fn cost(resolutions: &[f64], runs: &[&StudyRun], line: usize, wanted: f64, noise
     Some(Cheapest { line, loop_s, range, rank: 1, process_s, resolution, at_the_top })
 }
 
-/// The cheapest point of a line that comes to an error, and whether that is its coarsest setting.
+/// The cheapest point of a line with the wanted error, and whether it is the coarsest setting.
 fn least(resolutions: &[f64], runs: &[Seen], wanted: f64) -> Option<(Seen, bool)> {
     let reached = runs.iter().filter(|run| run.error <= wanted);
     let mut best = *reached.min_by(|a, b| a.loop_s.total_cmp(&b.loop_s))?;
@@ -158,7 +157,7 @@ mod tests {
         // From the least to the median: a 1.0 to 1.2, b 1.1 to 1.3, c 2.0 to 2.1.
         let apart: [&[f64]; 3] = [&[1.0, 1.2, 1.4], &[1.1, 1.3, 1.9], &[2.0, 2.1, 2.2]];
         assert_eq!(ranks(apart, 0.0), [(0, 1), (1, 1), (2, 3)]);
-        // Repeats that are alike tell one from the other.
+        // Repeats with little scatter distinguish the settings.
         let alike: [&[f64]; 3] = [&[1.0, 1.01, 1.02], &[1.1, 1.11, 1.12], &[0.9, 0.9, 0.91]];
         assert_eq!(ranks(alike, 0.0), [(2, 1), (0, 2), (1, 3)]);
         // Single runs say nothing below a factor of ONCE both ways.
@@ -173,8 +172,8 @@ mod tests {
         assert_eq!(ranks(close, 1e-4), [(0, 1), (1, 1), (2, 3)]);
         let (grid, runs) = runs(close, 1e-4);
         let of = cheapest(&grid, &runs, &[4e-4])[0].1[0];
-        // Wanted is 4e-4, which is reached at 0.02, 4 s. With 1e-4 more it is reached where the error is 3e-4, on the line
-        // between (5e-4, 4 s) and (2e-4, 8 s) in logarithms; with 1e-4 less between (15e-4, 2 s) and (3e-4, 4 s).
+        // Wanted is 4e-4, which is reached at 0.02, 4 s. With 1e-4 more the cost is that at an error of 3e-4, on the line between (5e-4, 4
+        // s) and (2e-4, 8 s) in logarithms. With 1e-4 less it lies between (15e-4, 2 s) and (3e-4, 4 s).
         let at = |above: f64, below: f64, from: f64| from * 2f64.powf((above / 4e-4).ln() / (above / below).ln());
         assert!((of.range[1] / at(5e-4, 2e-4, 4.0) - 1.0).abs() < 1e-12, "{of:?}");
         assert!((of.range[0] / at(15e-4, 3e-4, 2.0) - 1.0).abs() < 1e-12, "{of:?}");

@@ -1,4 +1,4 @@
-//! Compares a reference with what a scheme of another family tends to.
+//! Compares a reference with the limit of a scheme of another family.
 
 use super::confirmation::{Confirmation, Difference};
 use super::grid::StudyGrid;
@@ -33,7 +33,7 @@ mod tests {
     use super::super::reference::extrapolate;
     use super::*;
 
-    /// What two families say of each other whose errors fall with the square of the step, and whose limits are a factor apart.
+    /// The confirmation between two families with errors of second order, whose limits differ by a factor.
     fn confirmed(factor: f64) -> Reference {
         let other = StudyLine { family: Family::Composite, scheme: "bathe".to_owned(), ..StudyLine::plain("bathe") };
         let steps = vec![0.04, 0.02, 0.01];

@@ -1,7 +1,6 @@
-//! What a scheme of another family says of a reference: what one family gets wrong, whatever the step, its own finer runs cannot
-//! tell.
+//! The judgement of a reference by a scheme of another family: finer runs of one family cannot show a common error of that family.
 
-/// What a scheme of another family says of a reference.
+/// The judgement of a reference by a scheme of another family.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Confirmation {
     /// Nothing: none has been run, or none has an answer.
@@ -19,7 +18,7 @@ pub struct Difference {
     pub label: String,
     /// The error of one answer against the other.
     pub apart: f64,
-    /// What the bounds of both allow.
+    /// The difference within the bounds of both.
     pub allowed: f64,
 }
 

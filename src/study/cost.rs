@@ -1,4 +1,4 @@
-//! What errors are drawn against: seconds, which scatter, or counts, which are the same on every machine.
+//! The horizontal axis of error plots: seconds, which scatter, or counts, which are equal on every machine.
 
 use super::run::StudyRun;
 
@@ -8,14 +8,14 @@ pub enum Cost {
     /// The seconds of the time stepping.
     #[default]
     Seconds,
-    /// The iterations of the run, and of the other runs by which the error of automatic steps is known.
+    /// The iterations of the run, and of the other runs for the error of automatic steps.
     Iterations,
     /// The factorizations of both.
     Factorizations,
 }
 
 impl Cost {
-    /// All costs, in the order in which they are offered.
+    /// All costs, in the order of the choice.
     pub const ALL: [Cost; 3] = [Cost::Seconds, Cost::Iterations, Cost::Factorizations];
 
     /// The word for it, on the command line too.
@@ -36,7 +36,7 @@ impl Cost {
         }
     }
 
-    /// What a run has cost; `None` where it cost nothing of the kind, as an explicit run no factorization.
+    /// The cost of a run; `None` if it has no cost of this kind, such as factorizations of an explicit run.
     pub fn of(self, run: &StudyRun) -> Option<f64> {
         let m = &run.measured;
         let cost = match self {

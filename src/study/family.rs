@@ -1,4 +1,4 @@
-//! Families of schemes. What two of a family have in common may be wrong in both; a scheme of another is an independent answer.
+//! Families of schemes. Two schemes of a family may share an error; a scheme of another family is an independent answer.
 
 use mechanics::integrators::{Scheme, Stepping};
 

@@ -20,13 +20,13 @@ pub struct Found {
     pub grid: StudyGrid,
     /// The runs that came to be, line by line, each from the longest time step down.
     pub runs: Vec<StudyRun>,
-    /// What errors are measured against; or in words why there is nothing.
+    /// The reference of the errors, or in words why there is none.
     pub reference: Result<Reference, String>,
     /// The measured order of each line; or in words why it has none.
     pub orders: Vec<Result<Order, &'static str>>,
     /// For each error asked for, the lines that come to it, the cheapest first.
     pub cheapest: Vec<(f64, Vec<Cheapest>)>,
-    /// What automatic steps were asked for and reached.
+    /// Requested and reached errors of automatic steps.
     pub asked: Vec<Asked>,
     /// True where a signal has ended it before all runs were done.
     pub stopped: bool,

@@ -27,13 +27,13 @@ pub struct StudyGrid {
     pub error_tolerances: Vec<f64>,
     /// The end time of the analysis.
     pub end_time: f64,
-    /// The number of intervals between the times at which errors are taken.
+    /// The number of intervals between the times of comparison.
     pub samples: usize,
     /// The overrides that all runs have.
     pub sets: Vec<String>,
     /// The entries of `[analysis]` besides those that a resolution sets.
     analysis: String,
-    /// The time steps that were asked for and had to be shortened, each with what it has become.
+    /// The requested time steps that were shortened, each with the shortened step.
     pub fitted: Vec<(f64, f64)>,
 }
 
@@ -41,7 +41,7 @@ impl StudyGrid {
     /// The grid that a deck and its `[study]` ask for; `samples` is the number of intervals of a reference.
     ///
     /// # Errors
-    /// What is asked for makes no sense with this deck.
+    /// The options contradict this deck.
     pub fn new(
         model: &Model,
         deck: &Deck,
@@ -113,7 +113,7 @@ impl StudyGrid {
         self.setting(line, resolution).into_iter().chain(self.sets.iter().cloned()).collect()
     }
 
-    /// The overrides that make a run what it is, without those that all have.
+    /// The overrides that distinguish a run, without those common to all.
     pub fn setting(&self, line: usize, resolution: f64) -> Vec<String> {
         let of = &self.lines[line];
         let step = match of.automatic {
@@ -133,8 +133,8 @@ impl StudyGrid {
     }
 }
 
-/// The override by which a run writes nothing but what errors are measured on, every `interval` of time; with `parts`, the elastic
-/// energies of the parts too.
+/// The override that limits the output of a run to the compared quantities, every `interval` of time; with `parts`, also the elastic
+/// energies of the parts.
 pub fn output(quantities: &[Quantity], interval: f64, parts: bool) -> String {
     let mut nodes: Vec<String> = Vec::new();
     for quantity in quantities.iter().filter(|quantity| !quantity.body) {

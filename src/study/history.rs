@@ -53,8 +53,8 @@ impl Moment<'_> {
         rotation::matrix(&q)
     }
 
-    /// A quantity: a column, or what is computed from columns: displacements of a body, its angular velocity in its own axes
-    /// (`body_wx`), components of a rotation matrix (`r11`).
+    /// A quantity: a column, or a number computed from columns: displacements of a body, its angular velocity in body axes (`body_wx`),
+    /// components of a rotation matrix (`r11`).
     fn value(&self, quantity: &Quantity) -> f64 {
         let word = quantity.column;
         let digit = |at: usize| usize::from(word.as_bytes()[at] - b'1');
@@ -96,7 +96,7 @@ pub fn read(folder: &Path, quantities: &[Quantity], samples: usize, end: f64) ->
     }
 }
 
-/// Enters the quantities of one table, that of bodies or that of nodes, into `values`.
+/// Enters the quantities of the table of bodies or of nodes into `values`.
 fn read_table(
     path: &Path,
     quantities: &[Quantity],
@@ -142,8 +142,7 @@ fn read_table(
     Ok(())
 }
 
-/// The error √(mean |q − q_ref|²) / max |q_ref| over all times. Each time has `count` quantities, of which `of` picks those that
-/// count.
+/// The error √(mean |q − q_ref|²) / max |q_ref| over all times. Each time has `count` quantities; `of` selects the compared ones.
 pub fn error(q: &[f64], reference: &[f64], count: usize, of: impl Fn(usize) -> bool) -> f64 {
     let (mut sum, mut largest) = (0.0, 0.0f64);
     for (row, exact) in q.chunks(count).zip(reference.chunks(count)) {

@@ -1,9 +1,8 @@
-//! Error against run time: one scene run again and again by the program itself, with other time steps, schemes, methods and
-//! meshes, and what the runs say together: measured orders, the cheapest setting for an error, what it would cost to make a part
-//! rigid. Each run is a process of its own, so that what is measured is what a user pays.
+//! Error against run time: runs one scene repeatedly with other time steps, schemes, methods and meshes. It derives measured orders, the
+//! cheapest setting for an error, and the cost of a rigid part. Each run is a separate process, so that its time is the time for a user.
 //!
-//! Error = √(mean |q − q_ref|²) / max |q_ref| over equidistant times, q all quantities. Steps land on these times; nothing is
-//! interpolated. The reference is a file, or what the finest runs tend to, with a bound of its own error ([`reference`]).
+//! Error = √(mean |q − q_ref|²) / max |q_ref| over equidistant times, q all quantities. Steps land on these times; nothing is interpolated.
+//! The reference is a file, or the limit of the finest runs, with a bound of its error ([`reference`]).
 
 #![warn(missing_docs)]
 
@@ -80,7 +79,7 @@ const PAGE: &str = "study.html";
 /// that are complete.
 ///
 /// # Errors
-/// What is asked for makes no sense with this deck, or a file cannot be read or written.
+/// The options contradict this deck, or a file cannot be read or written.
 pub fn study(model: &Model, deck: &Deck, options: &Options, stop: &AtomicBool) -> Result<Found, StudyFault> {
     let asked = model.study.clone().unwrap_or_default();
     let quantities = history::quantities(model, &asked);

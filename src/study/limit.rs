@@ -2,8 +2,7 @@
 
 use super::history;
 
-/// Runs that are alike to the last digit tell their limit no better than this, relative to the largest motion: rounding of many
-/// steps.
+/// The least relative bound of the limit of equal runs, relative to the largest motion: rounding of many steps.
 const ROUNDING: f64 = 1e-10;
 /// A measured order may exceed that of the scheme by this; beyond, it is chance.
 const ABOVE: f64 = 0.3;
@@ -17,7 +16,7 @@ pub struct Limit {
     pub error_bound: f64,
     /// The order of the extrapolation; `None` where nothing was extrapolated.
     pub order: Option<f64>,
-    /// The factor by which errors of the values that were extrapolated can grow.
+    /// The factor by which errors of the extrapolated values can grow.
     pub growth: f64,
 }
 
@@ -47,7 +46,7 @@ pub fn limit(h: &[f64], q: &[&[f64]], count: usize, most: f64) -> Option<Limit> 
         let least = if order < 1.0 { fine.to_vec() } else { toward(before, fine, r2, order.floor()) };
         error_bound = error_bound.max(apart(&least)).max(apart(&toward(before, fine, r2, order.ceil())));
     }
-    // Where that says no more than the runs, there is no order to speak of.
+    // If the extrapolation is no better than the runs, there is no order.
     if error_bound >= as_it_is.error_bound {
         return Some(as_it_is);
     }
@@ -60,8 +59,8 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The order p at which successive differences have the ratio Δ₁/Δ₂ = r₂ᵖ (r₁ᵖ − 1)/(r₂ᵖ − 1), which rises with p; `None` where
-/// it lies outside 0.4 to 12.
+/// The order p at which successive differences have the ratio Δ₁/Δ₂ = r₂ᵖ (r₁ᵖ − 1)/(r₂ᵖ − 1). The ratio rises with p; `None` if p lies
+/// outside 0.4 to 12.
 fn order(ratio: f64, r1: f64, r2: f64) -> Option<f64> {
     let of = |p: f64| r2.powf(p) * (r1.powf(p) - 1.0) / (r2.powf(p) - 1.0);
     let (mut low, mut high) = (0.4, 12.0);

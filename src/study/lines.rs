@@ -104,8 +104,8 @@ impl StudyLine {
     }
 }
 
-/// The schemes of a study, each with its label and its override: without one, steps of one kind may have another scheme than
-/// those of the other, since automatic ones choose theirs where the deck names none.
+/// The schemes of a study, each with its label and its override. Without an override, equal and automatic steps may have different schemes,
+/// because automatic steps choose a scheme if the deck names none.
 struct Schemes {
     listed: Vec<(String, Arc<dyn Scheme>, Option<String>)>,
     /// Where nothing is listed: the schemes of fixed and of automatic steps.

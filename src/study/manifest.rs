@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// The name of the list in the folder of a study.
 pub const NAME: &str = "study.list";
-/// The first line of a list, by which it is known.
+/// The first line of every list.
 const HEAD: &str = "# written by this study; --overwrite takes it away";
 
 /// The files and folders of runs that a study has written, by their names below its folder.
@@ -19,7 +19,7 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// Begins in a folder that is new, empty, or given up: what an older study has written there is removed, and all else stays.
+    /// Starts in a new, empty or overwritten folder: the files of an older study are removed, all others stay.
     ///
     /// # Errors
     /// Something there that no study has written is in the way of these files and folders of runs; then nothing has been removed.
@@ -64,7 +64,7 @@ impl Manifest {
         Ok(Manifest { folder: folder.to_owned(), names: Vec::new() })
     }
 
-    /// Notes what is about to be written, so that the list is whole however the study ends.
+    /// Adds files before they are written, so that the list is complete even after a crash.
     ///
     /// # Errors
     /// The list cannot be written; the error names it.

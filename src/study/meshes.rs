@@ -44,13 +44,13 @@ fn multiplied(elements: &OneOrMany<u64>, factor: f64) -> Option<String> {
     Some(if elements.single { numbers.concat() } else { format!("[{}]", numbers.join(", ")) })
 }
 
-/// A coarser mesh of a deck, by which the error of its own is told.
+/// A coarser mesh of a deck, for the error of its mesh.
 pub struct CoarserMesh {
-    /// The overrides that ask for it; none where no part can be coarser.
+    /// The overrides for the coarser mesh; none if no part can be coarser.
     pub sets: Vec<String>,
     /// The factor by which its errors are larger.
     pub apart: f64,
-    /// The names of deformable parts that stay as they are.
+    /// The names of deformable parts with unchanged mesh.
     pub unchanged: Vec<String>,
 }
 
@@ -58,7 +58,7 @@ pub struct CoarserMesh {
 pub fn coarser(deck: &Deck, model: &Model) -> CoarserMesh {
     /// The part of the order of convergence that is reached; of 300 columns of 17 runs 94 % were then within the bound.
     const SLOPE: f64 = 0.8;
-    /// The factor between the errors of degrees p and p - 1: few elements tell little of it.
+    /// The factor between the errors of degrees p and p - 1, which a few elements hardly show.
     const OF_A_DEGREE: f64 = 4.0;
     let mut mesh = CoarserMesh { sets: Vec::new(), apart: f64::INFINITY, unchanged: Vec::new() };
     for part in deck.parts().filter(|part| !part.is_rigid()) {

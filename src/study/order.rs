@@ -19,7 +19,7 @@ pub struct Order {
     pub from: f64,
     /// The shortest time step (or least tolerance) of these runs.
     pub to: f64,
-    /// The error below which shorter steps gain little, where the line comes to it.
+    /// The error below which shorter steps gain little, if the line reaches it.
     pub floor: Option<f64>,
 }
 
@@ -146,7 +146,7 @@ mod tests {
         };
         let (near, exact) = (|a: f64, b: f64| (a / b - 1.0).abs() < 1e-12, of("ddddd").unwrap());
         assert!(exact.0 == 5 && near(exact.1, 0.08) && near(exact.2, 0.005), "{exact:?}");
-        // Errors of the first and the third say nothing of what lies between them.
+        // Errors of the first and the third setting say nothing about the errors between them.
         let none = Err("no order: no two settings next to each other came to their end");
         assert_eq!([of("dndnd"), of("d"), of("nndn"), of("")], [none; 4]);
         let parted = of("ddndd").unwrap();

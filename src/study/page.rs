@@ -6,11 +6,11 @@ use super::{asked_picture, picture, table};
 use results::report::STYLE;
 use results::report::html::{self, escaped};
 
-/// The styles by which the axis that is chosen shows its picture, and hides the others.
+/// The styles with which the chosen axis shows its picture and hides the others.
 const CHOICE: &str = ".axes > svg { display: none; }\n.axes > label { margin-right: 1em; }\n\
     #axis0:checked ~ .axis0, #axis1:checked ~ .axis1, #axis2:checked ~ .axis2 { display: block; }\n";
 
-/// The pictures over all costs, of which one is chosen by a button.
+/// The pictures over all costs; a button selects one.
 fn pictures(found: &Found, axis: Cost) -> String {
     let (mut buttons, mut pictures) = (String::new(), String::new());
     for (index, cost) in Cost::ALL.into_iter().enumerate() {
@@ -23,7 +23,7 @@ fn pictures(found: &Found, axis: Cost) -> String {
     buttons + &pictures
 }
 
-/// What automatic steps were asked for and reached, with its picture.
+/// Requested and reached errors of automatic steps, with their picture.
 fn asked(found: &Found) -> String {
     let picture = asked_picture::draw(&found.grid, &found.asked).unwrap_or_default();
     let picture = picture.replace(" xmlns=\"http://www.w3.org/2000/svg\"", "");

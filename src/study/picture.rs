@@ -1,5 +1,5 @@
-//! study.svg: error against the time of the time stepping, or a count, both by decades, with one curve a line of settings. It has no fonts or
-//! scripts of its own, and is legible on light and on dark paper.
+//! study.svg: error against the time of the time stepping, or a count, both by decades, with one curve a line of settings. It needs no
+//! fonts or scripts, and is legible on light and on dark paper.
 
 use super::cells::seconds;
 use super::chart::{Axis, FRAME, LETTER, legend, line, mark, open, pen, rules, text, titles};

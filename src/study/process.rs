@@ -1,4 +1,4 @@
-//! A run of a study is a process of its own, timed from start to exit.
+//! A run of a study is a separate process, timed from start to exit.
 
 use results::at;
 use std::io::{self, Read};
@@ -14,11 +14,10 @@ const GLANCE: Duration = Duration::from_millis(50);
 /// The exit code of a run that a signal has ended.
 const STOPPED: i32 = 75;
 
-/// The variable of the environment that tells a run to end when its standard input does, which is when the study is gone, however
-/// it ended.
+/// The variable of the environment that ends a run when its standard input closes, which happens at the end of the study however it ended.
 pub const LIFELINE: &str = "RDSOLVE_LIFELINE";
 
-/// The variable of the environment that asks for a level of instructions.
+/// The variable of the environment with the level of instructions.
 pub const INSTRUCTIONS: &str = "RDSOLVE_INSTRUCTIONS";
 
 /// A process that has ended.
@@ -93,7 +92,7 @@ impl Program {
     }
 }
 
-/// The first error in what a process has written to standard error, without the lines that explain it.
+/// The first error in the standard error of a process, without the lines that explain it.
 pub fn first_error(said: &str) -> Option<String> {
     said.lines().find_map(|line| line.strip_prefix("error: ")).map(str::to_owned)
 }

@@ -27,7 +27,7 @@ impl StudyProgress {
         StudyProgress { bar, work, done: 0.0 }
     }
 
-    /// Shows the setting that runs now, and which of its repeats.
+    /// Shows the current setting and the number of its repeat.
     pub fn show(&self, label: &str, repeat: usize, repeats: usize) {
         if let Some(bar) = &self.bar {
             bar.set_message(format!("{label}, {repeat} of {repeats}"));
@@ -42,7 +42,7 @@ impl StudyProgress {
         }
     }
 
-    /// Clears the line for what is printed next.
+    /// Clears the line for the next message.
     pub fn finish(&mut self) {
         if let Some(bar) = self.bar.take() {
             bar.finish_and_clear();

@@ -64,7 +64,7 @@ fn none(found: &Found, nearest: Option<&StudyRun>, bound: f64, wanted: f64) -> S
     }
 }
 
-/// What the setting reaches and costs, as comments.
+/// The error and the cost of the setting, as comments.
 fn margin(found: &Found, run: &StudyRun, bound: f64, wanted: f64) -> Vec<String> {
     let most = run.error_range().map_or(f64::NAN, |[_, most]| most);
     let reached = run.error.filter(|_| run.resolved).map_or(String::new(), |error| format!("{error:.2e}, "));

@@ -1,14 +1,13 @@
-//! What errors are measured against: a file, or what the finest runs tend to.
+//! The reference of all errors: a file, or the limit of the finest runs.
 //!
-//! Without a file, each line of settings is extrapolated to a time step of zero (Richardson): q* = q + (q − q')/(rᵖ − 1) from its
-//! two finest runs, p the order that the three finest show, or the whole number next to it. What a whole order gives one resolution up
-//! is an independent answer; their difference bounds the error of q* with room to spare. Of an order that is not whole, the whole
-//! ones on both sides give the bound. Over several meshes the limits in
-//! time are extrapolated in the same way. The line with the least bound is taken, and its bound raised where another line's
-//! limit lies farther off than both bounds allow.
+//! Without a file, each line of settings is extrapolated to a time step of zero (Richardson) from its two finest runs: q* = q + (q −
+//! q')/(rᵖ − 1). The order p is the measured order of the three finest, or the nearest whole number. A whole order with one coarser
+//! resolution gives an independent answer; the difference is a generous bound of the error of q*. Of an order that is not whole, the whole
+//! ones on both sides give the bound. Over several meshes the limits in time are extrapolated in the same way. The line with the least
+//! bound is taken, and its bound raised where another line's limit lies farther off than both bounds allow.
 //!
-//! The step of a run is the mean of those it took: what was asked for may have been cut to the limit of stability, or to the
-//! interval between samples, and runs with the same steps show nothing of their error.
+//! The step of a run is the mean of its actual steps. Requested steps may have been cut to the limit of stability or to the sampling
+//! interval, and runs with equal steps do not show their error.
 
 use super::confirmation::Confirmation;
 use super::family::Family;
@@ -20,23 +19,22 @@ use super::reference_file::GivenReference;
 use super::run::{RunStatus, StudyRun};
 use model::study::Quantity;
 
-/// Mean steps count as equally long up to this ratio, which is less than that of a halving, and more than what rounding to whole
-/// steps makes of equal ones.
+/// Mean steps count as equally long up to this ratio. It is less than the ratio of a halving, and more than the rounding to whole steps.
 const ALIKE: f64 = 1.05;
 /// The values that errors are measured against.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
     /// The values at the sample times one after the other, each time all quantities.
     pub values: Vec<f64>,
-    /// A bound of its own error, relative as errors are; 0 for a file, of which nothing is known.
+    /// A bound of its error, relative as errors are; 0 for a file, with unknown error.
     pub error_bound: f64,
     /// Where it comes from, in words.
     pub source: String,
-    /// The limit in the time step alone, on the finest mesh, and a bound of its own error; `None` for a file.
+    /// The limit in the time step alone, on the finest mesh, and a bound of its error; `None` for a file.
     pub in_time: Option<(Vec<f64>, f64)>,
     /// The family of the schemes that it comes from; `None` for a file.
     pub family: Option<Family>,
-    /// What another family says of it.
+    /// Its judgement by another family.
     pub confirmation: Confirmation,
 }
 
@@ -121,7 +119,7 @@ pub fn extrapolate(grid: &StudyGrid, runs: &[StudyRun], quantities: &[Quantity])
     Ok(Reference { values: limit.q, error_bound, source, in_time, family, confirmation: Confirmation::None })
 }
 
-/// The lines on the best mesh that have a limit, each with that in the time step and that in the mesh too.
+/// The lines on the best mesh with a limit, each with the limit in the time step and the limit in the mesh too.
 fn candidates(grid: &StudyGrid, runs: &[StudyRun]) -> Vec<(usize, Limit, Option<Limit>)> {
     let ended = runs.iter().filter(|run| run.status == RunStatus::Done);
     // Of several meshes, degrees and tolerances the best are extrapolated.

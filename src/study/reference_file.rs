@@ -48,7 +48,7 @@ impl Faults<'_> {
     /// An error at a field of a line, or at the line where the field cannot be told.
     fn in_field(&self, line: usize, field: usize, text: String) -> Diagnostic {
         let bytes = self.text.bytes.split(|&byte| byte == b'\n').nth(line - 1).unwrap_or_default().trim_ascii_end();
-        // In a line with quotes, commas do not tell where fields end.
+        // In a line with quotes, commas do not always end fields.
         let word = TextLine { bytes, number: line }.fields().nth(field).filter(|_| !bytes.contains(&b'"'));
         match word {
             Some(word) => *self.text.fault_at(format!("the reference `{}` {text}", self.file), &word),
@@ -96,7 +96,7 @@ pub fn read(
         while left.next_if(|row| row.time < time - near).is_some() {}
         match left.peek() {
             Some(row) if row.time <= time + near => values.extend(&row.values),
-            // The error names the line of the row before which the time is missing; at the end, that of the last row.
+            // The error names the line of the next row; at the end, the line of the last row.
             next => missing.push((time, next.map_or_else(|| rows.last(), |row| Some(*row)).map_or(1, |row| row.line))),
         }
     }
@@ -123,7 +123,7 @@ struct Row {
     values: Vec<f64>,
 }
 
-/// All rows; what is wrong with the file goes to `faults`.
+/// All rows; faults of the file go to `faults`.
 fn rows(study: &Study, quantities: &[Quantity], bytes: &[u8], faults: &mut Faults) -> Vec<Row> {
     let mut lines = LineCounter { bytes, passed: 0, line: 1 };
     let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).flexible(true).from_reader(bytes);
@@ -166,7 +166,7 @@ fn rows(study: &Study, quantities: &[Quantity], bytes: &[u8], faults: &mut Fault
     rows
 }
 
-/// Tells the lines of records from the bytes at which they begin.
+/// Computes the lines of records from the bytes of their beginnings.
 struct LineCounter<'t> {
     bytes: &'t [u8],
     /// The number of bytes that have been counted.
@@ -196,7 +196,7 @@ struct Columns {
 }
 
 impl Columns {
-    /// Finds the columns in the header, which stands in line `head`; what is missing is a fault.
+    /// Finds the columns in the header in line `head`; a missing column is a fault.
     fn of(header: Vec<String>, head: usize, study: &Study, quantities: &[Quantity], faults: &mut Faults) -> Columns {
         let own = || quantities.iter().map(Quantity::word).collect();
         let names: Vec<String> = if study.columns.is_empty() { own() } else { study.columns.clone() };

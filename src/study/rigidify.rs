@@ -1,5 +1,5 @@
-//! The price and the gain of making a part rigid. The share of each part in the elastic energy tells where to look; a run with that
-//! part rigid tells the error and the time.
+//! The price and the gain of making a part rigid. The share of each part in the elastic energy suggests candidates; a run with that part
+//! rigid measures the error and the time.
 
 use super::advice::{AdvisedPart, StudyAdvice};
 use super::grid::{SAMPLES, output};
@@ -33,8 +33,7 @@ struct Candidate {
 /// For each part, by kind and name, the largest share in the elastic energy and that over all times.
 type Shares = HashMap<(String, String), [f64; 2]>;
 
-/// Runs the deck as it is and with each part rigid, and writes rigidify.csv. Raising `stop` ends it with the runs that are
-/// complete.
+/// Runs the original deck and one with each part rigid, and writes rigidify.csv. Raising `stop` ends it with the runs that are complete.
 ///
 /// # Errors
 /// There is no part that could be rigid or nothing to measure errors on, or a file cannot be read or written.
@@ -86,7 +85,7 @@ fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Re
     if problems.is_empty() { Ok(()) } else { Err(StudyFault::Deck(problems)) }
 }
 
-/// The decks to run, first the deck as it is; `common` are the overrides of all of them.
+/// The decks to run, first the original deck; `common` are the overrides of all of them.
 fn jobs(candidates: &[Candidate], options: &Options, common: &[String], time_step: f64) -> Vec<Job> {
     let sets = |own: &[String]| options.sets.iter().chain(own).chain(common).cloned().collect();
     let job = |label: String, folder: String, sets| Job { label, folder, setting: (0, time_step), work: 1.0, sets };
@@ -98,7 +97,7 @@ fn jobs(candidates: &[Candidate], options: &Options, common: &[String], time_ste
     std::iter::once(base).chain(rigid).collect()
 }
 
-/// The shares in the energy of the deck as it is, which must not be refused.
+/// The shares in the energy of the original deck, which must run.
 fn shares_of(base: &StudyRun, place: &Path) -> Result<Shares, StudyFault> {
     match base.status {
         RunStatus::Failed => {
@@ -147,11 +146,12 @@ fn candidates(deck: &Deck) -> Vec<Candidate> {
     deck.parts().filter(is_candidate).map(candidate).collect()
 }
 
-/// Reads parts.csv: for each part, by kind and name, the largest energy and that over all times, each divided by that of all parts.
+/// Reads parts.csv: for each part, by kind and name, its largest energy and its energy over all times, each divided by the energy of all
+/// parts.
 fn read_shares(path: &Path) -> io::Result<Shares> {
     let mut rows = TableReader::open(path)?;
     let mut peaks: Shares = HashMap::new();
-    // The step at hand, the energy of all parts in it, the largest such energy so far, and the sum over all steps.
+    // The current step, the energy of all parts in it, the largest such energy so far, and the sum over all steps.
     let (mut step, mut now, mut largest, mut sum) = (Vec::new(), 0.0, 0.0f64, 0.0);
     while let Some(row) = rows.next_row()? {
         let cells: Vec<&[u8]> = fields(row).collect();

@@ -57,13 +57,13 @@ pub struct StudyRun {
     pub errors: Vec<f64>,
     /// The bound of the error of the reference that it was judged by.
     pub error_bound: f64,
-    /// True where the error is well above that of the reference; otherwise `error` is a bound.
+    /// True if the error clearly exceeds the error of the reference; otherwise `error` is a bound.
     pub resolved: bool,
     /// The values at the sample times one after the other, each time all quantities; empty where it failed.
     pub history: Vec<f64>,
 }
 
-/// What is read from the result.json of a run.
+/// The measurements in the result.json of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measured {
     /// The number of unknowns that are solved for.
@@ -76,7 +76,7 @@ pub struct Measured {
     pub factorizations: u64,
     /// The number of cutbacks.
     pub cuts: u64,
-    /// The number of runs besides, by which the error of automatic steps is known, ...
+    /// The number of other runs for the error of automatic steps, ...
     pub other_runs: u64,
     /// ... their steps, ...
     pub other_steps: u64,
@@ -109,10 +109,10 @@ impl StudyRun {
 }
 
 impl StudyRun {
-    /// The first run of a setting, from the process that has ended and what it has written in `place`.
+    /// The first run of a setting, from its ended process and the files in `place`.
     ///
     /// # Errors
-    /// The result of a run that has ended by itself cannot be read.
+    /// The result of a run that ended normally cannot be read.
     pub fn new(line: usize, resolution: f64, folder: String, ended: &Ended, place: &Path) -> io::Result<StudyRun> {
         let status = match ended.code {
             Some(0) => RunStatus::Done,
@@ -165,9 +165,9 @@ impl StudyRun {
         }
     }
 
-    /// The range in which the error lies, given that of the reference.
+    /// The range of the error, given the error of the reference.
     pub fn error_range(&self) -> Option<[f64; 2]> {
-        // What is not resolved is stated as a bound, with that of the reference in it.
+        // An unresolved error is stated as a bound that includes the error of the reference.
         let beyond = if self.resolved { self.error_bound } else { 0.0 };
         let below = if self.resolved { self.error_bound } else { 2.0 * self.error_bound };
         self.error.map(|error| [(error - below).max(0.0), error + beyond])
@@ -185,7 +185,7 @@ impl StudyRun {
         median(self.times.clone()).unwrap_or(f64::NAN)
     }
 
-    /// The run with the histories that it has written; where these are not whole, it has failed.
+    /// The run with its written histories; incomplete histories make it a failed run.
     pub fn with_history(mut self, quantities: &[Quantity], samples: usize, end: f64, place: &Path) -> StudyRun {
         if self.status == RunStatus::Done {
             match history::read(place, quantities, samples, end) {
@@ -203,8 +203,8 @@ fn median(mut numbers: Vec<f64>) -> Option<f64> {
     numbers.get(numbers.len() / 2).copied()
 }
 
-/// A measure of how far times can be trusted: the median of a setting's times over the least of them, and of these ratios the
-/// median over all settings. It is `None` where nothing was run twice.
+/// A measure of the scatter of times: the ratio of the median of a setting's times to the least of them, and the median of these ratios
+/// over all settings. It is `None` where nothing was run twice.
 pub fn spread(runs: &[StudyRun]) -> Option<f64> {
     let twice = runs.iter().filter(|run| run.times.len() > 1 && run.loop_s > 0.0);
     median(twice.map(|run| run.median_s() / run.loop_s).collect())

@@ -1,5 +1,5 @@
-//! The runs of a study: each setting is run once for its answer and again for its time, in turn with the others, so that what
-//! disturbs the machine for a while disturbs all settings alike.
+//! The runs of a study. Each setting runs once for its answer and again for its time, in turn with the others, so that disturbances of the
+//! machine affect all settings alike.
 
 use super::grid::StudyGrid;
 use super::manifest::Manifest;
@@ -51,17 +51,17 @@ pub fn jobs(grid: &StudyGrid, options: &Options) -> Vec<Job> {
     lines.enumerate().map(job).collect()
 }
 
-/// How settings are run, and what is kept of each.
+/// The options of the runs, and the data kept of each.
 pub struct RunSeries<'t> {
     /// The options of the study.
     pub options: &'t Options,
     /// The quantities that are kept.
     pub quantities: &'t [Quantity],
-    /// The number of intervals between the times at which they are.
+    /// The number of intervals between the times of comparison.
     pub samples: usize,
     /// The end of the run.
     pub end: f64,
-    /// What is to be done once a setting has been run for the first time, with its number and folder.
+    /// Called after the first run of a setting, with its number and folder.
     pub once_run: &'t mut dyn FnMut(usize, &StudyRun, &Path) -> Result<(), StudyFault>,
 }
 

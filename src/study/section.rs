@@ -1,4 +1,4 @@
-//! A part of what a study says: a title, a table, and sentences below it; the same on standard output and on the page.
+//! A part of the report of a study: a title, a table, and sentences below it; equal on standard output and on the page.
 
 use super::columns::columns;
 use results::report::html::{self, escaped};

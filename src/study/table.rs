@@ -16,7 +16,7 @@ use base::names::short;
 pub const HEAD: [&str; 9] =
     ["setting", "time step", "error", "order", "loop s", "process s", "iterations", "factorizations", "status"];
 
-/// The error of a run to three digits, or as the bound that it is; empty where there is none.
+/// The error of a run to three digits, or its bound; empty if it is unknown.
 pub fn error(run: &StudyRun) -> String {
     match run.error {
         Some(error) if run.resolved => format!("{error:.2e}"),
@@ -33,7 +33,7 @@ pub fn cells(found: &Found) -> Vec<Vec<String>> {
         let line = &found.grid.lines[run.line];
         let order = local(before.filter(|before| before.line == run.line), run);
         before = Some(run);
-        // Those of the other runs of automatic steps stand apart: "120 + 340".
+        // Counts of the other runs of automatic steps stand apart: "120 + 340".
         let count = |own: u64, others: u64| match run.measured.steps {
             0 => String::new(),
             _ if others > 0 => format!("{own} + {others}"),
@@ -80,7 +80,7 @@ pub fn cost(line: &StudyLine, of: &Cheapest) -> String {
     format!("loop {loop_s} s, process {process_s} s, {what} {}{bound}", short(of.resolution))
 }
 
-/// What errors are measured against, and on what.
+/// The reference of the errors, and the compared quantities.
 pub fn reference(found: &Found) -> String {
     let (samples, count) = (found.grid.samples + 1, found.quantities.len());
     let against = match &found.reference {
@@ -160,7 +160,7 @@ pub fn rank(of: &Cheapest, list: &[Cheapest]) -> String {
     if equal { format!("x {times:.2}, equal within noise") } else { format!("x {times:.2}") }
 }
 
-/// What a study says besides: asked and reached errors.
+/// Requested and reached errors.
 pub fn asked(found: &Found) -> StudySection {
     asked::section(&found.grid, &found.asked)
 }

@@ -1,6 +1,6 @@
-//! What has become of a case of a sweep.
+//! The state of a case of a sweep.
 
-/// What has become of a case.
+/// The state of a case.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum CaseState {
     /// It is still to be run, or under way elsewhere.

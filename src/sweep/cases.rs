@@ -15,10 +15,10 @@ pub struct Cases {
 }
 
 impl Cases {
-    /// The cases that the file asks for; a table of cases is read from the folder of the file.
+    /// The cases of the file; a table of cases is read relative to the folder of the file.
     ///
     /// # Errors
-    /// What is wrong, in a sentence: the table cannot be read, or there are too many cases or dimensions.
+    /// The fault in a sentence: the table cannot be read, or there are too many cases or dimensions.
     pub fn new(file: &SweepFile, folder: &Path) -> Result<Cases, String> {
         if let Some((path, _)) = &file.table {
             return of_table(&folder.join(path));

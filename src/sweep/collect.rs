@@ -10,7 +10,7 @@ use std::path::Path;
 /// Times are those of a row within this part of it.
 const SAME_TIME: f64 = 1e-9;
 
-/// The numbers that are asked for, in their order; `None` where the tables do not have one. Each table is read once.
+/// The collected numbers, in their order; `None` if the tables lack one. Each table is read once.
 ///
 /// # Errors
 /// A table cannot be read; the error names it.
@@ -39,7 +39,7 @@ pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64
     Ok(found)
 }
 
-/// A number that is looked for in a table whose rows go by.
+/// The search for one number in the rows of a table.
 struct Search<'w> {
     wanted: &'w Collected,
     /// The place of its column.
@@ -54,13 +54,13 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
     for (place, &wanted) in wanted.iter().enumerate() {
         searches.extend(rows.column(&wanted.quantity).map(|column| (place, Search { wanted, column, best: None })));
     }
-    // The stage of a row says when it is, as its time does, not what it is about.
+    // The stage of a row is part of its time, not of its subject.
     let says_what = |&key: &usize| rows.is_key(key) && rows.header[key] != STAGE;
     let keys: Vec<usize> = (0..rows.header.len()).filter(says_what).collect();
     let stages = rows.column(STAGE);
     let looked_at = searches.iter().map(|(_, search)| search.column).chain([time]).chain(keys.iter().copied());
     let last = looked_at.chain(stages).max().unwrap_or(0);
-    // The ends of the fields of a row, so far as they are looked at.
+    // The ends of the fields of a row, as far as they are needed.
     let mut ends: Vec<(usize, usize)> = Vec::new();
     while let Some(row) = rows.next_row()? {
         let mut from = 0;
@@ -100,7 +100,7 @@ impl Search<'_> {
         }
     }
 
-    /// True for a row about what is asked for, in the stage that is asked for.
+    /// True for a row of the wanted subject in the wanted stage.
     fn is_about<'r>(&self, field: &impl Fn(usize) -> Option<&'r [u8]>, keys: &[usize], stages: Option<usize>) -> bool {
         let says = |place: usize, name: &str| field(place).is_some_and(|found| text(found) == name);
         let in_stage = match &self.wanted.stage {
@@ -110,7 +110,7 @@ impl Search<'_> {
         in_stage && (keys.is_empty() || says(keys[0], &self.wanted.at) || keys.len() > 1 && self.is_all(field, keys))
     }
 
-    /// True where all keys of a row, with a space between, are what is asked for.
+    /// True if all keys of a row, separated by spaces, are the wanted subject.
     fn is_all<'r>(&self, field: &impl Fn(usize) -> Option<&'r [u8]>, keys: &[usize]) -> bool {
         let all: Vec<_> = keys.iter().filter_map(|&key| field(key)).map(text).collect();
         all.join(" ") == self.wanted.at

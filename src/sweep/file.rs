@@ -1,4 +1,4 @@
-//! The file of a sweep: the deck, what varies in it, and what is collected.
+//! The file of a sweep: the deck, its varied entries, and the collected numbers.
 
 use super::case_state::CaseState;
 use base::diagnostic::{Diagnostic, Source, Span};
@@ -8,7 +8,7 @@ use std::collections::HashSet;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What a sweep asks for.
+/// The contents of the file of a sweep.
 #[derive(Debug, Clone, Default)]
 pub struct SweepFile {
     /// The path of the deck, relative to the file.
@@ -31,7 +31,7 @@ pub enum KeptFolders {
     /// All.
     #[default]
     All,
-    /// Those that failed or missed what they expect.
+    /// Cases that failed or missed their expectations.
     Failed,
     /// None: the summary alone is left.
     Summary,
@@ -55,7 +55,7 @@ impl KeptFolders {
 /// An entry of the deck that varies.
 #[derive(Debug, Clone)]
 pub struct VariedKey {
-    /// The key, as `--set` takes it.
+    /// The key, in the form of `--set`.
     pub key: String,
     /// Its values.
     pub values: VariedValues,
@@ -63,7 +63,7 @@ pub struct VariedKey {
     pub place: Span,
 }
 
-/// The values that an entry takes.
+/// The values of an entry.
 #[derive(Debug, Clone, PartialEq)]
 pub enum VariedValues {
     /// These values, as TOML.
@@ -86,11 +86,11 @@ pub struct SampleOfCases {
     pub kind: SampleKind,
     /// The number of cases.
     pub cases: usize,
-    /// What makes it another sample of the same kind.
+    /// Another seed gives another sample of the same kind.
     pub seed: u64,
 }
 
-/// The way in which the points of a sample are spread.
+/// The distribution of the points of a sample.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SampleKind {
     /// Sobol's sequence.
@@ -104,17 +104,17 @@ pub enum SampleKind {
 pub struct Collected {
     /// The name of its column.
     pub name: String,
-    /// What the row is about, as its table names it, or "energy".
+    /// The subject of the row, as its table names it, or "energy".
     pub at: String,
     /// The column of the table.
     pub quantity: String,
-    /// The stage to whose rows it is limited.
+    /// The stage of the rows.
     pub stage: Option<String>,
-    /// The time at which it is taken.
+    /// The time of the number.
     pub when: CollectedWhen,
 }
 
-/// The time at which a number is taken.
+/// The time of a collected number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CollectedWhen {
     /// Where it is largest.
@@ -129,7 +129,7 @@ pub enum CollectedWhen {
     Time(f64),
 }
 
-/// The JSON Schema of the file. Which keys a deck has, and what stands in its tables, it leaves to the reader.
+/// The JSON Schema of the file. The keys of a deck and the contents of its tables are checked by the reader.
 pub const SCHEMA: &str = include_str!("schema.json");
 
 /// The keys of the file, of a range, of a sample and of a number that is collected.
@@ -143,7 +143,7 @@ const COLLECTED: [&str; 5] = ["at", "quantity", "stage", "peak", "time"];
 /// The largest number of values of an axis, and of cases.
 pub const MOST_CASES: usize = 1_000_000;
 
-/// Reads the file of a sweep, with all that is wrong about it; `None` where anything is.
+/// Reads the file of a sweep, with all its faults; `None` if there are any.
 pub fn read(source: &Source) -> (Option<SweepFile>, Vec<Diagnostic>) {
     let (root, errors) = DeTable::parse_recoverable(&source.text);
     let mut reader = Reader { source, problems: Vec::new() };
@@ -228,7 +228,10 @@ impl Reader<'_> {
             self.error(place, "nothing varies");
         }
         if let (Some((_, place)), false) = (&file.table, file.axes.is_empty() && file.sample.is_none()) {
-            self.error(&place.clone(), "a `table` of cases has all that varies: nothing else may stand beside it");
+            self.error(
+                &place.clone(),
+                "a `table` of cases contains all varied entries: remove the other entries of [vary]",
+            );
         }
         for axis in &file.axes {
             match (&axis.values, file.sample) {
@@ -390,7 +393,7 @@ mod tests {
         keys.to_vec()
     }
 
-    /// What the reader takes and what the schema takes have the same keys and words; what neither takes is an error of the reader.
+    /// Reader and schema accept the same keys and words; the reader reports all others as errors.
     #[test]
     fn the_schema_is_that_of_the_reader() {
         let schema: Value = serde_json::from_str(SCHEMA).unwrap();

@@ -1,7 +1,7 @@
 //! The folder of a sweep: `cases.csv`, `summary.csv`, and a folder for each case, named by the hash of all that it is computed from.
 //!
-//! Any number of processes may fill one folder at once, on any number of machines: a case belongs to who locks its folder, and stands
-//! once its `result.json` does. Files that all of them write are moved in whole, and are the same bytes whoever writes them.
+//! Any number of processes on any number of machines may fill one folder at once: a case belongs to the process that locks its folder, and
+//! is complete once its `result.json` exists. Files that all of them write are moved in whole, and are the same bytes whoever writes them.
 
 use super::case_state::{CaseState, one_line};
 use super::cases::Cases;
@@ -30,13 +30,13 @@ pub struct SweepFolder {
     pub path: PathBuf,
     /// The names of the folders of all cases, in their order.
     pub names: Vec<String>,
-    /// The digests of the files that decks name, by which the folders are named.
+    /// The digests of the files named by decks, for the names of the folders.
     pub files: HashMap<PathBuf, Vec<u8>>,
     /// The cases whose folders are kept.
     pub keep: KeptFolders,
     /// The numbers that are read from each result.
     pub collect: Vec<Collected>,
-    /// What is known of the others.
+    /// The records of the other cases.
     records: Records,
 }
 
@@ -55,7 +55,7 @@ impl SweepFolder {
         self.path.join(&self.names[case])
     }
 
-    /// What has become of a case.
+    /// The state of a case.
     pub fn state(&self, case: usize) -> CaseState {
         match self.records.find(&self.names[case]) {
             Some(record) => record.state(),
@@ -63,8 +63,8 @@ impl SweepFolder {
         }
     }
 
-    /// Lets the folders of those among these cases go that are not kept, once their records are safe on the disk; those that stay are
-    /// returned. Each has its result, which need not be marked.
+    /// Removes those folders of these cases that are not kept, once their records are safe on the disk; returns the remaining ones. Each
+    /// has its result, which need not be marked.
     ///
     /// # Errors
     /// A table cannot be read, a record cannot be written, or a folder cannot be removed; the error names it.
@@ -101,8 +101,8 @@ impl SweepFolder {
         self.write("cases.csv", header.map(str::to_owned).collect(), cases.values.iter().enumerate().map(row))
     }
 
-    /// Writes `summary.csv`: what varies, what became of each case, and what is collected from it; and the page of it. What other processes
-    /// have brought to its end in the meantime is in it: whoever writes last writes of all cases that stand.
+    /// Writes `summary.csv` (the varied entries, the state and the collected numbers of each case) and its page. It includes the cases
+    /// completed by other processes meanwhile: the last writer writes all complete cases.
     ///
     /// # Errors
     /// A table cannot be read, or the file cannot be written; the error names it.
@@ -179,7 +179,7 @@ impl SweepFolder {
     }
 }
 
-/// What has become of a case, by its folder and the name of its result.
+/// The state of a case, from its folder and the name of its result.
 fn found(folder: &Path, result: &str) -> CaseState {
     // A power cut may leave an empty one.
     if let Some(reason) = read_text(folder.join(FAILURE)).ok().filter(|reason| !reason.is_empty()) {
@@ -197,20 +197,20 @@ fn found(folder: &Path, result: &str) -> CaseState {
     }
 }
 
-/// The numbers of a case as the summary has them: empty where its tables have none, or where it does not stand.
+/// The numbers of a case in the summary: empty if its tables have none, or if it is incomplete.
 fn numbers(folder: &Path, state: &CaseState, wanted: &[Collected]) -> io::Result<Vec<String>> {
     let stands = matches!(state, CaseState::Done | CaseState::Missed(_));
     let numbers = if stands { collect(folder, wanted)? } else { vec![None; wanted.len()] };
     Ok(numbers.into_iter().map(|number| number.map_or(String::new(), |number| format!("{number:?}"))).collect())
 }
 
-/// What makes the names of cases: 16 hexadecimal digits of a SHA-256 each.
+/// Computes the names of cases: 16 hexadecimal digits of a SHA-256 each.
 struct CaseNames<'d> {
     /// The path and the text of the deck.
     deck: (&'d str, &'d str),
-    /// What has been hashed of all cases: the version and the deck.
+    /// The hash of the common input of all cases: the version and the deck.
     begun: Sha256,
-    /// The files that all cases are computed from, besides the deck; `None` where they may differ from case to case.
+    /// The other input files of all cases besides the deck; `None` if they may differ from case to case.
     files: Option<Vec<String>>,
     /// The digests of files, empty of those that cannot be read.
     digests: HashMap<PathBuf, Vec<u8>>,

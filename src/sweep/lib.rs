@@ -1,8 +1,8 @@
 //! Sweeps: many variants of one deck in one folder, which any number of processes may fill at once.
 //!
-//! [`file`] is the text that asks for it, [`cases`] the variants that follow, [`sampling`] the points of a sample, [`collect`] the numbers
-//! that are read from the results of each, [`case_state`] what became of a case, [`folder`] where all that stands, and a
-//! page of it, [`marks`] what says that a case does, [`records`] what is kept of cases whose folders are not.
+//! [`file`] reads the text, [`cases`] makes the variants, and [`sampling`] the points of a sample. [`collect`] reads the numbers from the
+//! results, and [`case_state`] the state of a case. [`folder`] holds all cases and their page, [`marks`] marks complete cases, and
+//! [`records`] keep cases without folders.
 
 #![warn(missing_docs)]
 

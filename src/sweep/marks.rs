@@ -1,5 +1,5 @@
-//! The marks of cases that have come to their ends: a case is marked once all of its files are safe on the disk, so that a power cut leaves
-//! none that seems to stand and does not. Cases that end while others are being made safe are made safe together.
+//! The marks of completed cases. A case is marked once all of its files are safe on the disk, so that no case seems complete after a power
+//! cut but is not. Cases that end while others are being made safe are made safe together.
 
 use super::folder::SweepFolder;
 use results::checkpoint::Checkpoint;
@@ -19,14 +19,14 @@ pub struct Computed {
     pub folder: PathBuf,
     /// The lock, which is let go when the case is marked.
     pub lock: FolderLock,
-    /// True where a signal has stopped it: it then keeps the checkpoint from which it goes on.
+    /// True if a signal has stopped it; the case then keeps its checkpoint for the continuation.
     pub is_stopped: bool,
 }
 
 /// Marks cases in the folder of a sweep as they come, until no more do.
 ///
 /// # Errors
-/// The disk does not take what was written; cases that are not marked are run again.
+/// The disk did not store the files; cases without a mark run again.
 pub fn mark_all(within: &SweepFolder, computed: &Receiver<Computed>) -> io::Result<()> {
     let mut next = Instant::now();
     while let Ok(first) = computed.recv() {

@@ -1,7 +1,7 @@
-//! The records of cases whose folders are not kept: a line of JSON each, with what became of the case and the numbers collected from it.
+//! The records of cases whose folders are not kept: a line of JSON each, with the state of the case and its collected numbers.
 //!
-//! Each process appends to a file of its own in the folder `records`, and reads those of all: any number of processes, on any number of
-//! machines, may fill one sweep. A line without its end is that of a process which was killed, and counts for nothing.
+//! Each process appends to a separate file in the folder `records`, and reads the files of all: any number of processes, on any number of
+//! machines, may fill one sweep. A line without its end comes from a killed process and does not count.
 
 use super::case_state::{CaseState, one_line};
 use super::file::Collected;
@@ -17,12 +17,12 @@ use std::sync::Mutex;
 /// The folder of the records in that of the sweep.
 const NAME: &str = "records";
 
-/// What is known of a case whose folder is gone.
+/// The record of a case without folder.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CaseRecord {
     /// The name of the folder that the case had.
     folder: String,
-    /// The digest of what was collected: other numbers need another run.
+    /// The digest of the list of collected numbers: other numbers need another run.
     collect: String,
     /// How often the case has been run; the last run counts.
     run: usize,
@@ -35,7 +35,7 @@ pub struct CaseRecord {
 }
 
 impl CaseRecord {
-    /// What became of the case.
+    /// The state of the case.
     pub fn state(&self) -> CaseState {
         match self.status.as_str() {
             "done" => CaseState::Done,
@@ -52,7 +52,7 @@ pub struct Records {
     known: Mutex<Known>,
 }
 
-/// What has been read so far, and the file of this process.
+/// The records read so far, and the file of this process.
 #[derive(Default)]
 struct Known {
     /// The bytes of each file that have been read.
@@ -69,7 +69,7 @@ impl Records {
         Records { dir: sweep.join(NAME), collect, known: Mutex::default() }
     }
 
-    /// The record of a case, by the name of its folder; what other processes have added meanwhile is read first.
+    /// The record of a case, by the name of its folder; new records of other processes are read first.
     pub fn find(&self, folder: &str) -> Option<CaseRecord> {
         let mut known = self.known.lock().ok()?;
         known.refresh(&self.dir);
@@ -109,7 +109,7 @@ impl Known {
         own.sync_data()
     }
 
-    /// Reads what has been appended to the files since the last time. What cannot be read is left out: its cases are run again.
+    /// Reads new lines of the files. Lines that cannot be read are omitted: their cases run again.
     fn refresh(&mut self, dir: &Path) {
         let Ok(entries) = fs::read_dir(dir) else { return };
         for entry in entries.flatten() {
@@ -149,8 +149,8 @@ fn this_host() -> String {
     results::host().chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect()
 }
 
-/// Removes the folder of a case whose record stands. Another process may be making it anew to look whether the case is open, and takes it
-/// away itself.
+/// Removes the folder of a case whose record stands. Another process may just be creating it to check whether the case is open, and removes
+/// it itself.
 ///
 /// # Errors
 /// A file in it cannot be removed.
@@ -175,7 +175,7 @@ mod tests {
         other.add(&[("a".into(), &CaseState::Done, vec!["1.5".into()])]).unwrap();
         let found = one.find("a").unwrap();
         assert_eq!((found.state(), found.numbers), (CaseState::Done, vec!["1.5".to_owned()]));
-        // A line that was cut short, and another list of what is collected.
+        // A truncated line, and another list of collected numbers.
         fs::write(root.path().join(NAME).join("gone.1.jsonl"), "{\"folder\":\"b\"").unwrap();
         assert_eq!(one.find("b"), None);
         let others = Collected {

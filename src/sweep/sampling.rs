@@ -24,7 +24,7 @@ const DIRECTIONS: [(u32, u32, &[u32]); 15] = [
 pub const MOST_DIMENSIONS: usize = DIRECTIONS.len() + 1;
 
 /// The coordinate of a point of Sobol's sequence, 0 or more and below 1. A seed other than 0 shifts all points of a dimension, digit by
-/// digit, which keeps them as even as they are.
+/// digit, which preserves their uniformity.
 pub fn sobol(point: u32, dimension: usize, seed: u64) -> f64 {
     let directions = directions(dimension);
     let gray = point ^ (point >> 1);

@@ -10,9 +10,9 @@ pub struct Pick {
     pub step: Option<usize>,
     /// The place of `time`; `None` where the table has no frames.
     pub time: Option<usize>,
-    /// The place of the frequency in a table whose frames are those of a response, which has neither of these.
+    /// The place of the frequency in a table of a response, which has neither steps nor times.
     pub frequency: Option<usize>,
-    /// The places of the columns that say what a row is about.
+    /// The places of the key columns, which name the subject of a row.
     pub keys: Vec<usize>,
     /// The places of the columns that are compared.
     pub values: Vec<usize>,
@@ -47,7 +47,7 @@ impl Range {
     }
 }
 
-/// What is known once a table has been read.
+/// The result of reading a whole table.
 #[derive(Debug, Clone, Default)]
 pub struct Summary {
     /// The range of each picked value over the whole table.
@@ -60,9 +60,9 @@ pub struct Summary {
 pub struct Cursor {
     table: TableReader,
     roles: Vec<Role>,
-    /// The picked values of the row at hand, in the order of [`Pick::values`].
+    /// The picked values of the current row, in the order of [`Pick::values`].
     values: Vec<f64>,
-    /// The key of the row at hand.
+    /// The key of the current row.
     key: Vec<u8>,
     /// Which response of the run the row belongs to, and its frequency.
     response: [f64; 2],
@@ -80,7 +80,7 @@ pub struct Cursor {
     pub rows: u64,
 }
 
-/// What the fields of a column are read as.
+/// How the fields of a column are read.
 #[derive(Clone, Copy)]
 enum Role {
     Step,
@@ -185,7 +185,7 @@ impl Cursor {
         if count == self.roles.len() { Ok(Some(when)) } else { Err(self.table.ragged(count)) }
     }
 
-    /// The key of the row: the names of what it is about, each followed by a zero byte.
+    /// The key of the row: the names of its subject, each followed by a zero byte.
     pub fn key(&self) -> &[u8] {
         &self.key
     }
@@ -201,7 +201,7 @@ impl Cursor {
     }
 }
 
-/// A key as it is shown: `tip`, `roof 3 1`; empty for rows that are about the whole scene.
+/// A key as text: `tip`, `roof 3 1`; empty for rows of the whole scene.
 pub fn shown(key: &[u8]) -> String {
     let key = String::from_utf8_lossy(key);
     key.split('\0').filter(|name| !name.is_empty()).collect::<Vec<_>>().join(" ")

@@ -6,8 +6,8 @@ use std::cmp::Ordering;
 use std::collections::{HashMap, VecDeque};
 use std::io;
 
-/// Times that agree within this part of the shorter of the two last steps are one time. It is far more than sums of steps lose
-/// to rounding, and hides nothing: what moves in between is a difference.
+/// Times that agree within this part of the shorter of the two last steps are one time. It far exceeds the rounding of sums of steps, and
+/// hides no difference: motion between the frames is larger.
 const ROUNDING: f64 = 1e-3;
 
 /// The largest difference of a column, and where it stands.
@@ -34,25 +34,25 @@ pub struct Alone {
     pub all_rows: u64,
 }
 
-/// What tells which frame of one table is which of the other.
+/// The number by which frames of two tables are paired.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Matched {
     /// Their times.
     Time,
-    /// Their steps: on a path whose load falls and rises, a time does not say where it is.
+    /// By steps: on a path whose load rises and falls, a time has more than one frame.
     Step,
     /// Their frequencies, in each of the responses of a run.
     Frequency,
 }
 
 impl Matched {
-    /// The place in [`Cursor::when`] of what tells them apart.
+    /// The place of this number in [`Cursor::when`].
     fn place(self) -> usize {
         usize::from(self != Matched::Step)
     }
 }
 
-/// What two tables have in common, and what not.
+/// The common rows of two tables, and the rows of one alone.
 #[derive(Debug, Clone, Default)]
 pub struct Joined {
     /// The largest difference of each column.
@@ -61,7 +61,7 @@ pub struct Joined {
     pub rows: u64,
     /// The number of frames that both sides have.
     pub frames: u64,
-    /// What each side has alone.
+    /// The rows of each side alone.
     pub alone: [Alone; 2],
     /// Time, step or frequency of the last frame of each side and of the frame before; `None` where there is no frame.
     pub ends: [Option<(f64, f64)>; 2],
@@ -155,7 +155,7 @@ fn rest(sides: &mut [Cursor; 2], both: [usize; 2], joined: &mut Joined) -> io::R
         alone.rows += 1;
         alone.first.get_or_insert_with(|| (time, key.to_vec()));
     };
-    // What a side lacks because its file was cut short here is not called missing: that the file is torn is said by itself.
+    // Rows behind the torn end of a file do not count as missing; the tear itself is reported.
     let a_truncated = a.done && a.summary.truncated;
     while b.is_in(both[1]) {
         match waiting.get_mut(b.key()).and_then(VecDeque::pop_front) {

@@ -1,7 +1,7 @@
 //! The comparison of two output folders: every table that either has is compared as numbers, each column against its own range.
 //!
-//! Tables are read once, side by side, and never held. The grids of the fields, `run.log`, and all of `result.json` but its status
-//! are left out. `steps.csv` is compared and shown but not judged unless one of its columns is named, for it says what a run cost.
+//! Tables are read once, side by side, and never held. The grids of the fields, `run.log`, and all of `result.json` but its status are left
+//! out. `steps.csv` holds costs: it is compared and shown, but judged only if one of its columns is named.
 
 mod cursor;
 mod join;
@@ -21,14 +21,14 @@ use std::fs;
 use std::io;
 use std::path::Path;
 
-/// What is compared, and how closely.
+/// The selection of columns, and the tolerances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
     /// Tolerances relative to the scale of a column; a column that none of them names has [`TOLERANCE`].
     pub tolerances: Vec<ColumnTolerance>,
-    /// The absolute difference up to which numbers agree whatever their column.
+    /// The absolute difference up to which numbers of any column agree.
     pub absolute: f64,
-    /// The columns that are compared; where there are none, all are.
+    /// The compared columns; an empty list selects all.
     pub columns: Vec<Selector>,
     /// The columns that are left out.
     pub ignored: Vec<Selector>,
@@ -50,7 +50,7 @@ impl Settings {
 /// The tolerance relative to the scale of a column where the user names none.
 pub const TOLERANCE: f64 = 1e-6;
 
-/// The table with what a run costs, which may differ where the results agree.
+/// The table of costs, which may differ between runs with equal results.
 const COST: &str = "steps.csv";
 
 /// The table of frequency responses, whose rows have a frequency besides the time of the state.
@@ -64,7 +64,7 @@ pub struct ComparedColumn {
     pub name: String,
     /// The largest difference.
     pub worst: Worst,
-    /// What differences are measured against, in the unit of the column: its range, or the largest number of its kind.
+    /// The reference of relative differences, in the unit of the column: its range, or the largest number of its kind.
     pub scale: f64,
     /// The tolerance relative to the scale.
     pub tolerance: f64,
@@ -94,7 +94,7 @@ pub struct ComparedTable {
     pub alone: [Alone; 2],
     /// The number of rows compared.
     pub rows: u64,
-    /// The number of times, or steps, at which these rows stand.
+    /// The number of times or steps with such rows.
     pub frames: u64,
     /// The number of all rows of each side.
     pub all_rows: [u64; 2],
@@ -102,7 +102,7 @@ pub struct ComparedTable {
     pub ends: Option<[f64; 2]>,
     /// Whether the last line of each side is torn.
     pub truncated: [bool; 2],
-    /// What rows are matched by, besides their names.
+    /// The number that pairs rows, besides their names.
     pub by: Matched,
     /// True where rows without a partner are a fault too.
     pub judged: bool,
@@ -279,7 +279,7 @@ fn table(
     })
 }
 
-/// What frames of a table are matched by.
+/// The number that pairs the frames of a table.
 fn matched_by(name: &str, shared: &[String], by_step: bool) -> Matched {
     match () {
         () if name == RESPONSE && shared.iter().any(|column| column == FREQUENCY) => Matched::Frequency,
@@ -334,7 +334,7 @@ fn status(folder: &Path) -> io::Result<Option<String>> {
     }
 }
 
-/// Whether the load of a path falls anywhere, so that times do not tell its points apart.
+/// Whether the load of a path falls anywhere, so that one time has several points.
 fn turns(folder: &Path) -> io::Result<bool> {
     let path = folder.join(COST);
     if !path.is_file() {

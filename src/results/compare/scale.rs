@@ -1,5 +1,4 @@
-//! The scale that a difference in a column is measured against: the range of the column, and where a column does not vary, the
-//! largest number of its kind in the file.
+//! The scale of differences in a column: the range of the column. A constant column has the largest number of its kind in the file instead.
 
 use super::cursor::Range;
 use crate::table::TableKind;
@@ -15,8 +14,8 @@ fn kind(file: &str, column: &str) -> Option<&'static str> {
     }
 }
 
-/// A column that varies by less than this part of the largest number of its kind is constant to rounding: steps by the
-/// thousand gather that much from the last digits.
+/// A column is constant if it varies by less than this part of the largest number of its kind: rounding of thousands of steps adds up to so
+/// much.
 const ROUNDING: f64 = 1e-9;
 
 /// The scale of each column, from its range in either table.
@@ -45,7 +44,7 @@ mod tests {
         let a = [range(-1.0, 1.0), range(-1e-14, 1e-14), range(5.0, 5.0)];
         let b = [range(-1.0, 3.0), range(0.0, 0.0), range(5.5, 5.5)];
         assert_eq!(scales("nodes.csv", &["ux", "uy", "gap"], [&a, &b]), [4.0, 3.0, 5.5]);
-        // Where there is no other column, the noise is all that it can be measured against.
+        // Without another column, only the noise itself gives a scale.
         assert_eq!(scales("nodes.csv", &["uy"], [&a[1..2], &b[1..2]]), [2e-14]);
     }
 }

@@ -17,7 +17,7 @@ impl Selector {
         self.file.as_deref().is_none_or(|name| name == file) && self.column.as_deref().is_none_or(|name| name == column)
     }
 
-    /// A number that is the larger, the more closely a column is named: the name of a column counts more than that of a file.
+    /// The rank of a selector: the name of a column counts more than the name of a file.
     fn closeness(&self) -> usize {
         2 * usize::from(self.column.is_some()) + usize::from(self.file.is_some())
     }

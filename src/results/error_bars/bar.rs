@@ -18,23 +18,23 @@ pub struct ErrorBar {
     pub table: &'static str,
     /// The column.
     pub column: &'static str,
-    /// What the row is about; empty where it is about the whole scene.
+    /// The subject of the row; empty for the whole scene.
     pub at: String,
     /// The time of the value.
     pub time: f64,
     /// The value of largest magnitude in the column, with its sign.
     pub value: f64,
-    /// The error that the steps leave in the value, a bound by estimate; `None` where it is not known.
+    /// The estimated bound of the error by the steps; `None` if it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step_error: Option<f64>,
-    /// The error that the mesh leaves in it, likewise.
+    /// The same bound for the error by the mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh_error: Option<f64>,
-    /// Both together, the largest in the column at any time that was compared and in any row; `None` where the table is too large for that.
+    /// The sum of both bounds, the largest in the column over all compared times and rows; `None` if the table is too large.
     pub anywhere: Option<f64>,
 }
 
-/// The error of a value as another run tells it.
+/// The error of a value, estimated by another run.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Told {
     /// A bound of the error by estimate.
@@ -46,8 +46,8 @@ pub struct Told {
 keep!(Told: Default { error, anywhere });
 
 impl Told {
-    /// From the value and that of another run at its time, whose errors are larger by the factor `apart`, and the largest difference at any
-    /// time that was compared.
+    /// From the values of both runs at one time, and the largest difference at any compared time. The errors of the other run are larger by
+    /// the factor `apart`.
     pub fn by(pair: Option<[f64; 2]>, anywhere: Option<f64>, apart: f64) -> Told {
         let at_the_time = pair.map(|[value, other]| (value - other).abs());
         let differs = pair.is_some_and(|[value, other]| (value - other).abs() > ASYMPTOTIC * value.abs());

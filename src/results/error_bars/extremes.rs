@@ -8,9 +8,9 @@ use base::snapshot::{Keep, Snapshot, keep};
 pub struct Extreme {
     /// The number, with its sign.
     pub value: f64,
-    /// The time at which it arose.
+    /// The time of the extreme value.
     pub time: f64,
-    /// What its row is about.
+    /// The subject of its row.
     pub label: String,
     /// The row, counted in the frame.
     pub row: usize,

@@ -1,4 +1,4 @@
-//! The numbers of a table at the times at which runs are compared.
+//! The numbers of a table at the times of comparison.
 
 use base::snapshot::keep;
 

@@ -1,9 +1,8 @@
 //! Error bars: what error the steps of a run leave in the largest value of every column of its tables, and its mesh.
 //!
-//! Where steps follow a tolerance, two runs of the scene are made anyway, with errors of a known ratio (see
-//! [`solve::StepError`]); for the error of the mesh another is made with a coarser one. So the difference of any number of theirs
-//! tells the error of that number, too. At a single time the difference may pass through zero, so those of the same column at other times
-//! count as well.
+//! A run with a step tolerance always consists of two runs, with errors of a known ratio (see [`solve::StepError`]). The error of the mesh
+//! needs another run with a coarser mesh. So the difference of any number of theirs tells the error of that number, too. At a single time
+//! the difference may pass through zero, so those of the same column at other times count as well.
 
 mod bar;
 mod extremes;
@@ -23,7 +22,7 @@ use model::{Model, StepLength};
 use solve::{Frame, Observer, OtherRun};
 use std::io;
 
-/// Keeps what is needed of a run, and of the others that tell its errors.
+/// Keeps the numbers of a run, and of the runs that estimate its errors.
 pub struct ErrorBars {
     tables: Vec<WatchedTable>,
     rounding: f64,
@@ -43,14 +42,14 @@ struct WatchedTable {
     before: Account,
     /// Of an unseen run.
     unseen: ComparedHistory,
-    /// Errors that the steps leave, by column, and errors that the mesh leaves; empty where they are not known.
+    /// The errors by the steps, by column, and the errors by the mesh; empty if they are not known.
     of_steps: Vec<Told>,
     of_mesh: Vec<Told>,
 }
 
 keep!(WatchedTable { seen, before, unseen, of_steps, of_mesh } without { kind, write, rows });
 
-/// What is kept of one run.
+/// The numbers of one run.
 #[derive(Default)]
 struct Account {
     largest: Extremes,
@@ -80,7 +79,7 @@ impl ErrorBars {
         }
     }
 
-    /// The times at which a run with another mesh has to be seen.
+    /// The times at which a run with another mesh must have frames.
     pub fn times_for_mesh(&self) -> Vec<f64> {
         let all = self.tables.iter().flat_map(|table| table.seen.history.times().iter().copied());
         all.chain(self.times_to_compare()).collect()
@@ -100,7 +99,7 @@ impl ErrorBars {
         Ok(())
     }
 
-    /// Takes note that the run with another mesh has come to its end, with errors that are larger by this factor.
+    /// Records that the run with another mesh has ended; its errors are larger by this factor.
     pub fn on_coarser_mesh(&mut self, apart: f64) {
         for table in &mut self.tables {
             table.of_mesh = table.told_by(&table.seen, &table.unseen, apart, self.rounding);
@@ -179,8 +178,7 @@ impl Observer for ErrorBars {
 }
 
 impl WatchedTable {
-    /// The errors by column that another run tells, of which this history is known, and what it has at the places of the largest values of
-    /// one of both.
+    /// The errors by column, estimated from the history of another run and its values at the extremes of either run.
     fn told_by(&self, compared: &Account, other: &ComparedHistory, apart: f64, rounding: f64) -> Vec<Told> {
         let anywhere = self.seen.history.largest_differences(other, self.rows.width(), rounding);
         let told = |(column, largest): (usize, &Option<extremes::Extreme>)| {
@@ -190,7 +188,7 @@ impl WatchedTable {
         compared.largest.0.iter().enumerate().map(told).collect()
     }
 
-    /// The error bars of all columns of which something is known.
+    /// The error bars of all columns with a known error.
     fn bars(&self) -> Vec<ErrorBar> {
         let columns = self.kind.columns().skip(2).filter(|column| column.unit != Unit::Label);
         let bar = |(index, (column, largest)): (usize, (base::quantities::Column, &Option<extremes::Extreme>))| {

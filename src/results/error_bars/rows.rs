@@ -7,7 +7,7 @@ use std::io;
 
 /// Collects the rows of one frame. Its memory is kept from frame to frame.
 pub struct CollectedRows {
-    /// True for a column that says what a row is about, for all columns behind `step` and `time`.
+    /// True for a key column, which names the subject of a row; for all columns after `step` and `time`.
     is_key: Vec<bool>,
     /// True where rows are about elements: other meshes have others.
     by_element: bool,
@@ -46,14 +46,14 @@ impl CollectedRows {
         self.is_key.iter().filter(|is_key| !**is_key).count()
     }
 
-    /// What a row is about: its keys with a space between them.
+    /// The subject of a row: its keys, separated by spaces.
     pub fn label(&self, row: usize) -> &str {
         let end = self.ends.get(row).copied().unwrap_or(0);
         let start = row.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or(0);
         self.keys[start..end].trim_end()
     }
 
-    /// The number of a thing in a column of numbers: in this row if it is about that, else in the first that is. In another mesh, nodes
+    /// The number of a subject in a column: in this row if the subject agrees, else in the first row that agrees. In another mesh, nodes
     /// between named points and elements lie elsewhere, so for these it is that of largest magnitude in the column.
     pub fn find(&self, (row, label): (usize, &str), column: usize, same_mesh: bool) -> Option<f64> {
         let same_rows = self.ends.get(row).is_some() && self.label(row) == label;

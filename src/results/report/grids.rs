@@ -353,7 +353,7 @@ impl PageScene {
             "edges": places(&self.edges),
             "kinds": BASE64_STANDARD.encode(&self.kinds),
             "fields": fields,
-            "units": { "displacement": shown(Unit::Length), "von mises": shown(Unit::Stress) },
+            "units": { "displacement": shown(Unit::Length), "stress": shown(Unit::Stress) },
             "clock": if self.is_modes { String::new() } else { result.clock() },
             "labels": self.labels,
         })

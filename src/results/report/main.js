@@ -141,7 +141,7 @@ function stage(from) {
   const offered = ["none", "displacement", ...first, ...present.filter(name => !first.includes(name))];
   for (const name of offered) select.append(make("option", { value: name, textContent: wordy(name) }));
   select.value = first[0] ?? "displacement";
-  const unit = field => from.units[field === "displacement" ? field : field.startsWith("von_mises") ? "von mises" : ""] ?? "";
+  const unit = field => from.units[field === "displacement" ? field : /^(von_mises|sigma|tau)/.test(field) ? "stress" : ""] ?? "";
   const ranges = new Map(), rangeOf = field => ranges.get(field) ?? ranges.set(field, scene.range(field)).get(field);
   byId("names-label").hidden = !scene.labels.length;
   if (scene.edges.length > 60000) byId("edges").checked = false;
