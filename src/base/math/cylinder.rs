@@ -45,7 +45,7 @@ impl RoundCylinder {
         self.radius.hypot(self.half)
     }
 
-    /// How far it reaches along a direction, in its own axes, times the length of that.
+    /// The extent along a direction in axes of the cylinder, times the length of the direction vector.
     pub fn reach_along(&self, along: &Vec3) -> f64 {
         self.radius * along.x.hypot(along.y) + self.half * along.z.abs()
     }

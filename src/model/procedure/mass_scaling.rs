@@ -26,7 +26,11 @@ pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Repor
         );
     } else if kinds().all(|(_, kind)| kind == MassKind::None) {
         let message = format!("`{KEY}` raises masses of beams, bars and shells, of which none has any");
-        report.error_with::<()>(place, message, "bodies, point masses, links and contacts keep what they have");
+        report.error_with::<()>(
+            place,
+            message,
+            "remove it, or give one of these parts a density; bodies, links and contacts are never scaled",
+        );
     }
     for base in deck.environment.iter().flat_map(|environment| &environment.base_acceleration) {
         let message = "accelerations of the ground do not go with mass scaling";

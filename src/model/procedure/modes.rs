@@ -93,7 +93,7 @@ fn speeds<'d>(analysis: &'d words::Analysis, damped: bool, report: &mut Report<'
     }
 }
 
-/// Says of the keys of times that they have no effect.
+/// Warns that keys of times have no effect.
 fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
     for (key, place) in keys!(analysis; end_time, time_step, error_tolerance, least_step) {
         if let Some(place) = place {

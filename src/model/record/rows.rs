@@ -68,7 +68,7 @@ impl Rows {
             self.points.push([self.points.len() as f64 * self.step, value]);
             if let Some(count) = self.count.filter(|_| self.is_overfull()) {
                 let fault = text.fault_at(format!("there are more values than NPTS = {count} says"), &word);
-                self.faults.push(Box::new(fault.hint("one column of several is read with `columns`")));
+                self.faults.push(Box::new(fault.hint("`columns` chooses one of several columns")));
                 return;
             }
         }

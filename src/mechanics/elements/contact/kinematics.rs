@@ -100,7 +100,7 @@ impl Contacts {
         (d, v - carrier.v - carrier.omega.cross(&d))
     }
 
-    /// The gap of a point, where and how fast it closes or slides.
+    /// The gap of a point, its place, and the rates of closing and sliding.
     #[inline]
     pub(super) fn kinematics(&self, point: &ContactPoint, nodes: &[Node]) -> ContactKinematics {
         let (d, w) = self.relative(point, nodes);

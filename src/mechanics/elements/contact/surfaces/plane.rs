@@ -20,7 +20,7 @@ pub const KIND: SurfaceKind<Plane> = SurfaceKind {
     },
 };
 
-/// All that lies below, along the third axis.
+/// The half space below a plane normal to the third axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane;
 
