@@ -262,10 +262,6 @@ pub const ACCELERATION: [Column; 3] = vector(["ax", "ay", "az"], "acceleration",
 pub const ANGULAR_ACCELERATION: [Column; 3] =
     vector(["alphax", "alphay", "alphaz"], "angular acceleration", Unit::AngularAcceleration);
 
-/// Force and moment of a joint on its first part; contacts and links reuse the columns with their own meanings.
-pub const JOINT: [Column; 6] =
-    wrench("force of the joint on its first part", "moment of the joint on its first part, about that end");
-
 /// Coordinate, its rate and the effort of a joint that has one.
 pub const JOINT_COORDINATE: [Column; 3] = [
     Column::scalar("coordinate", "angle about the axis, turns counted, or distance along it, since t = 0", Unit::LengthOrAngle)

@@ -102,12 +102,10 @@ pub trait Number:
         });
         (first, Self::gather(|lane| second[lane]))
     }
-    /// Writes numbers of the first `count` elements, all those of one element together.
-    fn store(numbers: &[Self], count: usize, out: &mut [f64]);
     /// Reads as many numbers of each element as there is room for, one after the other from its place `at` on.
     fn read(numbers: &mut [Self], from: &[f64], at: impl Fn(usize) -> usize);
-    /// Writes numbers of each element one after the other, from its place `at` on.
-    fn write(numbers: &[Self], to: &mut [f64], at: impl Fn(usize) -> usize);
+    /// Writes numbers of the first `count` elements, those of each one after the other from its place `at` on.
+    fn write(numbers: &[Self], count: usize, to: &mut [f64], at: impl Fn(usize) -> usize);
 }
 
 impl Number for f64 {
@@ -182,17 +180,12 @@ impl Number for f64 {
     }
 
     #[inline(always)]
-    fn store(numbers: &[f64], _: usize, out: &mut [f64]) {
-        out.copy_from_slice(numbers);
-    }
-
-    #[inline(always)]
     fn read(numbers: &mut [f64], from: &[f64], at: impl Fn(usize) -> usize) {
         numbers.copy_from_slice(&from[at(0)..][..numbers.len()]);
     }
 
     #[inline(always)]
-    fn write(numbers: &[f64], to: &mut [f64], at: impl Fn(usize) -> usize) {
+    fn write(numbers: &[f64], _: usize, to: &mut [f64], at: impl Fn(usize) -> usize) {
         to[at(0)..][..numbers.len()].copy_from_slice(numbers);
     }
 }
@@ -269,23 +262,6 @@ impl Number for Lanes {
     }
 
     #[inline(always)]
-    fn store(numbers: &[Lanes], count: usize, out: &mut [f64]) {
-        let length = numbers.len();
-        let (tiles, rest) = numbers.as_chunks::<4>();
-        for (t, tile) in tiles.iter().enumerate() {
-            for (half, first) in [0, 4].into_iter().enumerate().take_while(|(_, first)| *first < count) {
-                for (lane, of) in (first..count).zip(transposed_half(tile, half)) {
-                    out[lane * length + 4 * t..][..4].copy_from_slice(&of.to_array());
-                }
-            }
-        }
-        for (k, numbers) in (4 * tiles.len()..).zip(rest) {
-            let numbers = numbers.to_array();
-            (0..count).for_each(|lane| out[lane * length + k] = numbers[lane]);
-        }
-    }
-
-    #[inline(always)]
     fn read(numbers: &mut [Lanes], from: &[f64], at: impl Fn(usize) -> usize) {
         let own = by_lane(|lane| &from[at(lane)..][..numbers.len()]);
         let (tiles, rest) = numbers.as_chunks_mut::<4>();
@@ -305,21 +281,19 @@ impl Number for Lanes {
     }
 
     #[inline(always)]
-    fn write(numbers: &[Lanes], to: &mut [f64], at: impl Fn(usize) -> usize) {
+    fn write(numbers: &[Lanes], count: usize, to: &mut [f64], at: impl Fn(usize) -> usize) {
         let at = by_lane(at);
         let (tiles, rest) = numbers.as_chunks::<4>();
         for (t, tile) in tiles.iter().enumerate() {
-            for half in [0, 1] {
-                for (lane, of) in (4 * half..LANES).zip(transposed_half(tile, half)) {
+            for (half, first) in [0, 4].into_iter().enumerate().take_while(|(_, first)| *first < count) {
+                for (lane, of) in (first..count).zip(transposed_half(tile, half)) {
                     to[at[lane] + 4 * t..][..4].copy_from_slice(&of.to_array());
                 }
             }
         }
         for (k, numbers) in (4 * tiles.len()..).zip(rest) {
             let numbers = numbers.to_array();
-            for lane in 0..LANES {
-                to[at[lane] + k] = numbers[lane];
-            }
+            (0..count).for_each(|lane| to[at[lane] + k] = numbers[lane]);
         }
     }
 }

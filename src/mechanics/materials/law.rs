@@ -80,20 +80,11 @@ impl MaterialLaw {
     /// has not, so that the compiler leaves that out of a kernel.
     #[inline(always)]
     pub fn plain(&self) -> Option<MaterialLaw> {
-        let Yielding { hardening: Hardening::Linear { yield_stress, modulus }, kinematic_share, viscosity } =
-            self.yielding
-        else {
-            return None;
-        };
-        if kinematic_share > 0.0 || viscosity.is_some() || self.failure.is_some() {
-            return None;
-        }
+        let Hardening::Linear { yield_stress, modulus } = self.yielding.hardening else { return None };
+        let is_plain = !self.is_kinematic() && self.yielding.viscosity.is_none() && self.failure.is_none();
         let hardening = Hardening::Linear { yield_stress, modulus };
-        Some(MaterialLaw {
-            elastic: self.elastic,
-            yielding: Yielding { hardening, kinematic_share: 0.0, viscosity: None },
-            failure: None,
-        })
+        let yielding = Yielding { hardening, kinematic_share: 0.0, viscosity: None };
+        is_plain.then_some(MaterialLaw { elastic: self.elastic, yielding, failure: None })
     }
 
     /// True for a material whose points may fail.
@@ -171,15 +162,15 @@ impl MaterialLaw {
         };
         let mut first = [new.accumulated; MOST + 1];
         first[..N].copy_from_slice(&new.plastic);
-        T::write(&first[..N + 1], to, &at);
+        T::write(&first[..N + 1], T::COUNT, to, &at);
         if let Some(back) = &new.back {
-            T::write(back, to, |lane| at(lane) + N + 1);
+            T::write(back, T::COUNT, to, |lane| at(lane) + N + 1);
         }
         if let Some(damage) = new.damage {
-            T::write(&[damage], to, |lane| at(lane) + self.damage_place::<N>());
+            T::write(&[damage], T::COUNT, to, |lane| at(lane) + self.damage_place::<N>());
         }
         if let Some(overstress) = new.overstress {
-            T::write(&[overstress], to, |lane| at(lane) + variables - 1);
+            T::write(&[overstress], T::COUNT, to, |lane| at(lane) + variables - 1);
         }
     }
 

@@ -85,46 +85,34 @@ impl<S: StressState<N>, const N: usize> FibreProfile<S, N> {
         intact / all
     }
 
-    /// Stress resultants in section axes, where this part of the fibres is intact.
-    #[inline]
-    fn stress(&self, (gamma, kappa): (&Vec3, &Vec3), intact: f64, now: &Configuration) -> (Vec3, Vec3) {
-        if intact == 0.0 {
-            return (Vec3::zeros(), Vec3::zeros());
-        }
-        let (mut n, mut m) = self.rest.stress(gamma, kappa);
-        if intact < 1.0 {
-            (n, m) = (intact * n, intact * m);
-        }
-        self.add([gamma, kappa], now, FibresAsk::Stress, [&mut n, &mut m]);
-        (n, m)
-    }
-
-    /// Adds the stresses of the fibres to the resultants n and m, and answers what is asked besides.
+    /// Stress resultants in section axes where this part of the fibres is intact, and what is asked besides.
     #[inline(always)]
-    fn add(&self, strain: [&Vec3; 2], now: &Configuration, ask: FibresAsk, to: [&mut Vec3; 2]) {
-        let before = (now.dt, now.history);
-        match self.law.plain() {
-            Some(law) => self.lanes.respond((&law, self.state), strain, before, ask, to),
-            None => self.lanes.respond((&self.law, self.state), strain, before, ask, to),
-        }
-    }
-
-    /// Stress resultants and their algorithmic derivative in section axes: the elastic one less what yielding fibres lose.
-    fn linearise(
+    fn respond(
         &self,
         (gamma, kappa): (&Vec3, &Vec3),
         intact: f64,
         now: &Configuration,
-    ) -> (Vec3, Vec3, BeamStiffness) {
-        if intact == 0.0 {
-            return (Vec3::zeros(), Vec3::zeros(), self.whole.scaled(FAILED_STIFFNESS));
-        }
+        ask: FibresAsk,
+    ) -> (Vec3, Vec3) {
         let (mut n, mut m) = self.rest.stress(gamma, kappa);
         if intact < 1.0 {
             (n, m) = (intact * n, intact * m);
         }
+        let (strain, before, sum) = ([gamma, kappa], (now.dt, now.history), [&mut n, &mut m]);
+        match self.law.plain() {
+            Some(law) => self.lanes.respond((&law, self.state), strain, before, ask, sum),
+            None => self.lanes.respond((&self.law, self.state), strain, before, ask, sum),
+        }
+        (n, m)
+    }
+
+    /// Stress resultants and their algorithmic derivative in section axes: the elastic one less what yielding fibres lose.
+    fn linearise(&self, strain: (&Vec3, &Vec3), intact: f64, now: &Configuration) -> (Vec3, Vec3, BeamStiffness) {
+        if intact == 0.0 {
+            return (Vec3::zeros(), Vec3::zeros(), self.whole.scaled(FAILED_STIFFNESS));
+        }
         let mut loss = FibreSum::default();
-        self.add([gamma, kappa], now, FibresAsk::Tangent(&self.fibres, &mut loss), [&mut n, &mut m]);
+        let (n, m) = self.respond(strain, intact, now, FibresAsk::Tangent(&self.fibres, &mut loss));
         let loss = loss.section();
         if intact < 1.0 {
             let left = self.whole.less(&loss).less(&self.rest.scaled(1.0 - intact));
@@ -217,7 +205,7 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
         part: f64,
         new: &mut [f64],
     ) -> (Vec3, Vec3, Dissipation) {
-        let (profile, rest) = (&*self.profile, &self.profile.rest);
+        let profile = &*self.profile;
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let before = self.intact(g, now.history);
         let now = self.at(g, now);
@@ -226,15 +214,11 @@ impl<S: StressState<N>, const N: usize> FibreSection<S, N> {
             new.copy_from_slice(now.history);
             return (Vec3::zeros(), Vec3::zeros(), Dissipation::default());
         }
-        let (mut n, mut m) = rest.stress(&gamma, &kappa);
-        if before < 1.0 {
-            (n, m) = (before * n, before * m);
-        }
         let mut spent = Spent::ZERO;
-        profile.add([&gamma, &kappa], &now, FibresAsk::History(part, new, &mut spent), [&mut n, &mut m]);
+        let (n, m) = profile.respond((&gamma, &kappa), before, &now, FibresAsk::History(part, new, &mut spent));
         let mut spent = spent.lane(0);
         if profile.law.can_fail() {
-            spent.eroded += (before - profile.intact(new)) * rest.energy(&gamma, &kappa);
+            spent.eroded += (before - profile.intact(new)) * profile.rest.energy(&gamma, &kappa);
         }
         (self.frame * n, self.frame * m, spent)
     }
@@ -258,7 +242,10 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
     fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3) {
         let (gamma, kappa) = (self.frame.tr_mul(gamma), self.frame.tr_mul(kappa));
         let intact = self.intact(g, now.history);
-        let (n, m) = self.profile.stress((&gamma, &kappa), intact, &self.at(g, now));
+        if intact == 0.0 {
+            return (Vec3::zeros(), Vec3::zeros());
+        }
+        let (n, m) = self.profile.respond((&gamma, &kappa), intact, &self.at(g, now), FibresAsk::Stress);
         (self.frame * n, self.frame * m)
     }
 

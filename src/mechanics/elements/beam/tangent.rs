@@ -233,5 +233,6 @@ pub(super) fn tangent<T: Number, const N: usize>(
     }
     let mut H = pairs.project(damped, &motion.q);
     add_change_of_direction(&gradient, &motion.q, &mut H);
-    T::store(H.as_flattened().as_flattened().as_flattened(), pack.count, K);
+    let numbers = H.as_flattened().as_flattened().as_flattened();
+    T::write(numbers, pack.count, K, |lane| lane * numbers.len());
 }

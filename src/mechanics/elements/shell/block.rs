@@ -46,7 +46,7 @@ where
         pack.tangents::<K>((now, stressed), moduli, damping, &mut H);
         let (H, length) = (H.as_flattened().as_flattened().as_flattened(), 36 * N * N);
         if first == 0 {
-            Number::store(H, out.len() / length, out);
+            Number::write(H, out.len() / length, out, |lane| lane * length);
         } else {
             for (lane, out) in (first..).zip(out.chunks_mut(length)) {
                 out.iter_mut().zip(H).for_each(|(k, of)| *k = of.as_array()[lane]);
