@@ -169,7 +169,7 @@ fn it_swings_on_its_springs() {
     }
 }
 
-/// Thrown at a plane, at a box and at another cylinder, turning, nothing is lost.
+/// Thrown at a box, at another cylinder and at a capsule, turning, nothing is lost. They meet after 0.22 at the latest, for some 0.01.
 #[test]
 fn impacts_keep_energy_and_momentum() {
     let mut rng = StdRng::seed_from_u64(9);
@@ -213,7 +213,7 @@ fn impacts_keep_energy_and_momentum() {
         )
         .replace("center = [0.0, 0.0, 0.0]\n", if k % 3 == 2 { "\n" } else { "center = [0.0, 0.0, 0.0]\n" });
         let contact = "[[contacts]]\nname = \"blow\"\nsurface = { body = \"other\" }\nwith = \"one\"\nstiffness = 1e5";
-        let text = scene(&bodies, contact, [0.0; 3], 0.4, 2.5e-5).replace("newmark", "central-difference");
+        let text = scene(&bodies, contact, [0.0; 3], 0.3, 2.5e-5).replace("newmark", "central-difference");
         let done = go(&text, &mut watch);
         let (first, last) = (&done.rows[0], done.rows.last().expect("rows"));
         let most = done.rows.iter().map(|row| row[3]).fold(0.0, f64::max);

@@ -5,6 +5,7 @@ pub mod blocks;
 pub mod grid;
 pub mod random;
 pub mod truss;
+pub mod witness;
 
 use rdsolve::diagnostic::Source;
 use rdsolve::model::{self, Model};
