@@ -8,7 +8,7 @@ use crate::report::StepReport;
 use crate::step::accept::accept;
 use crate::step::newton::Newton;
 use crate::step::projection::ConstraintProjection;
-use crate::step::trial::{Stage, Step};
+use crate::step::trial::{Stage, Step, TrialMotion};
 use crate::step::work::WorkQuadrature;
 use crate::strategy::arc_length::PathCondition;
 use crate::strategy::augmentation::Augmentation;
@@ -146,6 +146,25 @@ impl EquilibriumSolver {
             Err(_) => self.newton.discard_matrix(),
         }
         found
+    }
+
+    /// True if motion is projected onto the constraints of joints.
+    pub fn projects(&self) -> bool {
+        self.projection.is_some()
+    }
+
+    /// Projects the velocities of the trial motion, at a stage inside a step, onto the constraints; `reach` is the largest coordinate of a node.
+    ///
+    /// # Errors
+    /// As for [`ConstraintProjection::project`].
+    pub fn project_velocities(
+        &mut self,
+        cx: &Context,
+        (trial, reach): (&mut TrialMotion, f64),
+        step: &Step,
+    ) -> Result<(), Failure> {
+        let Some(projection) = &mut self.projection else { return Ok(()) };
+        projection.project_velocities(cx, (trial, reach), step.state, (step.stage.scheme, step.dt()))
     }
 
     /// Accepts the equilibrium that was found.

@@ -19,7 +19,7 @@ use base::math::{Vec3, angular};
 use base::snapshot::keep;
 use linear::TooLarge;
 use mechanics::elements::Moduli;
-use mechanics::integrators::Coefficients;
+use mechanics::integrators::{Coefficients, Stepping};
 use mechanics::state::{Configuration, Node, State};
 
 /// The masses and joints of a scene alone, with their own factorization. It is allocated once.
@@ -35,11 +35,13 @@ pub struct ConstraintProjection {
     /// The slots of degrees of freedom without mass.
     massless: Vec<DiagonalSlot>,
     change: ForceChange,
+    /// Forces of inertia by nodal unknown, at the velocities before their projection; empty unless stages inside steps are projected too.
+    inertia: Vec<f64>,
     /// Room for multipliers that are shared out.
     shares: Vec<f64>,
 }
 
-keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless, shares });
+keep!(ConstraintProjection { matrix, loading, forces, r, change } without { bare, diagonal, massless, inertia, shares });
 
 /// The change of the joint forces due to the last projection of accelerations. With `M a + Gᵀλ = f` before and `M δa + Gᵀδλ = 0`, forces
 /// and accelerations at the end of a step have the order of the scheme. If equilibrium is written past the end of the step, linear
@@ -101,6 +103,7 @@ impl ConstraintProjection {
             loading: Loading::default(),
             r: vec![0.0; plan.dofs.unknowns()],
             change: ForceChange { multipliers: vec![0.0; bare.multipliers()], reactions: Vec::new() },
+            inertia: Vec::new(),
             shares: vec![0.0; bare.multipliers()],
             bare,
             matrix: LinearSystem::new(solver, assembly),
@@ -113,7 +116,11 @@ impl ConstraintProjection {
     /// There is no memory for the solver.
     pub fn for_analysis(cx: &Context) -> Result<Option<Self>, TooLarge> {
         let needed = !cx.system.joints.is_empty() && (cx.is_dynamic() || cx.plan.has_redundant_constraints());
-        needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()
+        let projection =
+            needed.then(|| ConstraintProjection::new(cx.plan, cx.system, cx.model.nodes.len())).transpose()?;
+        let stages = matches!(cx.model.solution.scheme.stepping(), Stepping::DiagonallyImplicit(_));
+        let inertia = vec![0.0; if cx.is_dynamic() && stages { cx.nodal_unknowns() } else { 0 }];
+        Ok(projection.map(|projection| ConstraintProjection { inertia, ..projection }))
     }
 
     /// Projects the motion at the end of a step of length `dt` from `state` onto the constraints and writes its increments; `reach` is the
@@ -132,9 +139,33 @@ impl ConstraintProjection {
         if self.factor(&end.motion.nodes) && self.close(cx, &mut end) {
             return Ok(());
         }
+        Err(self.violated(cx, &end.motion.nodes))
+    }
+
+    /// Projects the velocities of a stage inside a step of length `dt` from `state`.
+    ///
+    /// # Errors
+    /// [`Failure::ConstraintsViolated`] if the matrix of masses and joints is singular.
+    pub fn project_velocities(
+        &mut self,
+        cx: &Context,
+        (motion, reach): (&mut TrialMotion, f64),
+        state: &State,
+        (scheme, dt): (&Coefficients, f64),
+    ) -> Result<(), Failure> {
+        let mut end = End { motion, reach, state, scheme, dt };
+        if self.factor(&end.motion.nodes) {
+            self.close_velocity(cx, &mut end);
+            return Ok(());
+        }
+        Err(self.violated(cx, &end.motion.nodes))
+    }
+
+    /// The failure with the gaps of these nodes.
+    fn violated(&mut self, cx: &Context, nodes: &[Node]) -> Failure {
         let gaps = &mut self.forces.multipliers.gaps;
-        cx.system.gaps(&end.motion.nodes, 0, gaps);
-        Err(joints::constraints_violated(cx, gaps))
+        cx.system.gaps(nodes, 0, gaps);
+        joints::constraints_violated(cx, gaps)
     }
 
     /// Factorizes masses and joints at the given configuration; false where the matrix is singular and the joints
@@ -178,23 +209,62 @@ impl ConstraintProjection {
 
     /// Projects velocities, then accelerations, and records the change of the joint forces due to the latter.
     fn close_rates(&mut self, cx: &Context, end: &mut End) {
-        self.close_rate(cx, end, 1);
         // Trial steps may have another scheme.
         self.change.forget();
-        if end.scheme.instant != 1.0 {
-            self.close_rate(cx, end, 2);
-            return;
-        }
-        let wants_reactions = cx.wants_forces && !cx.model.constraints.restraints.is_empty();
+        let belongs = end.scheme.instant == 1.0;
+        let wants_reactions = belongs && cx.wants_forces && !cx.model.constraints.restraints.is_empty();
         self.forces.multipliers.values.fill(0.0);
-        if wants_reactions {
+        if wants_reactions && !self.inertia.is_empty() {
             self.on_restraints(cx, &end.motion.nodes);
         }
+        self.close_velocity(cx, end);
+        if wants_reactions && self.inertia.is_empty() {
+            self.on_restraints(cx, &end.motion.nodes);
+        }
+        if belongs && !self.inertia.is_empty() {
+            self.answer_inertia(cx, end, 2);
+        }
         self.close_rate(cx, end, 2);
+        if !belongs {
+            return;
+        }
         self.change.multipliers.copy_from_slice(&self.forces.multipliers.values);
         if wants_reactions {
             self.on_restraints(cx, &end.motion.nodes);
         }
+    }
+
+    /// Projects velocities. The gyroscopic forces of bodies change with them, so a scheme with projected stages corrects the accelerations too,
+    /// and the part that these have in the velocities of a stage.
+    fn close_velocity(&mut self, cx: &Context, end: &mut End) {
+        if self.inertia.is_empty() || end.scheme.instant != 1.0 {
+            return self.close_rate(cx, end, 1);
+        }
+        self.forces.multipliers.values.fill(0.0);
+        self.bare.residual(&Configuration::of(&end.motion.nodes), &self.loading, &mut self.forces);
+        for (inertia, &(node, dof)) in self.inertia.iter_mut().zip(cx.plan.dofs.nodal_dofs()) {
+            *inertia = self.forces.on_nodes[node][dof];
+        }
+        self.close_rate(cx, end, 1);
+        self.answer_inertia(cx, end, 1);
+    }
+
+    /// Corrects velocities (1) or accelerations (2) by the change of the forces of inertia due to the projection of velocities. Joints stay
+    /// closed.
+    fn answer_inertia(&mut self, cx: &Context, end: &mut End, derivative: usize) {
+        self.bare.residual(&Configuration::of(&end.motion.nodes), &self.loading, &mut self.forces);
+        let before = self.inertia.iter().zip(cx.plan.dofs.nodal_dofs());
+        for (r, (before, &(node, dof))) in self.r.iter_mut().zip(before) {
+            *r = self.forces.on_nodes[node][dof] - before;
+        }
+        self.r[cx.nodal_unknowns()..].fill(0.0);
+        self.matrix.solver.solve(&mut self.r);
+        if derivative == 1 {
+            // The velocity of a stage contains its acceleration times γΔt.
+            let ahead = 1.0 / end.scheme.rate[0];
+            self.r.iter_mut().for_each(|r| *r *= ahead);
+        }
+        self.add(cx, end, derivative);
     }
 
     /// Corrects velocities (1) or accelerations (2). The constraints are linear in them, so one correction is exact at given
@@ -243,9 +313,14 @@ impl ConstraintProjection {
 
     /// Corrects the motion, its velocity or its acceleration once, by the least change that closes the current gaps.
     fn correct(&mut self, cx: &Context, end: &mut End, derivative: usize) {
-        let End { motion, state, scheme, .. } = end;
         self.r[..cx.nodal_unknowns()].fill(0.0);
         self.matrix.solve_augmented(&self.forces.multipliers, &mut self.r);
+        self.add(cx, end, derivative);
+    }
+
+    /// Adds the current solution to the motion, its velocity or its acceleration. Multipliers follow accelerations.
+    fn add(&mut self, cx: &Context, end: &mut End, derivative: usize) {
+        let End { motion, state, scheme, .. } = end;
         if derivative == 2 {
             self.forces.multipliers.add(&self.r[cx.nodal_unknowns()..]);
         }

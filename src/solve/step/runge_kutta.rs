@@ -94,6 +94,13 @@ impl StageStepper {
                 work.add(&self.powers[1], self.tableau.weight_at_end(stage) * dt);
             }
             self.keep_rates(cx, ws, stage);
+            // The last stage is the end of the step, which is projected when it is accepted.
+            if stage < last && solver.projects() {
+                let found = Step { state, stage: self.relation(&scheme), to: time };
+                move_trial(cx, ws, &found);
+                solver.project_velocities(cx, (&mut ws.trial, ws.reach), &found)?;
+                self.keep_projected(cx, ws, stage, scheme.rate[0]);
+            }
         }
         self.keep_end(cx, ws);
         self.work = work;
@@ -209,6 +216,16 @@ impl StageStepper {
         for (k, &node) in cx.independent_nodes.iter().enumerate() {
             let increment = &ws.trial.increments[node];
             self.rates[stage * moving + k] = [increment.d, increment.dd];
+        }
+    }
+
+    /// Takes the accelerations of a stage from its projected velocities. The rates of positions stay as they are, for the positions of a stage
+    /// satisfy the constraints.
+    fn keep_projected(&mut self, cx: &Context, ws: &Workspace, stage: usize, rate: f64) {
+        let moving = cx.independent_nodes.len();
+        for (k, &node) in cx.independent_nodes.iter().enumerate() {
+            let [d, dd] = &mut self.rates[stage * moving + k];
+            *dd += cx.plan.dofs.of(node).mask(&(ws.trial.increments[node].d - *d)) * rate;
         }
     }
 }
