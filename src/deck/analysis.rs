@@ -240,7 +240,7 @@ pub enum Update {
     Iteration,
     /// Once in every step.
     Step,
-    /// When convergence has slowed so far that a factorisation costs less than the iterations it saves.
+    /// When a factorisation costs less than the iterations that it saves, by counts; in every iteration while that is cheaper.
     #[default]
     Auto,
     /// Once in the run.

@@ -6,6 +6,7 @@ mod auto_step;
 mod breakage;
 mod central_difference;
 mod chains;
+mod cheaper_update;
 mod dependents;
 mod determinism;
 mod edge_cases;
