@@ -28,8 +28,8 @@ pub struct Amplitude {
     pub rows: Maybe<bool>,
     /// The time between two values of a file without times, above 0; the first is at 0. (table)
     pub time_step: Maybe<f64>,
-    /// The curve between the points. Default: "linear"; for positions prescribed by a support or joint in dynamics "cubic" between the
-    /// corners of the table. (table)
+    /// The curve between the points. Default: "linear"; for positions and velocities prescribed by a support or joint in dynamics "cubic"
+    /// between the corners of the table. (table)
     pub interpolation: Maybe<Interpolation>,
     /// Factor on the values, such as 9.81 for a record in g. Default: 1; with `units` and a header that names a unit, the factor from that unit to
     /// the deck's, unless a scale stands where the amplitude is used. (table)

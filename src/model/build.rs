@@ -26,6 +26,7 @@ use super::masses::masses;
 use super::materials::materials;
 use super::merge_diagnostics::merge_diagnostics;
 use super::mesh_file::{Input, MeshNodes};
+use super::motion_curves::motion_curves;
 use super::moving_frames::moving_frames;
 use super::names::Names;
 use super::output::{Selection, output, write_all_nodes};
@@ -43,7 +44,6 @@ use super::plausibility::units::check_units;
 use super::plausibility::unjoined::check_unjoined;
 use super::plausibility::unused::drop_unused;
 use super::plausibility::{check_content, check_static, check_use};
-use super::position_curves::position_curves;
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
 use super::procedure::mass_scaling::check_mass_scaling;
@@ -361,7 +361,7 @@ fn ground<'d>(
     (input, mut amplitudes): (Option<&'d Input>, Vec<Amplitude>),
     report: &mut Report<'d>,
 ) -> Ground<'d> {
-    let position_curves = position_curves(deck, stage, &analysis, &mut amplitudes, report);
+    let motion_curves = motion_curves(deck, stage, &analysis, &mut amplitudes, report);
     let mut nodes = Nodes::default();
     points(deck, &mut nodes);
     let bodies = bodies(deck, &mut nodes, report);
@@ -384,7 +384,7 @@ fn ground<'d>(
     let PartContext { groups, mut parts, sections, .. } = context;
     (parts.stiffnesses, parts.stresses) = (sections.stiffnesses, sections.stresses);
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);
-    let scene = Scene { deck, stage, analysis, names, bodies, parts, position_curves };
+    let scene = Scene { deck, stage, analysis, names, bodies, parts, motion_curves };
     Ground { scene, nodes, groups, rigid, amplitudes }
 }
 

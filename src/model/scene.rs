@@ -29,8 +29,8 @@ pub(super) struct Scene<'d> {
     pub bodies: Vec<Body>,
     /// The deformable parts.
     pub parts: Parts,
-    /// Index of the spline for each table of positions, by the index of the table's amplitude.
-    pub position_curves: HashMap<usize, usize>,
+    /// Index of the spline for each table of positions or velocities, by the index of the table's amplitude.
+    pub motion_curves: HashMap<usize, usize>,
 }
 
 /// The kinds of names that a list may hold besides points, bodies and sets.
@@ -47,8 +47,8 @@ impl<'d> Scene<'d> {
     /// The amplitude of a motion by this quantity, for the amplitude named in the deck.
     pub fn amplitude_of_motion(&self, index: usize, history: History) -> usize {
         match history {
-            History::Displacement => self.position_curves.get(&index).copied().unwrap_or(index),
-            History::Velocity | History::Acceleration => index,
+            History::Displacement | History::Velocity => self.motion_curves.get(&index).copied().unwrap_or(index),
+            History::Acceleration => index,
         }
     }
 

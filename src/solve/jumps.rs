@@ -36,8 +36,7 @@ pub fn jump(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), F
 pub fn kick(cx: &Context, ws: &mut Workspace, state: &mut State) -> Result<(), Failure> {
     cx.excitation.prescribed(state.time, Side::Before, &mut ws.prescribed.end);
     cx.excitation.prescribed(state.time, Side::After, &mut ws.prescribed.start);
-    // Accelerations of supports that jump are no event within a stage either.
-    if ws.prescribed.start.iter().zip(&ws.prescribed.end).all(|(after, before)| after.v == before.v) {
+    if ws.prescribed.start == ws.prescribed.end {
         return Ok(());
     }
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);

@@ -123,11 +123,11 @@ fn a_sampled_angle_has_its_torque() {
         rows.iter()
             .for_each(|[t, effort]| assert!((effort - torque(*t)).abs() < 1e-3 * TAU * TAU, "{scheme} {t}: {effort}"));
     }
-    // Velocities are straight lines between samples, positions their integral: the trapezoidal rule errs by (ω h)²/12 = 3.3e-4.
+    // Velocities follow a spline, whose integral errs by (ω h)⁴/720 = 2e-8 of the largest angle; nine digits of the samples add 1e-9.
     let rates = samples(|t| 0.5 * TAU * (TAU * t).sin(), 1.0, 100);
-    assert_eq!(run(folder, &arm("velocity = 1.0, amplitude = \"record\"", &rates)).0, 0);
+    assert_eq!(run(folder, &arm("velocity = 1.0, amplitude = \"record\"", &rates)), (0, String::new()));
     for [t, angle] in column(folder, "joints.csv", "coordinate") {
-        assert!((angle - 0.5 * (1.0 - (TAU * t).cos())).abs() < 4e-4, "{t}: {angle}");
+        assert!((angle - 0.5 * (1.0 - (TAU * t).cos())).abs() < 1e-7, "{t}: {angle}");
     }
 }
 
@@ -225,4 +225,43 @@ fn corners_are_said() {
     let overshoot = table("[0.0, 0.0], [0.4, 0.0], [0.5, 0.1], [0.6, 0.1], [1.0, 0.12]", "interpolation = \"cubic\"");
     let (code, found) = run(folder, &pin("0.0125", newmark, &overshoot));
     assert!(code == 0 && found.contains("goes beyond its points"), "{found}");
+}
+
+/// The work of a drive whose acceleration jumps where steps end is of second order: each side of the jump has its own force. With the force
+/// before the jump on both sides the errors at 5 ms were 0.97 J with samples of velocity, and fell with the first power of the step.
+#[test]
+fn work_is_of_second_order_where_accelerations_jump() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let missing = |step: f64, scheme: &str, motion: &str, amplitude: &str| {
+        let deck = format!(
+            "[analysis]\nkind = \"dynamic\"\nend_time = 1.0\ntime_step = {step}\n[integrator]\nscheme = \"{scheme}\"\n[[bodies]]\nname = \"arm\"\n\
+             center = [0.3, 0.0, 0.0]\nmass = 10.0\ninertia = [1.0, 1.0, 1.1]\n[[joints]]\nname = \"motor\"\nkind = \"revolute\"\n\
+             axis = [0.0, 0.0, 1.0]\nfrom = {{ ground = [0.0, 0.0, 0.0] }}\nto = {{ body = \"arm\" }}\n\
+             motion = {{ {motion} = 1.0, amplitude = \"record\" }}\n{amplitude}"
+        );
+        assert_eq!(run(folder, &deck), (0, String::new()), "{step} {scheme} {motion} {amplitude}");
+        column(folder, "energy.csv", "numerical").iter().fold(0.0, |most: f64, row| most.max(row[1].abs()))
+    };
+    let samples_of_rate = samples(|t| 0.5 * TAU * (TAU * t).sin(), 1.0, 100);
+    for (motion, amplitude) in [
+        ("velocity", table(&samples_of_rate, "")),
+        ("velocity", table(&samples_of_rate, "interpolation = \"linear\"")),
+        ("velocity", table("[0.0, 0.0], [0.2, 3.0], [0.7, 3.0], [0.9, 0.0]", "")),
+        ("acceleration", table("[0.0, 6.0], [0.3, 8.0], [0.8, -6.0]", "after = \"zero\"")),
+        ("acceleration", "[amplitudes.record]\nkind = \"step\"\nstart = 0.2\nend = 0.6\n".to_owned()),
+        ("velocity", "[amplitudes.record]\nkind = \"sine\"\nfrequency = 1.0\nstart = 0.1\nend = 0.85\n".to_owned()),
+        (
+            "position",
+            "[amplitudes.record]\nkind = \"sine-squared\"\nfrequency = 0.5\nstart = 0.1\nend = 1.1\n".to_owned(),
+        ),
+    ] {
+        for scheme in ["newmark", "generalized-alpha"] {
+            let points = [0.01, 0.005].map(|step| (step, missing(step, scheme, motion, &amplitude)));
+            // Where the acceleration does not jump, or is constant on each side, samples of nine digits leave 1e-6 J of 20 J.
+            let order = (points[0].1 / points[1].1).log2();
+            assert!(points[0].1 < 1e-5 || order > 1.9, "{scheme} {motion} {amplitude}: {points:?}");
+            assert!(points[0].1 < 0.02, "{scheme} {motion} {amplitude}: {points:?}");
+        }
+    }
 }

@@ -6,7 +6,7 @@ use crate::outcome::Outcome;
 use crate::sample::Sample;
 use crate::workspace::Workspace;
 use base::snapshot::Keep;
-use mechanics::amplitude::Amplitude;
+use mechanics::amplitude::Side;
 use mechanics::state::State;
 use model::{AnalysisKind, Cadence, History, Model, When};
 
@@ -219,8 +219,8 @@ fn divide(model: &Model, mut events: Vec<Event>) -> Schedule {
     Schedule { intervals: parted(intervals, &kicks(model), 1e-9 * end), samples }
 }
 
-/// Sorted times of jumps in the velocity of a prescribed motion or in the acceleration of a curve; the work is computed separately before
-/// and after them.
+/// Sorted times of jumps in the velocity or the acceleration of a prescribed motion; the work is computed separately before and after
+/// them.
 fn kicks(model: &Model) -> Vec<f64> {
     let mut all = Vec::new();
     if model.analysis.kind != AnalysisKind::Dynamic {
@@ -228,11 +228,15 @@ fn kicks(model: &Model) -> Vec<f64> {
     }
     for motion in model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref()) {
         let amplitude = &model.loading.amplitudes[motion.amplitude];
-        match motion.history {
-            History::Displacement if matches!(amplitude, Amplitude::Curve(_)) => all.extend(amplitude.kinks()),
-            History::Displacement => all.extend(amplitude.slope_jumps()),
-            History::Velocity => all.extend(amplitude.jumps().iter().map(|jump| jump.time)),
-            History::Acceleration => {}
+        let of_side = |time: f64, side: Side| match motion.history {
+            History::Displacement => [amplitude.rate(time, side), amplitude.second_rate(time, side)],
+            History::Velocity => [amplitude.rate(time, side), 0.0],
+            History::Acceleration => [0.0; 2],
+        };
+        let is_kick = |time: &f64| of_side(*time, Side::Before) != of_side(*time, Side::After);
+        all.extend(amplitude.kinks().into_iter().filter(is_kick));
+        if motion.history != History::Displacement {
+            all.extend(amplitude.jumps().iter().map(|jump| jump.time));
         }
     }
     all.sort_by(f64::total_cmp);

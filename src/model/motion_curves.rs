@@ -1,5 +1,5 @@
-//! Tables of positions for prescribed motion: straight lines between samples have no acceleration. Supports and joints therefore follow
-//! splines between the corners of the table.
+//! Tables of positions and velocities for prescribed motion: straight lines between samples have no acceleration, or one that jumps at each
+//! sample. Supports and joints therefore follow splines between the corners of the table.
 
 use super::data::Analysis;
 use super::report::Report;
@@ -11,15 +11,16 @@ use deck::amplitudes::AmplitudeKind;
 use deck::supports::History;
 use deck::words::Maybe;
 use mechanics::amplitude::{Amplitude, Side};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, HashMap};
 
 /// Overshoot of a curve for a note, relative to the range of the segment; eight samples per period give 0.04.
 const OVERSHOOT: f64 = 0.05;
 /// Velocities that jump by less than this part of the largest do not count.
 const FELT: f64 = 1e-2;
 
-/// Adds curves to the amplitudes for the tables that prescribe positions in a run with inertia. Returns their indices by those of the tables.
-pub(super) fn position_curves(
+/// Adds curves to the amplitudes for the tables that prescribe positions or velocities in a run with inertia. Returns their indices by those of
+/// the tables.
+pub(super) fn motion_curves(
     deck: &Deck,
     stage: Option<CurrentStage>,
     analysis: &Analysis,
@@ -31,7 +32,7 @@ pub(super) fn position_curves(
     if !any_dynamic {
         return curves;
     }
-    for index in of_positions(deck) {
+    for (index, is_position) in of_motions(deck) {
         let words = &deck.amplitudes.0[index].1;
         let is_table = words.kind.as_ref().is_some_and(|kind| kind.value == AmplitudeKind::Table);
         if is_table
@@ -46,22 +47,34 @@ pub(super) fn position_curves(
         }
         if analysis.is_dynamic() {
             let used = curves.get(&index).copied().unwrap_or(index);
-            check_corners(deck, index, (&amplitudes[used], analysis), report);
+            if is_position {
+                check_corners(deck, index, (&amplitudes[used], analysis), report);
+            }
+            check_overshoot(deck, index, &amplitudes[used], report);
         }
     }
     curves
 }
 
-/// Indices of the amplitudes that supports and joints take for positions.
-fn of_positions(deck: &Deck) -> BTreeSet<usize> {
+/// Indices of the amplitudes that supports and joints take for positions or velocities, with true where one takes it for positions.
+fn of_motions(deck: &Deck) -> BTreeMap<usize, bool> {
     let motions = deck.supports.iter().filter_map(|support| support.motion.as_ref());
     let motions = motions.flat_map(|motions| motions.each()).flatten();
-    let is_position =
-        |history: &Maybe<History>| history.as_ref().is_none_or(|history| history.value == History::Displacement);
-    let of_supports = motions.filter(|motion| is_position(&motion.history)).map(|motion| &motion.amplitude);
+    let history = |history: &Maybe<History>| history.as_ref().map_or(History::Displacement, |history| history.value);
+    let of_supports = motions.map(|motion| (&motion.amplitude, history(&motion.history)));
     let of_joints = deck.joints.iter().filter_map(|joint| joint.motion.as_ref());
-    let of_joints = of_joints.filter(|motion| motion.position.is_some()).map(|motion| &motion.amplitude);
-    of_supports.chain(of_joints).flatten().filter_map(|name| deck.amplitudes.position(name)).collect()
+    let of_joints = of_joints.map(|motion| match (&motion.position, &motion.velocity) {
+        (Some(_), _) => (&motion.amplitude, History::Displacement),
+        (None, Some(_)) => (&motion.amplitude, History::Velocity),
+        (None, None) => (&motion.amplitude, History::Acceleration),
+    });
+    let mut found = BTreeMap::new();
+    for (name, history) in of_supports.chain(of_joints).filter(|(_, history)| *history != History::Acceleration) {
+        if let Some(index) = name.as_ref().and_then(|name| deck.amplitudes.position(name)) {
+            *found.entry(index).or_insert(false) |= history == History::Displacement;
+        }
+    }
+    found
 }
 
 /// Warns of velocity jumps within the run, and notes an overshooting curve.
@@ -102,6 +115,11 @@ fn check_corners(deck: &Deck, index: usize, (amplitude, analysis): (&Amplitude, 
         };
         report.warn(&name.span, message, format!("the force is an impulse there, which no table shows: {remedy}"));
     }
+}
+
+/// Notes a curve that overshoots its points.
+fn check_overshoot(deck: &Deck, index: usize, amplitude: &Amplitude, report: &mut Report) {
+    let name = &deck.amplitudes.0[index].0;
     let Amplitude::Curve(curve) = amplitude else { return };
     if let Some((part, [from, to])) = curve.overshoot().filter(|(part, _)| *part > OVERSHOOT) {
         let message = format!(
