@@ -32,6 +32,13 @@ impl NoConvergence {
             }
             false => "",
         };
+        if open.is_none() && self.at_limit {
+            return format!(
+                "no equilibrium is found beyond this load: the structure buckles or reaches its limit load, for a pivot of the tangent is \
+                 negative or vanishes{slips}. `control` = \"arc-length\" follows the path on which the load falls, and a dynamic analysis shows \
+                 the motion; after {iterations} iterations the largest unbalanced forces are"
+            );
+        }
         let cause = self.cause(open, worst);
         format!("no convergence in {iterations} iterations{cause}{slips}; the largest unbalanced forces are")
     }
@@ -41,9 +48,6 @@ impl NoConvergence {
             return format!(
                 " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a soft spring)"
             );
-        }
-        if self.at_limit {
-            return " (a limit load? `control` = \"arc-length\" follows the path beyond it)".to_owned();
         }
         if let Some(enough) = self.enough {
             return format!(" (corrections still shrink: `limit` = {enough} in `[iteration]` would do)");

@@ -1,7 +1,9 @@
 //! What a load step without convergence names as its cause: a limit load with evidence alone, else the place and what to change.
 
 use crate::solve::statics::{said, truss};
+use crate::support::{read_deck, run_to_the_end};
 use rdsolve::solve::Outcome;
+use std::f64::consts::PI;
 
 /// The failure of a deck, in words.
 fn failure(deck: &str) -> String {
@@ -63,7 +65,7 @@ stiffness = 1e9
 fn a_structure_past_its_limit_load_is_told_so() {
     // The truss bears 38.2. Steps end where forces miss balance by less than a tenth.
     let text = failure(&truss(39.0, 0.1));
-    assert!(text.contains("a limit load?") || text.contains("jumps"), "{text}");
+    assert!(text.contains("reaches its limit load") || text.contains("jumps"), "{text}");
     // A bar without hardening bears 250 N.
     let text = failure(
         r#"
@@ -88,7 +90,52 @@ force = [300.0, 0.0, 0.0]
 amplitude = "ramp"
 "#,
     );
-    assert!(text.contains("a limit load?"), "{text}");
+    assert!(text.contains("reaches its limit load"), "{text}");
+}
+
+/// A column of 1 m with a square section of 20 mm, whose load grows to half more than Euler's, with a small load across it.
+fn yielding_column(euler: f64, supports: &str, across: f64, analysis: &str) -> String {
+    let critical = euler * PI.powi(2) * 210e9 * 0.02f64.powi(4) / 12.0;
+    format!(
+        r#"
+analysis = {{ kind = "static", end_time = 1.5, time_step = 0.1{analysis} }}
+points = {{ a = [0.0, 0.0, 0.0], m = [0.0, 0.0, 0.5], c = [0.0, 0.0, 1.0] }}
+materials.s = {{ model = "elastic-plastic", youngs_modulus = 210e9, poisson_ratio = 0.3, density = 1.0, yield_stress = 235e6, hardening_modulus = 2e9 }}
+sections.s = {{ shape = "rectangle", width = 0.02, height = 0.02, fibres = [2, 12] }}
+beams = [{{ name = "column", path = ["a", "m", "c"], elements = 2, order = 2, material = "s", section = "s", orientation = [1.0, 0.0, 0.0] }}]
+supports = [{{ at = "column", fix = ["uy", "rx", "rz"] }}, {supports}]
+amplitudes.ramp = {{ kind = "table", points = [[0.0, 0.0], [2.0, 2.0]] }}
+loads = [
+    {{ at = "c", force = [0.0, 0.0, {}], amplitude = "ramp" }},
+    {{ at = "{}", force = [{}, 0.0, 0.0], amplitude = "ramp" }},
+]
+"#,
+        -critical,
+        if supports.contains("\"c\"") { "m" } else { "c" },
+        across * critical
+    )
+}
+
+/// Columns that yield as they buckle bear no more beyond: the run ends near the peak that arc-length control finds, and names it.
+#[test]
+fn columns_beside_their_critical_load_are_told_to_buckle() {
+    let free = r#"{ at = "a", fix = "all" }"#;
+    let pinned = r#"{ at = "a", fix = ["ux", "uz"] }, { at = "c", fix = "ux" }"#;
+    let clamped = r#"{ at = "a", fix = "all" }, { at = "c", fix = ["ux", "ry"] }"#;
+    for (euler, supports, across) in
+        [(0.25, free, 1e-2), (1.0, pinned, 1e-4), (1.0, pinned, 1e-2), (4.0, clamped, 1e-3), (4.0, clamped, 1e-2)]
+    {
+        let outcome = said(&yielding_column(euler, supports, across, "")).2.outcome;
+        let Outcome::Failed { failure, time, .. } = outcome else { panic!("{outcome:?}") };
+        let text = failure.to_string();
+        assert!(text.contains("buckles or reaches its limit load"), "{euler} {across}: {text}");
+        assert!(text.contains("\"arc-length\"") && !text.contains("no convergence"), "{text}");
+        let model = read_deck(&yielding_column(euler, supports, across, r#", control = "arc-length", steps = 40"#));
+        let path = run_to_the_end(&model, &mut |frame| vec![frame.state.time]);
+        let peak = path.rows.iter().map(|row| row[0]).fold(0.0, f64::max);
+        // The steps of the path pass the peak at a distance of their length, a tenth of the load at the most.
+        assert!(peak <= time * (1.0 + 1e-3) && peak > 0.95 * time, "{euler} {across}: {peak} for {time}");
+    }
 }
 
 /// A beam that one step bends far, or onto a stiff floor: iterates are lost far from every path, and their tangents prove nothing. The
