@@ -132,6 +132,16 @@ impl PartAnswers for Contact {
         self.convex.iter_mut().for_each(|one| visit(&mut one.node));
     }
 
+    fn touched_nodes(&self) -> Vec<usize> {
+        match &self.surface {
+            TouchedSurface::Shape(carried) => vec![carried.node],
+            TouchedSurface::Facets(faces) => {
+                let of_facets = faces.facets.iter().flat_map(|facet| facet.nodes);
+                of_facets.chain(faces.solids.iter().map(|carried| carried.node)).collect()
+            }
+        }
+    }
+
     fn may_stiffen(&self) -> bool {
         true
     }

@@ -1,7 +1,7 @@
 //! Springs, dampers, gaps and bushings between two nodes.
 
 use super::loading::OwnDamping;
-use super::part_answers::{Drawing, LinearSpring, PartAnswers};
+use super::part_answers::{Drawing, LinearSpring, NodalAction, PartAnswers};
 use base::math::{Mat3, Vec3};
 use base::quantities::{Column, LINK};
 use mechanics::constraints::joint::ConstraintEquation;
@@ -110,6 +110,14 @@ impl PartAnswers for Link {
             LinkKind::Line { law, .. } => !matches!(law, LinkLaw::Linear { .. }),
             LinkKind::Bushing { .. } => false,
             LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some(),
+        }
+    }
+
+    fn action(&self) -> NodalAction {
+        match &self.kind {
+            LinkKind::Joint { law, .. } if *law == CoordinateLaw::FREE => NodalAction::Nothing,
+            LinkKind::Line { .. } => NodalAction::Forces,
+            LinkKind::Bushing { .. } | LinkKind::Joint { .. } => NodalAction::Moments,
         }
     }
 

@@ -52,7 +52,7 @@ pub use moving_frame::{MovingFrame, MovingFrames};
 pub use node::{Body, DIRECTIONS, Mass, Node};
 pub use output::{Cadence, Drift, Output, round_up};
 pub use part::{Part, PartType, quantities_of};
-pub use part_answers::{Drawing, LineElement, LinearSpring, NodeWeights};
+pub use part_answers::{Drawing, LineElement, LinearSpring, NodalAction, NodeWeights};
 pub use response::{AroundResonances, ResponseAsked, ResponseMethod};
 pub use shell::{Shell, ShellElement};
 pub use stage::{Actors, RunStage, Stop, StopQuantity};

@@ -23,6 +23,17 @@ pub enum Drawing<'p> {
     },
 }
 
+/// How a part acts on its nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NodalAction {
+    /// Not at all.
+    Nothing,
+    /// By forces alone.
+    Forces,
+    /// By forces and moments.
+    Moments,
+}
+
 /// A spring and a damper between two nodes whose force is linear.
 pub struct LinearSpring {
     /// Its nodes.
@@ -71,6 +82,21 @@ pub trait PartAnswers {
     /// True where the part may resist more than it does as it lies, all at once.
     fn may_stiffen(&self) -> bool {
         false
+    }
+
+    /// How it acts on its nodes.
+    fn action(&self) -> NodalAction {
+        NodalAction::Moments
+    }
+
+    /// True where flat elements at a node are so thin that they fold at their edges.
+    fn folds_at(&self, _node: usize, _nodes: &[Node]) -> bool {
+        false
+    }
+
+    /// The nodes that its surface lies on or is carried by, for a contact.
+    fn touched_nodes(&self) -> Vec<usize> {
+        Vec::new()
     }
 
     /// True where the part may store less energy than none, because it gives way under a preload or by its table.

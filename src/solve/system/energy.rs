@@ -136,7 +136,7 @@ fn motion(system: &System, nodes: &[Node]) -> (f64, Vec3, Vec3) {
         p += momentum;
         l += node.x.cross(&momentum);
         if inertia.rotary {
-            l += inertia.J(node) * node.omega;
+            l += inertia.spin(node);
         }
     }
     for mass in &system.consistent {

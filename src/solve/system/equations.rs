@@ -13,7 +13,7 @@ use super::parts::links::{self, LinkElement};
 use super::scale::Scale;
 use super::thread_partition::{GroupMemory, Partition};
 use super::turning_body::TurningBody;
-use super::{build, joint_tree, node_sums, plane_motion, thread_partition};
+use super::{build, joint_tree, node_sums, plane_motion, thin_axes, thread_partition};
 use crate::tolerances::multipliers::{REGULARIZATION, REGULARIZATION_OF_TREES};
 use base::math::{Vec3, Vec6, angular, linear, rotation};
 use base::snapshot::keep;
@@ -166,6 +166,7 @@ impl System {
         let rigid_links = rigid_link::sorted(rigid_links, x.len()).ok_or("the attachments form a cycle")?;
         let (mut inertias, consistent) = build::masses(model, &x);
         let plane = normal(model, &inertias, &rigid_links);
+        thin_axes::raise(model, (&mut inertias, &consistent), &rigid_links, plane);
         let groups = build::groups(model, &x, plane);
         let mass_scaling = MassScaling::new(model, &x, &groups, &mut inertias);
         let joints = build::joints(model, &x, plane);

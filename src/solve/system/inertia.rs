@@ -18,6 +18,8 @@ pub struct Inertia {
     pub weighing: f64,
     /// Inertia tensor J₀ about the node.
     pub J0: Mat3,
+    /// The tensor of the deck where [`super::thin_axes`] raises J₀; energies and momenta of the tables are its own.
+    pub of_deck: Option<Box<Mat3>>,
     /// True where J₀ ≠ 0.
     pub rotary: bool,
     /// True where the node turns by its angular momentum: one of [`super::TurningBody`].
@@ -83,11 +85,20 @@ impl Inertia {
         }
     }
 
-    /// The kinetic energy of translation and rotation.
+    /// The angular momentum about the node, with the tensor of the deck, global components.
+    pub fn spin(&self, node: &Node) -> Vec3 {
+        let R = node.R();
+        match &self.of_deck {
+            None => self.J(node) * node.omega,
+            Some(J0) => R * (**J0 * R.tr_mul(&node.omega)),
+        }
+    }
+
+    /// The kinetic energy of translation and rotation, with the tensor of the deck.
     pub fn kinetic_energy(&self, node: &Node) -> f64 {
         let mut twice = self.mass * node.v.norm_squared();
         if self.rotary {
-            twice += node.omega.dot(&(self.J(node) * node.omega));
+            twice += node.omega.dot(&self.spin(node));
         }
         0.5 * twice
     }
@@ -195,6 +206,7 @@ impl Lumped {
                 mass,
                 weighing: mass,
                 J0,
+                of_deck: None,
                 rotary,
                 turns: false,
                 own: None,

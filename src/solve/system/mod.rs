@@ -39,6 +39,7 @@ mod scale;
 mod schur_factor;
 mod sliding;
 mod tangent_weights;
+mod thin_axes;
 mod thread_partition;
 mod turning_body;
 

@@ -248,7 +248,11 @@ impl TurningBody {
 }
 
 /// The nodes that carry masses of dependent nodes; `links` are sorted, masters first.
-fn carriers(nodes: usize, (inertias, consistent): (&[Inertia], &[ConsistentMass]), links: &[RigidLink]) -> Vec<bool> {
+pub fn carriers(
+    nodes: usize,
+    (inertias, consistent): (&[Inertia], &[ConsistentMass]),
+    links: &[RigidLink],
+) -> Vec<bool> {
     let mut massive = vec![false; nodes];
     let of_elements = consistent.iter().flat_map(|element| &element.nodes);
     inertias.iter().map(|inertia| &inertia.node).chain(of_elements).for_each(|&node| massive[node] = true);

@@ -72,6 +72,7 @@ impl BeamEnds {
                             mass,
                             weighing: share.mass,
                             J0,
+                            of_deck: None,
                             rotary: J0 != Mat3::zeros(),
                             turns: false,
                             own: None,
