@@ -861,6 +861,8 @@ pub mod constraint_schur {
 pub mod independent_rows {
     /// An equation is redundant where less than this fraction of its gradient is linearly independent of others.
     pub const NEW: f64 = 1e-8;
+    /// Largest number of equations of one group in which redundant ones are found at every evaluation: some ten million operations.
+    pub const MOST: usize = 256;
 }
 
 pub mod element_stability {

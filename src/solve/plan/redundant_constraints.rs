@@ -63,11 +63,49 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
         }
     }
     let rows = without_branches(&sparse, &joints, columns);
-    if (rows.len() * rows.len()) as f64 * columns as f64 > MOST {
+    let groups = connected(&sparse, &rows, columns);
+    let operations = |rows: &Vec<usize>, columns: usize| (rows.len() * rows.len()) as f64 * columns as f64;
+    if groups.iter().map(|(rows, columns)| operations(rows, columns.len())).sum::<f64>() > MOST {
         return None;
     }
-    let loops: Vec<&[(usize, f64)]> = rows.iter().map(|&row| &sparse[row][..]).collect();
-    Some(dependent_rows(&loops, columns).into_iter().map(|row| rows[row]).collect())
+    let mut redundant: Vec<usize> = Vec::new();
+    for (rows, columns) in &groups {
+        let own = |&(column, value): &(usize, f64)| Some((columns.binary_search(&column).ok()?, value));
+        let own: Vec<Vec<(usize, f64)>> =
+            rows.iter().map(|&row| sparse[row].iter().filter_map(own).collect()).collect();
+        let own: Vec<&[(usize, f64)]> = own.iter().map(|row| &row[..]).collect();
+        redundant.extend(dependent_rows(&own, columns.len()).into_iter().map(|row| rows[row]));
+    }
+    redundant.sort_unstable();
+    Some(redundant)
+}
+
+/// Groups of rows that no column connects, with the columns of each, all ascending.
+fn connected(sparse: &[Vec<(usize, f64)>], rows: &[usize], columns: usize) -> Vec<(Vec<usize>, Vec<usize>)> {
+    let mut acting: Vec<Vec<usize>> = vec![Vec::new(); columns];
+    for &row in rows {
+        sparse[row].iter().for_each(|&(column, _)| acting[column].push(row));
+    }
+    let mut seen: BTreeSet<usize> = BTreeSet::new();
+    let mut groups = Vec::new();
+    for &first in rows {
+        if !seen.insert(first) {
+            continue;
+        }
+        let (mut own_rows, mut own_columns, mut todo) = (vec![first], BTreeSet::new(), vec![first]);
+        while let Some(row) = todo.pop() {
+            for &(column, _) in &sparse[row] {
+                if own_columns.insert(column) {
+                    let new: Vec<usize> = acting[column].iter().copied().filter(|row| seen.insert(*row)).collect();
+                    own_rows.extend(&new);
+                    todo.extend(new);
+                }
+            }
+        }
+        own_rows.sort_unstable();
+        groups.push((own_rows, own_columns.into_iter().collect()));
+    }
+    groups
 }
 
 /// The rows that may depend on each other. A joint whose independent equations concern separate degrees of freedom, such as at the end of a

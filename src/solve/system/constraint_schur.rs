@@ -2,11 +2,9 @@
 //! = c. It gives accelerations that the joints allow, and closes gaps by the least change of positions in the norm of the masses.
 
 use super::equations::System;
-use super::independent_rows::IndependentRows;
 use super::masses::Masses;
-use super::schur_factor::SchurFactor;
+use super::schur_group::{self, SchurGroup};
 use crate::tolerances::constraint_schur::NEGLIGIBLE;
-use crate::tolerances::multipliers::REGULARIZATION;
 use base::math::{Vec3, Vec6, angular, linear, stack};
 use base::snapshot::keep;
 use mechanics::elements::Force;
@@ -24,24 +22,19 @@ pub struct ConstraintSchur {
     alike: Vec<Range<usize>>,
     /// Weights of the loads of equations that redundant ones share.
     weights: Vec<f64>,
-    /// The increase of the diagonal of a sparse system.
-    raised: Vec<f64>,
-    /// The equations solved for in a dense system with possibly redundant equations.
-    independent: Option<IndependentRows>,
     /// ∂c/∂(x, θ) of the nodes behind the ends, and their accelerations under a unit multiplier.
     G: Vec<[Vec6; 2]>,
     W: Vec<[Vec6; 2]>,
     /// Equations between restrained degrees of freedom only, such as those out of the plane of a plane motion. They cause no acceleration,
     /// and their multipliers stay zero.
     inert: Vec<bool>,
-    /// G M⁻¹ Gᵀ and its factor.
-    factor: SchurFactor,
-    /// Right-hand side on entry of [`ConstraintSchur::solve`], then the solution; `scratch` holds a copy.
+    /// G M⁻¹ Gᵀ of groups of joints that no body connects, and their factors.
+    groups: Vec<SchurGroup>,
+    /// Right-hand side on entry of [`ConstraintSchur::solve`], then the solution.
     pub x: Vec<f64>,
-    scratch: Vec<f64>,
 }
 
-keep!(ConstraintSchur { G, W, inert, factor, x, scratch } without { rows, shares, alike, weights, raised, independent });
+keep!(ConstraintSchur { G, W, inert, x } without { rows, shares, alike, weights, groups });
 
 /// The response of an equation to a unit force. Rotations from arms are excluded for translations: joints at different places of one body
 /// would otherwise share loads unevenly.
@@ -92,24 +85,17 @@ impl ConstraintSchur {
             rows.extend(joint.equations.iter().map(|_| ends));
         }
         let zeros = vec![[Vec6::zeros(); 2]; count];
-        let factor = SchurFactor::new(system, &rows)?;
-        let x = vec![0.0; count];
-        let inert = vec![false; count];
-        let (alike, raised) = (alike(system), vec![0.0; count]);
-        let independent = (shares && !factor.is_sparse()).then(|| IndependentRows::new(&rows));
+        let sizes: Vec<usize> = system.joints.iter().map(|joint| joint.equations.len()).collect();
         Some(ConstraintSchur {
+            groups: schur_group::of(&sizes, &rows, shares)?,
             rows,
             shares,
-            alike,
-            weights: raised.clone(),
-            raised,
-            independent,
+            alike: alike(system),
+            weights: vec![0.0; count],
             G: zeros.clone(),
             W: zeros,
-            inert,
-            factor,
-            scratch: x.clone(),
-            x,
+            inert: vec![false; count],
+            x: vec![0.0; count],
         })
     }
 
@@ -142,7 +128,7 @@ impl ConstraintSchur {
     }
 
     fn factor(&mut self, masses: &Masses) -> bool {
-        let ConstraintSchur { rows, G, W, inert, factor, shares, alike, weights, raised, independent, .. } = self;
+        let ConstraintSchur { rows, G, W, inert, groups, shares, alike, weights, .. } = self;
         let entry = |k: usize, l: usize| {
             let mut sum = 0.0;
             for (i, master) in rows[k].iter().enumerate() {
@@ -163,37 +149,19 @@ impl ConstraintSchur {
                 weights[range.clone()].fill(sum / count);
             }
         }
-        if let Some(independent) = independent {
-            independent.find(rows, G, inert, masses);
-            let is_regular = factor.factor(&independent.idle, raised, entry);
-            if is_regular {
-                independent.find_shares(factor, inert, weights, entry);
-            }
-            return is_regular;
-        }
-        raised.iter_mut().zip(weights).for_each(|(raised, weight)| *raised = REGULARIZATION * *weight);
-        factor.factor(inert, raised, entry)
+        groups.iter_mut().all(|group| group.factor((rows, G), inert, (masses, weights), entry))
     }
 
-    /// True where the system is sparse.
+    /// True where the system of a group is sparse.
     pub fn is_sparse(&self) -> bool {
-        self.factor.is_sparse()
+        self.groups.iter().any(SchurGroup::is_sparse)
     }
 
     /// Solves x ← (G M⁻¹ Gᵀ)⁻¹ x. Redundant equations share the load by least norm.
     pub fn solve(&mut self) {
         self.x.iter_mut().zip(&self.inert).filter(|(_, inert)| **inert).for_each(|(x, _)| *x = 0.0);
-        if !self.shares {
-            return self.factor.substitute(&mut self.x);
-        }
-        if let Some(independent) = &self.independent {
-            self.x.iter_mut().zip(&independent.idle).filter(|(_, idle)| **idle).for_each(|(x, _)| *x = 0.0);
-        }
-        // The regularization causes a relative error ε of the solution; one iterative refinement reduces it to ε².
-        self.scratch.copy_from_slice(&self.x);
-        self.factor.refine(&mut self.x, &mut self.scratch);
-        if let Some(independent) = &self.independent {
-            independent.share(&mut self.x, &self.weights);
+        for group in &mut self.groups {
+            group.solve(&mut self.x, self.shares);
         }
     }
 

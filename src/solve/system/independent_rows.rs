@@ -7,6 +7,7 @@ use super::masses::Masses;
 use super::schur_factor::SchurFactor;
 use crate::tolerances::independent_rows::NEW;
 use base::math::{Vec6, angular, linear};
+use std::ops::Range;
 
 /// Which equations are solved for, and loads of the others. It is allocated once.
 pub struct IndependentRows {
@@ -14,8 +15,9 @@ pub struct IndependentRows {
     width: usize,
     /// The first column of each node.
     first: Vec<usize>,
-    /// The remainders of the scaled gradients, row-major, and their squared norms.
+    /// The remainders of the scaled gradients, row-major, the columns of each that may be nonzero, and their squared norms.
     left: Vec<f64>,
+    spans: Vec<Range<usize>>,
     norms: Vec<f64>,
     /// True for each equation that is not solved for: inert or redundant.
     pub idle: Vec<bool>,
@@ -43,6 +45,7 @@ impl IndependentRows {
             width,
             first,
             left: vec![0.0; count * width],
+            spans: vec![0..0; count],
             norms: vec![0.0; count],
             idle: vec![false; count],
             shares: vec![0.0; count * count],
@@ -51,16 +54,23 @@ impl IndependentRows {
         }
     }
 
-    /// Finds the equations with these gradients that are to be solved for; `inert` ones are not.
-    pub fn find(&mut self, rows: &[[Option<usize>; 2]], G: &[[Vec6; 2]], inert: &[bool], masses: &Masses) {
-        self.write_gradients(rows, G, masses);
-        let IndependentRows { width, left, norms, idle, .. } = self;
-        let row = |k: usize| k * *width..(k + 1) * *width;
+    /// Finds which of these equations, by their numbers among all, are to be solved for; `inert` ones are not.
+    pub fn find(
+        &mut self,
+        equations: &[usize],
+        gradients: (&[[Option<usize>; 2]], &[[Vec6; 2]]),
+        inert: &[bool],
+        masses: &Masses,
+    ) {
+        self.write_gradients(equations, gradients, masses);
+        let IndependentRows { width, left, spans, norms, idle, .. } = self;
+        let part = |k: usize, span: &Range<usize>| k * *width + span.start..k * *width + span.end;
         for (k, norm) in norms.iter_mut().enumerate() {
-            let whole = left[row(k)].iter().map(|g| g * g).sum::<f64>();
+            let row = &mut left[part(k, &spans[k])];
+            let whole = row.iter().map(|g| g * g).sum::<f64>();
             idle[k] = true;
             *norm = if inert[k] || whole == 0.0 { 0.0 } else { 1.0 };
-            left[row(k)].iter_mut().for_each(|g| *g /= whole.sqrt());
+            row.iter_mut().for_each(|g| *g /= whole.sqrt());
         }
         loop {
             let larger = |most: usize, k: usize| if norms[k] > norms[most] { k } else { most };
@@ -70,34 +80,49 @@ impl IndependentRows {
             }
             let length = norms[pivot].sqrt();
             (idle[pivot], norms[pivot]) = (false, 0.0);
-            left[row(pivot)].iter_mut().for_each(|g| *g /= length);
+            let of_pivot = spans[pivot].clone();
+            left[part(pivot, &of_pivot)].iter_mut().for_each(|g| *g /= length);
             for k in 0..norms.len() {
-                if norms[k] == 0.0 {
+                let both = of_pivot.start.max(spans[k].start)..of_pivot.end.min(spans[k].end);
+                if norms[k] == 0.0 || both.is_empty() {
                     continue;
                 }
-                let part: f64 = left[row(pivot)].iter().zip(&left[row(k)]).map(|(a, b)| a * b).sum();
+                let along: f64 = left[part(pivot, &both)].iter().zip(&left[part(k, &both)]).map(|(a, b)| a * b).sum();
+                if along == 0.0 {
+                    continue;
+                }
+                spans[k] = of_pivot.start.min(spans[k].start)..of_pivot.end.max(spans[k].end);
                 let (from, of) = (pivot * *width, k * *width);
-                (0..*width).for_each(|i| left[of + i] -= part * left[from + i]);
-                norms[k] = left[row(k)].iter().map(|g| g * g).sum();
+                of_pivot.clone().for_each(|i| left[of + i] -= along * left[from + i]);
+                norms[k] = left[part(k, &spans[k])].iter().map(|g| g * g).sum();
             }
         }
     }
 
     /// Writes the gradients in the unknowns, rotations over the length of the arms.
-    fn write_gradients(&mut self, rows: &[[Option<usize>; 2]], G: &[[Vec6; 2]], masses: &Masses) {
+    fn write_gradients(
+        &mut self,
+        equations: &[usize],
+        (rows, G): (&[[Option<usize>; 2]], &[[Vec6; 2]]),
+        masses: &Masses,
+    ) {
         let ratio = |G: &Vec6| if linear(G).amax() > 0.0 { angular(G).amax() / linear(G).amax() } else { 0.0 };
-        let arms = G.iter().flatten().map(ratio).fold(0.0, f64::max);
+        let arms = equations.iter().flat_map(|&k| &G[k]).map(ratio).fold(0.0, f64::max);
         let length = if arms > 0.0 { arms } else { 1.0 };
         self.left.fill(0.0);
-        for (k, (ends, G)) in rows.iter().zip(G).enumerate() {
-            for (node, G) in ends.iter().zip(G) {
+        for (k, &equation) in equations.iter().enumerate() {
+            let mut span = usize::MAX..0;
+            for (node, G) in rows[equation].iter().zip(&G[equation]) {
                 let Some(node) = *node else { continue };
                 let free = masses.of(node).map_or([false; 6], |block| block.free);
-                let at = k * self.width + self.first[node];
+                let first = self.first[node];
+                span = span.start.min(first)..span.end.max(first + 6);
+                let at = k * self.width + first;
                 for dof in (0..6).filter(|&dof| free[dof]) {
                     self.left[at + dof] += if dof < 3 { G[dof] } else { G[dof] / length };
                 }
             }
+            self.spans[k] = if span.is_empty() { 0..0 } else { span };
         }
     }
 

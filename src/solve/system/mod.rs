@@ -37,6 +37,7 @@ mod plane_motion;
 pub mod results;
 mod scale;
 mod schur_factor;
+mod schur_group;
 mod sliding;
 mod tangent_weights;
 mod thin_axes;

@@ -1,13 +1,8 @@
 //! The factorization of G M⁻¹ Gᵀ: dense for few constraint equations, sparse for many. Two equations are coupled only if their joints share
 //! a body.
 
-use super::equations::System;
 use base::math::lanes::LANES;
-use base::snapshot::{keep, keep_either};
 use linear::{Factorization, Solver, Structure};
-
-/// The largest number of constraint equations of a dense system.
-const MOST_DENSE: usize = 64;
 
 /// The matrix and its factor.
 pub enum SchurFactor {
@@ -17,16 +12,12 @@ pub enum SchurFactor {
     Sparse(SparseFactor),
 }
 
-keep_either!(SchurFactor { 0 => Dense(factor), 1 => Sparse(factor) });
-
 /// The matrix and its Cholesky factor, row-major.
 pub struct DenseFactor {
     count: usize,
     S: Vec<f64>,
     L: Vec<f64>,
 }
-
-keep!(DenseFactor { S, L } without { count });
 
 /// The entries of one triangle and a sparse factorization.
 pub struct SparseFactor {
@@ -39,14 +30,15 @@ pub struct SparseFactor {
     solver: Solver,
 }
 
-keep!(SparseFactor { values, solver } without { pairs, slots });
-
 impl SchurFactor {
-    /// Room for the system of the joints, whose constraint equations move the nodes `rows`. `None` where there is no memory.
-    pub fn new(system: &System, rows: &[[Option<usize>; 2]]) -> Option<SchurFactor> {
+    /// The largest number of constraint equations of a dense system.
+    pub const MOST_DENSE: usize = 64;
+
+    /// Room for the system of joints with so many constraint equations each, which move the nodes `rows`. `None` where there is no memory.
+    pub fn new(sizes: &[usize], rows: &[[Option<usize>; 2]]) -> Option<SchurFactor> {
         let count = rows.len();
-        if count > MOST_DENSE {
-            return SparseFactor::new(system, rows).map(SchurFactor::Sparse);
+        if count > Self::MOST_DENSE {
+            return SparseFactor::new(sizes, rows).map(SchurFactor::Sparse);
         }
         let square = vec![0.0; count * count];
         Some(SchurFactor::Dense(DenseFactor { count, S: square.clone(), L: square }))
@@ -138,9 +130,8 @@ impl DenseFactor {
 
 impl SparseFactor {
     /// The structure of the system of these joints. `None` where there is no memory.
-    pub fn new(system: &System, rows: &[[Option<usize>; 2]]) -> Option<SparseFactor> {
-        let sizes: Vec<usize> =
-            system.joints.iter().map(|joint| joint.equations.len()).filter(|&equations| equations > 0).collect();
+    pub fn new(sizes: &[usize], rows: &[[Option<usize>; 2]]) -> Option<SparseFactor> {
+        let sizes: Vec<usize> = sizes.iter().copied().filter(|&equations| equations > 0).collect();
         let firsts: Vec<usize> =
             sizes.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size))).collect();
         let mut of_node: Vec<Vec<usize>> = Vec::new();

@@ -6,7 +6,10 @@ use base::names::joined;
 use mechanics::constraints::joint::ConstraintEquation;
 use model::{DIRECTIONS, JointOrigin, Model};
 
-/// The redundant constraint equations, a line for each joint.
+/// Number of joints that are listed.
+const LISTED: usize = 8;
+
+/// The redundant constraint equations, a line for each of the first joints.
 pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     let Some(redundant) = &plan.redundant_constraints else {
         return vec!["too many joints to search for redundant constraints".to_string()];
@@ -33,7 +36,11 @@ pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec
             joined(&words)
         )
     };
-    lines.into_iter().map(line).collect()
+    let more = lines.len().saturating_sub(LISTED);
+    lines.truncate(LISTED);
+    let more =
+        (more > 0).then(|| format!("{more} more joints have redundant equations, and share their reactions alike"));
+    lines.into_iter().map(line).chain(more).collect()
 }
 
 /// The word of an equation; supports and attachments are written about global axes.
