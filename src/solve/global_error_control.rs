@@ -199,7 +199,9 @@ impl Run<'_> {
             None => Some(error.without_comparison()),
         };
         let dictated = other.as_ref().is_some_and(|(_, other)| run.has_steps_of(other));
-        observer.on_other_run(other.filter(|_| error.estimate.is_some()).map(|(which, _)| which(error.apart)));
+        // Both runs of a stage begin with the errors of earlier stages, which their difference does not contain.
+        let tells = error.estimate.is_some() && !self.context.model.analysis.follows_motion();
+        observer.on_other_run(other.filter(|_| tells).map(|(which, _)| which(error.apart)));
         // If jumps and kinks of loads determine most steps, only a finer division between them changes the steps.
         *pieces = Pieces { before: pieces.now, now: if dictated { 2 * pieces.now } else { pieces.now } };
         let next = if dictated { Some(error.tolerance) } else { next };

@@ -178,6 +178,53 @@ fn the_bar_of_a_box_that_lands_holds() {
     assert!(bar < 0.05, "{bar}: a tenth of the value says nothing");
 }
 
+/// A stage after one of motion begins with errors that both of its runs share: it has no bar, where 4e-18 was told.
+#[test]
+fn stages_after_a_motion_have_no_bars() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = folder.path().join("deck.toml");
+    fs::write(&deck, STOPPED_SWING).unwrap();
+    let out = folder.path().join("out");
+    Command::cargo_bin("rdsolve").unwrap().arg(&deck).arg("-o").arg(&out).assert().success();
+    let result: Value = serde_json::from_slice(&fs::read(out.join("result.json")).unwrap()).unwrap();
+    assert!(result["expectations"][0].get("step_error").is_none(), "{result}");
+}
+
+const STOPPED_SWING: &str = r#"
+[[stages]]
+name = "swing"
+kind = "dynamic"
+time_step = "auto"
+duration = 3.0
+error_tolerance = 1e-2
+stop = { at = "b", quantity = "ux", value = 0.5 }
+
+[[stages]]
+name = "on"
+kind = "dynamic"
+time_step = "auto"
+duration = 1.0
+
+[[bodies]]
+name = "b"
+center = [0.0, 0.0, 0.0]
+mass = 1.0
+inertia = [1.0, 1.0, 1.0]
+velocity = [1.0, 0.0, 0.0]
+
+[[links]]
+name = "l"
+from = { ground = [-1.0, 0.0, 0.0] }
+to = { body = "b" }
+stiffness = 1.0
+
+[[expect]]
+at = "b"
+quantity = "ux"
+stage = "on"
+at_most = 2.0
+"#;
+
 const LANDING_BOX: &str = r#"
 [[bodies]]
 name = "b"

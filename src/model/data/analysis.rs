@@ -110,6 +110,11 @@ impl Analysis {
         self.stage.as_ref().is_some_and(|stage| stage.goes_on)
     }
 
+    /// True where an earlier stage is dynamic, so that the initial state contains discretization errors.
+    pub fn follows_motion(&self) -> bool {
+        self.stage.as_ref().is_some_and(|stage| stage.follows_motion)
+    }
+
     /// True where the motion goes on and only loads come, go or jump.
     pub fn loads_alone_change(&self) -> bool {
         self.stage.as_ref().is_some_and(|stage| stage.loads_alone_change)

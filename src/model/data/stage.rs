@@ -15,6 +15,8 @@ pub struct RunStage {
     pub goes_on: bool,
     /// True where the motion goes on and only loads come or go.
     pub loads_alone_change: bool,
+    /// True where an earlier stage is dynamic: the initial state contains the errors of its steps.
+    pub follows_motion: bool,
     /// True where residual forces at the beginning of a static stage decrease to zero over it.
     pub holds_back: bool,
     /// The amplitude of loads that first act here and have no other; a buckling stage seeks the factor of these.

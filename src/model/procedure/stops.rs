@@ -27,6 +27,7 @@ pub fn stage<'d>(scene: &Scene<'d>, actors: NamedActors<'d>, report: &mut Report
         count,
         goes_on: current.goes_on(),
         loads_alone_change: current.loads_alone_change(),
+        follows_motion: current.follows_motion(),
         holds_back: false,
         own_amplitude: current.amplitude_of_stage(),
         stop,

@@ -117,6 +117,11 @@ impl<'d> CurrentStage<'d> {
         named.map_or(0.0, |index| self.sequence.stages[index].begin)
     }
 
+    /// True where an earlier stage is dynamic.
+    pub fn follows_motion(&self) -> bool {
+        self.sequence.first_dynamic().is_some_and(|first| first < self.index)
+    }
+
     /// True if the stage before is dynamic like this one, with the same supports, joints, contacts and loads.
     pub fn goes_on(&self) -> bool {
         self.is_like_before(|index| self.sequence.held(index))
