@@ -389,3 +389,35 @@ fn threads_change_no_byte() {
         }
     }
 }
+
+/// The plan says what moments of few layers err by, and nothing of sixteen, which cycles want.
+#[test]
+fn few_layers_are_told_what_moments_err_by() {
+    for (layers, told) in [(5, Some("5.5 %")), (7, Some("5.5 %")), (9, Some("1 %")), (14, Some("0.5 %")), (16, None)] {
+        let model = crate::support::read_deck(&format!(
+            r#"
+analysis = {{ kind = "static", end_time = 1.0, time_step = 0.5 }}
+points = {{ a = [0.0, 0.0, 0.0], b = [1.0, 0.0, 0.0], c = [1.0, 1.0, 0.0], d = [0.0, 1.0, 0.0] }}
+materials.steel = {{ model = "elastic-plastic", youngs_modulus = 2.1e11, poisson_ratio = 0.3, yield_stress = 2.4e8 }}
+[[shells]]
+name = "plate"
+corners = ["a", "b", "c", "d"]
+elements = 2
+thickness = 0.01
+layers = {layers}
+material = "steel"
+[[supports]]
+at = "plate.edge1"
+fix = "all"
+[[loads]]
+at = "plate"
+pressure = 1e3
+"#
+        ));
+        let system = rdsolve::system::System::new(&model).unwrap();
+        let plan = rdsolve::plan::Plan::new(&model, &system, 1);
+        let text = rdsolve::plan::explain::explain(&plan, &model, &system).to_string();
+        let said = text.split("moments err by up to ").nth(1);
+        assert_eq!(said.map(|rest| rest.split(" of the plastic").next().unwrap()), told, "{layers}: {text}");
+    }
+}
