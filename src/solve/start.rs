@@ -134,6 +134,7 @@ pub fn update_rates_of_dependent_nodes(cx: &Context, ws: &mut Workspace, nodes: 
 /// empty. The mass matrix is factorized already. Returns the largest change relative to the largest velocity.
 pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], impulse: &[f64]) -> f64 {
     let (mut change, mut largest) = (0.0f64, 0.0f64);
+    let geared = geared_nodes(cx);
     // Redundant equations leave a fraction of the gaps to the next correction: three leave nothing.
     for pass in 0..3 {
         cx.system.gaps(nodes, 1, &mut ws.forces.multipliers.gaps);
@@ -147,12 +148,16 @@ pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], 
         }
         ws.matrix.solve(&ws.forces.multipliers, &ws.residual, &mut ws.correction);
         ws.solves += 1;
-        for (node, rows) in nodes.iter_mut().zip(cx.plan.dofs.each_node()) {
+        for (index, (node, rows)) in nodes.iter_mut().zip(cx.plan.dofs.each_node()).enumerate() {
             let found = ws.correction.of(rows);
             let (dv, domega) = (linear(&found), angular(&found));
-            largest = largest.max(speed(cx, &node.v, &node.omega));
+            let before = speed(cx, &node.v, &node.omega);
             node.v += dv;
             node.omega += domega;
+            if geared.contains(&index) {
+                continue;
+            }
+            largest = largest.max(before);
             change = change.max(speed(cx, &dv, &domega));
             largest = largest.max(speed(cx, &node.v, &node.omega));
         }
@@ -161,6 +166,13 @@ pub fn project_velocities(cx: &Context, ws: &mut Workspace, nodes: &mut [Node], 
     // Parts that move by less than rounding over the whole run are at rest.
     let nowhere = NOWHERE * cx.length / (cx.model.analysis.end_time - cx.model.analysis.begin);
     if change > nowhere { change / largest } else { 0.0 }
+}
+
+/// The nodes of geared coordinates: the deck gives them no velocity that could contradict the joints.
+fn geared_nodes(cx: &Context) -> Vec<usize> {
+    let joints = cx.model.constraints.joints.iter();
+    let drives = joints.filter_map(|joint| joint.coordinate.as_ref()?.drive);
+    drives.filter(|drive| drive.is_free).map(|drive| drive.node).collect()
 }
 
 /// True if joints have changed initial velocities of the deck, from `trial` to `nodes`. A drive that starts suddenly also moves joined

@@ -1,6 +1,7 @@
 //! Geared joints against closed forms: wheels, a planetary gear, a rack, a satellite that its wheels turn.
 
 use super::{all_schemes, opening};
+use crate::solve::statics::said;
 use crate::support::{read_deck, run_source, run_to_the_end, slope};
 use rdsolve::diagnostic::Source;
 use rdsolve::model::Model;
@@ -288,5 +289,20 @@ stages = ["wind"]
             assert!((row[3] + 0.1 * row[1]).abs() < 1e-10, "{scheme}: {row:?}");
         }
         assert!((done.rows.last().unwrap()[0] - 4.0).abs() < 1e-9);
+    }
+}
+
+/// Initial velocities that agree with the gears are left alone; others are said to be corrected.
+#[test]
+fn turning_wheels_may_be_geared() {
+    for (pinion, corrected) in [(-0.3, false), (-0.30000000000000004, false), (-0.2, true)] {
+        let deck = wheels("newmark", 0.01, -3.0, "")
+            .replace("inertia = [1.0, 1.0, 2.0]", "inertia = [1.0, 1.0, 2.0]\nangular_velocity = [0.0, 0.0, 0.1]")
+            .replace(
+                "inertia = [0.3, 0.3, 0.5]",
+                &format!("inertia = [0.3, 0.3, 0.5]\nangular_velocity = [0.0, 0.0, {pinion:?}]"),
+            );
+        let warnings = said(&deck).2.warnings;
+        assert_eq!(warnings.iter().any(|warning| warning.contains("initial velocities")), corrected, "{warnings:?}");
     }
 }
