@@ -478,6 +478,11 @@ impl Failure {
                                       keeps steps from following the path (a smaller one)"
                     .to_owned()
             }
+            Failure::Buckles(Instability { time, modes, label, direction, film, .. }) if !film.is_empty() => format!(
+                "the equilibrium is unstable from t = {} on: flat elements of the film `{film}` fold at `{label}`, in direction {direction} \
+                 (negative eigenvalues of the tangent: {modes}). Give the shell `order = 2` and half as many elements a side, which bend there",
+                short(*time)
+            ),
             Failure::Buckles(Instability { time, modes, label, direction, .. }) => format!(
                 "the equilibrium is unstable from t = {} on, where the structure buckles: the mode moves `{label}` most, in direction \
                  {direction} (negative eigenvalues of the tangent: {modes}). Load steps stay on the unstable path, however short they are. \

@@ -146,9 +146,11 @@ pub struct Instability {
     /// The node that the mode moves most, and the direction.
     pub label: String,
     pub direction: &'static str,
+    /// The name of the film whose flat elements fold there; empty elsewhere.
+    pub film: String,
 }
 
-keep!(Instability: Default { time, already, certain, modes, seen, label, direction });
+keep!(Instability: Default { time, already, certain, modes, seen, label, direction, film });
 
 /// The message of an error of the steps above the requested one.
 fn step_error(asked: f64, estimate: Option<f64>) -> String {
@@ -267,7 +269,7 @@ fn side_by_side(contact: &str) -> String {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Warning::Unstable(Instability { time, already, certain, modes, seen, label, direction }) => write!(
+            Warning::Unstable(Instability { time, already, certain, modes, seen, label, direction, .. }) => write!(
                 f,
                 "the equilibrium {} unstable {} t = {} on, where the structure buckles: the mode moves `{label}` most, in \
                  direction {direction} (negative eigenvalues of the tangent: {modes}, at t = {}). What follows is not what a \
@@ -278,7 +280,9 @@ impl fmt::Display for Warning {
                 short(*time),
                 short(*seen)
             ),
-            Warning::UnstableOutOfPlane(Instability { time, already, certain, modes, seen, label, direction }) => {
+            Warning::UnstableOutOfPlane(Instability {
+                time, already, certain, modes, seen, label, direction, ..
+            }) => {
                 write!(
                     f,
                     "the structure {} out of its plane at t = {}{}: the mode moves `{label}` most, in direction {direction} \

@@ -39,6 +39,9 @@ pub struct Shell {
     pub numbers: Vec<u32>,
 }
 
+/// Thickness over the side of an element, below which bending resists so little that a film folds at its edges.
+const FILM: f64 = 2e-3;
+
 impl Shell {
     /// The number of nodes of each element: 3, 4, 6 or 9.
     pub fn size(&self) -> usize {
@@ -98,6 +101,12 @@ impl PartAnswers for Shell {
 
     fn elements(&self) -> usize {
         self.elements.len()
+    }
+
+    fn folds_at(&self, node: usize, nodes: &[Node]) -> bool {
+        let at_node = self.elements.iter().map(|element| &element.nodes).find(|own| own.contains(&node));
+        let side = at_node.map(|own| (nodes[own[1]].x - nodes[own[0]].x).norm());
+        self.order == 1 && side.is_some_and(|side| self.plate.thickness < FILM * side)
     }
 
     fn nodes(&self, element: usize) -> &[usize] {

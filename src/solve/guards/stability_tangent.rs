@@ -158,14 +158,18 @@ impl Tangent<'_> {
         }
         unstable_at(self, unstable);
         let mode = Mode::softest(&mut self.matrix.solver, self.dofs, cx.length);
-        let (label, direction) = match mode.and_then(|mode| mode.largest(self.dofs)) {
-            Some((node, dof)) => (cx.model.nodes[node].label.clone(), DIRECTIONS[dof]),
-            None => (String::new(), ""),
+        let film = |node: usize| {
+            let part = cx.model.parts.iter().find(|part| part.folds_at(node, &cx.model.nodes))?;
+            Some(part.name().to_owned())
+        };
+        let (label, direction, film) = match mode.and_then(|mode| mode.largest(self.dofs)) {
+            Some((node, dof)) => (cx.model.nodes[node].label.clone(), DIRECTIONS[dof], film(node)),
+            None => (String::new(), "", None),
         };
         let [from, to] = ends.times;
         let time = from + unstable * (to - from);
         let certain = self.criterion != Criterion::SymmetricPart;
-        Some(Instability { time, already, certain, modes, seen: to, label, direction })
+        Some(Instability { time, already, certain, modes, seen: to, label, direction, film: film.unwrap_or_default() })
     }
 
     /// Adds possible rounding errors to the diagonal.
