@@ -13,6 +13,7 @@ mod mesh;
 mod messages;
 mod model;
 mod properties;
+mod remedies;
 mod results;
 mod scene;
 mod solve;

@@ -1,5 +1,6 @@
 //! What the program says about wrong decks, compared as text with `tests/snapshots`.
 
+use crate::support::assert_says_what_to_change;
 use insta::assert_snapshot;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
@@ -76,6 +77,7 @@ fn said(text: &str, sets: &[&str]) -> String {
     let source = Source::new("portal.toml", text, &sets);
     let (model, problems) = rdsolve::model::read(&source);
     assert_eq!(model.is_none(), problems.iter().any(|problem| problem.is_error()), "a model without errors only");
+    problems.iter().for_each(assert_says_what_to_change);
     let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
     drawn.join("\n\n")
 }

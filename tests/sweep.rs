@@ -492,7 +492,7 @@ fn bad_files_are_errors_with_their_places() {
             "deck = \"deck.toml\"\n[vary]\n\"a\" = { from = 1, to = 2, steps = 0 }\n",
             &["`steps` must be a whole number from 1"],
         ),
-        ("deck = \"deck.toml\"\n[vary]\ntable = \"x.csv\"\n\"a\" = [1]\n", &["remove the other entries of [vary]"]),
+        ("deck = \"deck.toml\"\n[vary]\ntable = \"x.csv\"\n\"a\" = [1]\n", &["remove the other entries"]),
         ("deck = \"deck.toml\"\n[vary]\ntable = \"x.csv\"\n", &["cannot read the table of cases `x.csv`"]),
         (
             "deck = \"deck.toml\"\n[vary]\nsample = { kind = \"grid\" }\n\"a\" = [1]\n",

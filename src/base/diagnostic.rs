@@ -174,6 +174,25 @@ pub struct Diagnostic {
     pub hints: Vec<String>,
 }
 
+/// The remedy of an error about a key that is missing, superfluous, repeated or empty, from the form of its message.
+fn implied_remedy(message: &str) -> Option<String> {
+    /// Forms, and what each implies.
+    const FORMS: [(&str, &str); 7] = [
+        ("does not apply to", "remove it"),
+        (", not both", "remove one of them"),
+        (" twice", "remove one of them"),
+        ("is listed in two", "remove one of them"),
+        ("two stages have the name", "rename one of them"),
+        ("is empty", "add an entry, or remove it"),
+        ("has no nodes", "add a node, or remove it"),
+    ];
+    let form = FORMS.iter().find(|(form, _)| message.contains(form)).map(|(_, remedy)| (*remedy).to_owned());
+    form.or_else(|| {
+        let key = message.split(" needs `").nth(1)?.split('`').next()?;
+        Some(format!("add `{key}`"))
+    })
+}
+
 impl Diagnostic {
     /// An error, as yet without a place.
     pub fn error(message: impl Into<String>) -> Self {
@@ -208,6 +227,16 @@ impl Diagnostic {
         self
     }
 
+    /// The remedies as shown: an error without hints has the one that its form implies. Requirements such as "must be above zero" imply
+    /// none, because they already say what to write.
+    pub fn remedies(&self) -> Vec<String> {
+        if !self.is_error() || !self.hints.is_empty() {
+            return self.hints.clone();
+        }
+        let of_file = || self.excerpt.is_some().then(|| "correct this line, or write the file anew".to_owned());
+        implied_remedy(&self.message).or_else(of_file).into_iter().collect()
+    }
+
     /// True where the deck cannot be run.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
@@ -226,7 +255,8 @@ impl Diagnostic {
             Severity::Note => Level::NOTE,
         };
         let title = level.primary_title(plain(&self.message));
-        let mut hints = self.hints.iter().map(|hint| plain(hint));
+        let remedies = self.remedies();
+        let mut hints = remedies.iter().map(|hint| plain(hint));
         let mut group = Group::with_title(title);
         if let Some(Excerpt { path, line, text, columns }) = self.excerpt.as_deref() {
             let mark = AnnotationKind::Primary.span(columns.clone()).label(hints.next());
@@ -264,7 +294,7 @@ impl Diagnostic {
             }
             (None, None) => None,
         };
-        let mut json = serde_json::json!({ "severity": severity, "message": self.message, "hints": self.hints });
+        let mut json = serde_json::json!({ "severity": severity, "message": self.message, "hints": self.remedies() });
         if let Some((file, line, columns)) = place {
             json["file"] = file.into();
             json["line"] = line.into();

@@ -74,7 +74,7 @@ pub fn tell_mesh_error(
 /// Says that parts come from a file.
 pub fn of_file(parts: &[String]) -> String {
     format!(
-        "the elements of {} cannot be made fewer; give coarser ones in a deck of their own and compare",
+        "the elements of {} come from a mesh file, so rdsolve cannot coarsen them. Compare with a run of a coarser mesh",
         parts.join(", ")
     )
 }

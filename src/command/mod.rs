@@ -119,8 +119,8 @@ pub fn execute(cli: Cli) -> Exit {
     if let Some(missing) = processor::missing() {
         let built = processor::built_for();
         complain(&format!(
-            "this program was built for {built}, and this processor has no {missing}\n  help: a release chooses by itself (scripts/release), \
-             or build it here, or anywhere with RUSTFLAGS=\"-C target-cpu=x86-64\""
+            "this program was built for {built}, and this processor has no {missing}\n  help: use a release (scripts/release), which chooses its \
+             code at run time, or build rdsolve on this machine, or anywhere with RUSTFLAGS=\"-C target-cpu=x86-64\""
         ));
         return Exit::Internal;
     }

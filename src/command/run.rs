@@ -185,7 +185,7 @@ fn refuse_changed(loaded: &Loaded, files: &HashMap<PathBuf, Vec<u8>>) -> Result<
     };
     match mesh.chain(records).find(is_other) {
         Some((path, _)) => Err(CaseFault::Deck(format!(
-            "`{path}` has changed since the sweep began: the same command runs the cases with what it holds now"
+            "`{path}` has changed since the sweep began: give the same command again, and all cases run with the new file"
         ))),
         None => Ok(()),
     }

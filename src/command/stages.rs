@@ -149,8 +149,8 @@ fn left_held(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String> 
     (holds_back && run.has_stopped() == Some(true)).then(|| {
         let part = to_digits(100.0 * left, 2);
         format!(
-            "it stopped while forces that were out of balance at its beginning were still going: {part} % of them are left. A static stage \
-             after it takes these off, a dynamic one lets them go at once"
+            "it stopped while forces that were out of balance at its beginning were still going: {part} % of them are left. Let it run to its \
+             end; else a later static stage removes these forces, and a dynamic one releases them suddenly"
         )
     })
 }
@@ -164,7 +164,8 @@ fn weight_left(run: &Run, model: &Model, end_time: Option<f64>) -> Option<String
     (grows && part < 1.0 && run.has_stopped() == Some(true) && model.loading.gravity.norm() > 0.0).then(|| {
         let part = to_digits(100.0 * part, 2);
         format!(
-            "it stopped while gravity was growing, which stays at {part} % of it: bring it on in a stage of its own, or by `gravity_amplitude`"
+            "it stopped while gravity was growing, so gravity stays at {part} % of its value. Apply it in an earlier stage, or by \
+             `gravity_amplitude`"
         )
     })
 }

@@ -138,7 +138,9 @@ fn with_steps(loaded: Loaded) -> Result<Loaded, Exit> {
     if !loaded.model.analysis.has_modes() {
         return Ok(loaded);
     }
-    complain("a study compares motions in time or load steps, and this deck asks for modes, which have none");
+    complain(
+        "a study compares motions or load steps, but this deck computes modes. Give `kind` = \"dynamic\" or \"static\"",
+    );
     Err(Exit::DeckInvalid)
 }
 

@@ -74,8 +74,8 @@ pub fn short_of_stop(model: &Model, run: &Run, time: f64) -> Option<String> {
     let (node, direction) = (&model.nodes[stop.node].label, DIRECTIONS[stop.dof]);
     let pass = if stop.pass == 1 { String::new() } else { format!(" for pass {}", stop.pass) };
     Some(format!(
-        "`stop` was not reached: {direction} of {node} never came to {}{pass}; it is {} at the end, t = {}, \
-         after {} steps",
+        "`stop` was not reached: {direction} of `{node}` never reached {}{pass}, and is {} at the end, t = {}, after {} steps. Give a larger \
+         `end_time` or more `steps`, or a `stop` that the path reaches",
         stop.value,
         to_digits(value, DIGITS),
         instant(time),
@@ -90,10 +90,10 @@ pub fn energy_line(balance: &Balance, model: &Model) -> Option<String> {
         return None;
     }
     if !model.output.energy {
-        return Some("numerical dissipation: not measured, for `energy` of `[output]` is false".to_owned());
+        return Some("numerical dissipation: not measured, because `energy` in [output] is false".to_owned());
     }
     if !(motion.is_finite() && balance.lost().is_finite()) {
-        return Some("numerical dissipation: not measured, for energies lie beyond the range of numbers".to_owned());
+        return Some("numerical dissipation: not measured, because energies are not finite".to_owned());
     }
     if motion <= balance.rounding {
         return None;
@@ -128,9 +128,9 @@ pub fn work_warning(run: &Run) -> Option<String> {
     let percent = to_digits(100.0 * missed.abs() / energy, 2);
     let how = if missed > 0.0 { "more" } else { "less" };
     Some(format!(
-        "loads and supports do {how} work than is stored and dissipated at the end, by {percent} % of the energy. Either load steps are \
-         too long for their work to be summed from their ends, and displacements may still be right, or a step jumps from one equilibrium \
-         to another; see `numerical` in energy.csv, and try shorter steps"
+        "loads and supports do {how} work than is stored and dissipated at the end, by {percent} % of the energy. Either the load steps are too \
+         long to sum this work, and displacements may still be right, or a step jumps to another equilibrium. Give a tenth of `time_step`; \
+         `numerical` in energy.csv shows the step with the jump"
     ))
 }
 
@@ -140,8 +140,8 @@ pub fn overshoot_warning(run: &Run) -> Option<String> {
     const SEEN: f64 = 0.1;
     run.overshoot().filter(|part| *part > SEEN).map(|part| {
         format!(
-            "the motion lies in the fastest modes of the scene, which steps that are stable alone do not resolve: displacements overshoot by some \
-             {} %. Give a `time_step` of a tenth of the period of interest, or take an implicit scheme with `error_tolerance`",
+            "the motion lies in the fastest modes of the scene, and steps at the stability limit do not resolve them. Displacements overshoot by \
+             about {} %. Give a `time_step` of a tenth of the period of interest, or an implicit scheme with `error_tolerance`",
             to_digits(100.0 * part, 2)
         )
     })
@@ -159,17 +159,17 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     let (motion, unseen) = (balance.motion(), settling_energy(model).max(balance.rounding));
     let part = |energy: f64| format!("{} % of the largest energy", to_digits(100.0 * energy / balance.peak, 2));
     let shorter = match model.analysis.step_length {
-        StepLength::Fixed { .. } | StepLength::ArcLength(_) => "shorter steps",
+        StepLength::Fixed { .. } | StepLength::ArcLength(_) => "a tenth of `time_step`",
         StepLength::StabilityLimited { .. } => "a number as `time_step`, shorter than the steps of \"auto\"",
-        StepLength::ErrorControlled { .. } => "a smaller `error_tolerance`",
+        StepLength::ErrorControlled { .. } => "a tenth of `error_tolerance`",
     };
     let remedy = match velocity_jump(model) {
         Some(time) => format!(
-            "see `numerical` in energy.csv. The velocity of a prescribed motion jumps, first at t = {}: let steps end there, or round its \
-             corners by `interpolation = \"monotone\"` of its amplitude",
+            "The velocity of a prescribed motion jumps, first at t = {}. Let steps end there, or give its amplitude `interpolation` = \"monotone\"; \
+             `numerical` in energy.csv shows the effect",
             instant(time)
         ),
-        None => format!("see `numerical` in energy.csv, and try {shorter}"),
+        None => format!("Give {shorter}; `numerical` in energy.csv shows the effect"),
     };
     if balance.generated > SEEN * balance.peak.max(unseen) {
         let part = part(balance.generated);
@@ -177,22 +177,22 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
         // strain that comes out wrong by it: no motion is made.
         Some(if balance.generated <= balance.plastic {
             format!(
-                "plastic flow has dissipated more energy than there was, by {part}: steps do not resolve the onset of yielding, \
-                 and plastic strains are too large; {remedy}"
+                "plastic flow has dissipated more energy than was available, by {part}: steps do not resolve the onset of yielding, and plastic \
+                 strains are too large. {remedy}"
             )
         } else if balance.is_work_of_dampers(balance.generated) {
             format!(
-                "dampers have dissipated more energy than there was, by {part}: their work is summed from the ends of steps, within which they \
-                 stop stiff motions, or the time integration feeds them; {remedy}"
+                "dampers have dissipated more energy than was available, by {part}: steps are too long to sum their work, or the time integration \
+                 adds energy that they dissipate. {remedy}"
             )
         } else {
-            format!("energy growth: the time integration has added {part}; {remedy}")
+            format!("energy growth: the time integration has added {part}. {remedy}")
         })
     } else if balance.lost() > SEEN * motion.max(unseen) {
         let lost = of_motion(balance.lost(), balance);
-        Some(format!("numerical dissipation: the time integration has removed {lost}; {remedy}"))
+        Some(format!("numerical dissipation: the time integration has removed {lost}. {remedy}"))
     } else if balance.dissipated > ON_THE_WAY * balance.peak.max(balance.rounding) {
-        Some(format!("numerical dissipation: the time integration has removed {}; {remedy}", part(balance.dissipated)))
+        Some(format!("numerical dissipation: the time integration has removed {}. {remedy}", part(balance.dissipated)))
     } else {
         None
     }
@@ -223,8 +223,8 @@ pub fn ringing_warning(effort: Counts, model: &Model) -> Option<String> {
     let per_step = |count: usize| count as f64 / effort.steps as f64;
     (per_step(effort.cuts) > HARD.0 || per_step(effort.factorizations) > HARD.1).then(|| {
         format!(
-            "steps are hard to take: {} factorizations and {} cutbacks in {} steps. {} damps nothing, so that modes which no step resolves ring \
-             on, and material that yields loads and unloads with them. A scheme that damps these alone takes a part of the time: \
+            "steps converge slowly: {} factorizations and {} cutbacks in {} steps. The scheme {} has no numerical dissipation, so unresolved modes ring \
+             on, and yielding material loads and unloads with them. A scheme that damps these modes alone is faster: give \
              `scheme = \"generalized-alpha\"` with `spectral_radius = 0.8`",
             effort.factorizations,
             effort.cuts,

@@ -76,7 +76,8 @@ impl Reader {
                 Diagnostic::error(format!("`{}` is given twice", text.get(span.clone()).unwrap_or_default()))
             }
             (_, Some((message, hint))) => Diagnostic::error(message).hint(hint),
-            (message, None) => Diagnostic::error(format!("this is not TOML: {message}")),
+            (message, None) => Diagnostic::error(format!("this is not TOML: {message}"))
+                .hint("write KEY = VALUE, with text in quotes and brackets in pairs"),
         };
         self.problems.push(problem.at(&span));
     }
@@ -218,6 +219,7 @@ fn unknown_word(subject: &str, word: &str, known: &[&str]) -> Diagnostic {
     }
     match nearest(word, known.iter().copied().chain(hints::aliases(known))) {
         Some(near) => problem.hint(format!("did you mean `{near}`?")),
+        None if word.parse::<f64>().is_ok() => problem.hint(format!("numbers stand without quotes: {word}")),
         None => problem.hint(format!("known: {}", quoted(known.iter().copied()))),
     }
 }

@@ -193,7 +193,7 @@ fn put_below<'i>(
         }
         _ => {
             let message = format!("`{}` is a value and has no entry `{}`", key.get_ref(), rest[0].get_ref());
-            Err(Diagnostic::error(message).at(&rest[0].span()))
+            Err(Diagnostic::error(message).at(&rest[0].span()).hint(format!("write {}=VALUE", key.get_ref())))
         }
     }
 }

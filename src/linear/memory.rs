@@ -49,11 +49,9 @@ impl fmt::Display for TooLarge {
                 NoScratch::InMemory => write!(f, ", and {folder} is itself in memory")?,
                 NoScratch::NotWritable => write!(f, ", and nothing can be written in {folder}")?,
             }
-            f.write_str("; TMPDIR may name a folder on a disk with room for the factor")?;
+            f.write_str(". Set TMPDIR to a folder on a disk with room for the factor")?;
         }
-        f.write_str(
-            "; a coarser mesh needs less, and `scheme = \"central-difference\"` factorises nothing of this size",
-        )
+        f.write_str(". Take a coarser mesh, or give `scheme = \"central-difference\"`, which factorizes no such matrix")
     }
 }
 

@@ -212,8 +212,8 @@ impl Solver {
         let gigabytes = (size_of::<f64>() * self.stats().nonzeros) as f64 / 1e9;
         let folder = std::env::temp_dir();
         format!(
-            "{gigabytes:.2} GB of the factor lie in a file in {} (TMPDIR), for the memory does not hold them: every solution takes the time \
-             in which the disk is read twice",
+            "{gigabytes:.2} GB of the factor lie in a file in {} (TMPDIR), because the memory does not hold them: every solution reads the disk \
+             twice. Take a coarser mesh, or run with more memory",
             folder.display()
         )
     }

@@ -149,7 +149,7 @@ fn table<'d>(
         let slope = (pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0]);
         pair[1][0] > pair[0][0] && !slope.is_finite()
     };
-    let beyond = "values or slopes of this table lie beyond the range of numbers, about 1e308";
+    let beyond = "values and slopes of this table must be below 1e308";
     let place = a.scale.as_ref().map_or(&a.span, |scale| &scale.span);
     if points.iter().flatten().any(|number| !number.is_finite()) || points.windows(2).any(is_steep) {
         return report.error(place, beyond);

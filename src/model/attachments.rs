@@ -25,7 +25,7 @@ pub(super) fn attachments<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut
     for attachment in &scene.deck.attachments {
         let owner = Owner::new("`[[attachments]]`", &attachment.span);
         if let (Some(name), Some(_)) = (&attachment.beam, &attachment.body) {
-            report.error::<()>(&name.span, "nodes are attached to a `body` or to a `beam`, not to both");
+            report.error::<()>(&name.span, "an attachment takes a `body` or a `beam`, not both");
         }
         let target = target(scene, &owner, attachment, report);
         let spots = scene.spots(&owner, "nodes", &attachment.nodes, Reach::Parts, report);
@@ -81,7 +81,10 @@ fn target<'d>(
         Some(Place::Part(part)) if takes(&part) => Some(Target::Part(name, part)),
         // A beam made rigid may be named as the target; the attachment is then to its body.
         Some(Place::Body(body)) if scene.names.rigid_part(body).as_ref().is_some_and(takes) => Some(Target::Body(body)),
-        Some(place) => report.error(&name.span, format!("`{}` is {}, not a beam", name.value, place.kind())),
+        Some(place) => {
+            let message = format!("`{}` is {}, not a beam", name.value, place.kind());
+            report.error_with(&name.span, message, "name an entry of [[beams]]")
+        }
         None => {
             let names = scene.deck.parts().filter(|part| takes(&part.at)).filter_map(|part| part.name());
             report.unknown("beam", name, names.map(|name| name.as_str()).collect::<Vec<_>>().into_iter())

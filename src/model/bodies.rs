@@ -107,7 +107,7 @@ fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<Part
     let parts = || deck.parts().filter(|part| part.at.kind.is_deformable());
     if let Some(part) = parts().find(|part| part.is_named(name)) {
         if part.is_rigid() {
-            let message = format!("`{}` has `rigid = true`, so it is a body of its own", name.value);
+            let message = format!("`{}` has `rigid = true`, so it is a separate body", name.value);
             let hint = "remove its `rigid`, or attach it to this body with `[[attachments]]`";
             return report.error_with(&name.span, message, hint);
         }
@@ -116,7 +116,7 @@ fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<Part
     let message = format!("no shell, beam or bar is named `{}`", name.value);
     match nearest(name, parts().filter_map(|part| part.name()).map(|name| name.as_str())) {
         Some(near) => report.error_with(&name.span, message, format!("did you mean `{near}`?")),
-        None => report.error(&name.span, message),
+        None => report.error_with(&name.span, message, "name a part of the deck"),
     }
 }
 

@@ -17,6 +17,12 @@ use deck::parts::PartIndex;
 use deck::words::Table;
 use std::ops::Range;
 
+/// The remedy where a plastic strain of an elastic part is expected.
+const ELASTIC_HINT: &str = "give its material `model` = \"elastic-plastic\", or name another quantity";
+
+/// The remedy where a value of a rigid part is expected.
+const RIGID_HINT: &str = "remove the part from `parts` of its body, or expect a motion";
+
 /// The data behind expected values.
 struct Expects<'a, 'd> {
     scene: &'a Scene<'d>,
@@ -78,7 +84,7 @@ impl<'d> Expects<'_, 'd> {
             let strain = quantity.value == PLASTIC_STRAIN.name && !columns.contains(&PLASTIC_STRAIN);
             if strain && matches!(at, ExpectAt::Shells(..) | ExpectAt::Sections(_) | ExpectAt::Elements(..)) {
                 let message = format!("the material of `{}` is elastic, so it has no plastic strain", name.value);
-                return self.report.error(&quantity.span, message);
+                return self.report.error_with(&quantity.span, message, ELASTIC_HINT);
             }
             let reaction = quantities::REACTION.iter().position(|column| column.name == quantity.value);
             if let (ExpectAt::Node(_), Some(dof)) =
@@ -211,7 +217,7 @@ impl<'d> Expects<'_, 'd> {
             Some(Place::Point(node)) => Some(node),
             Some(Place::Body(body)) => Some(self.scene.names.body_node(body)),
             Some(place) => {
-                let message = format!("`{}` is {}, which has no response of its own", name.value, place.kind());
+                let message = format!("`{}` is {}, without a response", name.value, place.kind());
                 self.report.error_with(&name.span, message, "name a point or a body")
             }
             None => {
@@ -294,7 +300,7 @@ impl<'d> Expects<'_, 'd> {
             Some(Place::Part(part)) if part.kind.is_deformable() => self.expect_strain(part, name),
             Some(Place::Part(part)) => Some((ExpectAt::Part(part), quantities_of(part.kind))),
             Some(place) => {
-                let message = format!("`{}` is {}, which has no values of its own", name.value, place.kind());
+                let message = format!("`{}` is {}, without values", name.value, place.kind());
                 self.report.error_with(
                     &name.span,
                     message,
@@ -332,7 +338,7 @@ impl<'d> Expects<'_, 'd> {
         let first = self.scene.parts.of(at).first()?;
         if self.scene.parts.of(at).iter().all(|part| part.elements() == 0) {
             let message = format!("`{}` is rigid, so it has no stress and no plastic strain", name.value);
-            return self.report.error(&name.span, message);
+            return self.report.error_with(&name.span, message, RIGID_HINT);
         }
         let mut columns = quantities_of(at.kind);
         columns.retain(|column| first.yields() || *column != PLASTIC_STRAIN);
@@ -345,7 +351,7 @@ impl<'d> Expects<'_, 'd> {
         let beam = self.scene.parts.of(at).first()?;
         if beam.elements() == 0 {
             let message = format!("`{}` is rigid, so it has no section forces and no plastic strain", name.value);
-            return self.report.error(&name.span, message);
+            return self.report.error_with(&name.span, message, RIGID_HINT);
         }
         let mut columns = quantities_of(at.kind);
         columns.retain(|column| beam.yields() || *column != PLASTIC_STRAIN);
@@ -367,7 +373,7 @@ impl<'d> Expects<'_, 'd> {
         let (from, count) = (elements(&self.scene.parts.list[..start]), elements(&self.scene.parts.list[start..end]));
         if count == 0 {
             let message = format!("`{}` is rigid, so it has no axial force and no plastic strain", name.value);
-            return self.report.error(&name.span, message);
+            return self.report.error_with(&name.span, message, RIGID_HINT);
         }
         let mut columns = quantities_of(at.kind);
         columns.retain(|column| self.scene.parts.list[start].yields() || *column != PLASTIC_STRAIN);

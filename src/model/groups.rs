@@ -50,7 +50,7 @@ impl<'d> Groups<'d> {
         let at = meant(mesh, name, faces, report)?;
         if let Some(other) = self.parts.get(&at) {
             let message = format!("group `{}` is already {other}", name.value);
-            return report.error(&name.span, message);
+            return report.error_with(&name.span, message, "a group makes one part; remove one of the two");
         }
         self.parts.insert(at, what.to_owned());
         let group = &mesh.groups[at];
@@ -71,7 +71,7 @@ impl<'d> Groups<'d> {
                 GroupKind::Nodes => {
                     report.error_with(&name.span, message, "it is a set of nodes; name a set of elements")
                 }
-                _ => report.error(&name.span, message),
+                _ => report.error_with(&name.span, message, format!("name a group of {wanted}")),
             };
         }
         let mut shared = 0;
@@ -80,7 +80,11 @@ impl<'d> Groups<'d> {
         }
         if shared > 0 {
             let message = format!("{shared} elements of group `{}` are already in another part", name.value);
-            return report.error(&name.span, message);
+            return report.error_with(
+                &name.span,
+                message,
+                "an element belongs to one part: remove them from one of the groups in the mesh",
+            );
         }
         Some(elements)
     }
@@ -127,7 +131,11 @@ impl<'d> Groups<'d> {
         // A part with errors would take some of them.
         if !left.is_empty() && !report.has_errors() {
             let words: Vec<&str> = left.iter().map(String::as_str).collect();
-            report.warn(&file.span, format!("{} of the mesh are in no part", joined(&words)), "they are omitted");
+            report.warn(
+                &file.span,
+                format!("{} of the mesh are in no part", joined(&words)),
+                "name them in a part if they are meant; they are omitted",
+            );
         }
         Some(MeshFile {
             path: input.path.clone(),

@@ -75,7 +75,10 @@ fn said(mesh: &Mesh, text: &Text) -> Vec<Diagnostic> {
     if !elements.is_empty() {
         let of_kind = |s: &&mesh::Skipped| format!("{} {} ({})", s.count, s.what, place(s.line));
         let list: Vec<String> = elements.iter().map(of_kind).collect();
-        said.push(warning(&elements, format!("elements of unsupported types are skipped: {}", list.join(", "))));
+        said.push(
+            warning(&elements, format!("elements of unsupported types are skipped: {}", list.join(", ")))
+                .hint("give the mesh segments, triangles or quadrilaterals there"),
+        );
     }
     if !keywords.is_empty() {
         let line = |s: &&mesh::Skipped| {
@@ -83,7 +86,10 @@ fn said(mesh: &Mesh, text: &Text) -> Vec<Diagnostic> {
             format!("{} ({}{more})", s.what, place(s.line))
         };
         let list: Vec<String> = keywords.iter().map(line).collect();
-        said.push(warning(&keywords, format!("keywords that are not read are skipped: {}", list.join(", "))));
+        said.push(
+            warning(&keywords, format!("keywords that are not read are skipped: {}", list.join(", ")))
+                .hint("remove them, or enter their data in the deck"),
+        );
     }
     let note = |note: &mesh::MeshNote| Diagnostic::note(&note.what).hint(&note.meaning).of(text.excerpt(note.line));
     said.extend(mesh.notes.iter().map(note));

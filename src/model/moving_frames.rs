@@ -238,8 +238,8 @@ impl<'m> Structures<'m> {
             more => format!(" and {more} others"),
         };
         let message = format!("`alpha` brakes what joint `{}`{others} drives, against the ground at rest", first.name);
-        let hint = "`damping = { alpha = 0.0 }` at a part takes its brake off and `beta` damps strain rates alone; \
-                    a support that moves carries what it damps";
+        let hint = "give `damping = { alpha = 0.0 }` at a part to remove its brake; `beta` damps strain rates alone, and a support that moves \
+                    carries its part";
         warn(model, deck, message, hint, report);
     }
 

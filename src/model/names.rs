@@ -80,7 +80,7 @@ impl<'d> Names<'d> {
         if name.is_empty() {
             report.error::<()>(&name.span, "a name must not be empty");
         } else if RESERVED.contains(&name.as_str()) {
-            report.error::<()>(&name.span, format!("`{}` is a reserved name", name.value));
+            report.error_with::<()>(&name.span, format!("`{}` is a reserved name", name.value), "choose another name");
         } else if self.places.contains_key(name.as_str()) {
             let message = format!("the name `{}` is taken", name.value);
             let diagnostic = Diagnostic::error(message).at(&name.span).hint("given a second time here");
@@ -119,7 +119,11 @@ impl<'d> Names<'d> {
                     let message = format!("group `{name}` of the mesh has a reserved name");
                     let first = input.mesh.named(name).first().map_or(0, |&first| first as usize);
                     let spelling = group_names::spelling(&input.mesh, first);
-                    report.warn(&file.span, message, format!("the deck finds it as `{spelling}`"));
+                    report.warn(
+                        &file.span,
+                        message,
+                        format!("write `{spelling}` in the deck, or rename it in the mesh"),
+                    );
                 }
                 continue;
             }
@@ -147,7 +151,11 @@ impl<'d> Names<'d> {
             }
             if said < CIRCLES && entangled[index] && self.holds_itself(index) {
                 said += 1;
-                report.error::<()>(&name.span, format!("set `{}` contains itself", name.value));
+                report.error_with::<()>(
+                    &name.span,
+                    format!("set `{}` contains itself", name.value),
+                    "remove its name from its members",
+                );
             }
         }
     }
@@ -333,7 +341,10 @@ impl<'d> Names<'d> {
     pub fn body(&self, name: &At<String>, report: &mut Report<'d>) -> Option<usize> {
         match self.declared(name) {
             Some(Place::Body(body)) => Some(body),
-            Some(place) => report.error(&name.span, format!("`{}` is {}, not a body", name.value, place.kind())),
+            Some(place) => {
+                let message = format!("`{}` is {}, not a body", name.value, place.kind());
+                report.error_with(&name.span, message, "name an entry of [[bodies]]")
+            }
             None => {
                 let names = self.deck.bodies.iter().filter_map(|body| body.name.as_ref()).map(|name| name.as_str());
                 report.lose_connections();

@@ -93,9 +93,9 @@ fn warnings_of(amplitude: &Amplitude, file: &str, series: &TimeSeries) -> Vec<Di
     }
     if let Some(count) = series.sequence {
         let message = format!(
-            "`columns` takes one of the {count} values of each line of `{file}`, and the values along its lines look like one sequence"
+            "`columns` selects one of the {count} values of each line of `{file}`, but the values along its lines look like one sequence"
         );
-        let hint = "`rows = true` reads them one after the other; `rows = false` says that columns are meant";
+        let hint = "give `rows = true` to read them one after the other, or `rows = false` if columns are meant";
         warnings.push(Diagnostic::warning(message).hint(hint));
     }
     warnings.into_iter().map(|warning| place.iter().fold(warning, |warning, place| warning.at(place))).collect()

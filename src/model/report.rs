@@ -201,7 +201,7 @@ impl<'d> Report<'d> {
     /// The table `key` of two points or more whose first numbers, of the quantity `what`, increase.
     pub fn rising(&mut self, key: &str, what: &str, points: &At<Vec<At<Numbers<2>>>>) -> Option<Vec<[f64; 2]>> {
         if points.len() < 2 {
-            return self.error(&points.span, format!("`{key}` needs two points or more"));
+            return self.error(&points.span, format!("`{key}` must have two points or more"));
         }
         if let Some(pair) = points.windows(2).find(|pair| pair[1].0[0] <= pair[0].0[0]) {
             let message = format!("`{key}` must increase in {what}");
@@ -260,7 +260,7 @@ impl<'d> Report<'d> {
         known: impl Iterator<Item = &'n str> + Clone,
     ) -> Option<T> {
         if !self.may_search() {
-            return self.error(&name.span, format!("no {what} is named `{}`", name.value));
+            return self.error_with(&name.span, format!("no {what} is named `{}`", name.value), "check its spelling");
         }
         let count = known.clone().count();
         self.searches = self.searches.saturating_sub(count);
@@ -272,7 +272,7 @@ impl<'d> Report<'d> {
             Some(near) => self.error_with(&name.span, message, format!("did you mean `{near}`?")),
             None if count == 0 => self.error_with(&name.span, message, "the deck has none"),
             None if count <= 8 => self.error_with(&name.span, message, format!("known: {}", quoted(known))),
-            None => self.error(&name.span, message),
+            None => self.error_with(&name.span, message, "check its spelling"),
         }
     }
 }

@@ -49,8 +49,7 @@ impl<'a, 'd> Sections<'a, 'd> {
         if let Some(counts) = counts
             && numbers.iter().try_fold(1usize, |all, &n| all.checked_mul(n)).is_none_or(|all| all > MOST_FIBRES)
         {
-            return report
-                .error(counts, format!("more than {MOST_FIBRES} fibres are taken for a slip of the keyboard"));
+            return report.error(counts, format!("a section has at most {MOST_FIBRES} fibres"));
         }
         let (CrossSection::Shape(shape), factor) = cross_section(&name.value, section, false, report)? else {
             return None;

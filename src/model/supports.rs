@@ -109,7 +109,7 @@ impl<'d> Supports<'_, 'd> {
             } else if self.topology.is_complete() {
                 let message =
                     format!("nothing connected to `{}` has the degree of freedom {}", spot.name, DIRECTIONS[dof]);
-                self.report.error::<()>(place, message);
+                self.report.error_with::<()>(place, message, "remove it, or connect a part that has it");
             }
         }
     }
@@ -157,7 +157,7 @@ impl<'d> Supports<'_, 'd> {
         match self.topology.restraint(node, dof) {
             Some(restraint) if restraint.motion.is_some() || motion.is_some() => {
                 let message = format!("two supports prescribe the motion of `{}` in {}", spot.name, DIRECTIONS[dof]);
-                self.report.error::<()>(place, message);
+                self.report.error_with::<()>(place, message, "remove one of the two");
                 false
             }
             Some(_) => false,
@@ -188,7 +188,7 @@ impl<'d> Supports<'_, 'd> {
                 self.report.error_with::<()>(
                     place,
                     message,
-                    "let the amplitude begin at zero: what it is attached to starts undisplaced",
+                    "let the amplitude begin at zero: the attached parts start undisplaced",
                 );
             }
             new[*dof] |= self.restrain_in(spot, support_point, (*dof, motion.clone(), place));

@@ -144,9 +144,8 @@ impl Files {
         told.map(|(file, EmptyFields { since, count })| {
             let fields = if count == 1 { "field is" } else { "fields are" };
             format!(
-                "{count} {fields} empty in {file}, the first at t = {}: what they should hold lies beyond the range of numbers, \
-                 about 1e308; take units in which lengths, masses and times are of ordinary size, and look for a slip in those \
-                 of the deck",
+                "{count} {fields} empty in {file}, the first at t = {}: their values are not finite. Look for a slip in the units of the deck, or \
+                 take units with ordinary numbers for lengths, masses and times",
                 instant(since)
             )
         })

@@ -220,8 +220,8 @@ impl FolderLock {
 pub(super) fn unstable(path: &Path) -> io::Error {
     let (file, times) = (path.display(), TAKEN_OVER.1);
     io::Error::other(format!(
-        "{file}: {times} times another file stood there once it was locked, so that the lock holds nothing\n  help: no other \
-         program may remove it; where none does, the file system keeps no locks: take a folder on another disk"
+        "{file}: another file replaced it {times} times after it was locked, so the lock protects nothing\n  help: let no other program remove \
+         it. If none does, the file system has no locks: take a folder on another disk"
     ))
 }
 

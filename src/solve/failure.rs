@@ -300,27 +300,42 @@ pub(super) fn gaps(model: &Model, system: &System, gaps: &[f64]) -> Vec<NamedRes
     widest
 }
 
+/// The message of a singular matrix, with a part there that is open or slack.
+fn singular(label: &str, direction: &str, open: Option<&str>) -> String {
+    let remedy = open.map_or_else(
+        || {
+            "Add a support or a soft spring there; give cables pretension (`free_length`), or compute a mechanism with `kind = \"dynamic\"`"
+                .to_owned()
+        },
+        |name| format!("{name} is open or slack there: close it, or hold the node by a soft spring until it closes"),
+    );
+    format!(
+        "the system is singular at `{label}` in direction {direction}: nothing resists motion there, because a support is missing, a mechanism \
+         moves, or the structure buckles. {remedy}"
+    )
+}
+
 /// The message of an unrestrained massless direction.
 fn massless(label: &str, rotation: bool, direction: &[f64; 3], buckles: bool, open: Option<&str>) -> String {
     let what = if rotation { "inertia" } else { "mass" };
     let [x, y, z] = direction.map(|component| to_digits(component, 3));
-    let there = if rotation { "turning about" } else { "in direction" };
+    let there = if rotation { "rotation about" } else { "direction" };
     let why = match (buckles, open) {
-        (true, _) => "what acts there is compressed and pushes it away".to_owned(),
+        (true, _) => "compression pushes it away".to_owned(),
         (false, None) => "nothing holds it".to_owned(),
-        (false, Some(name)) => format!("nothing holds it, as {name} is open or slack"),
+        (false, Some(name)) => format!("nothing holds it, because {name} is open or slack"),
     };
     format!(
-        "`{label}` has no {what}, and {there} ({x}, {y}, {z}) {why}: it has no motion to compute; give it a mass \
-         (`[[masses]]`), or hold it there"
+        "`{label}` has no {what}, and in {there} ({x}, {y}, {z}) {why}: its motion is not determined. Give it {what} (`[[masses]]`), or add a \
+         support there"
     )
 }
 
 /// The message where joints cannot be closed; the smallest and the largest inertia if their ratio is the cause.
 fn constraints_violated(inertias: &[NamedResidual]) -> String {
     let [least, most] = inertias else {
-        return "joints cannot be closed at the end of the step (prescribed motions or joints contradict \
-                each other, or the step is too long); the widest gaps are"
+        return "joints cannot be closed at the end of the step: prescribed motions or joints contradict each other, or the step is too long. \
+                Halve `time_step`; if the gaps stay, remove one of the joints or motions listed. The widest gaps are"
             .to_owned();
     };
     format!(
@@ -348,7 +363,7 @@ impl fmt::Display for Failure {
         };
         largest.iter().try_for_each(|l| match l.residual.is_finite() {
             true => write!(f, "\n  {} {}: {:.3e}", l.label, l.direction, l.residual),
-            false => write!(f, "\n  {} {}: beyond all numbers", l.label, l.direction),
+            false => write!(f, "\n  {} {}: not finite", l.label, l.direction),
         })
     }
 }
@@ -381,18 +396,7 @@ impl Failure {
     /// The message without the list of the largest residuals or gaps: the event and the remedy.
     fn message(&self) -> String {
         match self {
-            Failure::Singular { label, direction, open, .. } => {
-                let open = open.as_ref().map_or_else(String::new, |name| {
-                    format!(
-                        "; {name} is open or slack there: close it, or hold the node by a soft spring until it closes"
-                    )
-                });
-                format!(
-                    "the system is singular at `{label}` in direction {direction}: nothing holds it there (a missing support, \
-                     a mechanism, a bifurcation, or a motion beyond what the model can bear; what its own tension holds, such as \
-                     a cable, needs pretension, or a dynamic analysis){open}"
-                )
-            }
+            Failure::Singular { label, direction, open, .. } => singular(label, direction, open.as_deref()),
             Failure::MasslessDirection { label, rotation, direction, buckles, open } => {
                 massless(label, *rotation, direction, *buckles, open.as_deref())
             }
@@ -401,25 +405,19 @@ impl Failure {
                 cause.message(*iterations, open.as_deref(), *lacks_slip, worst)
             }
             Failure::Modes(fault) => fault.to_string(),
-            Failure::Stopped => "stopped by a signal in the first step".to_owned(),
+            Failure::Stopped => {
+                "a signal stopped the run in step 1, before its first result. Start the run again".to_owned()
+            }
             Failure::NotFinite { .. } => {
-                "the motion left the range of numbers; the largest unbalanced forces are".to_owned()
+                "the motion is not finite: loads are too large, or stiffnesses too small, for numbers of 1e308. Look \
+                for wrong units in loads, masses and materials; the largest unbalanced forces are"
+                    .to_owned()
             }
             Failure::ConstraintsViolated { inertias, .. } => constraints_violated(inertias),
             Failure::ContactNotResolved { .. } | Failure::ContactNotClosed { .. } => self.message_of_contact(),
-            Failure::BushingTurnedOver { name } => format!(
-                "the ends of bushing `{name}` have turned against each other by half a turn, where its moments are no longer \
-                 defined; about an axis whose stiffness differs from the other two they may turn on without limit"
-            ),
-            Failure::GivenRotationLost { label } => format!(
-                "`{label}` has turned where the rotations that its support gives beside a free one are no longer known: a rotation vector near \
-                 half a turn, or the middle angle of a sequence near 90 degrees; give the support a `rotation` that begins or ends with the \
-                 free axis, such as \"zyx\" where rz is free"
-            ),
-            Failure::BushingTurnsTooFar { name, dt } => format!(
-                "in a step of {dt:.3e} the ends of bushing `{name}` turn against each other by more than 2 radians, and full turns \
-                 cannot be told from none (a shorter `time_step`)"
-            ),
+            Failure::BushingTurnedOver { .. }
+            | Failure::BushingTurnsTooFar { .. }
+            | Failure::GivenRotationLost { .. } => self.message_of_rotation(),
             Failure::NoEquilibriumOnArc { .. }
             | Failure::NoLoadIncrement { .. }
             | Failure::TooManySteps { .. }
@@ -434,16 +432,37 @@ impl Failure {
         }
     }
 
+    /// The message where a rotation is no longer defined.
+    fn message_of_rotation(&self) -> String {
+        match self {
+            Failure::BushingTurnedOver { name } => format!(
+                "the ends of bushing `{name}` have rotated against each other by half a turn, where its moments are not defined. Give it a \
+                 larger rotational stiffness, or make the stiffness about the axis of rotation differ from the other two"
+            ),
+            Failure::BushingTurnsTooFar { name, dt } => format!(
+                "in a step of {dt:.3e} the ends of bushing `{name}` rotate against each other by more than 2 radians, so full turns cannot be \
+                 counted. Give `time_step` = {}",
+                short(0.25 * dt)
+            ),
+            Failure::GivenRotationLost { label } => format!(
+                "the rotations that a support prescribes at `{label}` beside a free one are no longer defined. The rotation vector is near half a \
+                 turn, or the middle angle of its sequence near 90 degrees. Give the support a `rotation` that begins or ends with the free axis, \
+                 such as \"zyx\" for a free rz"
+            ),
+            _ => String::new(),
+        }
+    }
+
     /// The message where a contact is not resolved.
     fn message_of_contact(&self) -> String {
         match self {
             Failure::ContactNotResolved { name } => format!(
-                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not \
-                 resolved; where shorter steps do not help, `stiffness` is too low for the speed"
+                "the step is too long for contact `{name}`: a point would pass through the surface, or an impact is not resolved. Give a tenth \
+                 of `time_step`; if that does not help, give ten times its `stiffness`"
             ),
             Failure::ContactNotClosed { name, out } => format!(
-                "contact `{name}` is still out by {out:.1e} times its `penetration_tolerance` after a hundred equilibria: where its \
-                 `stiffness` is far below that of what it presses, each brings it little nearer (a larger one, or a larger tolerance)"
+                "contact `{name}` still misses its `penetration_tolerance` by a factor of {out:.1e} after a hundred equilibria: its `stiffness` is \
+                 far below that of the bodies. Give ten times its `stiffness`, or a larger `penetration_tolerance`"
             ),
             _ => String::new(),
         }
@@ -453,41 +472,40 @@ impl Failure {
     fn message_of_path(&self) -> String {
         match self {
             Failure::NoLoadIncrement { time } => format!(
-                "no load or prescribed motion changes with the time at t = {time}: nothing leads on along the path"
+                "no load or prescribed motion changes at t = {}, so the path of `control` = \"arc-length\" has no direction. Give a load an \
+                 `amplitude` that changes there, or remove `control`",
+                short(*time)
             ),
             Failure::LoadStepTurns { label, angle } => format!(
-                "a load step turns `{label}` by {angle:.1} radians, too far to follow: shorter steps do not help, the \
-                 equilibrium jumps (a mechanism, or snap-through); a dynamic analysis shows the motion"
+                "a load step rotates `{label}` by {angle:.1} radians, and shorter steps do not help: the equilibrium jumps, by a mechanism or \
+                 snap-through. Add a support there, or compute the motion with `kind = \"dynamic\"`"
             ),
             Failure::NodeTurns { label, angle } => format!(
-                "a step turns `{label}` by {angle:.1} radians against the rest of its shell element: the iteration has found another \
-                 equilibrium than that of the motion (a shorter `time_step`)"
+                "a step rotates `{label}` by {angle:.1} radians against the rest of its shell element: the iteration has found another \
+                 equilibrium than that of the motion. Give a tenth of `time_step`"
             ),
             Failure::TurnedOver { name } => format!(
-                "an element of `{name}` is turned over or compressed through zero length, where it is no longer what it \
-                 models: it has collapsed under the loads, or the step jumped to another equilibrium (see `control` = \
-                 \"arc-length\", or a dynamic analysis)"
+                "an element of `{name}` is turned over or compressed to zero length, so its stress is not defined. It has collapsed under the \
+                 loads, or the step jumped to another equilibrium. Give `control` = \"arc-length\", or `kind = \"dynamic\"` with smaller loads"
             ),
             Failure::EquilibriumJumps { label, direction, work, stored } => format!(
-                "the equilibrium jumps (snap-through, buckling or a mechanism): loads do {work:.3e} of work in a step that \
-                 stores and dissipates {stored:.3e}, however short it is; `{label}` moves most, in direction {direction} \
-                 (`control` = \"arc-length\" follows the path, a dynamic analysis shows the motion)"
+                "the equilibrium jumps by snap-through, buckling or a mechanism: loads do {work:.3e} of work in a step that stores and dissipates \
+                 {stored:.3e}, however short the step is. `{label}` moves most, in direction {direction}. Follow the path with `control` = \
+                 \"arc-length\", or the motion with `kind = \"dynamic\"`"
             ),
-            Failure::UnstableStep => {
-                "the load step ends on an unstable branch of equilibria: the structure buckles, and `least_step` \
-                                      keeps steps from following the path (a smaller one)"
-                    .to_owned()
-            }
+            Failure::UnstableStep => "the load step ends on an unstable branch of equilibria: the structure buckles, and `least_step` \
+                keeps steps from following the path. Give a hundredth of `least_step`"
+                .to_owned(),
             Failure::Buckles(Instability { time, modes, label, direction, film, .. }) if !film.is_empty() => format!(
-                "the equilibrium is unstable from t = {} on: flat elements of the film `{film}` fold at `{label}`, in direction {direction} \
-                 (negative eigenvalues of the tangent: {modes}). Give the shell `order = 2` and half as many elements a side, which bend there",
+                "the equilibrium is unstable from t = {} on: flat elements of the film `{film}` fold at `{label}`, in direction {direction}; the \
+                 tangent has negative eigenvalues: {modes}. Give the shell `order = 2` and half as many elements a side, which bend there",
                 short(*time)
             ),
             Failure::Buckles(Instability { time, modes, label, direction, .. }) => format!(
-                "the equilibrium is unstable from t = {} on, where the structure buckles: the mode moves `{label}` most, in direction \
-                 {direction} (negative eigenvalues of the tangent: {modes}). Load steps stay on the unstable path, however short they are. \
-                 Give a load of a thousandth of the others there, or an offset of a thousandth of the length, and they follow the path that \
-                 buckles; where the load falls beyond, `control` = \"arc-length\" or a dynamic analysis does",
+                "the equilibrium is unstable from t = {} on: the structure buckles. The mode moves `{label}` most, in direction {direction}; the \
+                 tangent has negative eigenvalues: {modes}. Load steps stay on the unstable path, however short they are. Add a load of a \
+                 thousandth of the others there, or an offset of a thousandth of the length. Where the load falls beyond, give `control` = \
+                 \"arc-length\" or `kind = \"dynamic\"` too",
                 short(*time)
             ),
             Failure::PathCreeps { steps, from, to } => format!(
@@ -498,9 +516,11 @@ impl Failure {
                 to_digits(*to, 5)
             ),
             Failure::TooManySteps { steps } => format!(
-                "the path came neither to `end_time` nor to `stop` in {steps} steps; `steps` ends a run earlier, or later"
+                "the path reached neither `end_time` nor `stop` in {steps} steps. Give `steps` = {} to follow it further",
+                10 * steps
             ),
-            _ => "the path of equilibria bends too sharply for the least step; the largest unbalanced forces are"
+            _ => "the path of equilibria bends too sharply for the shortest step. Give a hundredth of `least_step`; the largest unbalanced \
+                forces are"
                 .to_owned(),
         }
     }
@@ -512,27 +532,33 @@ impl Failure {
                 let steps =
                     if *steps == 1 { "the step was".to_owned() } else { format!("the last {steps} steps were") };
                 format!(
-                    "{steps} cut into {substeps} substeps, the last of {dt:.1e}, without reaching the end: the loads are too \
-                     large or `time_step` is too long for this motion; the last cutback was made because of this: {cause}"
+                    "{steps} cut into {substeps} substeps, the last of {dt:.1e}, without reaching the end: the loads are too large or `time_step` is \
+                     too long for this motion. Give a tenth of `time_step` or of the loads. The cause of the last cutback: {cause}"
                 )
             }
             Failure::Unstable { dt, longest, automatic } => {
-                let help = match automatic {
-                    true => "smaller loads, a smaller `least_step`",
-                    false => "a shorter `time_step`, \"auto\"",
+                let remedy = match automatic {
+                    true => format!("`least_step` = {}, smaller loads", short(0.5 * longest)),
+                    false => {
+                        format!("`time_step` = {} or \"auto\", and no `least_step` above it", short(0.9 * longest))
+                    }
                 };
                 format!(
-                    "a step of {dt:.3e} is too long for central differences: the critical time step (stability limit) is \
-                     {longest:.3e} ({help}, or an implicit scheme)"
+                    "a step of {dt:.3e} is too long for central differences: the critical time step (stability limit) is {longest:.3e}. Give \
+                     {remedy}, or an implicit scheme"
                 )
             }
             Failure::EnergyGrowth { ratio, .. } => format!(
-                "energy growth: central differences have made {ratio:.1e} times the energy that there was; their steps are too \
-                 long for this motion (a shorter `time_step`, or an implicit scheme)"
+                "energy growth: central differences have generated {ratio:.1e} times the available energy, because their steps are too long for \
+                 this motion. Give half of `time_step`, or an implicit scheme"
             ),
-            Failure::RotationTooLarge { dt } => format!("in a step of {dt:.3e} something turns by more than 3 radians"),
+            Failure::RotationTooLarge { dt } => format!(
+                "in a step of {dt:.3e} a node rotates by more than 3 radians, which explicit schemes do not resolve. Give `time_step` = {}",
+                short(0.1 * dt)
+            ),
             Failure::ErrorTooLarge { dt } => format!(
-                "the error of a step of {dt:.3e} is larger than `error_tolerance` allows, however short steps are"
+                "the error of a step of {dt:.3e} exceeds `error_tolerance`, however short the steps are: a load or motion jumps there. Give ten times \
+                 `error_tolerance`, or an `amplitude` without the jump"
             ),
             _ => String::new(),
         }

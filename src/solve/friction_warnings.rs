@@ -46,9 +46,8 @@ impl fmt::Display for ContactThrows {
         let [long, short] = self.step.map(|dt| to_digits(dt, 2));
         write!(
             f,
-            "contact `{}`: steps of {long} do not resolve its stiffness of {now}. They throw off what rests on it at a speed of up to {}, and it \
-             slides by {} while it is apart, where friction would hold it. Give a `stiffness` of {enough}, a `time_step` of {short}, or \
-             `restitution` = 0",
+            "contact `{}`: steps of {long} do not resolve its stiffness of {now}. They throw off a resting body with a speed of up to {}. It then slides \
+             by {} while the contact is open, where friction would hold it. Give `stiffness` = {enough}, `time_step` = {short}, or `restitution` = 0",
             self.name,
             to_digits(self.speed, 2),
             to_digits(self.slid, 2)
@@ -67,8 +66,8 @@ impl fmt::Display for SlipBegins {
         let step = self.step.map_or_else(String::new, |step| format!(", and `time_step` = {}", to_digits(step, 2)));
         write!(
             f,
-            "{what} `{}`: after reversals slip begins with a speed that friction should not let it have, since its spring and the steps are too \
-             soft and too long. What has slipped has an error of up to about {}, {} % of the largest slip of {}. Give it {remedy}{step}",
+            "{what} `{}`: after reversals slip begins with a false speed, because the spring of its friction is too soft and the steps are too long. \
+             The slip has an error of up to about {}, {} % of the largest slip of {}. Give {remedy}{step}",
             self.name,
             to_digits(self.error, 2),
             to_digits(100.0 * self.error / self.farthest, 2),

@@ -54,7 +54,9 @@ pub mod inner {
     pub use crate::context::{Context, at_rest};
     pub use crate::control::COMPARISONS;
     pub use crate::explicit::CentralDifferenceStepper;
+    pub use crate::friction_warnings::{ContactThrows, SlipBegins};
     pub use crate::global_error::Kept;
+    pub use crate::no_convergence::NoConvergence;
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
     pub use crate::strategy::anderson::Anderson;
@@ -63,6 +65,7 @@ pub mod inner {
     pub use crate::sudden_loads::SuddenLoads;
     pub use crate::system::inner::*;
     pub use crate::tolerances::rotated_matrix::MANY;
+    pub use crate::warning::{Instability, Remark};
     pub use crate::workspace::Workspace;
 }
 

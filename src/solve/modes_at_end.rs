@@ -150,8 +150,8 @@ fn show(march: &mut March, controller: &mut Controller) -> Result<(), Outcome> {
     })?;
     modes.warnings.extend(left.map(|left| {
         format!(
-            "the state is not in equilibrium under what acts and holds here: {left:.1e} of the forces is out of balance, and what it will \
-             become is not what these modes are about"
+            "the state is not in equilibrium: {left:.1e} of the forces is out of balance, so the modes are those of a passing state. Let a static \
+             stage find the equilibrium first (`[[stages]]`)"
         )
     }));
     if march.place.step > 0 {

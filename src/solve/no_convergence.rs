@@ -28,15 +28,15 @@ impl NoConvergence {
     ) -> String {
         let slips = match lacks_slip {
             true => {
-                " (where friction slips the symmetric part of the tangent may not do: `gyroscopic = \"left\"` in `[iteration]` takes all of it)"
+                ". Friction slips, and the matrix omits its unsymmetric part: `gyroscopic = \"left\"` in [iteration] includes it"
             }
             false => "",
         };
         if open.is_none() && self.at_limit {
             return format!(
                 "no equilibrium is found beyond this load: the structure buckles or reaches its limit load, for a pivot of the tangent is \
-                 negative or vanishes{slips}. `control` = \"arc-length\" follows the path on which the load falls, and a dynamic analysis shows \
-                 the motion; after {iterations} iterations the largest unbalanced forces are"
+                 negative or vanishes{slips}. Give `control` = \"arc-length\" to follow the path on which the load falls, or \
+                 `kind = \"dynamic\"` to follow the motion. After {iterations} iterations the largest unbalanced forces are"
             );
         }
         let cause = self.cause(open, worst);
@@ -46,25 +46,25 @@ impl NoConvergence {
     fn cause(&self, open: Option<&str>, worst: Option<(&str, &str, f64)>) -> String {
         if let Some(name) = open {
             return format!(
-                " ({name} has opened or gone slack, and may have been all that held the structure: add a support or a soft spring)"
+                ": {name} has opened or gone slack, and perhaps nothing else held the structure. Add a support or a soft spring there"
             );
         }
         if let Some(enough) = self.enough {
-            return format!(" (corrections still shrink: `limit` = {enough} in `[iteration]` would do)");
+            return format!(", though corrections still shrink. Give `limit` = {enough} in [iteration]");
         }
         let place = worst.map_or_else(String::new, |(label, direction, residual)| {
-            let out = if residual.is_finite() { format!("by {residual:.1e}") } else { "beyond all numbers".to_owned() };
-            format!("`{label}` is out of balance in direction {direction} {out}")
+            let out = if residual.is_finite() { format!("by {residual:.1e}") } else { "and not finite".to_owned() };
+            format!(": `{label}` is out of balance in direction {direction} {out}")
         });
         match self.least_step {
             Some(least) => format!(
-                " ({place}, and `least_step` = {} forbids shorter steps: give a hundredth of it, {})",
+                "{place}, and `least_step` = {} forbids shorter steps. Give `least_step` = {}",
                 short(least),
                 short(0.01 * least)
             ),
             None => format!(
-                " ({place}, however short the step: look there for a load or a motion that jumps, or for a part that opens, slips or yields at \
-                 once; a soft spring there, or a dynamic analysis, may lead on)"
+                "{place}, however short the step. Look there for a jump of a load or motion, or for a part that opens, slips or yields suddenly. \
+                 Add a soft spring there, or give `kind = \"dynamic\"`"
             ),
         }
     }

@@ -41,6 +41,8 @@ pub enum Warning {
         depth: f64,
         /// The smallest dimension of the touching and the touched bodies.
         size: f64,
+        /// The stiffness of the contact, and one that keeps the penetration small.
+        stiffness: [f64; 2],
     },
     /// Load control has passed a load beyond which the equilibrium is unstable.
     Unstable(Instability),
@@ -113,7 +115,7 @@ keep_either!(Warning {
     0 => InitialVelocities { change },
     1 => StepError { asked, estimate },
     2 => Unbalanced { residual },
-    3 => DeepContact { name, depth, size },
+    3 => DeepContact { name, depth, size, stiffness },
     4 => Unstable(instability),
     5 => UnstableOutOfPlane(instability),
     6 => Grows { modes, rate, fastest },
@@ -143,8 +145,9 @@ pub struct Instability {
     pub modes: usize,
     /// Time at the end of that step.
     pub seen: f64,
-    /// The node that the mode moves most, and the direction.
+    /// The node that the mode moves most.
     pub label: String,
+    /// The direction of that motion, such as "uy".
     pub direction: &'static str,
     /// The name of the film whose flat elements fold there; empty elsewhere.
     pub film: String,
@@ -154,25 +157,34 @@ keep!(Instability: Default { time, already, certain, modes, seen, label, directi
 
 /// The message of an error of the steps above the requested one.
 fn step_error(asked: f64, estimate: Option<f64>) -> String {
-    let asked = short(asked);
-    match estimate.map(short) {
+    match estimate {
         Some(estimate) => format!(
-            "the steps leave an error of about {estimate} of the largest motion, more than the {asked} of `error_tolerance`: the motion \
-             magnifies errors of single steps. Ask for less error, or take the results as one motion of many"
+            "the error of the time steps is about {} of the largest motion, more than `error_tolerance` = {}: this motion amplifies the \
+             errors of single steps. Raise `error_tolerance` to {} if that is accurate enough, or end the run earlier (`end_time`)",
+            short(estimate),
+            short(asked),
+            rounded_up(estimate)
         ),
         None => format!(
-            "whether the error is below the {asked} of `error_tolerance` is not known: the run with longer steps that would tell did not come \
-             to its end. Compare with a run at a smaller `error_tolerance`"
+            "the error of the time steps is unknown, because the comparison run with longer steps did not reach the end. It may exceed \
+             `error_tolerance` = {}. Run again with `error_tolerance` = {} and compare the results",
+            short(asked),
+            short(0.1 * asked)
         ),
     }
+}
+
+/// A number rounded up to one digit.
+fn rounded_up(number: f64) -> String {
+    let unit = 10f64.powf(number.log10().floor());
+    to_digits((number / unit).ceil() * unit, 1)
 }
 
 /// The message of a load step that ends with a residual of rounding.
 fn unbalanced(residual: f64) -> String {
     format!(
-        "a load step ends with unbalanced forces of {} of the largest: displacements are so small, or \
-         stiffnesses so far apart, that rounding hides what is missing, and reactions and stresses are no better; \
-         larger loads, or stiffnesses nearer to each other, keep their digits",
+        "a load step ends with a residual of {} of the largest force, which is rounding error. Reactions and stresses have the same relative \
+         error. Raise the loads, or lower the largest stiffness until it is less than 1e8 times the smallest",
         short(residual)
     )
 }
@@ -180,9 +192,9 @@ fn unbalanced(residual: f64) -> String {
 /// The message of runs with events that do not converge to each other.
 fn runs_part(asked: f64, difference: f64) -> String {
     format!(
-        "two runs differ by {} of the largest motion, and shorter steps have brought them no nearer to each other. Events such as impacts or \
-         slip magnify small errors here. No error bars are given, and the error may exceed the {} of `error_tolerance`: take the results \
-         as one motion of many, or end the run before the events (`end_time`)",
+        "two runs with different steps differ by {} of the largest motion, and shorter steps do not reduce the difference. Events such as \
+         impacts or slip amplify small errors here. The results have no error bars, and their error may exceed `error_tolerance` = {}. End \
+         the run before these events (`end_time`), or compare several runs",
         short(difference),
         short(asked)
     )
@@ -191,19 +203,17 @@ fn runs_part(asked: f64, difference: f64) -> String {
 /// The message of a shell with large strain; the stress conjugate to Green's strain makes forces wrong by the square of the stretch.
 fn large_strain(shell: &str, strain: f64, logarithmic: bool) -> String {
     let square = (1.0 + 2.0 * strain).max(0.0);
+    let stretch = to_digits(square.sqrt(), 3);
     if logarithmic {
         return format!(
-            "shell `{shell}` is brought to {} of its length somewhere: the series for its logarithmic strain is for 0.75 to 1.34, and the \
-             forces of what yields there are off by more than a hundredth. Such strains are beyond what shells compute",
-            to_digits(square.sqrt(), 3)
+            "shell `{shell}` has a stretch of {stretch}. Its logarithmic strain is a series for stretches from 0.75 to 1.34, and forces of \
+             yielding material have an error of more than 1 % beyond. Lower the loads, or thicken the shell there"
         );
     }
     let wrong = 100.0 * (square - 1.0).abs();
     format!(
-        "shell `{shell}` is {} to {} of its length somewhere: where it yields in its surface its forces are too {} there by some {} %, for \
-         strains are taken as small. Give it `strain = \"logarithmic\"`",
-        if strain > 0.0 { "stretched" } else { "pressed" },
-        to_digits(square.sqrt(), 3),
+        "shell `{shell}` has a stretch of {stretch}. Its strains are taken as small, so forces of yielding material are too {} there by about \
+         {} %. Give it `strain = \"logarithmic\"`",
         if strain > 0.0 { "large" } else { "small" },
         to_digits(wrong, 2)
     )
@@ -212,119 +222,134 @@ fn large_strain(shell: &str, strain: f64, logarithmic: bool) -> String {
 /// The message of a drift of a single fixed rotation.
 fn drifted(node: &str, direction: &str, drift: f64) -> String {
     format!(
-        "{direction} of `{node}` is fixed alone and has drifted to {} radians: such a rotation is a component of each step's rotation vector, and \
-         `{node}` turns about other axes too. Give its support `rotation = \"vector\"`, which keeps the total at zero",
+        "{direction} of `{node}` is fixed alone and has drifted to {} radians. A single fixed rotation is a component of the rotation vector of \
+         each step, and `{node}` rotates about other axes too. Give its support `rotation = \"vector\"`, which keeps the total at zero",
         to_digits(drift, 2)
     )
 }
 
 /// The message of corrected initial velocities; `change` is relative to the largest velocity.
 fn corrected(change: f64) -> String {
-    let part = short(change);
-    format!("initial velocities violate the joints: they were corrected by up to {part} of the largest velocity")
+    format!(
+        "initial velocities violate the joints by {} of the largest velocity. The run begins with the nearest velocities that satisfy them, \
+         listed in nodes.csv and bodies.csv at t = 0. Give these velocities in the deck",
+        short(change)
+    )
+}
+
+/// The message of a contact with a visible penetration.
+fn deep_contact(contact: &str, depth: f64, size: f64, [now, enough]: [f64; 2]) -> String {
+    format!(
+        "contact `{contact}`: the penetration of {} is {} % of the smallest dimension of the touching bodies. The time and the place of touch \
+         have errors of this size. Give `stiffness` = {} (now {}), with a shorter step for explicit schemes",
+        short(depth),
+        to_digits(100.0 * depth / size, 2),
+        to_digits(enough, 2),
+        to_digits(now, 3)
+    )
 }
 
 /// The message of a contact with an initial penetration.
 fn begins_closed(contact: &str, depth: f64) -> String {
     format!(
-        "contact `{contact}` begins closed in this stage: something lies {} inside the surface where the stages before have left it, and is \
-         thrown out by energy that nothing has brought. Place what strikes farther away, or let the contact act from earlier on",
-        short(depth)
+        "contact `{contact}` begins closed in this stage, with a penetration of {}. The penetration will throw the body out and add energy. Let \
+         the contact act from an earlier stage on (`stages`), or move the body away by {}",
+        short(depth),
+        rounded_up(depth)
     )
 }
 
 /// The message of a body that touches more others than its history can hold.
 fn crowded(contact: &str) -> String {
     format!(
-        "contact `{contact}`: a body touches more than 32 others at once that are as large as it is or larger. Those beyond press it all the \
-         same, but without friction, and what an impact gives back is not that of the deck. Give them contacts of two: \
-         surface = {{ body = ... }} with the others in `with`"
+        "contact `{contact}`: a body touches more than 32 other bodies of its size or larger at once. Further ones act without friction and \
+         without `restitution`. Give this body a separate contact: surface = {{ body = ... }} with the others in `with`"
     )
 }
 
 /// The message of a critical time step below the value given to elements.
 fn scaled_step([wanted, longest]: [f64; 2], label: &str, cause: &str) -> String {
     let cause = match cause {
-        "" => "elements have become shorter or stiffer, or have no mass where they are attached, or dampers are stiff"
-            .to_owned(),
-        name => format!("`{name}` asks for it"),
+        "" => "Elements have become shorter or stiffer, have no mass at an attachment, or dampers are stiff".to_owned(),
+        name => format!("`{name}` limits it"),
     };
     format!(
-        "the critical time step is {}, below the {} of `mass_scaling_step`, which bounds that of elements alone: {cause}, in a motion of `{label}` \
-         most of all. A `mass_scaling_step` of that adds less mass and loses no time",
+        "the critical time step is {}, below `mass_scaling_step` = {}, which scales elements alone. {cause}; the limiting motion moves `{label}` \
+         most. Give `mass_scaling_step` = {}: less mass is added, and the run is as fast",
         short(longest),
-        short(wanted)
+        short(wanted),
+        short(longest)
     )
 }
 
 /// The message of beams that press each other side by side.
 fn side_by_side(contact: &str) -> String {
     format!(
-        "contact `{contact}`: beams, bars or edges press each other side by side. Each pair of elements touches in one point, which jumps from \
-         end to end of where they are alongside: forces are rough, and energies wrong, whatever the step. Name a set of the nodes of one of them \
-         in `with`, which touch as points"
+        "contact `{contact}`: beams, bars or edges press each other side by side. Each pair of elements touches in one point, which jumps along \
+         the common length, so forces and energies are wrong with any step. List a set of the nodes of one of them in `with`: they touch as \
+         points"
+    )
+}
+
+/// The message of an equilibrium beyond a bifurcation or a limit load.
+fn unstable(found: &Instability) -> String {
+    let Instability { time, already, certain, modes, seen, label, direction, .. } = found;
+    format!(
+        "the equilibrium {} unstable {} t = {} on: the structure buckles. The mode moves `{label}` most, in direction {direction}. The tangent has \
+         negative eigenvalues: {modes}, at t = {}. Later results are not valid. Add a load of a thousandth of the others at `{label}` in direction \
+         {direction}, and give `control` = \"arc-length\" where the load falls",
+        if *certain { "is" } else { "may be" },
+        if *already { "already from" } else { "from" },
+        short(*time),
+        short(*seen)
+    )
+}
+
+/// The message of buckling out of the plane of a plane motion.
+fn unstable_out_of_plane(found: &Instability) -> String {
+    let Instability { time, already, certain, modes, seen, label, direction, .. } = found;
+    format!(
+        "the structure {} out of its plane at t = {}{}. The mode moves `{label}` most, in direction {direction}. The tangent out of the plane has \
+         negative eigenvalues: {modes}, at t = {}. Later results are valid only if the real structure is held in its plane. Fix {direction} of \
+         `{label}` if it is, or else add a load of a thousandth of the others there",
+        if *certain { "buckles" } else { "may buckle" },
+        short(*time),
+        if *already { " or before" } else { "" },
+        short(*seen)
+    )
+}
+
+/// The message of modes that grow.
+fn grows(modes: usize, rate: f64, fastest: usize) -> String {
+    format!(
+        "the state is unstable: mode {fastest} grows with rate {} ({modes} of the modes found grow). A disturbance then multiplies by 2.7 within \
+         a time of {}. Add `damping` or stiffness to what this mode moves, or follow the growth with `kind = \"dynamic\"`",
+        to_digits(rate, 4),
+        to_digits(1.0 / rate, 2)
     )
 }
 
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Warning::Unstable(Instability { time, already, certain, modes, seen, label, direction, .. }) => write!(
-                f,
-                "the equilibrium {} unstable {} t = {} on, where the structure buckles: the mode moves `{label}` most, in \
-                 direction {direction} (negative eigenvalues of the tangent: {modes}, at t = {}). What follows is not what a \
-                 structure does; follow the path that buckles by a small load or an offset in that direction, with `control` = \
-                 \"arc-length\" where the load falls",
-                if *certain { "is" } else { "may be" },
-                if *already { "already from" } else { "from" },
-                short(*time),
-                short(*seen)
-            ),
-            Warning::UnstableOutOfPlane(Instability {
-                time, already, certain, modes, seen, label, direction, ..
-            }) => {
-                write!(
-                    f,
-                    "the structure {} out of its plane at t = {}{}: the mode moves `{label}` most, in direction {direction} \
-                 (negative eigenvalues of the tangent out of the plane: {modes}, at t = {}). What follows holds only where \
-                 something keeps it in its plane; give a small load or an offset in that direction to follow the motion out of \
-                 it, or hold it there",
-                    if *certain { "buckles" } else { "may buckle" },
-                    short(*time),
-                    if *already { " or before" } else { "" },
-                    short(*seen)
-                )
-            }
-            Warning::Unbalanced { residual } => f.write_str(&unbalanced(*residual)),
-            Warning::DeepContact { name, depth, size } => write!(
-                f,
-                "contact `{name}` is pressed in by up to {}, {} % of the smallest dimension of what meets there: bodies are in each \
-                 other, and where and when they meet is no better than that; give it a larger `stiffness`",
-                short(*depth),
-                to_digits(100.0 * depth / size, 2)
-            ),
-            Warning::Grows { modes, rate, fastest } => write!(
-                f,
-                "the state is unstable: mode {fastest} grows with rate {} ({modes} of the modes found grow)",
-                to_digits(*rate, 4)
-            ),
-            Warning::Modes(warnings) => f.write_str(warnings),
-            Warning::RotationDrifts { label, direction, drift } => f.write_str(&drifted(label, direction, *drift)),
-            Warning::LargeStrain { name, strain, logarithmic } => {
-                f.write_str(&large_strain(name, *strain, *logarithmic))
-            }
-            Warning::SideBySide { name } => f.write_str(&side_by_side(name)),
-            Warning::ContactThrows(what) => write!(f, "{what}"),
-            Warning::SlipBegins(what) => write!(f, "{what}"),
-            Warning::Crowded { name } => f.write_str(&crowded(name)),
-            Warning::ScaledStep { wanted, longest, label, cause } => {
-                f.write_str(&scaled_step([*wanted, *longest], label, cause))
-            }
-            Warning::BeginsClosed { name, depth } => f.write_str(&begins_closed(name, *depth)),
-            Warning::StepError { asked, estimate } => f.write_str(&step_error(*asked, *estimate)),
-            Warning::RunsPart { asked, difference } => f.write_str(&runs_part(*asked, *difference)),
-            Warning::InitialVelocities { change } => f.write_str(&corrected(*change)),
-        }
+        f.write_str(&match self {
+            Warning::Unstable(found) => unstable(found),
+            Warning::UnstableOutOfPlane(found) => unstable_out_of_plane(found),
+            Warning::Unbalanced { residual } => unbalanced(*residual),
+            Warning::DeepContact { name, depth, size, stiffness } => deep_contact(name, *depth, *size, *stiffness),
+            Warning::Grows { modes, rate, fastest } => grows(*modes, *rate, *fastest),
+            Warning::Modes(warnings) => warnings.clone(),
+            Warning::RotationDrifts { label, direction, drift } => drifted(label, direction, *drift),
+            Warning::LargeStrain { name, strain, logarithmic } => large_strain(name, *strain, *logarithmic),
+            Warning::SideBySide { name } => side_by_side(name),
+            Warning::ContactThrows(found) => found.to_string(),
+            Warning::SlipBegins(found) => found.to_string(),
+            Warning::Crowded { name } => crowded(name),
+            Warning::ScaledStep { wanted, longest, label, cause } => scaled_step([*wanted, *longest], label, cause),
+            Warning::BeginsClosed { name, depth } => begins_closed(name, *depth),
+            Warning::StepError { asked, estimate } => step_error(*asked, *estimate),
+            Warning::RunsPart { asked, difference } => runs_part(*asked, *difference),
+            Warning::InitialVelocities { change } => corrected(*change),
+        })
     }
 }
 
@@ -352,19 +377,19 @@ impl Warnings {
         self.warnings.iter().any(is_of_kind)
     }
 
-    /// Adds the penetration of a contact, or keeps it if it is relatively deeper than the known one.
-    pub fn deepen(&mut self, contact: &str, depth: f64, size: f64) {
-        let known = self.warnings.iter_mut().find_map(|known| match known {
-            Warning::DeepContact { name, depth, size } => Some((name, depth, size)),
-            _ => None,
-        });
+    /// Adds the penetration of a contact of this size and with these stiffnesses, or keeps it if it is relatively deeper than the known one.
+    pub fn deepen(&mut self, contact: &str, (depth, size): (f64, f64), stiffness: [f64; 2]) {
+        let known = self.warnings.iter_mut().find(|known| matches!(known, Warning::DeepContact { .. }));
+        let found = || Warning::DeepContact { name: contact.to_owned(), depth, size, stiffness };
         match known {
-            None => self.warnings.push(Warning::DeepContact { name: contact.to_owned(), depth, size }),
-            Some((name, old, of)) if depth / size > *old / *of => {
-                contact.clone_into(name);
-                (*old, *of) = (depth, size);
+            None => self.warnings.push(found()),
+            Some(known) => {
+                if let Warning::DeepContact { depth: old, size: of, .. } = known
+                    && depth / size > *old / *of
+                {
+                    *known = found();
+                }
             }
-            Some(_) => {}
         }
     }
 
@@ -465,22 +490,23 @@ impl fmt::Display for Remark {
                 let places: Vec<String> = places.iter().map(place).collect();
                 write!(
                     f,
-                    "motion out of the plane is not held: buckling out of it is judged as if a support held {}",
+                    "no support restrains motion out of the plane. The check for buckling out of it assumes supports at {}. Add these supports \
+                     if the real structure has them",
                     places.join(", ")
                 )
             }
             Remark::NotHeld { place: (label, direction) } => write!(
                 f,
-                "motion out of the plane is not held at `{label}` in direction {direction}: buckling out of it is not judged"
+                "`{label}` is not restrained in direction {direction}, out of the plane of the model. Buckling out of the plane is not checked. \
+                 Add supports out of the plane to have it checked"
             ),
-            Remark::Jointed => {
-                f.write_str(
-                    "whether the scene falls or buckles out of its plane is not judged where there are joints: `plane` = \"off\" judges it",
-                )
-            }
+            Remark::Jointed => f.write_str(
+                "buckling out of the plane is not checked in models with joints. Give `plane` = \"off\" in [analysis] to compute it in space",
+            ),
             Remark::FactorInFile(place) => f.write_str(place),
             Remark::Slipping => f.write_str(
-                "friction slips along the path: whether equilibria are stable is not judged there; load steps judge it",
+                "stability is not checked on a path of `control` = \"arc-length\" while friction slips. Use load steps (`control` = \"time\") to \
+                 have it checked",
             ),
         }
     }

@@ -79,7 +79,7 @@ impl StudyAdvice {
         }
         let (samples, count) = (self.samples + 1, self.quantities.len());
         let what = if count == 1 { "quantity" } else { "quantities" };
-        format!("{}\nerror: against the deck as it is, {count} {what} at {samples} times\n", columns(&rows, 2))
+        format!("{}\nerror: against the unchanged deck, {count} {what} at {samples} times\n", columns(&rows, 2))
     }
 
     /// The text of rigidify.csv.

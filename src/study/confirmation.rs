@@ -31,8 +31,8 @@ impl Confirmation {
                 format!("confirmed by {}, which tends to the same within {:.1e}", of.label, of.apart)
             }
             Confirmation::Disagrees(of) => format!(
-                "CONTRADICTED by {}, which tends to something {:.1e} away where the errors of both explain {:.1e}: \
-                 one of the two is wrong, so do not rely on errors below this; take finer steps, and see which one moves",
+                "CONTRADICTED by {}: their limits differ by {:.1e}, and the errors of both explain {:.1e}. One of the two is wrong, so errors \
+                 below this are not reliable. Take finer steps, and see which one moves",
                 of.label, of.apart, of.allowed
             ),
         }

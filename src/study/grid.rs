@@ -58,7 +58,9 @@ impl StudyGrid {
             problems.push(Diagnostic::error("there is nothing to measure errors on").hint(hint));
         }
         if !model.analysis.is_dynamic() && !study.schemes.is_empty() {
-            problems.push(Diagnostic::error("schemes integrate in time, and a static analysis has none"));
+            problems.push(
+                Diagnostic::error("schemes integrate in time, and a static analysis has none").hint("remove `schemes`"),
+            );
         }
         if !model.analysis.is_dynamic() && !study.error_tolerances.is_empty() {
             let message = "error tolerances are about steps in time, and a static analysis has none";

@@ -159,7 +159,10 @@ pub fn lines(
     let meshes: Vec<_> = meshes.iter().map(|&mesh| (mesh, refine(deck, mesh, problems))).collect();
     let orders: Vec<_> = study.beam_orders.iter().map(|&order| (order, reorder(deck, order))).collect();
     if orders.iter().any(|(_, sets)| sets.is_empty()) {
-        problems.push(Diagnostic::error("`beam_orders` has nothing to change: the deck has no beams that deform"));
+        problems.push(
+            Diagnostic::error("`beam_orders` has nothing to change: the deck has no beams that deform")
+                .hint("remove `beam_orders`"),
+        );
     }
     let mut lines: Vec<(usize, StudyLine)> = listed.iter().map(|&i| (i, StudyLine::own(model))).collect();
     spread(&mut lines, &study.methods, |(_, line), method| {

@@ -14,7 +14,7 @@ pub fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<S
     for part in deck.parts() {
         if part.table.group().is_some() {
             let message = format!("`meshes` cannot refine `{}`: its elements are those of the mesh file", part.label());
-            problems.push(Diagnostic::error(message));
+            problems.push(Diagnostic::error(message).hint("remove `meshes`, and run decks with finer mesh files"));
         } else if let Some(elements) = part.table.elements() {
             match multiplied(elements, factor) {
                 Some(numbers) => sets.push(format!("{}.elements={numbers}", part.table_path())),
@@ -22,13 +22,15 @@ pub fn refine(deck: &Deck, factor: f64, problems: &mut Vec<Diagnostic>) -> Vec<S
                     let count: Vec<String> = elements.values.iter().map(|count| count.value.to_string()).collect();
                     let (count, label) = (count.join(", "), part.label());
                     let message = format!("{factor} times the {count} elements of `{label}` is no whole number");
-                    problems.push(Diagnostic::error(message));
+                    problems.push(Diagnostic::error(message).hint("give a factor that divides them, or 2"));
                 }
             }
         }
     }
     if sets.is_empty() && problems.is_empty() {
-        problems.push(Diagnostic::error("`meshes` has nothing to refine: the deck has no elements"));
+        problems.push(
+            Diagnostic::error("`meshes` has nothing to refine: the deck has no elements").hint("remove `meshes`"),
+        );
     }
     sets
 }

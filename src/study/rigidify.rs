@@ -80,7 +80,7 @@ fn check(model: &Model, quantities: &[Quantity], candidates: &[Candidate]) -> Re
         problems.push(Diagnostic::error("there is nothing to measure errors on").hint(hint));
     }
     if candidates.is_empty() {
-        problems.push(Diagnostic::error("the deck has no part that deforms"));
+        problems.push(Diagnostic::error("the deck has no part that deforms").hint("remove `rigidify`"));
     }
     if problems.is_empty() { Ok(()) } else { Err(StudyFault::Deck(problems)) }
 }

@@ -188,10 +188,10 @@ impl Reader<'_> {
         let mut file = SweepFile::default();
         let entries = self.entries("a sweep", root, &KEYS);
         if !entries.iter().any(|(key, ..)| *key == "deck") {
-            self.error(&(0..0), "`deck` is missing: the path of the deck that varies");
+            self.error(&(0..0), "`deck` is missing: give the path of the deck that varies");
         }
         if !entries.iter().any(|(key, ..)| *key == "vary") {
-            self.error(&(0..0), "`[vary]` is missing: the entries of the deck that vary");
+            self.error(&(0..0), "`[vary]` is missing: give the entries of the deck that vary");
         }
         for (key, _, value) in entries {
             match (key, value.get_ref()) {
@@ -225,13 +225,10 @@ impl Reader<'_> {
         let ranges = file.axes.iter().any(|axis| matches!(axis.values, VariedValues::Range { .. }));
         let varies = if file.sample.is_some() { ranges } else { !file.axes.is_empty() || file.table.is_some() };
         if !varies && self.problems.is_empty() {
-            self.error(place, "nothing varies");
+            self.error(place, "nothing varies: add an entry of the deck with its values to `[vary]`");
         }
         if let (Some((_, place)), false) = (&file.table, file.axes.is_empty() && file.sample.is_none()) {
-            self.error(
-                &place.clone(),
-                "a `table` of cases contains all varied entries: remove the other entries of [vary]",
-            );
+            self.error(&place.clone(), "a `table` of cases has all that varies: remove the other entries");
         }
         for axis in &file.axes {
             match (&axis.values, file.sample) {
@@ -239,7 +236,7 @@ impl Reader<'_> {
                 (VariedValues::List(values), Some(_)) if values.len() == 1 => {}
                 (VariedValues::List(_) | VariedValues::Range { steps: Some(_), .. }, Some(_)) => {
                     let message = format!(
-                        "a sample needs ranges: `{}` takes {{ from = .., to = .. }}, or one value in a list, which holds in all cases",
+                        "a sample needs ranges: give `{}` = {{ from = .., to = .. }}, or one value in a list for all cases",
                         axis.key
                     );
                     self.error(&axis.place, message);
@@ -256,7 +253,7 @@ impl Reader<'_> {
     fn axis<'t>(&mut self, key: &str, place: Span, value: &'t Spanned<DeValue<'t>>) -> Option<VariedKey> {
         let values = match value.get_ref() {
             DeValue::Array(list) if list.is_empty() => {
-                self.error(&value.span(), format!("`{key}` has no values"));
+                self.error(&value.span(), format!("`{key}` has no values: add one, or remove the key"));
                 return None;
             }
             DeValue::Array(list) => {

@@ -237,7 +237,7 @@ fn a_path_that_never_comes_to_its_stop_says_so() {
     let read = |name: &str| std::fs::read_to_string(folder.path().join("ball.out").join(name)).unwrap();
     for (more, end) in [(&[][..], "t = 60,"), (&["--set", "analysis.steps=3"], "after 3 steps")] {
         let told = said(&run(more));
-        let words = "`stop` was not reached: uz of crown never came to 0.2 for pass 2; it is -";
+        let words = "`stop` was not reached: uz of `crown` never reached 0.2 for pass 2, and is -";
         assert!(told.starts_with(&format!("warning: {words}")) && told.contains(end), "{told}");
         let log = read("run.log");
         assert!(log.lines().last().unwrap().starts_with(&format!("done: {words}")), "{log}");
@@ -249,7 +249,7 @@ fn a_path_that_never_comes_to_its_stop_says_so() {
     let nodes = read("nodes.csv");
     let crown = nodes.lines().rfind(|line| line.contains(",crown,")).unwrap();
     let uz = to_digits(crown.split(',').nth(8).unwrap().parse().unwrap(), 7);
-    assert!(read("result.json").contains(&format!("it is {uz} at the end")), "{crown}");
+    assert!(read("result.json").contains(&format!("and is {uz} at the end")), "{crown}");
     assert_eq!(said(&run(&["--quiet"])), "");
     // One that is reached leaves nothing to say; nor does a miss hide it.
     let reached = stop.replace("0.2, pass = 2", "-0.2");
@@ -328,7 +328,7 @@ velocity = [12.0, 0.0, 0.0]
 fn what_plastic_flow_takes_too_much_of_is_called_so() {
     let folder = folder(YIELDING);
     let told = said(&rdsolve(folder.path(), &["ball.toml"]).code(0));
-    assert!(told.contains("plastic flow has dissipated more energy than there was, by "), "{told}");
+    assert!(told.contains("plastic flow has dissipated more energy than was available, by "), "{told}");
     assert!(told.contains("plastic strains are too large") && !told.contains("energy growth"), "{told}");
     let short = ["ball.toml", "--overwrite", "--set", "analysis.time_step=0.005"];
     assert_eq!(said(&rdsolve(folder.path(), &short).code(0)), "");
@@ -336,7 +336,7 @@ fn what_plastic_flow_takes_too_much_of_is_called_so() {
     let tolerated =
         ["analysis={kind=\"dynamic\",end_time=40.0,time_step=\"auto\",error_tolerance=0.5}", "integrator={}"];
     let stable = ["analysis.time_step=\"auto\"", "title=\"\""];
-    for (sets, advice) in [(tolerated, "try a smaller `error_tolerance`"), (stable, "try a number as `time_step`")] {
+    for (sets, advice) in [(tolerated, "Give a tenth of `error_tolerance`"), (stable, "Give a number as `time_step`")] {
         let told =
             said(&rdsolve(folder.path(), &["ball.toml", "--overwrite", "--set", sets[0], "--set", sets[1]]).code(0));
         assert!(told.contains(advice), "{told}");
@@ -357,7 +357,7 @@ fn the_least_step_ends_steps_of_their_own_length() {
     };
     let told = said(&least("0.4").code(4));
     assert!(told.contains("a step of 4.000e-1 is too long for central differences"), "{told}");
-    assert!(told.contains("a smaller `least_step`") && !told.contains("auto"), "{told}");
+    assert!(told.contains("Give `least_step` = 0.1414") && !told.contains("auto"), "{told}");
     least("0.2").code(0);
 }
 

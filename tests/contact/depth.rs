@@ -44,10 +44,10 @@ const DRUM: &str =
 
 /// The depth in a warning, by its words.
 fn depth(said: &[String]) -> Option<f64> {
-    let said = said.iter().find(|said| said.contains("contact `stop` is pressed in by up to"))?;
-    assert!(said.contains("larger `stiffness`"), "{said}");
-    let rest = said.split("by up to ").nth(1)?;
-    rest.split(',').next()?.parse().ok()
+    let said = said.iter().find(|said| said.contains("contact `stop`: the penetration of"))?;
+    assert!(said.contains("Give `stiffness` = "), "{said}");
+    let rest = said.split("the penetration of ").nth(1)?;
+    rest.split(' ').next()?.parse().ok()
 }
 
 #[test]
@@ -115,6 +115,6 @@ fn what_lies_inside_as_a_stage_begins_is_said() {
         let found = said.iter().find(|said| said.contains("contact `stop` begins closed in this stage"));
         assert_eq!(found.is_some(), inside, "{said:?}");
         // 0.06 s at 1 m/s, 0.05 m above it: 0.01 inside.
-        assert!(found.is_none_or(|found| found.contains("lies 0.01 inside")), "{said:?}");
+        assert!(found.is_none_or(|found| found.contains("with a penetration of 0.01.")), "{said:?}");
     }
 }

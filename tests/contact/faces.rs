@@ -365,7 +365,7 @@ fn nothing_passes_a_face_in_one_step() {
         match outcome {
             Outcome::Failed { failure: Failure::ContactNotResolved { name }, .. } => assert_eq!(name, "hit"),
             Outcome::Done => {
-                assert!(said.iter().any(|text| text.contains("is pressed in by up to")), "{scheme}: {said:?}")
+                assert!(said.iter().any(|text| text.contains("the penetration of")), "{scheme}: {said:?}")
             }
             _ => panic!("{scheme}: {outcome:?}"),
         }

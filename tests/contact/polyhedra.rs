@@ -761,7 +761,7 @@ fn a_body_that_touches_too_many_is_told() {
             "#
         );
         let done = go(&text, &mut |_| Vec::new());
-        done.warnings.iter().filter(|warning| warning.contains("more than 32 others")).count()
+        done.warnings.iter().filter(|warning| warning.contains("more than 32 other bodies")).count()
     };
     assert_eq!([warnings(32), warnings(33)], [0, 1]);
 }

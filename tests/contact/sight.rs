@@ -112,7 +112,10 @@ fn points_that_divide_nothing_are_said() {
             .map(|(with, points)| about(&said(&things, &on_beam(with, points))));
     let line = "`points` does not apply to `log`, which touches here in full, not with points";
     assert_eq!(alone, Some([line.to_owned(), "leave `points` out".to_owned()]));
-    assert_eq!(beside, Some([line.to_owned(), "it divides what else is named in `with`".to_owned()]));
+    assert_eq!(
+        beside,
+        Some([line.to_owned(), "add a separate contact for these; it divides the others in `with`".to_owned()])
+    );
     assert_eq!(without, None);
 }
 

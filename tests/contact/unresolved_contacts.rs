@@ -1,4 +1,4 @@
-//! Steps that do not resolve the stiffness of a contact throw off what rests on it, and friction holds it no more.
+//! Steps that do not resolve the stiffness of a contact throw off a resting body on it, and friction holds it no more.
 
 use crate::support::{read_deck, run_with_warnings, tables_of};
 
@@ -34,7 +34,7 @@ moment = [0.0, {moment:?}, 0.0]
 }
 
 fn warning(deck: &str) -> Option<String> {
-    run_with_warnings(deck).1.into_iter().find(|warning| warning.contains("throw off what rests"))
+    run_with_warnings(deck).1.into_iter().find(|warning| warning.contains("throw off a resting body"))
 }
 
 /// The number behind a key in a message.
@@ -61,8 +61,8 @@ fn a_box_that_is_thrown_off_its_floor_is_warned_of_and_the_remedies_do() {
             angle += 1e-5 * rate;
         }
         assert!(tipped(&stiff) < 0.2 * angle, "{} {angle}", tipped(&stiff));
-        let soft = deck((number(&text, "`stiffness` of "), 1e-3), (force, at), "");
-        let short = deck((1e8, number(&text, "`time_step` of ")), (force, at), "");
+        let soft = deck((number(&text, "`stiffness` = "), 1e-3), (force, at), "");
+        let short = deck((1e8, number(&text, "`time_step` = ")), (force, at), "");
         for mended in [soft, short, deck((1e8, 1e-3), (force, at), "restitution = 0.0")] {
             assert!(warning(&mended).is_none(), "{:?}\n{mended}", warning(&mended));
             // The floor gives by up to 20 µm under the edge, on which the box swings: 0.004 rad over its height of 0.1 and twice that by the swing.

@@ -78,10 +78,10 @@ fn a_factor_that_memory_does_not_hold_lies_in_a_file() {
             continue;
         }
         let (code, said) = run(folder, "refused", "240000", &scratch);
-        assert!(code == 7 && said.contains(reason) && said.contains("TMPDIR may name a folder"), "{code} {said}");
+        assert!(code == 7 && said.contains(reason) && said.contains("Set TMPDIR to a folder"), "{code} {said}");
         assert!(!folder.join("refused").exists());
     }
     // Neither the matrix nor its update matrices have room.
     let (code, said) = run(folder, "refused", "100000", folder);
-    assert!(code == 7 && said.contains("more memory than there is; a coarser mesh"), "{code} {said}");
+    assert!(code == 7 && said.contains("more memory than there is. Take a coarser mesh"), "{code} {said}");
 }

@@ -42,6 +42,7 @@ impl Folder {
         let source = self.source(deck);
         let (model, problems) = model::read(&source);
         assert_eq!(model.is_none(), problems.iter().any(|problem| problem.is_error()), "a model without errors only");
+        problems.iter().for_each(crate::support::assert_says_what_to_change);
         let drawn: Vec<String> = problems.iter().map(|problem| problem.draw(&source, false)).collect();
         (model, drawn.join("\n\n").replace(&format!("{}/", self.path().display()), ""))
     }

@@ -143,7 +143,7 @@ fn what_is_not_known_is_said() {
     for (deck, why) in [
         ("hinged_roof/deck.toml", "paths of given arc length"),
         ("four_bar/deck.toml", "there is none, for nothing deforms"),
-        ("meshed_bracket/deck.toml", "cannot be made fewer"),
+        ("meshed_bracket/deck.toml", "cannot coarsen them"),
     ] {
         let short = ["analysis.end_time=0.2", "expect=[]"];
         let sets = if deck.starts_with("four") { &short[..] } else { &short[1..] };

@@ -124,7 +124,7 @@ fn pull(force: f64) -> String {
 #[test]
 fn missing_supports_are_named() {
     let ended = run(format!("{STATIC}{}{}", strip(""), pull(-1.0)));
-    ended.assert(4, &["singular at `", "in direction", "missing support"]);
+    ended.assert(4, &["singular at `", "in direction", "a support is missing"]);
     assert_eq!(ended.column("nodes.csv", "tip", "time"), [0.0], "t = 0 is there");
     let result = ended.result();
     assert_eq!((&result["status"], &result["exit_code"]), (&"not-converged".into(), &4.into()));

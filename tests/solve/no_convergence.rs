@@ -146,7 +146,7 @@ fn a_step_that_is_too_long_is_no_limit_load() {
         let deck = cantilever(force, &format!("limit = {limit}"), more);
         let text = failure(&deck);
         assert!(!text.contains("limit load") && text.contains("is out of balance in direction"), "{text}");
-        assert!(text.contains("`least_step` = 1 forbids shorter steps: give a hundredth of it, 0.01"), "{text}");
+        assert!(text.contains("`least_step` = 1 forbids shorter steps. Give `least_step` = 0.01"), "{text}");
         let outcome = said(&deck.replace("least_step = 1.0", "least_step = 0.01")).2.outcome;
         assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
     }

@@ -954,7 +954,7 @@ fn a_column_buckles_in_a_later_stage_as_in_the_first() {
         .unwrap_or_else(|| panic!("{said}"));
     // 0.1 + 2 (t − 1) = 1; the load is that of the tangents at both ends of a step of 0.2 of it combined.
     assert!((time.parse::<f64>().unwrap() - 1.45).abs() < 5e-3, "{said}");
-    assert!(said.contains("negative eigenvalues of the tangent: 2"), "{said}");
+    assert!(said.contains("negative eigenvalues: 2"), "{said}");
 }
 
 /// After a stage that unloads nothing acts any more but rounding, which is no moment without a potential: a bar that was bent and let go buckles
@@ -986,7 +986,7 @@ fn a_column_buckles_after_a_stage_that_unloads() {
         let time: f64 = time.unwrap_or_else(|| panic!("{said}")).parse().unwrap();
         // Half of the load of the last stage, between the ends of a step of a twentieth of it.
         assert!((time - 2.5).abs() < 0.05, "{said}");
-        assert!(said.contains("negative eigenvalues of the tangent: 2"), "{said}");
+        assert!(said.contains("negative eigenvalues: 2"), "{said}");
     }
 }
 

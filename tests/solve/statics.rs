@@ -316,7 +316,7 @@ force = [{:?}, {:?}, 0.0]
     let (u, warnings) = deflection(1e-9);
     assert!((u / exact - 1.0).abs() < 1e-5 || !warnings.is_empty(), "{u} {exact}");
     let (_, warnings) = deflection(1e-12);
-    assert!(warnings.len() == 1 && warnings[0].contains("rounding hides"), "{warnings:?}");
+    assert!(warnings.len() == 1 && warnings[0].contains("which is rounding error"), "{warnings:?}");
 }
 
 #[test]

@@ -7,7 +7,7 @@ pub mod random;
 pub mod truss;
 pub mod witness;
 
-use rdsolve::diagnostic::Source;
+use rdsolve::diagnostic::{Diagnostic, Source};
 use rdsolve::model::{self, Model};
 use rdsolve::output::expect::{Expectations, Verdict};
 use rdsolve::output::{Files, wanted};
@@ -384,4 +384,40 @@ impl Row {
     pub fn number(&self, column: &str) -> f64 {
         self.text(column).parse().unwrap_or_else(|_| panic!("{column}: {}", self.text(column)))
     }
+}
+
+/// Verbs with which a message begins to say what to change.
+const REMEDIES: [&str; 33] = [
+    "add", "bring", "check", "choose", "close", "compare", "correct", "end", "find", "fix", "follow", "give", "halve",
+    "join", "leave", "let", "list", "look", "lower", "make", "move", "name", "put", "raise", "remove", "rename",
+    "replace", "reverse", "run", "start", "take", "use", "write",
+];
+
+/// True where a clause of the message begins with a verb that says what to change.
+fn says_what_to_change(message: &str) -> bool {
+    let first = |clause: &str| {
+        clause.split(|c: char| !c.is_alphanumeric()).find(|word| !word.is_empty()).map(str::to_lowercase)
+    };
+    let mut clauses = message.split(['.', ':', ';', ',', '\n']).filter_map(first);
+    clauses.any(|word| REMEDIES.contains(&&*word))
+}
+
+/// Fails where a message names no thing or value, or does not say what to change.
+#[track_caller]
+pub fn assert_three_parts(message: &str) {
+    let names = message.contains('`') || message.contains(|c: char| c.is_ascii_digit());
+    assert!(names, "no thing and no value: {message}");
+    assert!(says_what_to_change(message), "no remedy: {message}");
+}
+
+/// Forms of errors that say what to write.
+const REQUIREMENTS: [&str; 8] =
+    ["must ", " takes ", " can be ", " lie between ", "at most ", "at least ", " has errors", " has none"];
+
+/// Fails where a message about a deck does not say what to change.
+#[track_caller]
+pub fn assert_says_what_to_change(problem: &Diagnostic) {
+    let message = &problem.message;
+    let requires = problem.is_error() && REQUIREMENTS.iter().any(|form| message.contains(form));
+    assert!(requires || says_what_to_change(message) || !problem.remedies().is_empty(), "no remedy: {message}");
 }

@@ -17,8 +17,8 @@ pub static KIND: SchemeKind = SchemeKind {
     word: "bathe",
     aliases: &["tr-bdf2"],
     guesses: &[],
-    about: "The trapezoidal rule, then backward differences: two stages. Implicit, second order, unconditionally stable; it \
-            removes what the step does not resolve.",
+    about: "The trapezoidal rule, then backward differences: two stages. Implicit, second order, unconditionally stable; it damps the modes that \
+            the step does not resolve.",
     keys: &[Key {
         name: "split",
         form: Form::Number,

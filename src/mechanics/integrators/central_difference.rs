@@ -22,14 +22,13 @@ pub static KIND: SchemeKind = SchemeKind {
     word: "central-difference",
     aliases: &[],
     guesses: &["verlet", "leapfrog", "leap-frog", "explicit"],
-    about: "Explicit, of second order: no matrix but the masses; steps must be shorter than the highest mode allows (omega dt <= 2). \
+    about: "Explicit, of second order: the masses are its only matrix. Steps must not exceed the limit of the highest mode (omega dt <= 2). \
             time_step = \"auto\" uses 0.8 of the critical time step, 0.5 if contacts or links may stiffen.",
     keys: &[Key {
         name: "mass_scaling_step",
         form: Form::Number,
-        about: "Mass scaling: a critical time step, above 0. Each element of beams, bars and shells whose own is below it is given \
-                rotary inertia, and where that does not do mass, until it has this one. Weight stays that of the true mass; what is \
-                added is told. Default: none.",
+        about: "Mass scaling: a critical time step, above 0. Elements of beams, bars and shells with a shorter step get rotary inertia, and mass \
+                if that is not enough. Weight acts on the true mass; rdsolve prints the additions. Default: none.",
     }],
     make: MakeScheme {
         scheme: |given, rotation| {

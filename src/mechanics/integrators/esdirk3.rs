@@ -14,7 +14,7 @@ pub static KIND: SchemeKind = SchemeKind {
     word: "esdirk3",
     aliases: &["esdirk"],
     guesses: &["dirk", "dirk3", "sdirk", "radau", "radau5", "kennedy-carpenter"],
-    about: "Kennedy and Carpenter's ESDIRK3(2)5L[2]SA: implicit, four stages a step, of third order, L-stable; it removes what the step \
+    about: "Kennedy and Carpenter's ESDIRK3(2)5L[2]SA: implicit, four stages a step, of third order, L-stable; it damps the modes that the step \
             does not resolve. The cheapest where errors of 1e-3 and less are asked for.",
     keys: &[],
     make: MakeScheme { scheme: |_, rotation| Arc::new(Esdirk3 { rotation }), rotation_update: true },

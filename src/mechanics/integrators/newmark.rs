@@ -45,10 +45,14 @@ pub static KIND: SchemeKind = SchemeKind {
 /// Warns of parameters without second order or unconditional stability.
 fn check(given: &mut Given, gamma: f64, beta: f64) {
     if gamma < 0.5 {
-        given.error_with::<()>("gamma", "`gamma` must be at least 0.5", "below, every motion grows");
+        given.error_with::<()>("gamma", "`gamma` must be at least 0.5", "below, every motion grows; give 0.5");
     } else if gamma > 0.5 {
         let text = format!("Newmark with gamma = {gamma} is of first order");
-        given.warn("gamma", text, "\"generalized-alpha\" damps as well and is of second order");
+        given.warn(
+            "gamma",
+            text,
+            "give `gamma` = 0.5, or `scheme` = \"generalized-alpha\", which damps and is of second order",
+        );
     }
     if !given.has("beta") {
         return;
@@ -57,7 +61,7 @@ fn check(given: &mut Given, gamma: f64, beta: f64) {
         given.error_with::<()>("beta", "`beta` must be above zero", "at zero the scheme is explicit");
     } else if 2.0 * beta < gamma {
         let text = format!("Newmark with beta = {beta} is not unconditionally stable");
-        given.warn("beta", text, format!("below {} long steps may grow without bound", 0.5 * gamma));
+        given.warn("beta", text, format!("give `beta` = {}: below, long steps may grow without bound", 0.5 * gamma));
     }
 }
 

@@ -29,7 +29,7 @@ pub static KIND: SchemeKind = SchemeKind {
             if theta < 1.0 {
                 given.error::<()>("theta", "`theta` must be at least 1");
             } else if theta < STABLE_THETA {
-                let limit = format!("below {STABLE_THETA} long steps may grow without bound");
+                let limit = format!("give `theta` = 1.4: below {STABLE_THETA} long steps may grow without bound");
                 let message = format!("Wilson-theta with theta = {theta} is not unconditionally stable");
                 given.warn("theta", message, limit);
             }
@@ -59,8 +59,8 @@ impl Scheme for WilsonTheta {
 
     fn note(&self) -> Option<&'static str> {
         Some(
-            "Wilson-theta damps modes with periods below about 10 steps and overshoots their accelerations and \
-             velocities in the first steps; equilibrium is satisfied at t + theta dt, where reactions are taken",
+            "Wilson-theta damps modes with periods below about 10 steps and overshoots their accelerations and velocities in the first steps; \
+             equilibrium and reactions are those at t + theta dt",
         )
     }
 

@@ -23,7 +23,7 @@ pub static KIND: SectionKind = SectionKind {
         Key {
             name: "axial_stiffness",
             form: Form::Number,
-            about: "E A, a force above 0, instead of area and moments; the beam then takes no material.",
+            about: "E A, a force above 0, instead of area and moments; the beam then has no material.",
         },
         Key {
             name: "shear_stiffness",
@@ -76,7 +76,7 @@ fn shape(given: &mut Given) -> Option<CrossSection> {
     let Iyz = given.number("product_moment").unwrap_or(0.0);
     let moments = moments?;
     if Iyz * Iyz >= moments[0] * moments[1] {
-        return given.error("product_moment", "`product_moment` is larger than the moments allow");
+        return given.error("product_moment", "`product_moment` must be below the root of the product of both moments");
     }
     let shape = General { area: area?, moments, Iyz, torsion: torsion?, shear_areas: shear? };
     Some(CrossSection::Shape(Box::new(shape)))
@@ -121,7 +121,8 @@ pub struct General {
 }
 
 /// Why there are no fibres.
-const NO_FIBRES: &str = "a general section has no fibres: it says how much area there is, not where";
+const NO_FIBRES: &str =
+    "a general section has no fibres, because it gives an area without its place; give a `shape` with dimensions";
 
 impl SectionShape for General {
     fn section(&self, _: f64) -> Result<Section, String> {

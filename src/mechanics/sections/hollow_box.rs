@@ -22,7 +22,7 @@ pub static KIND: SectionKind = SectionKind {
         Key {
             name: "thickness",
             form: Form::Numbers,
-            about: "Thickness of the walls: one value, or that of the walls normal to y and that of those normal to z.",
+            about: "Thickness of the walls: one value, or two: of the walls normal to y, and of the walls normal to z.",
         },
         Key {
             name: "corner_radii",

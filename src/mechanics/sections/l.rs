@@ -21,7 +21,7 @@ pub static KIND: SectionKind = SectionKind {
         Key {
             name: "thickness",
             form: Form::Numbers,
-            about: "Thickness of the legs: one value, or that of the upright leg and that of the flat leg.",
+            about: "Thickness of the legs: one value, or two: of the upright leg, and of the flat leg.",
         },
         Key {
             name: "root_radius",

@@ -70,7 +70,12 @@ pub trait SectionShape: fmt::Debug {
             [] => default,
             [first] => [first, default[1]],
             [first, second] => [first, second],
-            _ => return Err(format!("{} numbers of fibres are given, but a section takes two at most", counts.len())),
+            _ => {
+                return Err(format!(
+                    "{} numbers of fibres are given, but a section can have two at most",
+                    counts.len()
+                ));
+            }
         };
         if let Some(n) = counts.iter().find(|&&n| n == 0 || n % 2 == 1) {
             return Err(format!("the number of fibres is {n}, but must be even, as they lie in pairs"));
@@ -95,7 +100,7 @@ pub fn shear_factor(given: &mut Given) -> Option<[f64; 2]> {
         [both] => [both; 2],
         [y, z] => [y, z],
         ref other => {
-            let message = format!("`{key}` has {} values here; it takes one, or two for y and z", other.len());
+            let message = format!("`{key}` has {} values here; give one, or two for y and z", other.len());
             return given.error(key, message);
         }
     };

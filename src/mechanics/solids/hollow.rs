@@ -27,7 +27,7 @@ pub fn read(given: &mut Given, hole: fn(&mut Given, f64) -> Option<(f64, &'stati
     let (radius, length, axis) = (radius?, length?, axis?);
     let (inner_radius, key) = hole(given, radius)?;
     if inner_radius >= radius || inner_radius < 0.0 {
-        return given.error(key, format!("the wall does not fit into the radius, {radius}"));
+        return given.error(key, format!("the wall must be thinner than the radius, {radius}"));
     }
     let squares = radius * radius + inner_radius * inner_radius;
     let (along, across) = (squares / 2.0, squares / 4.0 + length * length / 12.0);

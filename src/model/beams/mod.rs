@@ -180,7 +180,10 @@ impl<'d> Line<'_, 'd> {
                 "`orientation` differs from the direction nodes of {count} elements of group `{}`, by {angle:.1} degrees in element {id}",
                 group.value
             );
-            let hint = format!("the deck's is taken; for element {id} the file has [{:?}, {:?}, {:?}]", y.x, y.y, y.z);
+            let hint = format!(
+                "remove `orientation` to follow the file, which has [{:?}, {:?}, {:?}] for element {id}",
+                y.x, y.y, y.z
+            );
             cx.report.warn(place, message, hint);
         }
     }
@@ -335,7 +338,7 @@ fn yielding<'d>(
     let deforms = flag(&beam.shear, true);
     if let Some(yields) = beam.shear_yields.as_ref().filter(|yields| yields.value && !deforms) {
         let message =
-            "`shear_yields = true` contradicts `shear = false`: what does not deform in shear does not yield in it";
+            "`shear_yields = true` contradicts `shear = false`: a beam without shear deformation cannot yield in shear";
         return cx.report.error_with(&yields.span, message, "leave one of the two out");
     }
     let shear = deforms && flag(&beam.shear_yields, true);

@@ -63,8 +63,8 @@ pub fn warn_of_long_solids<'d>(
             continue;
         }
         let message = format!(
-            "{} sees the side of {kind} `{}` by nodes of `{}` that are up to {} apart: an edge between these may pass into it, {} wide with \
-             the thickness",
+            "{} sees the side of {kind} `{}` by nodes of `{}` that are up to {} apart: an edge between these may enter it. The edge is {} wide \
+             with the thickness",
             owner.what,
             body.name,
             part.value,
@@ -74,7 +74,7 @@ pub fn warn_of_long_solids<'d>(
         let points = (length / width - DIGITS).ceil() - 1.0;
         let border = format!("surface = {{ part = \"{}\", edges = true }}", part.value);
         let hint = format!(
-            "give `points` = {points} or more, or a finer mesh; the border of a flat sheet is a contact of its own, {border}"
+            "give `points` = {points} or more, or a finer mesh; the border of a flat sheet needs a separate contact, {border}"
         );
         finder.report.warn(owner.span, message, hint);
     }

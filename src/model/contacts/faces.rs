@@ -62,7 +62,7 @@ fn faces<'d>(
     let facets = facets_of(&elements, half, is_line);
     if facets.is_empty() && is_of_edges && !scene.parts.elements(surface).is_empty() {
         let message = format!("`{}` is closed and has no free edges", part.value);
-        return finder.report.error(&part.span, message);
+        return finder.report.error_with(&part.span, message, "remove `edges`");
     }
     if facets.is_empty() {
         // The part has no faces because of errors already reported.
@@ -73,7 +73,7 @@ fn faces<'d>(
     let mut faces = FacetSurface { part: part.value.clone(), facets, is_of_edges, touchers, solids, corners, back };
     if names.values.iter().any(|at| at.value == ITSELF) {
         if let [_, _, ..] = names.values[..] {
-            let hint = "give what else touches it a contact of its own";
+            let hint = "add a separate contact for the others that touch it";
             return finder.report.error_with(&names.span, "`itself` stands alone in `with`", hint);
         }
         finder.report.reject_unused("a part that touches itself", &keys!(contact; points));
@@ -248,7 +248,7 @@ fn balls<'d>(
     convex.dedup_by_key(|one| one.node);
     if balls.len() + convex.len() < 2 {
         let message = format!("{} has fewer than two bodies or balls `among` which anything could touch", owner.what);
-        return finder.report.error(&among.span, message);
+        return finder.report.error_with(&among.span, message, "name another body with a `shape`");
     }
     finder.convex = convex;
     finder.inflate(given.unwrap_or(0.0), contact)?;
@@ -349,7 +349,7 @@ fn refuse_ball(report: &mut Report, at: &At<String>, leaf: Place, has_no_nodes: 
     match has_no_nodes {
         true => {
             let message =
-                format!("`among` takes bodies, points and sets of them, and `{name}` is or holds {}", leaf.kind());
+                format!("`among` can be bodies, points and sets of them, and `{name}` is or holds {}", leaf.kind());
             report.error::<()>(&at.span, message);
         }
         false => {

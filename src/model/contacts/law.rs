@@ -187,8 +187,8 @@ impl LawReader<'_, '_> {
                 false => None,
             };
             return chosen.ok_or(
-                "in a static analysis nothing says how stiff it should be: give force over the penetration that may be; with \
-                 `method = \"augmented-lagrangian\"` hardly any is left, and any stiffness will do",
+                "a static analysis has no step to derive it from: give the force over the penetration allowed. With `method = \
+                 \"augmented-lagrangian\"` the penetration is small for any stiffness",
             );
         }
         if meeting.mean <= 0.0 {

@@ -49,15 +49,15 @@ pub fn tolerance(
     let given = match given {
         Some(given) if given.value <= LEAST * extent || !given.value.is_finite() => {
             let message = format!(
-                "`penetration_tolerance` must be above {}, to which positions are rounded",
+                "`penetration_tolerance` must be above {}, the rounding error of positions",
                 short(LEAST * extent)
             );
             report.error(&given.span, message)
         }
         Some(given) if size > 0.0 && given.value > MOST * size => {
             let message = format!(
-                "`penetration_tolerance` must be at most {}, a ten-thousandth of the smallest size of what touches: the work lost in a larger \
-                 depth would be taken for a jump of the equilibrium",
+                "`penetration_tolerance` must be at most {}, a ten-thousandth of the smallest touching body: rdsolve would take the work lost in \
+                 a larger depth for a jump of the equilibrium",
                 short(MOST * size)
             );
             report.error(&given.span, message)

@@ -272,9 +272,13 @@ fn warn_closed(owner: &Owner, least: f64, size: f64, at_rest: f64, report: &mut 
         let message = format!("{} begins closed: something lies {} inside the surface", owner.what, short(-least));
         let hint = match at_rest {
             depth if depth > 0.0 => {
-                format!("it is pushed out at t = 0; at rest its weight holds it {} inside", short(depth))
+                let far = short(-least - depth);
+                format!(
+                    "move it out by {far}, or it is pushed out at t = 0; at rest its weight holds it {} inside",
+                    short(depth)
+                )
             }
-            _ => "it is pushed out at t = 0".to_owned(),
+            _ => format!("move it out by {}, or it is pushed out at t = 0", short(-least)),
         };
         report.warn(owner.span, message, hint);
     }

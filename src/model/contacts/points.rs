@@ -187,7 +187,7 @@ impl<'a, 'd> Finder<'a, 'd> {
         let at = contact.points.as_ref()?;
         if !names.values.iter().any(|at| self.names_part(at)) {
             let message = "`points` lie between the nodes of parts or the corners of bodies, and none is named here";
-            return self.report.error(&at.span, message);
+            return self.report.error_with(&at.span, message, "leave `points` out");
         }
         let Undivided { lines, solids } = undivided;
         if lines.is_empty() && solids.is_empty() {
@@ -199,7 +199,9 @@ impl<'a, 'd> Finder<'a, 'd> {
         match (self.divides, solids.is_empty()) {
             // Nothing is lost where they divide something else, and these need none.
             (true, _) if lines.is_empty() => {}
-            (true, _) => self.report.warn(&at.span, message, "it divides what else is named in `with`"),
+            (true, _) => {
+                self.report.warn(&at.span, message, "add a separate contact for these; it divides the others in `with`")
+            }
             (false, false) => self.report.warn(&at.span, message, "leave `points` out"),
             (false, true) => return self.report.error_with(&at.span, message, "leave `points` out"),
         }

@@ -22,7 +22,7 @@ pub fn read_surface<'d>(
     let owner = Owner::new(format!("the surface of contact `{name}`"), &table.span);
     if let Some(edges) = &table.edges {
         let message = "`edges` is of a surface that is the `part` of a shell";
-        return report.error(&edges.span, message);
+        return report.error_with(&edges.span, message, "remove `edges`, or name a `part`");
     }
     if let (None, Some(body), false) = (&table.kind, &table.body, report.is_spoiled(owner.span, "shape")) {
         return shape_of_body(body, table, scene, report);

@@ -172,7 +172,7 @@ impl<'d> GivenVelocities<'d> {
             };
             if spots.iter().all(idle) {
                 let message = format!("`{}` does not take the angular_velocity that it is given", spots[0].name);
-                let hint = "nothing there turns: bars, springs and masses without inertia have no rotations";
+                let hint = "remove it: bars, springs and masses without inertia have no rotations";
                 report.warn(spots[0].span, message, hint);
             }
         }

@@ -164,7 +164,7 @@ impl<'d> Motions<'_, 'd> {
         if let (Some(axis), Some(from), Some(at)) = (axis, unit, direction) {
             let across = from - from.dot(&axis) * axis;
             if across.norm() < 1e-9 {
-                return self.report.error(&at.span, "`direction` lies along `axis`: angles need one across it");
+                return self.report.error(&at.span, "`direction` lies along `axis`, but must have a part across it");
             }
             unit = Some(across.normalize());
         }

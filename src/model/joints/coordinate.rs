@@ -158,7 +158,7 @@ impl<'d> CoordinateKeys<'_, 'd> {
         // Static stages advance in time, so rates define positions.
         let is_static = self.scene.analysis.is_static();
         if is_static && self.scene.stage.is_none() && history != History::Displacement {
-            return self.report.error(&scale.span, "a static analysis takes a motion by `position` only");
+            return self.report.error(&scale.span, "a static analysis can have a motion by `position` only");
         }
         let index = match (&motion.amplitude, history) {
             (Some(_), _) => amplitude?,
@@ -377,8 +377,14 @@ impl<'d> CoordinateKeys<'_, 'd> {
                 "take several load steps, the last of them small, or a limit that is given",
             );
         } else if analysis.is_dynamic() && analysis.step_length.is_automatic() {
-            let message = "`friction` needs a `time_step` that is given: it follows the load of the step before, which errors of steps do not tell";
-            self.report.error_with::<()>(&friction.span, message, "or a limit that the joint's load does not change");
+            let message = "`friction` needs a `time_step` that is given: friction follows the load of the previous step, so the error of a step \
+                           is unknown";
+            self.report.error_with::<()>(
+                &friction.span,
+                message,
+                "give a number as `time_step`, or a limit that does not depend on the load of \
+                                                                   the joint",
+            );
         }
     }
 

@@ -71,7 +71,11 @@ fn joint_equations<'d>(
 ) -> Option<Vec<ConstraintEquation>> {
     if ends[0] == ends[1] {
         let node = nodes.label(ends[0]);
-        return report.error(owner.span, format!("{} joins `{node}` to itself", owner.what));
+        return report.error_with(
+            owner.span,
+            format!("{} joins `{node}` to itself", owner.what),
+            "name another node or body in `to`",
+        );
     }
     let d = nodes.x(ends[0]) - nodes.x(ends[1]);
     if !kind.make.ends_meet && d.norm() == 0.0 {
@@ -80,7 +84,7 @@ fn joint_equations<'d>(
     }
     if kind.make.ends_meet && !later && is_rounded(owner, ends.map(|end| nodes.x(end)), nodes, report)? {
         let message = format!("the ends of {} are {} apart, as rounded coordinates are", owner.what, short(d.norm()));
-        let hint = "they are joined as they are; a body's `point` in `to` may be left out";
+        let hint = "they are joined in this position; a body's `point` in `to` may be left out";
         report.push(Diagnostic::note(message).at(owner.span).hint(hint));
     }
     Some((kind.make.equations)(&axes, &d, values))
@@ -124,9 +128,10 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
         if ends[0] == ends[1] {
             let label = nodes.label(ends[0]);
             let message = format!("both ends of joint `{name}` lie on `{label}`, so it holds nothing");
-            report.error::<()>(&joint.span, message);
+            report.error_with::<()>(&joint.span, message, "name another end, or remove the joint");
         } else if ends.iter().all(|&end| is_fixed(end)) {
-            report.error::<()>(&joint.span, format!("both ends of joint `{name}` are fixed, so it holds nothing"));
+            let message = format!("both ends of joint `{name}` are fixed, so it holds nothing");
+            report.error_with::<()>(&joint.span, message, "remove the joint, or one of the supports");
         } else if let Some((given, driven)) =
             initial_rates(made, ends.map(is_fixed), (amplitudes, duration, coordinate::size(scene, nodes, name)), nodes)
             && let Some(motion) = &joint.motion
@@ -134,7 +139,7 @@ pub fn check_joints(scene: &Scene, joints: &[Joint], amplitudes: &[Amplitude], n
             let (given, driven) = (short(given), short(driven));
             let message =
                 format!("the motion of joint `{name}` begins at the rate {driven}, but its ends have {given}");
-            report.error_with::<()>(&motion.span, message, "the velocities of what it joins contradict it");
+            report.error_with::<()>(&motion.span, message, "the velocities of its ends contradict it");
         }
     }
 }

@@ -66,7 +66,8 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
         if let Some([from, to]) = ends
             && from == to
         {
-            report.error::<()>(owner.span, format!("{} joins `{}` to itself", owner.what, nodes.label(from)));
+            let message = format!("{} joins `{}` to itself", owner.what, nodes.label(from));
+            report.error_with::<()>(owner.span, message, "name another node or body in `to`");
         }
         let failure = link.failure.as_ref().and_then(|table| failure(table, rotations, report));
         let pretension = pretension(&owner, link, kind.as_ref(), scene, report);
@@ -197,7 +198,7 @@ fn failure<'d>(
         return report.error_with(
             &shear.span,
             message,
-            "a `bushing` resists along three axes, of which the first is normal",
+            "give a `bushing`, which resists along three axes; the first one is normal",
         );
     }
     if table.normal.is_none() && table.shear.is_none() {

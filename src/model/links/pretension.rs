@@ -48,7 +48,10 @@ pub fn pretension<'d>(
             );
         }
         Some(LinkKind::Line { law: LinkLaw::TensionOnly { gap, .. }, .. }) if *gap > 0.0 => {
-            wrong("a link with a `gap` cannot be pretensioned", "leave the gap out: what is taken up is found");
+            wrong(
+                "a link with a `gap` cannot be pretensioned",
+                "remove the gap: rdsolve finds the slack that the bolt takes up",
+            );
         }
         Some(LinkKind::Line { law: LinkLaw::TensionOnly { .. }, .. }) if force.value < 0.0 => {
             wrong("a link that is \"tension-only\" needs a `pretension` above 0", "a `linear` link can be pushed");
@@ -82,7 +85,7 @@ fn pulls<'d>(
     report: &mut Report<'d>,
 ) -> Option<Option<Option<usize>>> {
     let place = span(&link.pretension).unwrap_or(owner.span);
-    let needs = "`pretension` needs a static stage, the first in which the link is there";
+    let needs = "`pretension` needs a static stage, the first with this link";
     let hint = "`[[stages]]` of kind \"static\" pull it, or give `preload`, the force at zero elongation";
     let Some(stage) = scene.stage else {
         return match scene.analysis.is_static() {

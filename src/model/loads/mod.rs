@@ -102,7 +102,7 @@ fn nodal_load<'d>(
             let lost = (0..3).filter(|&i| part[i] != 0.0 && !topology.is_taken(spot.node, first + i));
             let lost = directions(lost.map(|i| first + i));
             if let Some(place) = place.filter(|_| topology.is_complete() && !lost.is_empty()) {
-                let message = format!("nothing connected to `{}` takes a load in {lost}", spot.name);
+                let message = format!("nothing connected to `{}` resists a load in {lost}", spot.name);
                 report.error_with::<()>(place, message, "bars, springs and point masses have no rotations");
             }
         }

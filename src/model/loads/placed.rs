@@ -41,7 +41,7 @@ pub fn placed_load<'d>(
             Place::Part(part) if part.kind.has_sections() => scene.parts.entry(part).map(|entry| entry.range.start),
             _ => {
                 let message = format!("`distance` is one along a beam, and `{}` is {}", name.value, place.kind());
-                report.error::<()>(&name.span, message);
+                report.error_with::<()>(&name.span, message, "name an entry of [[beams]], or remove `distance`");
                 continue;
             }
         };
@@ -60,7 +60,7 @@ pub fn placed_load<'d>(
             Err(length) => {
                 let place = load.distance.as_ref().map_or(owner.span, |at| &at.span);
                 let message = format!("`distance` lies beyond beam `{}`, which is {} long", name.value, short(length));
-                report.error::<()>(place, message);
+                report.error_with::<()>(place, message, format!("give {} or less", short(length)));
             }
         }
     }

@@ -33,7 +33,7 @@ pub fn spread_load<'d>(
     if let Some(at) = follower
         && load.force_per_area.is_some()
     {
-        let hint = "give the load that keeps its direction a `[[loads]]` of its own";
+        let hint = "give the load that keeps its direction a separate entry of `[[loads]]`";
         report.error_with::<()>(&at.span, "of loads spread over shells only `pressure` can follow", hint);
     }
     let Some(names) = names_of(load, &owner, report) else { return (Vec::new(), None) };
@@ -94,13 +94,17 @@ fn line_load(load: &words::Load, amplitude: Option<usize>, report: &mut Report) 
     if given.is_none() {
         report.reject_unused("a load over areas", &keys);
     } else if let Some(at) = [span(&load.pressure), span(&load.force_per_area)].into_iter().flatten().next() {
-        report.error::<()>(at, "a load acts per length or per area, not both: give each a `[[loads]]` of its own");
+        report.error::<()>(at, "a load acts per length or per area, not both: give two entries of `[[loads]]`");
     }
     if let (Some(_), Some(local)) = (&load.force_per_length, &load.local) {
         report.error::<()>(&local.span, "a load takes `force_per_length` or `local`, not both");
     }
     if let (Some(_), Some(projected)) = (&load.local, &load.projected) {
-        report.error::<()>(&projected.span, "a load in section axes has no projected length");
+        report.error_with::<()>(
+            &projected.span,
+            "a load in section axes has no projected length",
+            "give `force_per_length` in place of `local`",
+        );
     }
     let profile = load.profile.as_ref().and_then(|points| report.rising("profile", "fractions of the length", points));
     let outside = |points: &&Vec<[f64; 2]>| points.iter().any(|point| !(0.0..=1.0).contains(&point[0]));
@@ -192,7 +196,7 @@ impl<'d> Spread<'_, 'd> {
                     let message = format!("this load acts on {what}, and `{}` is {}", name.value, place.kind());
                     match place {
                         Place::Part(part) if is_line(part) => {
-                            let hint = "beams and bars take `force_per_length`; gravity acts by itself";
+                            let hint = "beams and bars take `force_per_length`; gravity acts without an entry";
                             report.error_with::<()>(&name.span, message, hint);
                         }
                         Place::Body(_) => {
@@ -200,7 +204,7 @@ impl<'d> Spread<'_, 'd> {
                             report.error_with::<()>(&name.span, message, hint);
                         }
                         _ => {
-                            report.error::<()>(&name.span, message);
+                            report.error_with::<()>(&name.span, message, format!("name one of the {what}"));
                         }
                     }
                 }
@@ -243,7 +247,7 @@ impl<'d> Spread<'_, 'd> {
         for index in entry.range.clone() {
             let part = &parts.list[index];
             if let Some(at) = self.words.profile.as_ref().filter(|_| !is_chain(part)) {
-                let hint = "its elements come from a group of the mesh in an order of their own";
+                let hint = "the order of its elements is that of a group of the mesh";
                 let message = format!("`profile` goes along a line, and the elements of `{}` are none", name.value);
                 report.error_with::<()>(&at.span, message, hint);
             }
@@ -285,7 +289,7 @@ impl<'d> Spread<'_, 'd> {
         let Some((key, at)) = wrong else { return true };
         let message =
             format!("`{key}` of a load per length is for beams, and `{}` holds edges or rigid parts", name.value);
-        report.error_with::<()>(at, message, "give the load of the edges a `[[loads]]` of its own");
+        report.error_with::<()>(at, message, "give the load of the edges a separate entry of `[[loads]]`");
         false
     }
 

@@ -31,7 +31,7 @@ pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64
                         short(end_time),
                         name = name.value
                     );
-                    let hint = "`after = \"hold\"` says that this is meant, `after = \"zero\"` that nothing follows";
+                    let hint = "give `after = \"hold\"` if this is meant, or `after = \"zero\"` to end the load there";
                     report.warn(&name.span, message, hint);
                 }
                 if words.before.is_none() && *before != 0.0 && *first > slack {
@@ -42,7 +42,8 @@ pub fn check_amplitude_ends(deck: &Deck, amplitudes: &[Amplitude], end_time: f64
                         short(*before),
                         name = name.value
                     );
-                    let hint = "`before = \"hold\"` says that this is meant, `before = \"zero\"` that nothing precedes";
+                    let hint =
+                        "give `before = \"hold\"` if this is meant, or `before = \"zero\"` to begin the load there";
                     report.warn(&name.span, message, hint);
                 }
             }

@@ -39,7 +39,7 @@ pub fn check_content(deck: &Deck, report: &mut Report) {
     if !moves && !spoiled {
         let message =
             "the deck has nothing that could move: no beams, bars, shells, bodies, masses or links between points";
-        report.push(Diagnostic::error(message));
+        report.push(Diagnostic::error(message).hint("add a part, such as [[beams]] or [[bodies]]"));
     }
 }
 
@@ -59,7 +59,11 @@ pub fn check_use(deck: &Deck, topology: &Topology, report: &mut Report) {
         let connected = (0..6).any(|dof| topology.is_connected(node, dof)) || topology.attachment(node).is_some();
         if !connected && !masters.contains(&node) {
             let message = format!("nothing is connected to point `{}`", name.value);
-            report.warn(&name.span, message, "it is omitted from the computation");
+            report.warn(
+                &name.span,
+                message,
+                "remove it, or name it in a part or link; it is omitted from the computation",
+            );
         }
     }
     check_table("material", &deck.materials, &named_materials(deck), report);
@@ -69,7 +73,11 @@ pub fn check_use(deck: &Deck, topology: &Topology, report: &mut Report) {
 
 fn check_table<T>(what: &str, table: &Named<T>, used: &HashSet<&str>, report: &mut Report) {
     for (name, _) in table.0.iter().filter(|(name, _)| !used.contains(name.as_str())) {
-        report.warn(&name.span, format!("nothing uses {what} `{}`", name.value), "nothing in the deck names it");
+        report.warn(
+            &name.span,
+            format!("nothing uses {what} `{}`", name.value),
+            "remove it, or name it where it is meant",
+        );
     }
 }
 
@@ -81,12 +89,12 @@ pub fn check_static(deck: &Deck, report: &mut Report) {
         report.warn(
             place,
             "this has no effect in a static analysis",
-            "a static analysis has no velocities, no inertia and no damping",
+            "remove it: a static analysis has no velocities, no inertia and no damping",
         );
     }
     // Rotations are updated in load steps too.
     let Some(integrator) = &deck.integrator else { return };
     for place in span(&integrator.kind).into_iter().chain(integrator.values.places()) {
-        report.warn(place, "this has no effect in a static analysis", "load steps need no time integration");
+        report.warn(place, "this has no effect in a static analysis", "remove it: load steps need no time integration");
     }
 }

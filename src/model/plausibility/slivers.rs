@@ -54,7 +54,7 @@ pub fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Rep
         if long.count > 0 {
             let message = format!("{} of {name}: up to {:.0} times as long as high", slivers(long.count), long.value);
             let hint = format!(
-                "{}; bending loses about {:.0} digits of precision there",
+                "give more equal edges {}; bending loses about {:.0} digits of precision there",
                 long.place(),
                 2.0 * long.value.log10()
             );
@@ -62,7 +62,7 @@ pub fn check_slivers(deck: &Deck, parts: &Parts, nodes: &Nodes, report: &mut Rep
         }
         if flat.count > 0 {
             let message = format!("{name} has a quadrilateral with a corner of {} degrees", degrees(flat.value));
-            let hint = format!("{}; it acts like a triangle", flat.place());
+            let hint = format!("move one of its corners {}; it acts like a triangle", flat.place());
             report.warn(surface.span, message, hint);
         }
     }

@@ -91,7 +91,7 @@ fn plausible(
     let value = at.value * scale;
     if value > 0.0 && !(low..=high).contains(&value) {
         let message = format!("`{key}` is not plausible in the units {}", units.label());
-        report.warn(&at.span, message, format!("that is {} {si}", short(value)));
+        report.warn(&at.span, message, format!("that is {} {si}; give it in {}", short(value), units.label()));
     }
 }
 

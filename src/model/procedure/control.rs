@@ -95,11 +95,11 @@ fn by_displacement<'d>(
     }
     let stop = stop?;
     if let Some(at) = analysis.stop.as_ref().and_then(|at| at.pass.as_ref()) {
-        report.error::<()>(&at.span, "a displacement that steps move passes its value once");
+        report.error_with::<()>(&at.span, "a displacement that steps move passes its value once", "remove `pass`");
     }
     let increment = report.positive("increment", &analysis.increment).unwrap_or(stop.value.abs() / INCREMENTS);
     if let Some(at) = analysis.increment.as_ref().filter(|at| at.value > stop.value.abs()) {
-        let message = format!("`increment` is larger than the displacement that it leads to, which is {}", stop.value);
+        let message = format!("`increment` must not exceed the displacement of `stop`, which is {}", stop.value);
         report.error::<()>(&at.span, message);
     }
     let first = increment / stop.value.abs();
@@ -142,14 +142,14 @@ fn check_history(scene: &Scene, amplitudes: &[Amplitude], topology: &Topology, r
                 "material `{}` is viscous, and with arc-length control time is the load factor only",
                 name.value
             );
-            report.error::<()>(&at.span, message);
+            report.error_with::<()>(&at.span, message, "remove `viscosity`, or give `control` = \"time\"");
         }
         if let Some(place) = material.values.place("failure_rate") {
             let message = format!(
                 "material `{}` fails by the rate of its strain, and with arc-length control time is the load factor only",
                 name.value
             );
-            report.error::<()>(place, message);
+            report.error_with::<()>(place, message, "remove `failure_rate`, or give `control` = \"time\"");
         }
     }
     let used = named_amplitudes(scene.deck);

@@ -45,7 +45,8 @@ pub fn displacement_target<'d>(
         return report.error_with(&name.span, message, format!("{what} needs an independent node: name `{master}`"));
     }
     if topology.restraint(node, dof).is_some() {
-        return report.error(&quantity.span, format!("{word} of `{}` is prescribed by a support", name.value));
+        let message = format!("{word} of `{}` is prescribed by a support", name.value);
+        return report.error_with(&quantity.span, message, "name a direction that is free");
     }
     if topology.is_complete() && !topology.is_taken(node, dof) {
         let message = format!("nothing acts on `{}` in direction {word}", name.value);

@@ -22,15 +22,11 @@ pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Repor
         report.error_with::<()>(
             place,
             message,
-            "the step that an element bears is known for its lumped mass: mass = \"lumped\"",
+            "the critical step of an element is known for lumped masses only: give `mass` = \"lumped\"",
         );
     } else if kinds().all(|(_, kind)| kind == MassKind::None) {
-        let message = format!("`{KEY}` raises masses of beams, bars and shells, of which none has any");
-        report.error_with::<()>(
-            place,
-            message,
-            "remove it, or give one of these parts a density; bodies, links and contacts are never scaled",
-        );
+        let message = format!("`{KEY}` raises masses of beams, bars and shells, but none of them has any");
+        report.error_with::<()>(place, message, "bodies, point masses, links and contacts keep their masses");
     }
     for base in deck.environment.iter().flat_map(|environment| &environment.base_acceleration) {
         let message = "accelerations of the ground do not go with mass scaling";
@@ -52,19 +48,23 @@ fn check_length(scene: &Scene, (step, place): (f64, &Span), report: &mut Report)
     let (deck, analysis) = (scene.deck, &scene.analysis);
     // A stage may be shorter than the step that suits all.
     if step > analysis.end_time {
-        let message = format!("`{KEY}` is longer than the motion, which takes {}", short(analysis.end_time));
-        report.error_with::<()>(place, message, "the mass that elements would need for it grows with its square");
+        let message = format!("`{KEY}` is longer than the motion, {}", short(analysis.end_time));
+        report.error_with::<()>(
+            place,
+            message,
+            "give a tenth of the shortest period of interest; the added mass grows with its square",
+        );
         return;
     }
     match (&analysis.step_length, span_of_step(deck)) {
         (StepLength::Fixed { step: length }, Some(at)) if *length > step => {
             let message = format!("`time_step` is above `{KEY}`, the step that elements bear");
-            let hint = "steps are cut back wherever they are too long: take 0.8 of it, as \"auto\" does";
+            let hint = "take 0.8 of it, as \"auto\" does; longer steps are cut back";
             report.warn(at, message, hint);
         }
         (StepLength::Fixed { step: length }, _) if *length < 0.5 * step => {
             let message = format!("`{KEY}` adds mass for steps that are not taken: `time_step` is {}", short(*length));
-            report.warn(place, message, format!("{} is enough", short(*length / SAFE)));
+            report.warn(place, message, format!("give {}", short(*length / SAFE)));
         }
         (StepLength::Fixed { .. }, _) => {}
         _ => {
@@ -74,7 +74,7 @@ fn check_length(scene: &Scene, (step, place): (f64, &Span), report: &mut Report)
                     "`{KEY}` adds mass for steps that are not taken: automatic ones are {} at most",
                     short(longest)
                 );
-                report.warn(place, message, format!("{} is enough", short(enough * longest)));
+                report.warn(place, message, format!("give {}", short(enough * longest)));
             }
         }
     }

@@ -88,7 +88,8 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
         && step > end
     {
-        report.error::<()>(&at.span, format!("`time_step` is longer than the run, which ends at {end}"));
+        let message = format!("`time_step` is longer than the run, which ends at {end}");
+        report.error_with::<()>(&at.span, message, format!("give {} or less", short(end)));
     }
     if let (Some(end), Some(step), Some(at)) = (end_time, time_step, &analysis.time_step)
         && end / step > MOST_STEPS
@@ -99,13 +100,16 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     if let (Some(least), Some(step), Some(at)) = (least_step, time_step, &analysis.least_step)
         && least > step
     {
-        report.error::<()>(&at.span, format!("`least_step` is above `time_step`, which is {step}"));
+        report.error::<()>(&at.span, format!("`least_step` must not be above `time_step`, which is {step}"));
     }
     if let (Some(least), Some(end), Some(_), Some(at)) = (least_step, end_time, error_tolerance, &analysis.least_step)
         && least > FIRST_STEP * end
     {
         let longest = short(FIRST_STEP * end);
-        report.error::<()>(&at.span, format!("`least_step` is above the first automatic step, which is {longest}"));
+        report.error::<()>(
+            &at.span,
+            format!("`least_step` must not be above the first automatic step, which is {longest}"),
+        );
     }
     let kind = if is_static { AnalysisKind::Static } else { AnalysisKind::Dynamic };
     let plane = analysis.plane.as_ref().is_none_or(|plane| plane.value == words::Plane::Auto);
@@ -178,8 +182,8 @@ pub fn can_be_kept(key: &str, tolerance: f64, scheme: &dyn Scheme, place: &Span,
     let order = scheme.order() as f64;
     let least = (STEPS * f64::EPSILON).powf(order / (order + 1.0));
     if tolerance > 0.0 && tolerance < least {
-        let message = format!("`{key}` is below what the digits of numbers hold with \"{}\"", scheme.word());
-        let hint = format!("rounding of so many steps may add up to more than {least:.0e}");
+        let message = format!("`{key}` is below the rounding error of numbers with \"{}\"", scheme.word());
+        let hint = format!("give {least:.0e} or more; rounding of so many steps may add up to that");
         report.warn(place, message, hint);
     }
 }
@@ -212,7 +216,7 @@ pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, par
     }
     check_yielding(scheme, &at.span, parts.iter().any(|part| part.yields()), report);
     if parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
-        let hint = "mass = \"lumped\" needs no matrix at all";
+        let hint = "give `mass` = \"lumped\", which needs no matrix at all";
         report.warn(&at.span, "consistent masses are factorised at every evaluation of an explicit scheme", hint);
     }
     for shear in deck.beams.iter().filter_map(|beam| beam.shear.as_ref()).filter(|shear| !shear.value) {

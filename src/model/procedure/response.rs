@@ -49,7 +49,7 @@ pub fn response<'d>(analysis: &'d Analysis, place: &'d Span, report: &mut Report
         report.warn(
             &at.span,
             "with this damping nothing vibrates",
-            "the ratio is that to critical damping: 0.02 is 2 %",
+            "give the ratio to critical damping, such as 0.02 for 2 %",
         );
     }
     let extent_is_open = analysis.modes.is_none() && analysis.up_to.is_none();
@@ -92,7 +92,7 @@ fn in_range<'d>(range: &'d FrequencyRange, report: &mut Report<'d>) -> (Vec<f64>
     let spacing = range.spacing.as_ref().map_or(Spacing::Linear, |at| at.value);
     let steps = range.steps.value;
     let fault = match () {
-        () if to < from => Some((&range.to.span, format!("`to` lies below `from`, which is {from}"))),
+        () if to < from => Some((&range.to.span, format!("`to` must not be below `from`, which is {from}"))),
         () if spacing == Spacing::Logarithmic && from == 0.0 => {
             Some((&range.from.span, "`from` must be above zero with logarithmic spacing".to_owned()))
         }
@@ -126,8 +126,8 @@ pub fn check_harmonic(deck: &Deck, whole: &Deck, report: &mut Report) {
     let Some(kind) = deck.analysis.as_ref().and_then(|analysis| analysis.kind.as_ref()) else { return };
     match kind.value {
         AnalysisKind::FrequencyResponse if harmonic.next().is_none() => {
-            let hint = "give loads, motions of supports or `base_acceleration` an `amplitude` of kind \"harmonic\": they act at their full \
-                        value, and all others hold the state about which the scene moves";
+            let hint = "give loads, motions of supports or `base_acceleration` an `amplitude` of kind \"harmonic\": these act at their full \
+                        value, and all other loads hold the static state";
             report.error_with::<()>(&kind.span, "nothing excites this frequency response", hint);
         }
         AnalysisKind::Dynamic | AnalysisKind::Static if !stages_respond => {

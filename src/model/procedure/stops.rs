@@ -39,7 +39,11 @@ fn joined<'d>(actors: NamedActors<'d>, report: &mut Report<'d>) -> NamedActors<'
     let mut names: NamedActors = Vec::new();
     for (name, of) in actors {
         if names.iter().any(|(other, _)| other.value == name.value) {
-            report.error::<()>(&name.span, format!("two loads or supports have the name `{}`", name.value));
+            report.error_with::<()>(
+                &name.span,
+                format!("two loads or supports have the name `{}`", name.value),
+                "rename one of them",
+            );
         } else {
             names.push((name, of));
         }

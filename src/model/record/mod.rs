@@ -378,7 +378,7 @@ fn places(selection: &RecordSelection, names: &[String], count: usize) -> Result
         [time, value] if wanted == 2 => Ok(Places { time: Some(time), value }),
         _ if wanted == 1 => Err("with `time_step`, `columns` names one column, that of the value".into()),
         _ => {
-            Err("`columns` names two columns, that of the time and that of the value, or one beside `time_step`".into())
+            Err("`columns` must be two numbers, the column of the time and the column of the value, or one beside `time_step`".into())
         }
     }
 }

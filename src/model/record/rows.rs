@@ -78,7 +78,7 @@ impl Rows {
     fn require_one_channel(&mut self, text: &Text, line: TextLine) {
         if String::from_utf8_lossy(line.bytes).to_ascii_uppercase().contains(ACCELERATIONS) {
             let message =
-                "the file has a second channel, and one alone can be read: cut the channel into a file of its own";
+                "the file has a second channel, and rdsolve reads one only: write the channel to a separate file";
             self.faults.push(text.fault(message, line.number));
         }
     }

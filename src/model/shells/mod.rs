@@ -74,7 +74,7 @@ fn read_shell<'d>(
     let corners = corners?;
     let triangles = match &shell.kind {
         Some(at) if at.value == words::ElementKind::Quadrilateral && corners.len() == 3 => {
-            return cx.report.error(&at.span, "a patch of three corners is made of triangles");
+            return cx.report.error_with(&at.span, "a patch of three corners is made of triangles", "remove `kind`");
         }
         Some(at) => at.value == words::ElementKind::Triangle,
         None => corners.len() == 3,
@@ -113,7 +113,7 @@ fn of_patch<'d>(
     let corners = if triangles { 3 } else { 4 };
     if elements.iter().any(|element| folds(element, corners, cx.nodes)) {
         let message = format!("{} folds back on itself", patch.owner.what);
-        let hint = "list the corners in order round the patch, each at a place of its own";
+        let hint = "list the corners in order round the patch, at different places";
         return cx.report.error_with(patch.owner.span, message, hint);
     }
     Some(elements)
@@ -156,7 +156,11 @@ fn of_group<'d>(
     };
     if against > 0 {
         let message = format!("neighbouring elements of {} have opposite normals: at {against} edges", owner.what);
-        cx.report.warn(&name.span, message, "pressure acts against the normal of each element");
+        cx.report.warn(
+            &name.span,
+            message,
+            "reverse the order of nodes of one side in the mesh; pressure acts against the normal of each element",
+        );
     }
     Some(shells)
 }
@@ -273,7 +277,7 @@ fn read_counts<'d>(counts: &At<OneOrMany<u64>>, cx: &mut PartContext<'_, 'd>) ->
     if values.is_empty() || values.len() > 2 {
         return cx.report.error_with(
             &counts.span,
-            "`elements` takes one or two numbers here",
+            "`elements` must be one or two numbers here",
             "along edge1 and along edge2",
         );
     }

@@ -103,7 +103,7 @@ impl<'d> Patch<'_, 'd> {
             let normal = by_s.cross(&by_t);
             if normal.norm() <= 1e-9 * by_s.norm_squared().max(by_t.norm_squared()) {
                 let message = format!("{} has no area near one of its corners", self.owner.what);
-                let hint = "list the corners in order round the patch, each at a place of its own";
+                let hint = "list the corners in order round the patch, at different places";
                 return report.error_with(self.owner.span, message, hint);
             }
             normals[self.at(i, j)] = normal.normalize();

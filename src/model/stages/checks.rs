@@ -26,14 +26,18 @@ pub fn check<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 /// Reports input for runs without stages only.
 fn check_rest<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     if let Some(study) = &sequence.whole.study {
-        report.error::<()>(&study.span, "a study does not go over stages");
+        report.error_with::<()>(
+            &study.span,
+            "a study does not go over stages",
+            "remove it, or give one [analysis] in place of the stages",
+        );
     }
     let Some(analysis) = &sequence.whole.analysis else { return };
     let keys = keys!(
         analysis; kind, control, end_time, time_step, stop, increment, steps, growth, modes, up_to, damped, speeds,
         frequencies, method, damping_ratio
     );
-    report.reject_unused("a deck with `[[stages]]`, which have kinds, durations and steps of their own", &keys);
+    report.reject_unused("a deck with `[[stages]]`, which have their kinds, durations and steps", &keys);
 }
 
 /// Reports what there is too much or too little of for stages of modes.
@@ -98,15 +102,15 @@ fn check_new<'d>(sequence: &StageSequence<'d>, index: usize, report: &mut Report
         }
     }
     if buckles && new.is_empty() {
-        let message = format!("no load first acts in stage `{}`, so none has a factor at which it buckles", stage.name);
-        let hint = format!("give a load `stages = [\"{}\"]`; those of the stage before stay as they are", stage.name);
+        let message = format!("no load first acts in stage `{}`, so no buckling factor exists", stage.name);
+        let hint = format!("give a load `stages = [\"{}\"]`; those of the previous stage do not change", stage.name);
         report.error_with::<()>(&stage.table.span, message, hint);
     }
     for load in new {
         match &load.amplitude {
             Some(amplitude) if !buckles && names_harmonic(sequence.whole, amplitude.as_str()) => {}
             _ if !buckles => {
-                let message = format!("nothing brings this load on before the modes of stage `{}`", stage.name);
+                let message = format!("nothing applies this load before the modes of stage `{}`", stage.name);
                 let hint = "they are those about the state that has been reached: name a static stage before it";
                 report.error_with::<()>(&load.span, message, hint);
             }
@@ -130,7 +134,7 @@ fn check_initial<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
             }
         }
         if table.stages.is_none() && first_dynamic.is_none() {
-            report.warn(&table.span, "this has no effect", "no stage is dynamic");
+            report.warn(&table.span, "this has no effect", "remove it: no stage is dynamic");
         }
     }
 }
@@ -147,7 +151,7 @@ fn check_tables<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
         };
         if !others.is_empty() && !others.iter().any(meets) {
             let message = format!("the name `{}` is taken", name.value);
-            let hint = "a table of other stages has it, and what is carried over is known by its name";
+            let hint = "a table of other stages has it, and parts are carried over by their names";
             report.error_with::<()>(&name.span, message, hint);
         }
         others.push(stages);

@@ -129,7 +129,7 @@ impl<'d> StageSequence<'d> {
         let end = begin + duration;
         let Some(time) = table.stop.as_ref().and_then(|stop| stop.time.as_ref()) else { return end };
         if time.value > end && !self.is_shortened {
-            let message = format!("the stage ends at {} before it comes to this", short(end));
+            let message = format!("the stage ends at {} before this time", short(end));
             report.error_with::<()>(&time.span, message, "`time` is that of the run");
         }
         if time.value <= begin {

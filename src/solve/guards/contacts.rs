@@ -90,7 +90,10 @@ fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
             None => MEANT,
         };
         if -gap > limit * contact.size {
-            warnings.deepen(&contact.name, -gap, contact.size);
+            let now = contact.law.as_ref().map_or(0.0, |law| law.stiffness);
+            // The penetration of an impact falls with the root of the stiffness.
+            let enough = now * (2.0 * gap / (limit * contact.size)).powi(2);
+            warnings.deepen(&contact.name, (-gap, contact.size), [now, enough]);
         }
     }
 }

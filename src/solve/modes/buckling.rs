@@ -114,27 +114,28 @@ fn warnings_of(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)
     let mut warnings = Vec::new();
     if !rests {
         warnings.push(
-            "without the loads the scene is not in equilibrium (prestress): factors are those of the loads on the geometry as it is \
-             given, with the prestress that parts have there"
+            "without the loads the scene is not in equilibrium, because parts have prestress. Factors are those of the given geometry with this \
+             prestress. Let a static stage find the equilibrium first (`[[stages]]`)"
                 .to_owned(),
         );
     }
     if let Some((nearest, _)) = found.first().filter(|(factor, _)| *factor < 0.0) {
         warnings.push(format!(
-            "nothing within reach buckles under these loads: factors are negative, those of the reversed loads, which buckle it at {} times \
-             their value",
+            "nothing within reach buckles under these loads. The factors are negative: the reversed loads buckle the structure at {} times their \
+             value. Reverse the loads if they have the wrong sign",
             short(-nearest)
         ));
     } else if found.len() < wanted {
         warnings.push(format!(
-            "{} factors were found, and no more within reach: the others lie much farther, or only stiffen",
+            "{} factors were found, and no more within reach: further ones are much larger, or their modes stiffen. Give `modes` = {}",
+            found.len(),
             found.len()
         ));
     }
     if !at.loads_have_potential() {
         warnings.push(
-            "loads that follow, and moments about axes fixed in space, have no potential: factors are those of the symmetric part \
-             of their stiffness, which is what buckles statically where it is not their work that shakes (flutter)"
+            "follower loads, and moments about axes fixed in space, have no potential: factors use the symmetric part of their stiffness. They miss \
+             flutter; look for it with `kind = \"modal\"` and `damped = true` under these loads"
                 .to_owned(),
         );
     }
@@ -285,13 +286,14 @@ impl Response {
         let mut said = Vec::new();
         if !slack.is_empty() {
             said.push(format!(
-                "the loads slacken {slack}, whose stiffness counts all the same: factors are too high. Leave out what goes slack, stretch \
-                 cables before (`free_length`), or look for modes about the loaded state (kind = \"modal\")"
+                "the loads slacken {slack}, whose stiffness still counts, so factors are too high. Remove these parts, pretension cables \
+                 (`free_length`), or find modes of the loaded state (`kind = \"modal\"`)"
             ));
         }
         if !taut.is_empty() {
             said.push(format!(
-                "{taut} bear nothing without the loads, which strain them: their stiffness is left out, and factors may be too low"
+                "{taut} carry no force without the loads, but do under them: their stiffness is omitted, and factors may be too low. Pretension cables \
+                 (`free_length`), or find modes of the loaded state (`kind = \"modal\"`)"
             ));
         }
         said

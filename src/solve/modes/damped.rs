@@ -122,7 +122,10 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
     }
     if near.zero > DOUBTFUL * near.shift {
         warnings
-            .push(format!("roots below {:.3e} Hz cannot be told from zero, and are given as zero", near.zero / TAU));
+            .push(format!(
+                "roots below {:.3e} Hz are rounding error, and are written as zero. Replace the stiffest parts by rigid bodies to resolve them",
+                near.zero / TAU
+            ));
     }
     list.iter_mut().for_each(|mode| mode.whirl = gyroscopic.whirl(at, mode));
     let unstable = list.iter().filter(|mode| mode.root[0] > GROWS * size(mode.root)).count();

@@ -75,54 +75,62 @@ impl From<TooLarge> for ModesFault {
     }
 }
 
+impl ModesFault {
+    /// The message of a fault without values.
+    fn fixed_message(&self) -> &'static str {
+        match self {
+            ModesFault::NoMass => {
+                "nothing that moves has mass, so there are no modes. Give materials a `density`, or points a mass (`[[masses]]`)"
+            }
+            ModesFault::MovedSupport => {
+                "a support is displaced, but a buckling analysis finds factors of loads only. Replace its `motion` by the force that it exerts"
+            }
+            ModesFault::UnstableUnloaded => {
+                "the scene is unstable without these loads, by its prestress or earlier loads, so their factor is not defined. Lower the \
+                 prestress, or the loads of earlier `[[stages]]`"
+            }
+            ModesFault::NoLoads => {
+                "no load deforms anything, and buckling needs loads whose factors it finds. Add a load that compresses the structure \
+                 (`[[loads]]`)"
+            }
+            ModesFault::NoBuckling => {
+                "neither these loads nor their reverse buckle anything within reach. Check their direction, or follow large motions with \
+                 `control` = \"arc-length\""
+            }
+            ModesFault::NothingExcites => {
+                "no harmonic load or motion moves anything: they act on supports alone, or are zero. Let one of them, with an `amplitude` of \
+                 kind \"harmonic\", act on a node that is free"
+            }
+            ModesFault::NothingSpins => {
+                "no body spins at t = 0, so `speeds` rotates nothing. Give the rotor an angular velocity in `[[initial]]`, whose axis counts"
+            }
+            _ => "a signal stopped the search for `modes`. Start the run again",
+        }
+    }
+}
+
 impl fmt::Display for ModesFault {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            ModesFault::NoMass => write!(
-                f,
-                "nothing that moves has mass, so there are no modes: materials need a density, or points a mass (`[[masses]]`)"
-            ),
             ModesFault::Singular { label, direction } => write!(
                 f,
-                "neither stiffness nor mass resists at `{label}` in direction {direction}: modes are not defined; hold it \
-                 there, or give it a mass"
+                "neither stiffness nor mass resists at `{label}` in direction {direction}, so modes are not defined. Add a support there, or a \
+                 mass (`[[masses]]`)"
             ),
             ModesFault::NotConverged { wanted } => {
-                write!(f, "the iteration for {wanted} modes did not converge (fewer `modes`)")
+                write!(f, "the iteration for {wanted} modes did not converge. Give `modes` = {}", wanted.div_ceil(2))
             }
             ModesFault::Missed { found, there } => write!(
                 f,
-                "{found} modes were found where there are {there}: those listed are right, but some between them are missing"
+                "only {found} of {there} modes were found, so the list would have gaps. Give `modes` = {}, or a lower `up_to`",
+                found.div_ceil(2)
             ),
-            ModesFault::TooMany { there, most } => {
-                write!(f, "{there} modes lie below `up_to`, and at most {most} are computed at once: a lower `up_to`")
-            }
-            ModesFault::MovedSupport => write!(
+            ModesFault::TooMany { there, most } => write!(
                 f,
-                "a support is displaced, and a buckling analysis finds factors of loads only: replace it by the force that it exerts"
+                "{there} modes lie below `up_to`, and at most {most} are computed at once. Give `modes` = {most}, or a lower `up_to`"
             ),
-            ModesFault::UnstableUnloaded => {
-                write!(
-                    f,
-                    "the scene is unstable without these loads (compressed by what acts already, or its own prestress): nothing is left to \
-                     buckle"
-                )
-            }
-            ModesFault::NoLoads => {
-                write!(f, "no load acts that deforms anything: buckling needs loads, whose factors are found")
-            }
-            ModesFault::NoBuckling => {
-                write!(f, "no factor of these loads or of their reverse is found that lets anything buckle")
-            }
-            ModesFault::NothingExcites => {
-                write!(f, "nothing that is harmonic moves anything: loads act on supports alone, or are zero")
-            }
-            ModesFault::NothingSpins => write!(
-                f,
-                "no body spins at t = 0, so `speeds` has nothing to turn: give the rotor an angular velocity in `[[initial]]`, whose axis counts"
-            ),
-            ModesFault::Stopped => write!(f, "a signal has stopped the search"),
             ModesFault::TooLarge(error) => error.fmt(f),
+            _ => f.write_str(self.fixed_message()),
         }
     }
 }

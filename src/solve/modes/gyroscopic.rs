@@ -39,7 +39,8 @@ impl Gyroscopic {
             let name = || at.model.nodes[root].label.clone();
             if arm && inertia.mass > 0.0 {
                 gyroscopic.warnings.push(format!(
-                    "`{}` carries masses away from its centre while it spins: their gyroscopic and centrifugal forces are left out",
+                    "`{}` spins and carries masses away from its centre: modes omit their gyroscopic and centrifugal forces. Join them by a stiff beam in place \
+                     of `[[attachments]]`",
                     name()
                 ));
             }
@@ -52,8 +53,8 @@ impl Gyroscopic {
             let varies = skew(&omega) * J - J * skew(&omega);
             if varies.norm() > SYMMETRIC * momentum.norm() {
                 gyroscopic.warnings.push(format!(
-                    "`{}` is not symmetric about the axis that it spins about: its inertia varies as it turns, and modes are those of \
-                     the instant",
+                    "`{}` is not symmetric about its spin axis: its inertia varies as it rotates, and modes are those of the current instant. Give it equal \
+                     moments of `inertia` about both other axes, or compute the motion with `kind = \"dynamic\"`",
                     name()
                 ));
             }

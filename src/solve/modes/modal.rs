@@ -40,7 +40,10 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
     let mut warnings = left_out(at);
     warnings.extend(far_apart(&list));
     match (list.len(), extent) {
-        (0, ModeExtent::UpTo(frequency)) => warnings.push(format!("no mode lies below `up_to` = {frequency}")),
+        (0, ModeExtent::UpTo(frequency)) => warnings.push(format!(
+            "no mode lies below `up_to` = {frequency}, so the list is empty. Give `up_to` = {}",
+            10.0 * frequency
+        )),
         (found, ModeExtent::Count(count)) if found < count => {
             warnings.push(fewer(found, count));
         }
@@ -98,7 +101,9 @@ pub(super) fn natural_pairs(pencil: &mut Pencil, extent: ModeExtent) -> Result<V
 
 /// The warning of a model with fewer modes than wanted.
 pub(super) fn fewer(found: usize, count: usize) -> String {
-    format!("the scene has {found} modes, fewer than the {count} that `modes` asks for: all are listed")
+    format!(
+        "the scene has {found} modes, fewer than `modes` = {count}: all are listed. Give `modes` = {found}, or a finer mesh"
+    )
 }
 
 /// Modes hidden by rounding, in words.
@@ -107,7 +112,8 @@ pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     let lost: Vec<f64> = list.iter().filter_map(|mode| mode.lost).collect();
     if let Some(largest) = lost.iter().copied().reduce(f64::max) {
         warnings.push(format!(
-            "{} of the frequencies given as 0 have a stiffness that is lost in the rounding of stiffer parts: they lie somewhere below {}",
+            "{} of the frequencies written as 0 have stiffnesses below the rounding error of stiffer parts: the frequencies lie between 0 and {}. \
+             Replace the stiffest parts by rigid bodies (`[[bodies]]` with `parts`)",
             lost.len(),
             short(largest)
         ));
@@ -116,10 +122,10 @@ pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
     let (least, largest) = (squares().fold(f64::INFINITY, f64::min), squares().fold(0.0, f64::max));
     if largest > FAR_APART * least {
         warnings.push(format!(
-            "frequencies from {} to {} are so far apart that the highest have few digits, and some of them may be missing: fewer `modes` \
-             or a lower `up_to` are right",
+            "frequencies from {} to {} are so far apart that the highest have few digits, and some may be missing. Give `up_to` = {}",
             short(least.sqrt() / TAU),
-            short(largest.sqrt() / TAU)
+            short(largest.sqrt() / TAU),
+            short((0.9 * FAR_APART * least).sqrt() / TAU)
         ));
     }
     warnings
@@ -130,15 +136,15 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
     let mut warnings = Vec::new();
     if !at.loads_have_potential() {
         warnings.push(
-            "loads that follow, and moments about axes fixed in space, have no potential: modes are those of the symmetric part of \
-             their stiffness; `damped = true` takes all of it, and finds flutter"
+            "follower loads, and moments about axes fixed in space, have no potential: modes use the symmetric part of their stiffness. Give \
+             `damped = true`, which uses all of it and finds flutter"
                 .to_owned(),
         );
     }
     let spins = |node: usize| at.spins(&at.model.nodes[node].omega);
     if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
         warnings.push(format!(
-            "`{}` spins, and its gyroscopic moments are left out: `damped = true` takes them in",
+            "`{}` spins, and modes omit its gyroscopic moments. Give `damped = true`, which includes them",
             at.model.nodes[body.node].label
         ));
     }

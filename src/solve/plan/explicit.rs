@@ -74,7 +74,7 @@ impl Plan {
         let mut errors: Vec<Diagnostic> = missing.iter().take(MOST).map(error).collect();
         if missing.len() > MOST {
             let message = format!("{} more directions have no mass either", missing.len() - MOST);
-            errors.push(Diagnostic::error(message));
+            errors.push(Diagnostic::error(message).hint("give them mass likewise"));
         }
         errors
     }

@@ -53,25 +53,25 @@ fn far_stretches_are_said() {
                 1.08,
                 true,
                 Some(
-                    "stretched to 1.08 of its length somewhere: where it yields in its surface its forces are too large there by some 17 %",
+                    "a stretch of 1.08. Its strains are taken as small, so forces of yielding material are too large there by about 17 %",
                 ),
             ),
             (
                 0.92,
                 true,
                 Some(
-                    "pressed to 0.92 of its length somewhere: where it yields in its surface its forces are too small there by some 15 %",
+                    "a stretch of 0.92. Its strains are taken as small, so forces of yielding material are too small there by about 15 %",
                 ),
             ),
             (1.08, false, None),
             (1.3, false, None),
-            (1.6, false, Some("brought to 1.6 of its length somewhere: the series for its logarithmic strain")),
+            (1.6, false, Some("a stretch of 1.6. Its logarithmic strain is a series")),
         ] {
             let text = stretched(kind, stretch, false, 10);
             let text = if green { text.replace("strain = \"logarithmic\"", "strain = \"green\"") } else { text };
             let (outcome, found) = run_with_warnings(&text);
             assert!(matches!(outcome, Outcome::Done), "{outcome:?}");
-            let found: Vec<_> = found.iter().filter(|found| found.contains("shell `sheet` is")).collect();
+            let found: Vec<_> = found.iter().filter(|found| found.contains("shell `sheet` has a stretch")).collect();
             assert_eq!(found.len(), usize::from(said.is_some()), "{stretch}: {found:?}");
             assert!(said.is_none_or(|said| found[0].contains(said)), "{found:?}");
         }

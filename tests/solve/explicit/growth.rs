@@ -143,7 +143,7 @@ fn motion_that_grows_by_itself_fails() {
         // The balance was kept for a while, and lost before the end.
         assert!(failure.valid_until().is_some_and(|until| until > 0.0 && until < time), "{failure:?}");
         assert!(time < 0.2, "{time}");
-        assert!(failure.to_string().contains("times the energy that there was"), "{failure}");
+        assert!(failure.to_string().contains("times the available energy"), "{failure}");
     }
 }
 

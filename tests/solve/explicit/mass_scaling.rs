@@ -209,7 +209,7 @@ fn added_mass_has_no_weight() {
         let system = System::new(&model).unwrap();
         rdsolve::plan::explain::explain(&Plan::new(&model, &system, 1), &model, &system).to_string()
     };
-    assert!(explained.contains("what falls freely falls slower"), "{explained}");
+    assert!(explained.contains("falling bodies fall slower"), "{explained}");
 }
 
 /// Forces at the ends of beams balance the support, with the inertia of what is added.
@@ -414,8 +414,15 @@ fn what_bounds_the_step_besides_elements_is_named() {
     };
     assert_eq!(warnings_of(&text), Vec::<String>::new());
     let weak = link.replace("spring", "thread").replace("1e11", "1.0");
-    let found = warnings_of(&(text + &weak + link));
-    assert!(found.len() == 1 && found[0].contains("`spring` asks for it") && found[0].contains("`p11`"), "{found:?}");
+    let bound = text.clone() + &weak + link;
+    let found = warnings_of(&bound);
+    assert!(found.len() == 1 && found[0].contains("`spring` limits it") && found[0].contains("`p11`"), "{found:?}");
+    // What it proposes does.
+    let step = found[0].split("Give `mass_scaling_step` = ").nth(1).and_then(|rest| rest.split(':').next()).unwrap();
+    assert_eq!(
+        warnings_of(&bound.replace("mass_scaling_step = 0.000004", &format!("mass_scaling_step = {step}"))),
+        Vec::<String>::new()
+    );
 }
 
 /// Elements that bear the step keep their masses, to the last bit, and so does a deck that asks for nothing.

@@ -74,7 +74,7 @@ fn what_is_said() {
     let (code, said) = run("free.toml", &free, &[]);
     assert!(code == 4 && said.contains("singular"), "{code} {said}");
     let (code, said) = rdsolve(here, &["study", "low.toml"]);
-    assert!(code == 3 && said.contains("asks for modes"), "{code} {said}");
+    assert!(code == 3 && said.contains("computes modes"), "{code} {said}");
     let (code, said) = rdsolve(here, &["check", "low.toml"]);
     assert!(code == 0 && said.contains("natural modes, all up to 1 per time"), "{code} {said}");
 }

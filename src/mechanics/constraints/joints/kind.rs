@@ -59,8 +59,7 @@ impl Coordinate {
 pub const AXIS: Key = Key {
     name: "axis",
     form: Form::Vector,
-    about: "Direction about which the ends turn or along which they move against each other, global at t = 0; it goes with the \
-            bodies. Any length.",
+    about: "Axis of the relative rotation or translation of the ends, global at t = 0; it moves with the bodies. Any length.",
 };
 
 /// Axes of joints without an axis: the global axes.

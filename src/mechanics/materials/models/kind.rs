@@ -46,14 +46,14 @@ pub const PLASTICITY: [Key; 7] = [
     Key {
         name: "failure_strain",
         form: Form::Number,
-        about: "Accumulated plastic strain, above 0, at which a point of the material fails: it carries nothing more, and an element goes \
-                when all its points have. Its mass stays with its nodes. Default: it does not fail.",
+        about: "Accumulated plastic strain, above 0, at failure of a point of the material: the point then carries no stress, and an element is \
+                removed after failure of all its points. Its mass stays with its nodes. Default: it does not fail.",
     },
     Key {
         name: "failure_triaxiality",
         form: Form::Pairs,
-        about: "[[triaxiality, factor], ...]: `failure_strain` is multiplied by a factor that depends on the mean stress over the equivalent \
-                stress, 1/3 in tension, 0 in shear, -1/3 in compression; straight lines, constant beyond the ends. Default: 1 throughout.",
+        about: "[[triaxiality, factor], ...]: a factor of `failure_strain` over the triaxiality, the mean stress over the equivalent stress. It \
+                is 1/3 in tension, 0 in shear, -1/3 in compression. Straight lines, constant beyond the ends. Default: 1 throughout.",
     },
     Key {
         name: "failure_rate",
@@ -82,12 +82,12 @@ pub fn plasticity(given: &mut Given, [E, nu]: [f64; 2], viscosity: Option<Viscos
     let strain = given.positive("failure_strain")?;
     if strain > MOST_LIKELY_FAILURE {
         let message = format!("{} fails at a plastic strain of {} %", given.what(), short(100.0 * strain));
-        given.warn("failure_strain", message, "`failure_strain` is a strain, not per cent");
+        given.warn("failure_strain", message, "give `failure_strain` as a strain, not in per cent");
     }
     let triaxiality = factors(given, "failure_triaxiality");
     let rate = factors(given, "failure_rate");
     if rate.as_ref().is_some_and(|rate| rate.first() < 0.0) {
-        given.error::<()>("failure_rate", "rates of plastic strain are not negative");
+        given.error::<()>("failure_rate", "rates of plastic strain must not be negative");
     }
     Some(law.failing_at(FailureCriterion { strain, triaxiality, rate }))
 }

@@ -36,7 +36,7 @@ const PARAMETERS: [(&str, &str, &str, &str); 3] = [
 /// Parameters without a value; they may follow a comma on a separate line.
 const FLAGS: &[&str] = &["GENERATE", "INTERNAL", "UNSORTED"];
 /// The remedy for unsupported features.
-const FLAT: &str = "write the mesh as one flat file: every node and element by itself";
+const FLAT: &str = "write the mesh as one flat file that lists every node and element";
 
 /// The meaning of the data lines after a keyword.
 enum DataLines {
@@ -314,7 +314,7 @@ fn position(text: &Text, assembly: &mut Blocks, data: &Data) -> Result<(), Fault
             let turned = instance.turn(first, second, angle);
             turned.ok_or_else(|| text.fault("the two points of the axis coincide", data.line))?;
         }
-        _ => return Err(text.fault("an instance takes a translation and a rotation, on two lines", data.line)),
+        _ => return Err(text.fault("an instance can have a translation and a rotation, on two lines", data.line)),
     }
     Ok(())
 }

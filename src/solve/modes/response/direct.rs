@@ -75,7 +75,8 @@ pub fn response(
     found.warnings.extend(gyroscopic.warnings);
     found.warnings.extend(unjudged(at));
     if unstable {
-        found.warnings.push("the state is unstable: no steady motion about it lasts".to_owned());
+        found.warnings.push("the state is unstable, so no steady motion about it lasts. Add damping or stiffness, or compute the motion with `kind = \"dynamic\"`"
+                .to_owned());
     }
     found.warnings.extend(direct.warnings());
     found.response = Some(response);
@@ -94,8 +95,8 @@ fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
 /// Properties that cannot be judged for loads without a potential, in words.
 fn unjudged(at: &Linearized) -> Option<String> {
     (!at.loads_have_potential()).then(|| {
-        "loads that follow, and moments about axes fixed in space, have no potential: whether the state is stable, and the steady motion \
-         lasts, is not judged here; `kind = \"modal\"` with `damped = true` tells (flutter)"
+        "follower loads, and moments about axes fixed in space, have no potential: the steady motion does not last if they cause flutter. Check \
+         the stability of the state with `kind = \"modal\"` and `damped = true`"
             .to_owned()
     })
 }
@@ -249,7 +250,8 @@ impl Direct<'_> {
         if self.so_far.worst.0 > DOUBTFUL {
             let (left, frequency) = self.so_far.worst;
             warnings.push(format!(
-                "near frequency {} the equations are next to singular: {left:.1e} of the excitation is left unbalanced",
+                "at frequency {} the equations are nearly singular, and amplitudes there have an error of {left:.1e}. Add damping (`damping`), or remove \
+                 this frequency",
                 short(frequency)
             ));
         }

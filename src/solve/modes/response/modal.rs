@@ -105,9 +105,10 @@ fn truncation((natural, extent): (&[f64], ModeExtent), unknowns: usize, highest:
     }
     let what = if spins { "gyroscopic moments and damping" } else { "damping" };
     Some(format!(
-        "the modes found reach up to frequency {}, all others answer as springs, without {what}: take more of them (`up_to`, `modes`), or \
-         method = \"direct\"",
-        short(last)
+        "the modes found reach up to frequency {}; the response of all others is static, without {what}. Give `up_to` = {}, or `method` = \
+         \"direct\"",
+        short(last),
+        short(2.0 * last.max(highest))
     ))
 }
 

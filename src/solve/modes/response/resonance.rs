@@ -9,8 +9,8 @@ pub(super) fn resonances_in_words(all: &[(f64, Option<usize>)]) -> Option<String
     let mode = mode.map_or_else(String::new, |mode| format!(", that of mode {},", mode + 1));
     let more = if count > 1 { format!(" and {} others", count - 1) } else { String::new() };
     Some(format!(
-        "at frequency {}{mode}{more} nothing limits the motion (undamped resonance, or a motion without stiffness): amplitudes stay empty. \
-         Give what moves some damping",
+        "at frequency {}{mode}{more} nothing limits the motion: it is an undamped resonance, or a motion without stiffness. Its amplitudes are \
+         left empty. Add damping, such as `beta` = 1e-4 in [damping]",
         short(frequency)
     ))
 }

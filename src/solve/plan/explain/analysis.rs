@@ -34,7 +34,7 @@ pub fn explain(text: &mut Explanation, model: &Model) {
 
 fn modes(analysis: &Analysis) -> String {
     let is_stage = analysis.stage.is_some();
-    let state = if is_stage { "the state that has been reached" } else { "the equilibrium under what acts at t = 0" };
+    let state = if is_stage { "the state that has been reached" } else { "the equilibrium under the loads at t = 0" };
     let which = match analysis.extent() {
         ModeExtent::Count(1) => "the lowest".to_owned(),
         ModeExtent::Count(count) => format!("the {count} lowest"),
@@ -48,7 +48,7 @@ fn modes(analysis: &Analysis) -> String {
         (true, _) if is_stage => {
             format!("linear buckling about {state}, {which} factors of the loads that first act here")
         }
-        (true, _) => format!("linear buckling, {which} factors of what acts at t = 0"),
+        (true, _) => format!("linear buckling, {which} factors of the loads at t = 0"),
     }
 }
 

@@ -18,8 +18,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     if heavier > 0 && model.loading.gravity.norm() > 0.0 {
         text.notes
             .push(
-                "weight is that of the true masses: the center of what falls freely falls slower by the share that is added, and where that is \
-                 uneven weight turns and bends what falls"
+                "weight acts on the true masses: falling bodies fall slower by the added share, and uneven additions rotate and bend them"
                     .into(),
             );
     }
@@ -47,8 +46,8 @@ pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
     }
     if rotary > 0 {
         let what = format!(
-            "inertia of {rotary} of {elements} elements is raised for a critical time step of {step}, to radii of gyration of at most \
-             0.35 of the distances of nodes, which adds no mass"
+            "inertia of {rotary} of {elements} elements is raised for a critical time step of {step}, without added mass; radii of gyration are \
+             at most 0.35 of the distances of nodes"
         );
         lines.push(("rotary", what));
     }
@@ -69,8 +68,7 @@ fn bound_by_others(model: &Model) -> bool {
 fn heavier_in_words(scaling: &MassScaling, heavier: usize, elements: usize) -> String {
     let factor = scaling.parts.iter().map(|part| part.factor).fold(1.0, f64::max);
     format!(
-        "{}, {} % of the mass of the scene: to {heavier} of {elements} elements, up to {} times theirs, so that each has a critical time \
-         step of {}",
+        "{}, {} % of the mass of the scene, to {heavier} of {elements} elements, up to {} times theirs; each then has a critical time step of {}",
         to_digits(scaling.added(), 4),
         percent(scaling.added() / scaling.mass),
         to_digits(factor, 4),
@@ -110,14 +108,13 @@ pub fn much_mass_added(system: &System) -> Option<Diagnostic> {
     let most = *by_share(scaling).first()?;
     (most.share() > MUCH).then(|| {
         let message = format!(
-            "mass scaling adds {} % to the mass of `{}`, {} % to that of the scene: its frequencies are lower by {} % where that is spread \
-             over it, by several times as much where it sits where a mode moves most, and momentum, impacts and what moves freely are \
-             those of the larger mass",
+            "mass scaling adds {} % to the mass of `{}`, {} % to that of the scene. Its frequencies are too low by {} % if this mass is spread \
+             evenly, and by several times as much if it lies where a mode moves most. Momentum and impacts are too large",
             percent(most.share()),
             most.name,
             percent(scaling.added() / scaling.mass),
             percent(1.0 - (1.0 + most.share()).sqrt().recip())
         );
-        Diagnostic::warning(message).hint("a smaller `mass_scaling_step`, or a mesh without elements that are much smaller than others")
+        Diagnostic::warning(message).hint("give a smaller `mass_scaling_step`, or a mesh without elements much smaller than the others")
     })
 }

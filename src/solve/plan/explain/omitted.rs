@@ -19,7 +19,7 @@ pub fn list(plan: &Plan, model: &Model, system: &System) -> Vec<String> {
     }
     lines.extend(terms(plan, model, system).into_iter().map(str::to_owned));
     if model.output.nodes.is_empty() {
-        let why = "no node is named; `[output] nodes` takes \"all\", sets and groups of the mesh";
+        let why = "no node is named; `[output] nodes` can be \"all\", sets or groups of the mesh";
         lines.push(format!("nodes.csv: {why}"));
     }
     lines

@@ -12,7 +12,7 @@ pub const KIND: SurfaceKind<Plane> = SurfaceKind {
     about: "Everything on one side is solid.",
     keys: &[
         Key { name: "point", form: Form::Vector, about: "A point of the plane." },
-        Key { name: "normal", form: Form::Vector, about: "Out of it, away from what is solid. Any length." },
+        Key { name: "normal", form: Form::Vector, about: "Out of the solid side. Any length." },
     ],
     make: |given, _| {
         let (point, normal) = (given.require_vector("point"), given.require_unit("normal"));

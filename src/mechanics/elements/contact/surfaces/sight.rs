@@ -100,7 +100,7 @@ impl Toucher {
             Toucher::Cylinder | Toucher::Tube => {
                 Some("edges of the faces that cross ends and side of the cylinder between its points")
             }
-            Toucher::Nodes => Some("edges that cross edges, which are a contact of their own with `edges = true`"),
+            Toucher::Nodes => Some("edges that cross edges; they need a separate contact with `edges = true`"),
         }
     }
 
@@ -114,7 +114,7 @@ impl Toucher {
         match self {
             // The nodes of the lines see the faces of boxes and hulls.
             Toucher::Ball | Toucher::Box | Toucher::Hull | Toucher::Capsule => None,
-            Toucher::Cylinder | Toucher::Tube => Some("what is round of the cylinder between 16 lines along it"),
+            Toucher::Cylinder | Toucher::Tube => Some("the round side of the cylinder between 16 lines along it"),
             Toucher::Nodes => Some("what lies between nodes"),
         }
     }
