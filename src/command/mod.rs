@@ -71,26 +71,48 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Run a deck: tables, field files and result.json go to a folder
+    ///
+    /// Example: `rdsolve run deck.toml -o new.out --set analysis.time_step=1e-3`
     Run(RunArgs),
     /// Read and validate a deck, and print the computed and the omitted parts with reasons, mass, loads and the expected time; writes nothing
+    ///
+    /// Example: `rdsolve check deck.toml --set analysis.time_step=1e-3`
     Check(CheckArgs),
     /// Compare two folders of results within tolerances, for regression tests
+    ///
+    /// Example: `rdsolve compare old.out new.out --tolerance 1e-6`
     Compare(compare::CompareArgs),
     /// Make one HTML file of a folder of results: plots, energy balance, the moving scene
+    ///
+    /// Example: `rdsolve report new.out -o new.html`
     Report(report::ReportArgs),
     /// Measure error against run time over time steps, schemes, methods and meshes; or what rigid parts would cost and save
+    ///
+    /// Example: `rdsolve study deck.toml -o deck.study --time-steps 1e-2,5e-3`
     Study(Box<study::StudyArgs>),
     /// Run many variants of a deck, here or as one shard of many, and collect numbers of each in one table
+    ///
+    /// Example: `rdsolve sweep cases.toml -o cases.out --jobs 4`
     Sweep(sweep::SweepArgs),
     /// Print peaks and ends of all columns of a folder of results
+    ///
+    /// Example: `rdsolve summary new.out --format csv`
     Summary(summary::SummaryArgs),
-    /// Print a commented deck that runs, to begin with: `rdsolve init frame > deck.toml`
+    /// Print a commented deck that runs, to begin with
+    ///
+    /// Example: `rdsolve init frame > deck.toml`
     Init(init::InitArgs),
     /// Print the JSON Schema of the deck, or of a sweep, for completion and checks in editors
+    ///
+    /// Example: `rdsolve schema > deck.schema.json`
     Schema(schema::SchemaArgs),
     /// Print a script that lets a shell complete commands and options
+    ///
+    /// Example: `rdsolve completions bash > rdsolve.bash`
     Completions(shell_completions::CompletionsArgs),
     /// Print the manual page
+    ///
+    /// Example: `rdsolve man > rdsolve.1`
     Man,
 }
 

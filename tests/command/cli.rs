@@ -101,6 +101,33 @@ fn usage_ends_with_2() {
     rdsolve(folder.path(), &["ball.toml", "--threads", "64"]).code(0);
 }
 
+/// The help of each command ends with an example; those that need no further files are run one after the other.
+#[test]
+fn examples_of_help_work() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("deck.toml"), DECK.replace("end_time = 1.0", "end_time = 0.1")).unwrap();
+    let old = ["run", "deck.toml", "-o", "old.out", "--set", "analysis.time_step=1e-3"];
+    rdsolve(folder.path(), &old).code(0);
+    let printed = |arguments: &[&str]| {
+        String::from_utf8(rdsolve(folder.path(), arguments).code(0).get_output().stdout.clone()).unwrap()
+    };
+    let help = printed(&["--help"]);
+    let (_, list) = help.split_once("Commands:\n").expect("a list of commands");
+    let names = list.lines().take_while(|line| !line.is_empty()).filter_map(|line| line.split_whitespace().next());
+    let names: Vec<&str> = names.filter(|name| *name != "help").collect();
+    assert!(names.len() >= 11, "{names:?}");
+    for name in names {
+        let help = printed(&[name, "--help"]);
+        let example = help.split("Example: `rdsolve ").nth(1).and_then(|rest| rest.split('`').next());
+        let example = example.unwrap_or_else(|| panic!("no example of {name}: {help}"));
+        let words: Vec<&str> = example.split_whitespace().take_while(|word| *word != ">").collect();
+        assert_eq!(words[0], name);
+        if !["study", "sweep"].contains(&name) {
+            printed(&words);
+        }
+    }
+}
+
 #[test]
 fn words_of_other_versions_are_not_advertised() {
     let folder = folder(DECK);

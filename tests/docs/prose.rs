@@ -29,6 +29,9 @@ const PAGES: usize = 3;
 /// Largest share of flagged sentences in comments, in per cent: the level reached.
 const CODE: usize = 3;
 
+/// Largest share of flagged sentences in messages, in per cent: the level reached.
+const MESSAGES: usize = 2;
+
 /// Paragraphs of prose: lines of a page outside of code, tables and headings, with list items on their own.
 fn paragraphs(lines: impl Iterator<Item = String>) -> Vec<String> {
     let (mut found, mut run, mut is_code) = (Vec::new(), String::new(), false);
@@ -60,6 +63,34 @@ fn comment(line: &str) -> String {
     let text = line.trim_start();
     let body = text.strip_prefix("//").map(|rest| rest.trim_start_matches(['/', '!']));
     body.unwrap_or_default().trim().to_owned()
+}
+
+/// A source without comments, each string literal on one line.
+fn joined(source: &str) -> String {
+    let code = source.lines().filter(|line| !line.trim_start().starts_with("//"));
+    code.fold(String::new(), |all, line| match all.strip_suffix('\\') {
+        Some(start) => start.to_owned() + line.trim_start(),
+        None => all + "\n" + line,
+    })
+}
+
+/// Texts of messages in a source: string literals of three words or more, with values as one word.
+fn messages(source: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for line in joined(source).lines() {
+        // Every second part lies within quotes.
+        let parts = line.replace("\\\"", "`").replace("\\n", " ");
+        found.extend(parts.split('"').skip(1).step_by(2).map(values_as_words));
+    }
+    found.retain(|text| text.split_whitespace().filter(|word| word.chars().all(char::is_alphabetic)).count() > 3);
+    found
+}
+
+/// The text with `CODE` in place of what is written in braces.
+fn values_as_words(text: &str) -> String {
+    let mut parts = text.split('{');
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |all, part| all + "CODE" + part.split_once('}').map_or("", |(_, rest)| rest))
 }
 
 /// Sentences of at least five words; code in backticks counts as one word.
@@ -133,4 +164,30 @@ fn sentences_of_comments_are_short_and_direct() {
     let mut files = Vec::new();
     sources(&root().join("src"), &mut files);
     hold(files.into_iter().map(|path| (path.clone(), paragraphs(read(&path).lines().map(comment)))).collect(), CODE);
+}
+
+#[test]
+fn sentences_of_messages_are_short_and_direct() {
+    let mut files = Vec::new();
+    sources(&root().join("src"), &mut files);
+    hold(files.into_iter().map(|path| (path.clone(), messages(&read(&path)))).collect(), MESSAGES);
+}
+
+/// The page of messages quotes words that the program says; `...` stands for values.
+#[test]
+fn quoted_messages_are_those_of_the_program() {
+    let mut files = Vec::new();
+    sources(&root().join("src"), &mut files);
+    let said: String = files.iter().map(|path| joined(&read(path)).replace("\\\"", "\"")).collect();
+    let page = read(&root().join("docs/messages.md"));
+    let rows = page.lines().filter(|line| line.starts_with("| *"));
+    let first = rows.map(|row| row.split(" | ").next().unwrap_or_default().replace("**", "*"));
+    let quotes: Vec<String> =
+        first.flat_map(|cell| cell.split('*').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>()).collect();
+    let pieces = quotes.iter().flat_map(|quote| quote.split("...")).map(|piece| piece.trim_matches([' ', ',', '|']));
+    let pieces: Vec<&str> = pieces.filter(|piece| piece.split(' ').count() > 1).collect();
+    assert!(pieces.len() > 25, "{pieces:?}");
+    for piece in pieces {
+        assert!(said.contains(piece), "no message says: {piece}");
+    }
 }
