@@ -75,7 +75,7 @@ fn solve(cx: &Context, ws: &mut Workspace, state: &State, dt: f64) -> Option<f64
         (0..3).filter(|&i| rows.has(i)).for_each(|i| trial.a[i] = 0.0);
         (0..3).filter(|&i| rows.has(3 + i)).for_each(|i| trial.alpha[i] = 0.0);
     }
-    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
+    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, previous: None };
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     let (rate, acceleration) = cx.model.solution.scheme.coefficients(dt).weights();

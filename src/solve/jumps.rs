@@ -85,7 +85,7 @@ pub fn jump_velocities(cx: &Context, ws: &mut Workspace, state: &mut State) -> R
 pub fn release(cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
     ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
     cx.excitation.loading(state.time, Side::Before, &mut ws.loads.instant);
-    let unbroken = Configuration { nodes: &state.nodes, history: &ws.history, dt, lead: None };
+    let unbroken = Configuration { nodes: &state.nodes, history: &ws.history, dt, previous: None };
     cx.system.residual(&unbroken, &ws.loads.instant, &mut ws.forces);
     let before = ws.forces.on_nodes.clone();
     jump_from(cx, ws, state, &before, Side::Before)

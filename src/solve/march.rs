@@ -37,8 +37,8 @@ pub struct March<'r, 'a> {
     pub place: RunPosition,
     /// True if the run resumes from a checkpoint.
     pub resumes: bool,
-    /// The search that may start further runs of the model.
-    pub search: &'r mut dyn Keep,
+    /// The control of the global error, which may start further runs of the model.
+    pub error_control: &'r mut dyn Keep,
 }
 
 /// The place of a run between the events that steps end at.
@@ -96,13 +96,13 @@ impl March<'_, '_> {
 
     fn show_checkpoint(&mut self, controller: &mut dyn Keep, at_end: bool) -> Result<(), Outcome> {
         let mut snapshot = Snapshot::taken();
-        self.search.keep(&mut snapshot);
+        self.error_control.keep(&mut snapshot);
         self.recorder.keep(&mut snapshot);
         self.keep_rest(controller, &mut snapshot);
         self.observer.on_checkpoint(&snapshot.into_bytes(), at_end).map_err(Outcome::Io)
     }
 
-    /// Saves or restores the data after the search and the recorder.
+    /// Saves or restores the data after the error control and the recorder.
     pub fn keep_rest(&mut self, controller: &mut dyn Keep, snapshot: &mut Snapshot) {
         let March { ws, state, observer, samples, stop_watch, place, cx, .. } = self;
         place.keep(snapshot);

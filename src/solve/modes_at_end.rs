@@ -20,7 +20,7 @@ const AT_ITS_END: usize = usize::MAX;
 ///
 /// # Errors
 /// The outcome that ends it early.
-pub fn lead(controller: &mut Controller, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
+pub fn run(controller: &mut Controller, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
     let analysis = &march.cx.model.analysis;
     if !analysis.has_modes() {
         return controller.run(march, schedule);

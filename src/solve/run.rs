@@ -1,4 +1,4 @@
-//! A run of one scene from t = 0 to the end time; one whose steps follow a tolerance may be several, see [`super::search`].
+//! A run of one scene from t = 0 to the end time; one whose steps follow a tolerance may be several, see [`super::global_error`].
 
 use super::context::Context;
 use super::control::{Controller, Schedule};
@@ -96,7 +96,7 @@ impl<'a> Run<'a> {
         &mut self,
         observer: &mut dyn Observer,
         schedule: &Schedule,
-        search: &mut dyn Keep,
+        error_control: &mut dyn Keep,
     ) -> (Outcome, Option<State>) {
         let Run { context: cx, workspace: ws, controller, recorder, handover, stop_watch, stop, checkpoint, .. } = self;
         let mut checkpoint = checkpoint.take();
@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
             begins_from,
             place,
             resumes,
-            search,
+            error_control,
         };
         if let Some(mut snapshot) = checkpoint {
             march.keep_rest(controller, &mut snapshot);
@@ -141,7 +141,7 @@ impl<'a> Run<'a> {
                 return (Outcome::Io(unfit()), None);
             }
         }
-        let mut outcome = modes_at_end::lead(controller, &mut march, schedule);
+        let mut outcome = modes_at_end::run(controller, &mut march, schedule);
         if !matches!(outcome, Err(Outcome::Io(_))) {
             outcome = march.recorder.close(march.cx, march.ws, march.state, march.observer).and(outcome);
         }

@@ -112,7 +112,7 @@ fn no_pair_of_balls_is_missed() {
         }
     }
     let history = vec![0.0; block.history()];
-    let energy = block.energy(&Configuration { nodes: &nodes, history: &history, dt: 0.0, lead: None });
+    let energy = block.energy(&Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None });
     // Rounding of sums of some hundred terms.
     assert!(all > 0.0 && (energy / all - 1.0).abs() < 1e-12, "{energy} {all}");
 }
@@ -127,7 +127,7 @@ fn the_time_of_an_evaluation_is_linear() {
         let mut F = vec![[0.0; 6]; nodes.len()];
         let mut evaluate = |nodes: &[Node]| {
             let begin = std::time::Instant::now();
-            block.subtract_forces(&Configuration { nodes, history: &history, dt: 0.0, lead: None }, &mut F);
+            block.subtract_forces(&Configuration { nodes, history: &history, dt: 0.0, previous: None }, &mut F);
             begin.elapsed().as_secs_f64()
         };
         evaluate(&nodes);

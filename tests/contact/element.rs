@@ -81,7 +81,7 @@ fn touch(
     let block = Contacts::new(law, surface, 0, vec![point]);
     let mut past = vec![0.0; block.history()];
     let nothing = past.clone();
-    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, lead: None }, 1.0, &mut past);
+    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, previous: None }, 1.0, &mut past);
     if let (true, Some(last)) = (lift > 0.0, past.last_mut()) {
         *last = lift;
     }

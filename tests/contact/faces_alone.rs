@@ -62,12 +62,16 @@ impl Scene {
         let block = FacetContacts::new(law, touchers, points, facets, &x);
         let nothing = vec![0.0; block.history()];
         let mut past = nothing.clone();
-        block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, lead: None }, 1.0, &mut past);
+        block.update_history(
+            &Configuration { nodes: &nodes, history: &nothing, dt: 0.0, previous: None },
+            1.0,
+            &mut past,
+        );
         Scene { block, nodes, past }
     }
 
     pub fn now<'a>(&'a self, nodes: &'a [Node]) -> Configuration<'a> {
-        Configuration { nodes, history: &self.past, dt: 0.0, lead: None }
+        Configuration { nodes, history: &self.past, dt: 0.0, previous: None }
     }
 
     pub fn force(&self, nodes: &[Node]) -> Vec<f64> {

@@ -232,7 +232,7 @@ fn touch_of(rng: &mut StdRng, pose: &RandomPair, friction: f64, slide: f64) -> T
     let mut past = vec![0.0; block.history()];
     let nothing = past.clone();
     let nodes = vec![carrier, one];
-    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, lead: None }, 1.0, &mut past);
+    block.update_history(&Configuration { nodes: &nodes, history: &nothing, dt: 0.0, previous: None }, 1.0, &mut past);
     // It has gone on a bit since, with everything turned and moving.
     let turn = exp(&vector(rng, 0.1));
     carrier.x += vector(rng, 0.1);

@@ -22,7 +22,7 @@ impl<B: ElementBlock> Touch<B> {
     /// Force and moment on each node, in the order of the block.
     pub fn force(&self, nodes: &[Node]) -> Vec<f64> {
         let mut F = vec![[0.0; 6]; nodes.len()];
-        self.block.subtract_forces(&Configuration { nodes, history: &self.past, dt: 0.0, lead: None }, &mut F);
+        self.block.subtract_forces(&Configuration { nodes, history: &self.past, dt: 0.0, previous: None }, &mut F);
         F.rotate_left(1);
         F.into_iter().flatten().collect()
     }
@@ -42,7 +42,7 @@ impl<B: ElementBlock> Touch<B> {
         }
         let (width, rate) = (6 * self.nodes.len(), 3.0);
         let mut K = vec![f64::NAN; width * width];
-        let now = Configuration { nodes: &self.nodes, history: &self.past, dt: 0.0, lead: None };
+        let now = Configuration { nodes: &self.nodes, history: &self.past, dt: 0.0, previous: None };
         self.block.tangent(0, &now, rate, Moduli::Algorithmic, &mut K);
         let largest = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
         let moved = |column: usize, h: f64| {

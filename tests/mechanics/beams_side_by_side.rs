@@ -101,12 +101,12 @@ fn agrees<const N: usize>(rng: &mut StdRng) {
             let block = chain.block(0..COUNT, yielding.as_ref(), damping);
             let (first, now, before) = (chain.moved(rng, 0.3), chain.moved(rng, 0.05), chain.moved(rng, 0.05));
             let mut history = vec![0.0; block.history()];
-            let past = Configuration { nodes: &first, history: &vec![0.0; block.history()], dt: 1.0, lead: None };
+            let past = Configuration { nodes: &first, history: &vec![0.0; block.history()], dt: 1.0, previous: None };
             block.update_history(&past, 1.0, &mut history);
             let failed = (0..COUNT).filter(|&e| block.has_failed(e, &history)).count();
             assert!(failed < COUNT && (failed > 0) == block.can_fail(), "{failed} have failed");
-            for lead in [None, Some(&before[..])] {
-                let now = Configuration { nodes: &now, history: &history, dt: 1.0, lead };
+            for previous in [None, Some(&before[..])] {
+                let now = Configuration { nodes: &now, history: &history, dt: 1.0, previous };
                 for moduli in [Moduli::Algorithmic, Moduli::Elastic] {
                     tangents_agree::<N>(&*block, &now, moduli);
                 }

@@ -39,7 +39,7 @@ struct Kind {
 impl Kind {
     /// Some time after the past.
     fn now<'a>(&'a self, nodes: &'a [Node]) -> Configuration<'a> {
-        Configuration { nodes, history: &self.past, dt: 0.4, lead: None }
+        Configuration { nodes, history: &self.past, dt: 0.4, previous: None }
     }
 
     fn forces(&self, nodes: &[Node]) -> Vec<Force> {
@@ -424,7 +424,7 @@ fn what_is_remembered_is_the_motion() {
             assert!(history.iter().all(|h| h.is_finite()), "{name}");
             assert!(spent.plastic >= 0.0 && spent.viscous >= 0.0, "{name}: {spent:?}");
             lost += spent.plastic;
-            let again = Configuration { nodes: &nodes, history: &history, dt: 0.0, lead: None };
+            let again = Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None };
             // The return ends 1e-14 from the yield surface; the tangent of a fibre is no larger than E, the sum not than F.
             let size = F.iter().flatten().fold(1.0f64, |m, c| m.max(c.abs()));
             for (a, b) in forces(&*kind.block, &again).iter().flatten().zip(F.iter().flatten()) {

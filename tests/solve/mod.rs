@@ -11,7 +11,7 @@ mod dependents;
 mod determinism;
 mod edge_cases;
 mod element_stability;
-mod esdirk;
+mod esdirk3;
 mod events;
 mod explicit;
 mod failure;

@@ -92,7 +92,7 @@ fn moved(system: &System, nodes: &[Node], by: impl Fn(usize) -> [Vec3; 2]) -> Ve
 
 /// N, V_y and V_z at all Gauss points.
 fn forces(system: &System, nodes: &[Node]) -> Vec<f64> {
-    let now = Configuration { nodes, history: &[], dt: 0.0, lead: None };
+    let now = Configuration { nodes, history: &[], dt: 0.0, previous: None };
     let mut forces = Vec::new();
     for block in system.groups.iter().map(|group| &group.block) {
         for (e, g) in (0..block.len()).flat_map(|e| (0..block.points()).map(move |g| (e, g))) {

@@ -79,7 +79,7 @@ pub trait Mechanics: Elements {
     /// The elastic tangent of element `e` in the configuration `now`, with the stresses at the node positions `stressed`:
     /// it separates the effect of stresses from that of displacements. By default all is that of the nodes `stressed`.
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        self.tangent(e, &Configuration { nodes: stressed, lead: None, ..*now }, 0.0, Moduli::Elastic, K);
+        self.tangent(e, &Configuration { nodes: stressed, previous: None, ..*now }, 0.0, Moduli::Elastic, K);
     }
     /// Writes the history variables at `part` of the way from the last state to `now` into `new`, of length [`Mechanics::history`]. Returns
     /// the work dissipated or stored inelastically by material points.

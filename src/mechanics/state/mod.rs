@@ -141,7 +141,7 @@ keep!(Increment { q, d, dd });
 impl State {
     /// The configuration of the state itself, at the time that it holds.
     pub fn configuration(&self) -> Configuration<'_> {
-        Configuration { nodes: &self.nodes, history: &self.history, dt: 0.0, lead: None }
+        Configuration { nodes: &self.nodes, history: &self.history, dt: 0.0, previous: None }
     }
 }
 
@@ -181,13 +181,13 @@ pub struct Configuration<'a> {
     /// A correction moves slender parts along straight lines and so stretches them. Stress and geometric stiffness of the iterate are then
     /// far from those of the equilibrium ahead. Stresses that are extrapolated linearly from the iterate before are not (D. Magisano, L.
     /// Leonetti, G. Garcea, Comput. Methods Appl. Mech. Engrg 313 (2017), 271-289).
-    pub lead: Option<&'a [Node]>,
+    pub previous: Option<&'a [Node]>,
 }
 
 impl<'a> Configuration<'a> {
     /// A configuration without history variables: all materials are elastic.
     pub fn of(nodes: &'a [Node]) -> Self {
-        Configuration { nodes, history: &[], dt: 0.0, lead: None }
+        Configuration { nodes, history: &[], dt: 0.0, previous: None }
     }
 }
 

@@ -80,11 +80,11 @@ impl ArcLengthController {
         }
     }
 
-    /// Leads the run from its beginning, or from the place that it has come to.
+    /// Runs from the beginning, or from the current place of a resumed run.
     ///
     /// # Errors
     /// The outcome that ends it early.
-    pub fn lead(&mut self, march: &mut March) -> Result<(), Outcome> {
+    pub fn run(&mut self, march: &mut March) -> Result<(), Outcome> {
         if !march.resumes {
             self.apply_initial_loads(march)?;
             march.notify_start()?;

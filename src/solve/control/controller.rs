@@ -95,7 +95,7 @@ impl<'a> Controller<'a> {
             Controller::ErrorControlled(controller) => through_intervals(controller.as_mut(), march, intervals),
             Controller::EmbeddedError(controller) => through_intervals(controller, march, intervals),
             Controller::StabilityLimited(controller) => through_intervals(controller, march, intervals),
-            Controller::ArcLength(controller) => controller.lead(march),
+            Controller::ArcLength(controller) => controller.run(march),
         }
     }
 

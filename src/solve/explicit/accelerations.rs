@@ -193,7 +193,7 @@ impl Accelerations {
             ws.trial.nodes[node].alpha += angular(&self.missing[node]);
         }
         update_dependent_accelerations(cx, ws);
-        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, lead: None };
+        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, previous: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 
@@ -208,7 +208,7 @@ impl Accelerations {
 fn factor_mass(cx: &Context, ws: &mut Workspace, state: &State) -> Result<(), Failure> {
     let weights =
         TangentWeights { stiffness: false, rate: 0.0, acceleration: 1.0, turning: None, moduli: Moduli::Elastic };
-    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: 0.0, lead: None };
+    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: 0.0, previous: None };
     let (matrix, loads) = (&mut ws.matrix, &ws.loads.instant);
     matrix.assembly.tangent(cx.system, &now, loads, &mut ws.forces, weights, &mut matrix.solver);
     ws.factorizations += 1;

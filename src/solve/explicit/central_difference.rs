@@ -166,7 +166,7 @@ impl CentralDifferenceStepper {
         // coupled.
         let corrections = if self.accelerations.are_coupled() { CORRECTIONS } else { 0 };
         loop {
-            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
+            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, previous: None };
             // The last evaluation belongs to the motion at the end of the step, unless the step is refused.
             self.dissipated = cx.system.advance(&now, &ws.loads.instant, &mut ws.forces, &mut ws.history);
             evaluations += 1;
@@ -298,7 +298,7 @@ impl CentralDifferenceStepper {
     fn account(&self, cx: &Context, ws: &Workspace, state: &State, dt: f64) -> Account {
         let mut account = Account { damping_power: Some(0.0), dissipated: self.dissipated, ..Account::default() };
         if cx.wants_forces && cx.system.is_damped() {
-            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
+            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, previous: None };
             account.damping_power = Some(cx.system.damping_power(&now, cx.plan.threads));
         }
         account

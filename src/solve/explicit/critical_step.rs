@@ -321,7 +321,7 @@ impl CriticalStep {
             ws.trial.nodes[node].advance(start, &ws.trial.increments[node], RotationUpdate::Exponential);
         }
         ws.trial.update_dependent_nodes(cx, &self.place);
-        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
+        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, previous: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
     }
 

@@ -161,7 +161,7 @@ impl RungeKuttaStepper {
         self.accelerations.project(cx, ws, state, &scheme, dt)?;
         let mut account = Account::default();
         if cx.system.history > 0 {
-            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, lead: None };
+            let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt, previous: None };
             account.dissipated = cx.system.update_history(&now, 1.0, &mut ws.history, cx.plan.threads);
         }
         contacts::check_passage(cx, &ws.trial.nodes, state, dt)?;
@@ -255,7 +255,7 @@ impl RungeKuttaStepper {
         if self.accelerations.schur.is_some() {
             ws.forces.multipliers.values.fill(0.0);
         }
-        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, lead: None };
+        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, previous: None };
         cx.system.residual(&now, &ws.loads.instant, &mut ws.forces);
         self.accelerations.solve(cx, ws, state, true)?;
         let nodes = cx.independent_nodes.len();

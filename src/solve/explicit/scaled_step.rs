@@ -42,7 +42,7 @@ pub fn check_scaled_step(
 fn cause(cx: &Context, ws: &Workspace, state: &State, (mode, stiffness): (&[Vec6], f64)) -> String {
     let mut motions = mode.to_vec();
     cx.system.project(&ws.trial.nodes, &mut motions);
-    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: 0.0, lead: None };
+    let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: 0.0, previous: None };
     let mut K = Vec::new();
     for group in cx.system.groups.iter().filter(|group| !group.kind.is_deformable()) {
         let (now, dofs) = (group.configuration(&now), group.block.dofs());

@@ -62,7 +62,7 @@ pub fn check_passage(cx: &Context, nodes: &[Node], state: &State, ahead: f64) ->
     if !cx.system.has_contacts() {
         return Ok(());
     }
-    let now = Configuration { nodes, history: &state.history, dt: ahead, lead: None };
+    let now = Configuration { nodes, history: &state.history, dt: ahead, previous: None };
     cx.system.missed_contact(&state.nodes, &now).map_or(Ok(()), |contact| Err(too_long(cx, contact)))
 }
 

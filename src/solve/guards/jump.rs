@@ -93,7 +93,7 @@ fn check_work(
     dissipated: &Dissipation,
     to: f64,
 ) -> Result<(), Failure> {
-    let end = Configuration { nodes: &ws.end.nodes, history: &ws.history, dt: 0.0, lead: None };
+    let end = Configuration { nodes: &ws.end.nodes, history: &ws.history, dt: 0.0, previous: None };
     let before = match ws.load_steps.stored {
         Some((time, energy)) if time == state.time => energy,
         _ => cx.system.stored_energy(&state.configuration(), cx.plan.threads),

@@ -72,11 +72,11 @@ impl OutOfPlane {
         }
         let OutOfPlane { system, dofs, matrix, forces, criterion, springs, history: [old, new], .. } = self;
         let mut tangent = Tangent { system, dofs, matrix, forces, springs, criterion: *criterion };
-        let end = Configuration { nodes: &state.nodes, history: old, dt: state.time - from, lead: None };
+        let end = Configuration { nodes: &state.nodes, history: old, dt: state.time - from, previous: None };
         tangent.form(&end, &loads.end);
         let stable = tangent.unstable_modes() == Some(0);
         if !stable {
-            let start = Configuration { nodes: start, history: old, dt: 0.0, lead: None };
+            let start = Configuration { nodes: start, history: old, dt: 0.0, previous: None };
             let ends =
                 Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
             if let Some(instability) = tangent.locate(cx, &ends) {
@@ -103,7 +103,7 @@ impl OutOfPlane {
     ) -> Result<Vec<(String, &'static str)>, (String, &'static str)> {
         let name = |(node, dof): (usize, usize)| (cx.model.nodes[node].label.clone(), DIRECTIONS[dof]);
         let OutOfPlane { system, dofs, matrix, forces, springs, history: [history, _], .. } = self;
-        let now = Configuration { nodes: start, history, dt: 0.0, lead: None };
+        let now = Configuration { nodes: start, history, dt: 0.0, previous: None };
         if let Some(place) = free_translation(system, dofs, &now, cx.length) {
             return Err(name(place));
         }

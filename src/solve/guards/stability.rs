@@ -204,7 +204,7 @@ impl Guard for Stability {
         }
         let turned_back = self.way.has_turned_back(cx, &ws.trial);
         let Workspace { matrix, forces, loads, trial, .. } = ws;
-        let end = Configuration { nodes: &trial.nodes, history: &step.state.history, dt: step.dt(), lead: None };
+        let end = Configuration { nodes: &trial.nodes, history: &step.state.history, dt: step.dt(), previous: None };
         let start = Configuration { nodes: &step.state.nodes, dt: 0.0, ..end };
         let ends =
             Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [step.state.time, step.to] };
@@ -234,7 +234,7 @@ impl Guard for Stability {
         if self.path.is_some() {
             let Workspace { matrix, forces, loads, end, history, .. } = ws;
             let [start, end] = [(&end.nodes, 0.0), (&state.nodes, state.time - from)]
-                .map(|(nodes, dt)| Configuration { nodes, history, dt, lead: None });
+                .map(|(nodes, dt)| Configuration { nodes, history, dt, previous: None });
             let ends =
                 Ends { configurations: [start, end], loads: [&loads.start, &loads.end], times: [from, state.time] };
             self.look(cx, (matrix, forces), &ends, Some(grows), false);

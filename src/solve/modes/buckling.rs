@@ -224,7 +224,7 @@ impl Response {
     fn to_factored(pencil: &mut Pencil) -> Response {
         let forces = |pencil: &mut Pencil, loading: &Loading| -> Vec<f64> {
             let Pencil { at, nodes, forces, .. } = pencil;
-            let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+            let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
             at.system.residual(&now, loading, forces);
             at.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
         };
@@ -269,7 +269,7 @@ impl Response {
         let factor = lowest.min(MODERATE / self.size(pencil));
         let moved = self.moved(factor, pencil);
         let at = |nodes: &[Node], group: &Group, e: usize| {
-            let now = Configuration { nodes, history: &pencil.at.state.history, dt: 0.0, lead: None };
+            let now = Configuration { nodes, history: &pencil.at.state.history, dt: 0.0, previous: None };
             group.block.is_inactive(e, &group.configuration(&now))
         };
         let mut names = [Vec::new(), Vec::new()];

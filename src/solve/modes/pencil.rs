@@ -51,7 +51,7 @@ impl<'a> Pencil<'a> {
         let unknowns = at.unknowns();
         let mut forces = Forces::new(at.system, nodes.len());
         forces.multipliers.values.copy_from_slice(&at.state.multipliers);
-        let now = Configuration { nodes: &nodes, history: &at.state.history, dt: 0.0, lead: None };
+        let now = Configuration { nodes: &nodes, history: &at.state.history, dt: 0.0, previous: None };
         at.system.residual(&now, at.loading, &mut forces);
         let of_mass = TangentWeights { stiffness: false, ..weights(0.0, 1.0) };
         assembly.unconstrained(at.system, &now, at.loading, &mut forces, of_mass, solver);
@@ -75,7 +75,7 @@ impl<'a> Pencil<'a> {
     /// Forms K + rate·C + acceleration·M with or without joints in the solver.
     fn form(&mut self, weights: TangentWeights, joints: bool) {
         let Pencil { at, nodes, forces, solver, assembly, .. } = self;
-        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
         if joints {
             assembly.tangent(at.system, &now, at.loading, forces, weights, solver);
         } else {
@@ -182,16 +182,16 @@ impl<'a> Pencil<'a> {
     ) {
         let Pencil { at, forces, solver, assembly, .. } = self;
         forces.multipliers.values.copy_from_slice(multipliers);
-        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
         at.system.residual(&now, loading, forces);
-        let now = Configuration { nodes: &self.nodes, lead: Some(nodes), ..now };
+        let now = Configuration { nodes: &self.nodes, previous: Some(nodes), ..now };
         assembly.stressed(at.system, &now, loading, forces, weights(0.0, 0.0), solver);
         let values = solver.values();
         sum.resize(values.len(), 0.0);
         sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * *value);
         // The state itself again.
         self.forces.multipliers.values.copy_from_slice(&self.at.state.multipliers);
-        let now = Configuration { nodes: &self.nodes, history: &self.at.state.history, dt: 0.0, lead: None };
+        let now = Configuration { nodes: &self.nodes, history: &self.at.state.history, dt: 0.0, previous: None };
         self.at.system.residual(&now, self.at.loading, &mut self.forces);
     }
 

@@ -12,7 +12,7 @@ pub fn multipliers_at_rest(at: &Linearized, linear: (&mut Solver, &mut Assembly)
     let mut pencil = Pencil::new(*at, linear);
     let rest = |pencil: &mut Pencil| -> (Vec<f64>, f64) {
         let Pencil { at, nodes, forces, .. } = pencil;
-        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+        let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
         let scale = at.system.residual(&now, at.loading, forces);
         let dofs = at.plan.dofs.nodal_dofs().iter();
         let r: Vec<f64> = dofs.map(|&(node, dof)| forces.on_nodes[node][dof]).collect();

@@ -25,7 +25,7 @@ pub struct Energies {
 
 /// Sums φᵀ K φ over the elements of each part, for several shapes: the matrix of an element is formed once for all.
 pub fn energies(at: &Linearized, nodes: &[Node], shapes: &[Vec<Vec6>]) -> Vec<Energies> {
-    let now = Configuration { nodes, history: &at.state.history, dt: 0.0, lead: None };
+    let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
     let largest = |shape: &Vec<Vec6>| shape.iter().map(|motion| motion.amax().powi(2)).fold(0.0, f64::max);
     let mut all: Vec<Energies> =
         shapes.iter().map(|shape| Energies { largest: largest(shape), ..Energies::default() }).collect();

@@ -50,7 +50,7 @@ impl IterationMatrix {
         }
     }
 
-    /// Forms and factorizes the matrix for the trial motion when due; returns whether it did. `lead` is the iterate whose stresses are
+    /// Forms and factorizes the matrix for the trial motion when due; returns whether it did. `previous` is the iterate whose stresses are
     /// extrapolated.
     ///
     /// # Errors
@@ -60,7 +60,7 @@ impl IterationMatrix {
         cx: &Context,
         ws: &mut Workspace,
         step: &Step,
-        lead: Option<&[Node]>,
+        previous: Option<&[Node]>,
         report: &mut StepReport,
     ) -> Result<bool, Failure> {
         let key = key(step.stage.scheme, step.dt());
@@ -68,7 +68,7 @@ impl IterationMatrix {
             return Ok(false);
         }
         let may_stabilize = report.iterations == 0 && stabilization::may_help(cx);
-        self.form(cx, ws, step, lead, may_stabilize)?;
+        self.form(cx, ws, step, previous, may_stabilize)?;
         if let Some(rotated) = &mut self.rotated {
             rotated.note(&ws.trial.nodes);
         }
@@ -88,13 +88,13 @@ impl IterationMatrix {
         cx: &Context,
         ws: &mut Workspace,
         step: &Step,
-        lead: Option<&[Node]>,
+        previous: Option<&[Node]>,
         may_stabilize: bool,
     ) -> Result<(), Failure> {
         let scheme = step.stage.scheme;
         let (rate, acceleration) = scheme.weights();
         self.mass_weight = acceleration;
-        let now = Configuration { lead, ..step.at_instant(&ws.trial.nodes) };
+        let now = Configuration { previous, ..step.at_instant(&ws.trial.nodes) };
         ws.matrix.make_room(cx, &now);
         let openings = self.mechanisms.look(cx, step.state, &ws.prescribed.instant, &now);
         let mut moduli = self.refresh.moduli();

@@ -69,7 +69,7 @@ impl<'s> Step<'s> {
     where
         's: 'n,
     {
-        Configuration { nodes, history: &self.state.history, dt: self.ahead(), lead: None }
+        Configuration { nodes, history: &self.state.history, dt: self.ahead(), previous: None }
     }
 }
 

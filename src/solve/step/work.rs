@@ -45,7 +45,7 @@ impl Power {
         }
         let damping = damping_power(
             cx,
-            &Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, lead: None },
+            &Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: ahead, previous: None },
         );
         cx.system.external(&ws.trial.nodes, &ws.loads.instant, &mut ws.forces);
         let carrying = cx.system.carrying_power(&ws.trial.nodes);

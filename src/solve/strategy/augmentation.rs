@@ -45,7 +45,8 @@ impl Augmentation {
         to: f64,
         count: usize,
     ) -> Result<bool, Failure> {
-        let now = Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: to - state.time, lead: None };
+        let now =
+            Configuration { nodes: &ws.trial.nodes, history: &state.history, dt: to - state.time, previous: None };
         self.next.copy_from_slice(&state.history);
         let (out, part) = cx.system.augment_contacts(&state.nodes, &now, &mut self.next);
         if out <= 1.0 {

@@ -54,7 +54,7 @@ pub struct BeamTrees {
 fn slenderness(cx: &Context, branches: &[Branch]) -> f64 {
     let nodes = at_rest(cx.model);
     let history = vec![0.0; cx.system.history];
-    let now = Configuration { nodes: &nodes, history: &history, dt: 0.0, lead: None };
+    let now = Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None };
     let (mut length, mut largest) = (0.0, 0.0f64);
     for branch in branches.iter().filter(|branch| branch.master.is_none()) {
         let of = branch.nodes();

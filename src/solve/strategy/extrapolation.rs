@@ -1,4 +1,4 @@
-//! The iterate whose stresses are extrapolated to the current one, see [`Configuration::lead`](mechanics::state::Configuration).
+//! The iterate whose stresses are extrapolated to the current one, see [`Configuration::previous`](mechanics::state::Configuration).
 
 use crate::context::Context;
 use crate::step::correct::Correction;

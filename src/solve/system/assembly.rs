@@ -45,7 +45,7 @@ pub struct Assembly {
     threads: bool,
     /// True where the gyroscopic matrix C(r) (37) is part of the tangent; it is in the residual always.
     gyroscopic: bool,
-    /// True if [`Configuration::lead`] holds the nodes whose stresses act, see [`Assembly::stressed`].
+    /// True if [`Configuration::previous`] holds the nodes whose stresses act, see [`Assembly::stressed`].
     of_stresses: bool,
     scratch: Scratch,
 }
@@ -173,7 +173,7 @@ impl Assembly {
     }
 
     /// Like [`Assembly::unconstrained`] with K in the configuration `now`, but with the stresses of elements at the nodes
-    /// [`Configuration::lead`].
+    /// [`Configuration::previous`].
     pub fn stressed(
         &mut self,
         system: &System,
@@ -229,7 +229,7 @@ impl Assembly {
                 let local = &mut local[..length * (last - first)];
                 let (sparse, of_stresses) = (group.kind.is_unilateral(), self.of_stresses);
                 let inactive = |e: usize| sparse && block.is_inactive(e, now);
-                let one = |(e, K): (usize, &mut [f64])| match now.lead {
+                let one = |(e, K): (usize, &mut [f64])| match now.previous {
                     _ if inactive(e) => {}
                     Some(stressed) if of_stresses => block.stressed_tangent(e, now, stressed, K),
                     _ => block.tangent(e, now, rate, moduli, K),

@@ -26,14 +26,14 @@ pub fn excess_of_mean(system: &System, state: &State, (trial, dt): (&[Node], f64
             continue;
         }
         let start = state.configuration();
-        let found = Configuration { nodes: trial, history: &state.history, dt, lead: None };
+        let found = Configuration { nodes: trial, history: &state.history, dt, previous: None };
         group.block.subtract_forces(&group.configuration(&start), &mut F);
         group.block.subtract_forces(&group.configuration(&found), &mut F);
         // Writing the same history again returns the dissipation of this contact alone.
         let own = &mut history[group.history.clone()];
         let Dissipation { plastic, viscous, stored, friction, impact, eroded } =
             group.block.update_history(&group.configuration(&found), 1.0, own);
-        let end = Configuration { nodes: trial, history, dt: 0.0, lead: None };
+        let end = Configuration { nodes: trial, history, dt: 0.0, previous: None };
         let stored_more =
             group.block.energy(&group.configuration(&end)) - group.block.energy(&group.configuration(&start));
         taken += stored_more + plastic + viscous + stored + friction + impact + eroded;

@@ -34,7 +34,7 @@ fn bends(group: &Group) -> bool {
 
 fn branches_of(group: &Group, state: &State) -> usize {
     let history = &state.history[group.history.clone()];
-    let now = Configuration { nodes: &state.nodes, history, dt: 0.0, lead: None };
+    let now = Configuration { nodes: &state.nodes, history, dt: 0.0, previous: None };
     let block = &group.block;
     let of_contact = || {
         let points = if block.len() > FEW_POINTS { 0 } else { block.len() };

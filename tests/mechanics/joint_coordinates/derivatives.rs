@@ -155,8 +155,9 @@ fn what_acts_along_a_coordinate_against_differences() {
                 let history: [f64; MEMORY] = [q + 0.1 * random.next(), random.next(), 1.5, 0.0, q + random.next()];
                 let mut anchors = || q + 0.3 * random.next();
                 let history = [&history[..], &[anchors(), anchors()]].concat()[..law.memory()].to_vec();
-                let now =
-                    |nodes: &[Node]| forces(&block, &Configuration { nodes, history: &history, dt: 0.0, lead: None });
+                let now = |nodes: &[Node]| {
+                    forces(&block, &Configuration { nodes, history: &history, dt: 0.0, previous: None })
+                };
                 let f = now(&nodes);
                 let (mut sum, mut moment) = (Vec3::zeros(), Vec3::zeros());
                 for (node, f) in nodes.iter().zip(&f) {
@@ -165,7 +166,7 @@ fn what_acts_along_a_coordinate_against_differences() {
                     moment += Vec3::new(f[3], f[4], f[5]) + node.x.cross(&force);
                 }
                 assert!(sum.amax() < 1e-14 && moment.amax() < 1e-14, "{law:?}: {sum} {moment}");
-                let configuration = Configuration { nodes: &nodes, history: &history, dt: 0.0, lead: None };
+                let configuration = Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None };
                 let [mut K, mut with_rates] = [[0.0; 144]; 2];
                 block.tangent(0, &configuration, 0.0, Moduli::Algorithmic, &mut K);
                 block.tangent(0, &configuration, 1.0, Moduli::Algorithmic, &mut with_rates);

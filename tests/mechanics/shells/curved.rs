@@ -253,11 +253,11 @@ fn tangents_are_those_of_forces() {
             let (first, second) = (moved(&mut rng, &mesh.x, 0.02), moved(&mut rng, &mesh.x, 0.02));
             let mut history = vec![0.0; block.history()];
             let past = history.clone();
-            let before = Configuration { nodes: &first, history: &past, dt: 1.0, lead: None };
+            let before = Configuration { nodes: &first, history: &past, dt: 1.0, previous: None };
             block.update_history(&before, 1.0, &mut history);
             assert!(!layered || block.plastic_strain(0, &history) > 0.0, "round {round} yields nowhere");
             let mut K = vec![0.0; 36 * n * n];
-            let base = Configuration { nodes: &second, history: &history, dt: 1.0, lead: None };
+            let base = Configuration { nodes: &second, history: &history, dt: 1.0, previous: None };
             // Positions alone, then rates alone: K at rate weight 1 less that at 0.
             block.tangent(0, &base, 0.0, Moduli::Algorithmic, &mut K);
             let scale = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
@@ -291,7 +291,7 @@ fn layers_that_do_not_yield_are_elastic() {
         let elastic = mesh.block(&PLATE, 0.0);
         let nodes = moved(&mut rng, &mesh.x, 3e-4);
         let history = vec![0.0; layered.history()];
-        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0, lead: None };
+        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0, previous: None };
         let (a, b) = (forces(&*layered, &now), forces(&*elastic, &now));
         let size = a.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
         assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-11 * size), "{n}");
@@ -387,7 +387,7 @@ fn resultants_are_those_of_the_state() {
             mesh.layered(&PLATE, &LayerModel { law: far_off.clone(), layers: 3, logarithmic: false }),
         ] {
             let past = vec![0.0; block.history()];
-            let now = Configuration { nodes: &nodes, history: &past, dt: 0.0, lead: None };
+            let now = Configuration { nodes: &nodes, history: &past, dt: 0.0, previous: None };
             let at = block.resultants(0, &Vec3::x(), &start, &now).unwrap();
             near(&at.N, &plane(green, 0.1), 1e-11);
             near(&at.M, &[0.0; 3], 1e-11);

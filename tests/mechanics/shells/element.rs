@@ -191,14 +191,14 @@ fn layers_have_the_tangent_of_their_stress() {
             let mut history = vec![0.0; block.history()];
             let past = history.clone();
             block.update_history(
-                &Configuration { nodes: &first, history: &past, dt: 1.0, lead: None },
+                &Configuration { nodes: &first, history: &past, dt: 1.0, previous: None },
                 1.0,
                 &mut history,
             );
             assert!(block.plastic_strain(0, &history) > 0.0, "round {round} yields nowhere");
             let n = 6 * mesh.x.len();
             let mut K = vec![0.0; n * n];
-            let base = Configuration { nodes: &second, history: &history, dt: 1.0, lead: None };
+            let base = Configuration { nodes: &second, history: &history, dt: 1.0, previous: None };
             block.tangent(0, &base, 0.0, Moduli::Algorithmic, &mut K);
             let scale = K.iter().fold(0.0f64, |m, k| m.max(k.abs()));
             let h = 1e-6; // truncation h² and 1e-16/h, and a layer at its yield limit is met with small chance
@@ -317,9 +317,9 @@ fn tangents_side_by_side_are_those_of_one_element() {
         };
         let (first, second) = (moved(0.05), moved(0.05));
         let (past, mut history) = (vec![0.0; block.history()], vec![0.0; block.history()]);
-        let before = Configuration { nodes: &first, history: &past, dt: 1.0, lead: None };
+        let before = Configuration { nodes: &first, history: &past, dt: 1.0, previous: None };
         block.update_history(&before, 1.0, &mut history);
-        let now = Configuration { nodes: &second, history: &history, dt: 1.0, lead: None };
+        let now = Configuration { nodes: &second, history: &history, dt: 1.0, previous: None };
         let (count, length) = (block.len(), (6 * block.nodes(0).len()).pow(2));
         let mut elastic = vec![0.0; length];
         for moduli in [Moduli::Algorithmic, Moduli::Elastic] {
@@ -368,7 +368,7 @@ fn packs_have_the_bits_of_their_elements() {
                     ..Node::at_rest(R * (x + vector(&mut rng, 0.1 * strain)) + shift)
                 };
                 let nodes: Vec<Node> = mesh.x.iter().map(&mut node).collect();
-                let now = Configuration { nodes: &nodes, history: &past, dt: 1.0, lead: None };
+                let now = Configuration { nodes: &nodes, history: &past, dt: 1.0, previous: None };
                 let mut sums = [vec![[0.0; 6]; nodes.len()], vec![[0.0; 6]; nodes.len()]];
                 let mut new = [past.clone(), past.clone()];
                 let together = all.advance(&now, &mut sums[0], &mut new[0]);
@@ -414,7 +414,7 @@ fn layers_that_do_not_yield_are_elastic() {
             })
             .collect();
         let history = vec![0.0; layered.history()];
-        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0, lead: None };
+        let now = Configuration { nodes: &nodes, history: &history, dt: 1.0, previous: None };
         let (a, b) = (forces(&*layered, &now), forces(&*elastic, &now));
         let size = a.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
         assert!(a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-12 * size));

@@ -90,7 +90,7 @@ fn even_strain() {
             let nodes: Vec<Node> =
                 patch.x.iter().map(|x| Node { rotation: q, ..Node::at_rest(R * U * x + shift) }).collect();
             let past = vec![0.0; block.history()];
-            let now = Configuration { nodes: &nodes, history: &past, dt: 0.0, lead: None };
+            let now = Configuration { nodes: &nodes, history: &past, dt: 0.0, previous: None };
             let green = 0.5 * (U * U - Mat3::identity());
             let green = [green[(0, 0)], green[(1, 1)], green[(0, 1)]];
             for angle in [0.0f64, 0.7, -2.5] {
@@ -282,9 +282,9 @@ fn layers_yield_one_by_one() {
             };
             let nodes: Vec<Node> = patch.x.iter().map(node).collect();
             let mut history = past.clone();
-            let now = Configuration { nodes: &nodes, history: &past, dt: 1.0, lead: None };
+            let now = Configuration { nodes: &nodes, history: &past, dt: 1.0, previous: None };
             block.update_history(&now, 1.0, &mut history);
-            let now = Configuration { nodes: &nodes, history: &history, dt: 0.0, lead: None };
+            let now = Configuration { nodes: &nodes, history: &history, dt: 0.0, previous: None };
             let by_hand = |z: f64| {
                 let strain = (k * z).abs();
                 let elastic = E * strain / (1.0 - NU);

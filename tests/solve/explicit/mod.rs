@@ -2,7 +2,7 @@
 
 mod balance;
 mod critical_step;
-mod growth;
+mod energy_growth;
 mod implicit;
 mod mass_scaling;
 mod masses;

@@ -124,11 +124,11 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     }
 
     /// Tangents of elements into `K`, one after the other, see [`Mechanics::tangent`]: as many as `T` has lanes, or fewer. The stresses are
-    /// those at the nodes `lead`, where there are such.
+    /// those at the nodes `previous`, where there are such.
     fn tangents_of<T: Number>(
         &self,
         elements: &[Beam<N, S>],
-        (now, lead): (&Configuration, Option<&[Node]>),
+        (now, previous): (&Configuration, Option<&[Node]>),
         rate_weight: Option<f64>,
         moduli: Moduli,
         K: &mut [f64],
@@ -142,7 +142,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
             viscous: elastic.scaled(T::splat(self.damping)),
             has_failed: self.damping > 0.0 && section(0).has_failed(now.history),
         };
-        tangent(&pack, &sections, (now.nodes, lead), rate_weight.filter(|_| self.damping > 0.0), K);
+        tangent(&pack, &sections, (now.nodes, previous), rate_weight.filter(|_| self.damping > 0.0), K);
     }
 }
 
@@ -222,23 +222,23 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         // In yielding material the current state matters more than the stretching by a correction.
-        let lead = now.lead.filter(|_| S::IS_ELASTIC);
-        self.tangents_of::<f64>(&self.elements[e..=e], (now, lead), Some(rate_weight), moduli, K);
+        let previous = now.previous.filter(|_| S::IS_ELASTIC);
+        self.tangents_of::<f64>(&self.elements[e..=e], (now, previous), Some(rate_weight), moduli, K);
     }
 
     fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let length = 36 * N * N;
         let elements = &self.elements[first..first + K.len() / length];
-        let lead = now.lead.filter(|_| S::IS_ELASTIC);
+        let previous = now.previous.filter(|_| S::IS_ELASTIC);
         for (elements, K) in elements.chunks(LANES).zip(K.chunks_mut(LANES * length)) {
             // Damping ends where an element fails.
             let fails = self.damping > 0.0 && elements.iter().any(|e| e.section.has_failed(now.history));
             if !fails && elements.len() >= WORTH_A_PACK {
-                self.tangents_of::<Lanes>(elements, (now, lead), Some(rate_weight), moduli, K);
+                self.tangents_of::<Lanes>(elements, (now, previous), Some(rate_weight), moduli, K);
                 continue;
             }
             for (one, K) in elements.chunks(1).zip(K.chunks_mut(length)) {
-                self.tangents_of::<f64>(one, (now, lead), Some(rate_weight), moduli, K);
+                self.tangents_of::<f64>(one, (now, previous), Some(rate_weight), moduli, K);
             }
         }
     }

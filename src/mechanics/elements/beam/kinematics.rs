@@ -186,15 +186,15 @@ impl<'a, T: Number, const N: usize> Pack<'a, T, N> {
     }
 
     /// The strains Γ and κ for the stress of a tangent: extrapolated from the previous iterate, see
-    /// [`Configuration::lead`](crate::state::Configuration), or those of the point.
+    /// [`Configuration::previous`](crate::state::Configuration), or those of the point.
     #[inline(always)]
     pub fn leading_strains(
         &self,
         g: usize,
         point: &GaussPoint<T>,
-        lead: Option<(&[Node], &BeamMotion<T, N>)>,
+        previous: Option<(&[Node], &BeamMotion<T, N>)>,
     ) -> [LaneVec3<T>; 2] {
-        let Some((nodes, motion)) = lead else { return point.strain };
+        let Some((nodes, motion)) = previous else { return point.strain };
         let before = self.interpolate(g, motion);
         let ([gamma, kappa], _) = self.rates(g, &before, &motion.q, nodes);
         [before.strain[0] + gamma, before.strain[1] + kappa]

@@ -185,24 +185,24 @@ pub(super) struct PackSections<'a, T> {
 }
 
 /// Writes the tangents of the elements of a pack into `K`, row-major, one after the other, see [`crate::elements::Mechanics::tangent`],
-/// with the stresses extrapolated from `lead`. Without a `rate_weight` they are symmetric; with one they include damping.
+/// with the stresses extrapolated from `previous`. Without a `rate_weight` they are symmetric; with one they include damping.
 pub(super) fn tangent<T: Number, const N: usize>(
     pack: &Pack<T, N>,
     sections: &PackSections<T>,
-    (nodes, lead): (&[Node], Option<&[Node]>),
+    (nodes, previous): (&[Node], Option<&[Node]>),
     rate_weight: Option<f64>,
     K: &mut [f64],
 ) {
     let damped = rate_weight.is_some();
     let motion = pack.gather(nodes);
-    let before = lead.map(|nodes| (nodes, pack.gather(nodes)));
-    let lead = before.as_ref().map(|(nodes, motion)| (*nodes, motion));
+    let before = previous.map(|nodes| (nodes, pack.gather(nodes)));
+    let previous = before.as_ref().map(|(nodes, motion)| (*nodes, motion));
     let mut pairs = Pairs::<T, N>::zero(damped);
     let mut of_rates = damped.then(|| Pairs::<T, N>::zero(true));
     let mut gradient = [[T::ZERO; 4]; N];
     for g in 0..sections.points {
         let point = pack.interpolate(g, &motion);
-        let strain = pack.leading_strains(g, &point, lead);
+        let strain = pack.leading_strains(g, &point, previous);
         let Linearised { mut stress, C } = (sections.linearise)(g, &strain);
         let w = pack.weight(g);
         let (mut value, mut slope) = ([T::ZERO; N], [T::ZERO; N]);

@@ -211,7 +211,7 @@ mod tests {
             let (speed, mut numbers) = (0.25, before);
             let mut new = PairMemoryMut(&mut numbers);
             let motion = NormalMotion { gap, inset, rate: -speed, power: 0.0, speed };
-            let now = Configuration { nodes: &[], history: &[], dt, lead: None };
+            let now = Configuration { nodes: &[], history: &[], dt, previous: None };
             let (_, left) = update_normal(&law, &motion, &now, 1.0, PairMemory(&before), &mut new);
             // Outside the surface by this: the spring begins a depth `left` inside.
             let (outside, safe) = (gap - inset, new.read().safe_time());
