@@ -199,7 +199,7 @@ pub fn study(args: &StudyArgs) -> Result<(), Exit> {
         return Err(Exit::Stopped);
     }
     if !any {
-        complain("no run completed");
+        complain("no run completed: run the deck alone with `rdsolve run`, which prints the cause");
         return Err(Exit::NotConverged);
     }
     if let Some(lacking) = lacking {
@@ -340,7 +340,7 @@ impl StudyArgs {
 fn load_one(deck: &Path, sets: &[String], names: Vec<String>) -> Result<Loaded, Exit> {
     let loaded = load(deck, sets, names)?;
     if loaded.model.analysis.stage.is_some() {
-        complain("a study does not go over the stages of a deck: make a deck of the one that it is about");
+        complain("a study does not go over stages: give it a deck with one [analysis] in place of `[[stages]]`");
         return Err(Exit::DeckInvalid);
     }
     Ok(loaded)

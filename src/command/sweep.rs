@@ -148,7 +148,7 @@ fn chosen(choice: Option<Choice>, folder: &SweepFolder) -> Result<Vec<usize>, Ex
     Ok(match choice {
         None => (0..count).collect(),
         Some(Choice::One(case)) if case > count => {
-            complain(&format!("there is no case {case}: the sweep has {count}"));
+            complain(&format!("there is no case {case}: give a number from 1 to {count}"));
             return Err(Exit::Usage);
         }
         Some(Choice::One(case)) => vec![case - 1],

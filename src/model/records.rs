@@ -89,7 +89,8 @@ fn warnings_of(amplitude: &Amplitude, file: &str, series: &TimeSeries) -> Vec<Di
             short(offset),
             unit.name
         );
-        warnings.push(Diagnostic::note(message));
+        let hint = "remove it from the file yourself if another baseline is meant";
+        warnings.push(Diagnostic::note(message).hint(hint));
     }
     if let Some(count) = series.sequence {
         let message = format!(

@@ -331,7 +331,7 @@ fn runs_that_fail_are_listed_as_failed() {
     let (text, said) = study(folder.path(), &["--time-steps", "0.02", "--samples", "10", "-o", "none", "--quiet"], 4);
     assert!(text.contains("not-converged: at t = "), "{text}");
     assert!(text.contains("no reference: too few runs came to their end"), "{text}");
-    assert_eq!(said, "error: no run completed\n");
+    assert_eq!(said, "error: no run completed: run the deck alone with `rdsolve run`, which prints the cause\n");
 }
 
 #[test]
