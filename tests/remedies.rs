@@ -48,13 +48,11 @@ fn run(deck: &str) -> (i32, String) {
     (output.status.code().unwrap(), String::from_utf8(output.stderr).unwrap())
 }
 
-/// The rest of a message's line from these words on, without residuals, which are rounding.
+/// The rest of a message's line from these words on, up to what is rounding: residuals, and amplitudes at a resonance.
 fn shown(message: &str) -> &str {
-    let line = message.lines().next().unwrap_or_default();
-    line.split("; the largest unbalanced")
-        .next()
-        .unwrap_or_default()
-        .trim_end_matches("; results are valid up to this time")
+    let line = message.lines().next().unwrap_or_default().trim_end_matches("; results are valid up to this time");
+    let ends = ["; the largest unbalanced", "; at frequency"].map(|words| line.find(words));
+    &line[..ends.into_iter().flatten().min().unwrap_or(line.len())]
 }
 
 /// Fails for each row whose message is missing, or whose change leaves the message or another error; compares the messages with a snapshot.

@@ -401,7 +401,7 @@ fn stable_steps_that_do_not_resolve_the_motion_are_told() {
         )
     };
     let long = said_of(&oscillator(20.0), &[]);
-    assert!(long.contains("displacements overshoot by about 67 %"), "{long}");
+    assert!(long.contains("Displacements overshoot by about 67 %"), "{long}");
     let short = said_of(&oscillator(2.0), &[]);
     assert!(!short.contains("overshoot"), "{short}");
 }

@@ -10,9 +10,10 @@ fn weak() -> f64 {
     std::f64::consts::PI.powi(2) * 2.1e11 * 0.03 * 0.005f64.powi(3) / 12.0 / 4.0
 }
 
-/// The time that a warning tells.
-fn time(text: &str) -> f64 {
-    text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap()
+/// The time in a warning.
+pub fn time(text: &str) -> f64 {
+    let word = text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap();
+    word.trim_end_matches('.').parse().unwrap()
 }
 
 /// What a run says of an equilibrium that becomes unstable: the reason for which it ends there, or its only warning.

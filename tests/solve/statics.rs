@@ -116,8 +116,7 @@ fn columns_above_their_buckling_load_are_warned_of() {
             (Outcome::Done, [text]) => text.clone(),
             _ => panic!("{axis} {step} {control}: {outcome:?} {warnings:?}"),
         };
-        let time: f64 =
-            text.split("t = ").nth(1).and_then(|rest| rest.split([' ', ':', ',']).next()).unwrap().parse().unwrap();
+        let time = super::stability::time(text);
         assert!((1000.0 * time / weak - 1.0).abs() < 2e-3, "{text}");
         assert!(text.contains(if axis.starts_with("[1") {
             "`b` most, in direction uy"

@@ -35,9 +35,12 @@ pub enum Watch<'c> {
     From(&'c [u8], Option<usize>),
 }
 
+/// The runs of decks, by their names.
+type Runs = Mutex<HashMap<String, Arc<OnceLock<Arc<Watched>>>>>;
+
 /// A deck from start to end. All tests of a process share the run.
 pub fn whole(name: &str) -> Arc<Watched> {
-    static RUNS: LazyLock<Mutex<HashMap<String, Arc<OnceLock<Arc<Watched>>>>>> = LazyLock::new(Mutex::default);
+    static RUNS: LazyLock<Runs> = LazyLock::new(Mutex::default);
     let run = Arc::clone(RUNS.lock().expect("no test fails here").entry(name.to_owned()).or_default());
     Arc::clone(run.get_or_init(|| Arc::new(watch(&read(name, &[]), Watch::Whole))))
 }
