@@ -1290,6 +1290,23 @@ fn contacts_of_faces() {
 }
 
 #[test]
+fn linear_statics() {
+    let asked = |keys: &str, more: &str| {
+        let kind = ("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys);
+        said(&format!("{}\n{more}", edited(&[kind])), &[])
+    };
+    let linear = "kind = \"static\"\ngeometry = \"linear\"";
+    assert_snapshot!("linear_contacts_and_gaps", asked(linear, ""));
+    assert_snapshot!("linear_dynamics", portal(&[("end_time = 0.3", "geometry = \"linear\"\nend_time = 0.3")]));
+    assert_snapshot!("linear_steps", asked(&format!("{linear}\ntime_step = 2.0\nerror_tolerance = 1e-3"), ""));
+    let cases = "[[load_cases]]\nname = \"a\"\nloads = [\"gravty\", \"gravity\"]\nfactors = [1.0]\n\
+                 [[combinations]]\nname = \"a\"\ncases = [\"b\"]\n[[envelopes]]\nname = \"e\"\ncases = \"c\"\n\
+                 [[expect]]\nat = \"knee_right\"\nquantity = \"ux\"\ncase = \"d\"\nvalue = 1.0\ntolerance = 0.1\n";
+    assert_snapshot!("linear_cases", asked(linear, cases));
+    assert_snapshot!("linear_cases_in_dynamics", portal_and("[[load_cases]]\nname = \"a\"\nloads = \"gravity\"\n"));
+}
+
+#[test]
 fn modes() {
     let asked = |keys: &str| portal(&[("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", keys)]);
     assert_snapshot!("modes_and_up_to", asked("kind = \"modal\"\nmodes = 3\nup_to = 50.0"));
@@ -1498,4 +1515,54 @@ fn orders_of_shells() {
     };
     assert_snapshot!("shell_order", said(&patches("order = 3"), &[]));
     assert_snapshot!("shell_orders_apart", said(&patches("order = 2"), &[]));
+}
+
+#[test]
+fn supports_along_axes() {
+    let support = |text: &str| {
+        portal_and(&format!(
+            "[amplitudes.a]\nkind = \"ramp\"\nstart = -1.0\nend = 1.0\n[[supports]]\nat = \"knee_right\"\n{text}"
+        ))
+    };
+    assert_snapshot!(
+        "axes_are_wrong",
+        support("axes = [[1.0, 0.0, 1.0], [2.0, 0.0, 2.0]]\nfix = \"ux\"\nrotation = \"xyz\"\n")
+    );
+    let slanted = "axes = [[1.0, 0.0, 1.0], [0.0, 1.0, 0.0]]\n";
+    assert_snapshot!(
+        "axes_turn_no_motion",
+        support(&format!("{slanted}motion = {{ rx = {{ amplitude = \"a\" }} }}\n"))
+    );
+    let moved = "motion = { ux = { amplitude = \"a\", scale = 0.01 } }\n";
+    assert_snapshot!("axes_begin_displaced", support(&format!("{slanted}{moved}")));
+    let twice = format!("{slanted}fix = \"ux\"\n[[supports]]\nat = \"knee_right\"\n{slanted}{moved}")
+        .replace("amplitude = \"a\"", "amplitude = \"pulse\"");
+    assert_snapshot!("axes_given_twice", support(&twice));
+}
+
+#[test]
+fn equations() {
+    let term =
+        |node: &str, dof: &str, factor: &str| format!("{{ node = \"{node}\", dof = \"{dof}\", factor = {factor} }}");
+    let equation =
+        |name: &str, terms: &[String]| format!("[[equations]]\nname = \"{name}\"\nterms = [{}]\n", terms.join(", "));
+    let text = [
+        equation("one", &[term("knee_left", "ux", "1.0")]),
+        equation("twice", &[term("knee_left", "ux", "1.0"), term("knee_left", "ux", "2.0")]),
+        equation("nothing", &[term("knee_left", "ux", "0.0"), term("portal", "ux", "2.0")]),
+        equation("nowhere", &[term("kne_left", "ux", "1.0"), term("knee_left", "u", "2.0")]),
+    ];
+    assert_snapshot!("equations", portal_and(&text.concat()));
+}
+
+#[test]
+fn shells_beside_their_nodes() {
+    let shell = |more: &str| {
+        let corners = "corners = [\"foot_left\", \"knee_left\", \"knee_right\", \"foot_right\"]";
+        portal_and(&format!(
+            "[[shells]]\nname = \"wall\"\n{corners}\nelements = 2\nmaterial = \"steel\"\nthickness = 0.01\n{more}"
+        ))
+    };
+    assert_snapshot!("offset_of_a_rigid_shell", shell("rigid = true\noffset = 0.02\n"));
+    assert_snapshot!("nodal_thickness", shell("nodal_thickness = { \"wall.edge1\" = 0.0, block = 0.1, wal = 0.1 }\n"));
 }

@@ -16,6 +16,8 @@ pub struct Analysis {
     /// What is computed.
     #[schemars(required)]
     pub kind: Maybe<AnalysisKind>,
+    /// Displacements that count in a static analysis. Default: "finite".
+    pub geometry: Maybe<Geometry>,
     /// How a static analysis advances along its path. Default: "time".
     pub control: Maybe<Control>,
     /// The run goes from t = 0 to this time, above 0; with arc-length control until the load first reaches it. Required for "dynamic" and
@@ -60,6 +62,19 @@ pub struct Analysis {
     pub method: Maybe<ResponseWord>,
     /// With "frequency-response" and method = "modal": damping ratio of every mode, in addition to dampers; 0 or more. Default: 0.
     pub damping_ratio: Maybe<f64>,
+}
+
+/// The displacements that count in a static analysis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Geometry {
+    /// Displacements and rotations of any size: equilibrium of the deformed structure, found by iteration.
+    #[default]
+    Finite,
+    /// Infinitesimal displacements: one factorization of the stiffness at t = 0 serves all loads, and results are proportional to loads.
+    /// Materials are elastic, and loads keep their directions. `end_time` and `time_step` may be left out; the analysis then has one
+    /// instant, t = 1.
+    Linear,
 }
 
 /// Method of a frequency response.

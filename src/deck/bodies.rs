@@ -20,10 +20,10 @@ pub struct Body {
     /// Centre of mass at t = 0, global coordinates. Omitted if `parts` form the body, like mass, inertia and shape, or if a hull or capsule
     /// stays at its points.
     pub center: Maybe<Vector>,
-    /// Mass, above 0. Left out where the shape has a density.
+    /// Mass, above 0. Left out where the shape has a density. In decks of statics and buckling alone it may be 0, and left out if no gravity acts.
     pub mass: Maybe<f64>,
     /// Moments of inertia about the centre, global axes at t = 0: [xx, yy, zz] or [xx, yy, zz, xy, yz, zx], products with the sign of the
-    /// matrix.
+    /// matrix. May be left out like the mass.
     pub inertia: Maybe<Vec<f64>>,
     /// A solid that gives the inertia, and the mass if it has a density; with `inertia` it is only drawn.
     pub shape: Maybe<OneOf<BodyShape>>,

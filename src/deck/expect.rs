@@ -24,6 +24,9 @@ pub struct Expect {
     /// shell and "plastic_strain" of a beam, bar or shell are the largest values in the part, "sigma_min" of a beam is the smallest.
     #[schemars(required)]
     pub quantity: Maybe<String>,
+    /// In a linear analysis with `[[load_cases]]`, instead of `time`: name of a load case or combination. With `peak` the extreme is taken
+    /// over all cases instead.
+    pub case: Maybe<String>,
     /// Time of the value; with arc-length control, the first time the load reaches it.
     pub time: Maybe<f64>,
     /// With arc-length control, instead of `time`: where a displacement passes a value. A step ends there.

@@ -12,9 +12,11 @@ pub mod attachments;
 pub mod bars;
 pub mod beams;
 pub mod bodies;
+pub mod cases;
 pub mod contacts;
 pub mod drifts;
 pub mod environment;
+pub mod equations;
 pub mod expect;
 mod hints;
 pub mod initial;
@@ -111,9 +113,21 @@ pub struct Deck {
     /// Unilateral contact with friction and impact between points and surfaces.
     #[serde(default)]
     pub contacts: Vec<At<Table<contacts::Contact>>>,
+    /// Linear equations between displacements.
+    #[serde(default)]
+    pub equations: Vec<At<Table<equations::Equation>>>,
     /// Forces, moments and distributed loads.
     #[serde(default)]
     pub loads: Vec<At<Table<loads::Load>>>,
+    /// Load cases of a linear analysis.
+    #[serde(default)]
+    pub load_cases: Vec<At<Table<cases::LoadCase>>>,
+    /// Combinations of load cases.
+    #[serde(default)]
+    pub combinations: Vec<At<Table<cases::Combination>>>,
+    /// Envelopes of results over load cases and combinations.
+    #[serde(default)]
+    pub envelopes: Vec<At<Table<cases::Envelope>>>,
     /// Functions of time by name, for loads and prescribed motion.
     #[serde(default)]
     pub amplitudes: Named<Table<amplitudes::Amplitude>>,

@@ -33,15 +33,16 @@ pub struct Load {
     /// Factors of a load per length along a beam or bar: pairs [fraction of its length, factor], linear between them and zero outside.
     /// Default: [[0, 1], [1, 1]].
     pub profile: Maybe<Vec<At<Numbers<2>>>>,
-    /// Force per area that shells have at t = 0, global components; `at` then names shells.
+    /// Force per area that shells have at t = 0, global components; `at` then names shells, groups of the mesh whose faces are part of
+    /// shells, or sets of them.
     pub force_per_area: Maybe<Vector>,
-    /// Pressure on shells, against their normals, which see the corners go round counter-clockwise; `at` then
-    /// names shells. Area and normals are those of t = 0, with `follower` the current ones.
+    /// Pressure on shells, against their normals, which see the corners go round counter-clockwise; `at` names the same as for
+    /// `force_per_area`. Area and normals are those of t = 0, with `follower` the current ones.
     pub pressure: Maybe<f64>,
     /// A force or moment turns with its node, a load per length with the sections of its beam, a pressure follows the surface. Default:
     /// false.
     pub follower: Maybe<bool>,
-    /// Name, for `stop` of a stage. Default: none.
+    /// Name, for `stop` of a stage and for `[[load_cases]]`. Default: none.
     pub name: Maybe<String>,
     /// Names of the stages in which it acts. Default: all.
     pub stages: Maybe<Names>,

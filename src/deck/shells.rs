@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
-use super::words::{Maybe, Names, OneOrMany, Table, Vector};
+use super::words::{Maybe, Named, Names, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 
 /// A patch of shell elements, or those of a group of the mesh. Its name represents all of its nodes, and `name.edge1` to `name.edge4` those
@@ -26,6 +26,12 @@ pub struct Shell {
     /// Thickness, above 0.
     #[schemars(required)]
     pub thickness: Maybe<f64>,
+    /// Thickness at some nodes instead of `thickness`, above 0, by names of points, edges or sets: `{ tip = 0.01, "mesh.17" = 0.02 }`. A later
+    /// entry counts. Each element has the mean of its corners; contacts take `thickness`.
+    #[serde(default)]
+    pub nodal_thickness: Named<f64>,
+    /// Distance of the mid-surface from the nodes, along the normals at the nodes; rigid arms join both. Default: 0.
+    pub offset: Maybe<f64>,
     /// Name of a material.
     #[schemars(required)]
     pub material: Maybe<String>,

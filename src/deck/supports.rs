@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Directions, Maybe, Names, Table};
+use super::words::{Directions, Maybe, Names, Table, Vector};
 use base::math::turn::RotationAngles;
 
 /// Directions held at rest or moved as told.
@@ -15,7 +15,10 @@ pub struct Support {
     pub at: Maybe<Names>,
     /// Degrees of freedom that are restrained at zero: "all", "translations", "rotations" or a list such as ["ux", "ry"].
     pub fix: Maybe<Directions>,
-    /// Name, for `stop` of a stage. Default: none.
+    /// Axes of `fix` and `motion`, which stay as they are: their x, and a vector in their x-y plane. "ux" is then the translation along
+    /// that x, "rx" the rotation about it; only translations can move. Default: global axes.
+    pub axes: Maybe<Vec<Vector>>,
+    /// Name, for `stop` of a stage and for `[[load_cases]]`. Default: none.
     pub name: Maybe<String>,
     /// Names of the stages in which it acts; it holds its nodes where it finds them. Default: all.
     pub stages: Maybe<Names>,
@@ -94,6 +97,9 @@ pub struct Motion {
     pub amplitude: Maybe<String>,
     /// Factor on the amplitude. Default: 1.
     pub scale: Maybe<f64>,
+    /// Instead of `amplitude` and `scale`, in static stages: the displacement from t = 0 at the end of the first stage in which the support acts.
+    /// (ux, uy, uz)
+    pub to: Maybe<f64>,
     /// The quantity that the amplitude gives. Default: "displacement".
     pub history: Maybe<History>,
 }

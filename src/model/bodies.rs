@@ -10,8 +10,9 @@ use base::names::{nearest, short};
 use deck::Deck;
 use deck::bodies as words;
 use deck::parts::PartIndex;
-use deck::words::Names;
+use deck::stages::{Stage, StageKind};
 use deck::words::kinds::OneOf;
+use deck::words::{Names, Table};
 use mechanics::solids::element_faces::ElementFaces;
 use mechanics::solids::{Solid, SolidShape, drawn_by_inertia};
 use std::collections::HashMap;
@@ -35,12 +36,15 @@ pub(super) struct Bodies<'d> {
 }
 
 /// Makes a body and a node for each `[[bodies]]`, also for those with errors since others refer to them, then for each part with
-/// `rigid = true`.
-pub(super) fn bodies<'d>(deck: &'d Deck, nodes: &mut Nodes, report: &mut Report<'d>) -> Bodies<'d> {
+/// `rigid = true`. Nothing in statics depends on mass but weight, so that a body may then have none.
+pub(super) fn bodies<'d>(deck: &'d Deck, has_inertia: bool, nodes: &mut Nodes, report: &mut Report<'d>) -> Bodies<'d> {
     let mut bodies = Bodies::default();
+    let weighs = deck.environment.as_ref().is_some_and(|of| of.gravity.is_some());
+    let with_mass = if deck.stages.is_empty() { has_inertia } else { deck.stages.iter().any(has_inertia_in) };
     for (index, body) in deck.bodies.iter().enumerate() {
         let (label, owner) = report.named(("body", "bodies", index), body.name.as_ref(), &body.span);
-        let sound = if body.parts.is_some() { None } else { mass_properties(&owner, body, report) };
+        let sound =
+            if body.parts.is_some() { None } else { mass_properties(&owner, body, (with_mass, weighs), report) };
         let center = match (&body.parts, &body.center, sound.as_ref().and_then(|sound| sound.center)) {
             (Some(_), ..) => Vec3::zeros(),
             (None, None, Some(center)) => center,
@@ -131,6 +135,12 @@ fn is_of_points(body: &words::Body) -> bool {
     kind.is_some_and(|kind| kind.value.takes("points") || kind.value.takes("ends"))
 }
 
+/// True for a stage in which masses matter.
+fn has_inertia_in(stage: &At<Table<Stage>>) -> bool {
+    let kind = stage.kind.as_ref().map(|kind| kind.value);
+    !matches!(kind, Some(StageKind::Static | StageKind::Buckling))
+}
+
 /// Mass, inertia and shape of a body.
 struct MassProperties {
     mass: f64,
@@ -140,7 +150,12 @@ struct MassProperties {
     center: Option<Vec3>,
 }
 
-fn mass_properties<'d>(owner: &Owner<'d>, body: &'d words::Body, report: &mut Report<'d>) -> Option<MassProperties> {
+fn mass_properties<'d>(
+    owner: &Owner<'d>,
+    body: &'d words::Body,
+    (with_mass, weighs): (bool, bool),
+    report: &mut Report<'d>,
+) -> Option<MassProperties> {
     let solid = match &body.shape {
         Some(shape) => Some(read_solid(shape, &owner.what, report)?),
         None => None,
@@ -159,6 +174,16 @@ fn mass_properties<'d>(owner: &Owner<'d>, body: &'d words::Body, report: &mut Re
             let density = &body.shape.as_ref()?.density;
             report.positive("density", density)? * solid.volume
         }
+        (None, None, _) if !with_mass && weighs && !report.is_spoiled(owner.span, "mass") => {
+            let message = format!("gravity acts, and {} has no `mass`", owner.what);
+            return report.error_with(owner.span, message, "give it its mass, or `mass = 0.0` if it has no weight");
+        }
+        (None, None, _) if !with_mass && !report.is_spoiled(owner.span, "mass") => 0.0,
+        (Some(mass), ..) if !with_mass && mass.value == 0.0 => 0.0,
+        (None, None, None) if !report.is_spoiled(owner.span, "mass") => {
+            let message = format!("{} needs `mass`", owner.what);
+            return report.error_with(owner.span, message, "only in statics and buckling a body may have none");
+        }
         (None, None, Some(_)) if !report.is_spoiled(owner.span, "mass") => {
             let message = format!("{} needs `mass`, or a density in its shape", owner.what);
             return report.error(owner.span, message);
@@ -173,6 +198,10 @@ fn mass_properties<'d>(owner: &Owner<'d>, body: &'d words::Body, report: &mut Re
     }
     match solid {
         Some(solid) => Some(MassProperties { mass, inertia: solid.inertia * mass, shape: solid.shape, center }),
+        None if !with_mass && body.inertia.is_none() && !report.is_any_spoiled(owner.span) => {
+            let shape = Arc::new(ElementFaces::default());
+            Some(MassProperties { mass, inertia: Mat3::zeros(), shape, center })
+        }
         None if report.is_spoiled(owner.span, "inertia") || report.is_spoiled(owner.span, "shape") => None,
         None => {
             let message = format!("{} needs `inertia` or `shape`", owner.what);

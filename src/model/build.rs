@@ -8,13 +8,15 @@ use super::attachments::attachments;
 use super::bars::bars;
 use super::beams::beams;
 use super::bodies::bodies;
+use super::cases::cases;
 use super::contacts::contacts;
 use super::contacts::points::connect_touching_points;
 use super::data::{
-    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, Iteration, Joint, Load, Mass, MeshFile, Model,
-    Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
+    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, Iteration, Joint, Load, LoadCases, Mass,
+    MeshFile, Model, Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
 };
 use super::environment::{AccelerationFields, damping, environment};
+use super::equations::equations;
 use super::expects::expects;
 use super::groups::Groups;
 use super::initial::initial;
@@ -46,6 +48,7 @@ use super::plausibility::unused::drop_unused;
 use super::plausibility::{check_content, check_static, check_use};
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
+use super::procedure::linear::{check_linear, make_elastic};
 use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start};
 use super::procedure::response::{add_expected, check_harmonic};
@@ -229,6 +232,7 @@ fn model<'d>(
     let linked = links.list.iter().map(|link| link.ends).chain(contacts.iter().flat_map(|contact| contact.pairs()));
     check_sound(&scene, &amplitudes, &topology, Ties::new(&topology, &joints, linked), report);
     place_nodes(&scene.names, &scene.parts, &mut topology);
+    let targets = std::mem::take(&mut topology.targets);
     let (nodes, dependents, restraints) = topology.into_parts();
     let mut analysis = Analysis { stage: asked.stage, ..scene.analysis };
     add_expected(&mut analysis, &asked.expects);
@@ -244,8 +248,15 @@ fn model<'d>(
         stiffnesses: scene.parts.stiffnesses,
         stresses: scene.parts.stresses,
         parts: scene.parts.list.into_iter().chain(links).chain(contacts.into_iter().map(Part::from)).collect(),
-        constraints: Constraints { turns: given_turns(&acting.turned, &restraints), dependents, joints, restraints },
+        constraints: Constraints {
+            turns: given_turns(&acting.turned, &restraints),
+            dependents,
+            joints,
+            restraints,
+            targets,
+        },
         loading: acting.fields.with(amplitudes, acting.loads),
+        cases: asked.cases,
         damping: acting.damping,
         expects: asked.expects,
         origin: Origin { mesh, records: records.iter().flatten().map(Record::origin).collect(), rigid },
@@ -294,6 +305,7 @@ struct Acting<'d> {
 fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, report: &mut Report<'d>) -> Acting<'d> {
     let JoinedNodes { masses, links, joints, amplitudes, topology } = joined;
     let fields = environment(scene.deck, scene.stage, report);
+    scene.analysis.plane &= !equations(scene, (topology, joints), report);
     let (mut actors, turned) = supports(scene, amplitudes, (topology, joints), report);
     set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
     let contacts = contacts(scene, masses, joints, fields.gravity, topology, report);
@@ -310,6 +322,7 @@ struct Questions {
     expects: Vec<Expect>,
     selection: Selection,
     study: Option<Study>,
+    cases: LoadCases,
 }
 
 /// Reads the tables for computation and output.
@@ -321,12 +334,13 @@ fn ask<'d>(
     report: &mut Report<'d>,
 ) -> Questions {
     let topology = &joined.topology;
+    let cases = cases(scene, &actors, report);
     let stage = stops::stage(scene, actors, report);
     let arc_length = control(scene, &joined.amplitudes, topology, report);
-    let expects = expects(scene, topology, arc_length.is_some(), report);
+    let expects = expects(scene, topology, arc_length.is_some(), &cases, report);
     let selection = output(scene, &topology.list, arc_length.is_some(), report);
     let study = study(scene, scheme, &topology.list, report);
-    Questions { stage, arc_length, expects, selection, study }
+    Questions { stage, arc_length, expects, selection, study, cases }
 }
 
 /// Checks a scene without errors for suspicious input.
@@ -364,7 +378,7 @@ fn ground<'d>(
     let motion_curves = motion_curves(deck, stage, &analysis, &mut amplitudes, report);
     let mut nodes = Nodes::default();
     points(deck, &mut nodes);
-    let bodies = bodies(deck, &mut nodes, report);
+    let bodies = bodies(deck, analysis.has_inertia(), &mut nodes, report);
     let mesh = MeshNodes::add(deck, input, &mut nodes, report);
     let names = Names::declare(deck, &bodies, mesh, report);
     let materials = materials(deck, analysis.has_inertia(), report);
@@ -419,6 +433,9 @@ fn check(
     } else if analysis.is_static() {
         check_static(deck, report);
     }
+    if analysis.is_linear() {
+        check_linear(deck, report);
+    }
     check_explicit(deck, analysis, &**scheme, &parts.list, report);
     if analysis.is_dynamic() {
         check_mass_scaling(scene, &**scheme, report);
@@ -466,6 +483,9 @@ fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -
         // Times of a motion would cut load steps that lead to the state.
         model.output.cadence = Cadence::Steps(1);
         model.output.fields = model.output.fields.map(|_| Cadence::Steps(1));
+    }
+    if model.analysis.is_linear() {
+        make_elastic(&mut model);
     }
     drop_unused(&mut model);
     if all_nodes {

@@ -1,7 +1,8 @@
 //! `[[expect]]`: values that a run must reach.
 
 use super::data::{
-    Beam, DIRECTIONS, Expect, ExpectAt, ModeExtent, OverFrequencies, Part, PartType, Tolerance, When, quantities_of,
+    Beam, DIRECTIONS, Expect, ExpectAt, LoadCases, ModeExtent, OverFrequencies, Part, PartType, Tolerance, When,
+    quantities_of,
 };
 use super::places::nodes::Topology;
 use super::places::place::Place;
@@ -28,6 +29,7 @@ struct Expects<'a, 'd> {
     scene: &'a Scene<'d>,
     topology: &'a Topology,
     is_arc_length: bool,
+    cases: &'a LoadCases,
     report: &'a mut Report<'d>,
 }
 
@@ -36,9 +38,10 @@ pub(super) fn expects<'d>(
     scene: &Scene<'d>,
     topology: &Topology,
     is_arc_length: bool,
+    cases: &LoadCases,
     report: &mut Report<'d>,
 ) -> Vec<Expect> {
-    let mut tables = Expects { scene, topology, is_arc_length, report };
+    let mut tables = Expects { scene, topology, is_arc_length, cases, report };
     let (has_modes, response) = (scene.analysis.has_modes(), scene.analysis.response().is_some());
     let is_seen = |entry: &words::Expect| {
         let of_response = response && !entry.is_of_modes() && entry.time.is_none() && entry.when.is_none();
@@ -100,6 +103,7 @@ impl<'d> Expects<'_, 'd> {
         let ((at, _), quantity, when, (value, tolerance)) = (at?, column?, when?, judged?);
         let moment = match when {
             When::Time(time) => format!("at t = {time}"),
+            When::Case(place) => format!("in case `{}`", self.cases.list[place].name),
             When::Target(at) => {
                 let (node, direction) = (&self.topology.list[at.node].label, DIRECTIONS[at.dof]);
                 let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
@@ -399,6 +403,13 @@ impl<'d> Expects<'_, 'd> {
     }
 
     fn when(&mut self, owner: &Owner<'d>, expect: &'d words::Expect) -> Option<When> {
+        if let Some(case) = &expect.case {
+            return self.in_case(expect, case);
+        }
+        if let (Some(time), false) = (&expect.time, self.cases.list.is_empty()) {
+            let hint = "name the load case or the combination by `case`";
+            return self.report.error_with(&time.span, "`time` does not apply to load cases", hint);
+        }
         if let Some(when) = &expect.when {
             for (key, place) in keys!(expect; time, peak) {
                 if let Some(place) = place {
@@ -445,6 +456,15 @@ impl<'d> Expects<'_, 'd> {
             (None, None) if ["time", "peak", "when"].iter().any(|key| self.report.is_spoiled(owner.span, key)) => None,
             (None, None) => self.report.error(owner.span, format!("{} needs `time` or `peak`", owner.what)),
         }
+    }
+
+    /// The case in which a value is expected.
+    fn in_case(&mut self, expect: &'d words::Expect, case: &At<String>) -> Option<When> {
+        self.report.reject_unused("a value in a load case", &keys!(expect; time, when, peak, stage));
+        let known = || self.cases.list.iter().map(|case| case.name.as_str());
+        let found = known().position(|name| name == case.value);
+        let place = found.or_else(|| self.report.unknown("load case", case, known()));
+        place.map(When::Case)
     }
 
     /// A value and how near to come to it, or a bound.

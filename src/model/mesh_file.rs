@@ -142,6 +142,16 @@ impl<'d> MeshNodes<'d> {
         nodes.iter().map(move |&node| first + node as usize)
     }
 
+    /// Corners of the faces of a group, as the model's nodes.
+    pub fn group_faces(&self, group: usize) -> Vec<Vec<usize>> {
+        let Some(input) = self.input else { return Vec::new() };
+        let elements = input.mesh.groups[group].elements.iter().map(|&e| &input.mesh.elements[e as usize]);
+        let corners = |e: &mesh::MeshElement| {
+            e.nodes()[..e.kind.corners()].iter().map(|&node| self.first + node as usize).collect()
+        };
+        elements.filter(|e| !e.kind.is_line()).map(corners).collect()
+    }
+
     /// Segments of a group, as pairs of the model's nodes at their ends.
     pub fn group_segments(&self, group: usize) -> Vec<[usize; 2]> {
         let Some(input) = self.input else { return Vec::new() };

@@ -1,6 +1,6 @@
 //! The deformable parts of a scene in the making, and where each table of the deck has left its nodes and elements.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 
 use super::data::Part;
@@ -25,6 +25,8 @@ pub(super) struct PartEntry {
     pub range: Range<usize>,
     /// Contact radius: half of its thickness unless given.
     pub contact_radius: f64,
+    /// The node of the deck or mesh that carries each node of its elements, where these lie beside them.
+    pub carried: HashMap<usize, usize>,
     /// Nodes of its elements where these have left the model because the part is rigid.
     pub rigid_elements: Option<Vec<Vec<usize>>>,
 }
@@ -100,6 +102,16 @@ impl Parts {
             parts.flat_map(|part| (0..part.elements()).map(|element| part.nodes(element).to_vec())).collect()
         };
         self.entry(at).and_then(|entry| entry.rigid_elements.clone()).unwrap_or_else(deformable)
+    }
+
+    /// Like [`Parts::elements`], by the nodes of the deck or mesh where the elements lie beside them.
+    pub fn elements_by_name(&self, at: PartIndex) -> Vec<Vec<usize>> {
+        let mut elements = self.elements(at);
+        if let Some(carried) = self.entry(at).map(|entry| &entry.carried).filter(|carried| !carried.is_empty()) {
+            let nodes = elements.iter_mut().flatten();
+            nodes.for_each(|node| *node = carried.get(node).copied().unwrap_or(*node));
+        }
+        elements
     }
 
     /// True where a node belongs to a deformable part.

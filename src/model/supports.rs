@@ -1,19 +1,23 @@
 //! `[[supports]]`: directions whose motion is given.
 
 pub mod given_rotations;
+mod in_axes;
 
 use super::data::{Actors, DIRECTIONS, History, Joint, PrescribedMotion};
 use super::joints::equations;
+use super::places::axes::axes;
 use super::places::nodes::Topology;
 use super::places::spot::Spot;
 use super::procedure::stops::NamedActors;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
-use super::values::chosen;
-use base::diagnostic::{At, Span};
+use super::values::{chosen, keys};
+use base::diagnostic::At;
+use base::math::Mat3;
 use deck::supports as words;
 use deck::words::Table;
 use given_rotations::{GivenRotations, TurnSetting, TurnedNode};
+use in_axes::{GivenDirection as Given, HeldDirections, SupportInAxes};
 use mechanics::amplitude::Amplitude;
 use std::collections::HashMap;
 
@@ -26,9 +30,12 @@ pub(super) fn supports<'d>(
     report: &mut Report<'d>,
 ) -> (NamedActors<'d>, Vec<TurnedNode>) {
     let (support_points, moved, rotations) = (HashMap::new(), Vec::new(), GivenRotations::default());
-    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, report };
+    let held = HeldDirections::default();
+    let mut tables = Supports { scene, amplitudes, topology, support_points, joints, moved, rotations, held, report };
     let mut named = Vec::new();
-    for support in &scene.deck.supports {
+    // Supports with axes see which nodes the others hold.
+    let (in_axes, others): (Vec<_>, Vec<_>) = scene.deck.supports.iter().partition(|support| support.axes.is_some());
+    for support in others.into_iter().chain(in_axes) {
         tables.support(support);
         let motions = std::mem::take(&mut tables.moved);
         if let Some(name) = support.name.as_ref().filter(|_| !motions.is_empty()) {
@@ -41,9 +48,6 @@ pub(super) fn supports<'d>(
     (named, together)
 }
 
-/// A direction given by a support: with its motion (`None` for rest) and its place in the deck.
-type Given<'d> = (usize, Option<PrescribedMotion>, &'d Span);
-
 struct Supports<'a, 'd> {
     scene: &'a Scene<'d>,
     amplitudes: &'a [Amplitude],
@@ -55,6 +59,8 @@ struct Supports<'a, 'd> {
     moved: Vec<[usize; 2]>,
     /// The nodes whose rotations are given.
     rotations: GivenRotations<'d>,
+    /// The directions held at nodes of supports with axes.
+    held: HeldDirections,
     report: &'a mut Report<'d>,
 }
 
@@ -77,6 +83,19 @@ impl<'d> Supports<'_, 'd> {
                 "list the other directions in `fix`, such as [\"uy\", \"uz\"]",
             );
         }
+        if let Some(at) = &support.axes {
+            let rotation = support.rotation.as_ref().map(|at| &at.span);
+            self.report.reject_unused("a support with `axes`", &[("rotation", rotation)]);
+            let motions_of = support.motion.iter().flat_map(|motions| motions.each()).flatten();
+            if let Some(to) = motions_of.filter_map(|motion| motion.to.as_ref()).next() {
+                let hint = "give `scale`, which counts from where the stage finds the node";
+                self.report.error_with::<()>(&to.span, "`to` does not go with `axes`", hint);
+            }
+            if let Some(axes) = axes(at, self.report) {
+                self.hold_in_axes(&spots, &axes, fixed, &motions);
+            }
+            return;
+        }
         let turns = fixed[3..].contains(&true) || motions.iter().any(|(dof, ..)| *dof > 2);
         if let (Some(word), false, false) = (&support.rotation, turns, unread) {
             let hint = "leave it out, or give rotations in `fix` or `motion`";
@@ -85,9 +104,55 @@ impl<'d> Supports<'_, 'd> {
         for spot in &spots {
             if !self.topology.is_loose(spot, "this support", self.report) {
                 self.restrain(spot, fixed, &motions);
+                self.aim(spot.node, support);
                 if turns {
                     self.rotations.note(spot, support.rotation.as_ref(), self.report);
                 }
+            }
+        }
+    }
+
+    /// Holds and moves nodes along axes that are not global ones.
+    fn hold_in_axes(&mut self, spots: &[Spot<'d>], axes: &Mat3, fixed: [bool; 6], motions: &[Given<'d>]) {
+        if let Some((dof, _, place)) = motions.iter().find(|(dof, ..)| *dof > 2) {
+            let message = format!("`axes` do not turn the motion in {}", DIRECTIONS[*dof]);
+            let hint = "give rotations that move in a support of their own, about global axes";
+            self.report.error_with::<()>(place, message, hint);
+            return;
+        }
+        for (_, motion, place) in motions {
+            let displaced = motion.as_ref().is_some_and(|motion| {
+                motion.history == History::Displacement
+                    && motion.scale * self.amplitudes[motion.amplitude].value(0.0) != 0.0
+            });
+            if displaced && self.scene.analysis.is_dynamic() && self.scene.analysis.begin == 0.0 {
+                let message = "a motion along `axes` does not begin at zero";
+                self.report.error_with::<()>(
+                    place,
+                    message,
+                    "let the amplitude begin at zero: nodes start undisplaced",
+                );
+            }
+        }
+        let turned = [3, 4, 5].map(|dof| fixed[dof]);
+        for spot in spots {
+            let mut fixed = fixed;
+            if self.topology.is_loose(spot, "this support", self.report) {
+                continue;
+            }
+            if turned == [true; 3] {
+                // All three rotations are the same about any axes.
+                self.restrain(spot, [false, false, false, true, true, true], &[]);
+                fixed[3..].fill(false);
+            }
+            let support = SupportInAxes { axes, fixed, motions };
+            let (moved, given_twice) = support.hold(spot, &mut self.held, (self.topology, self.joints));
+            self.moved.extend(moved);
+            if let Some(place) =
+                given_twice.and_then(|k| motions.iter().find(|(dof, ..)| *dof == k)).map(|given| given.2)
+            {
+                let message = format!("two supports prescribe the motion of `{}` along this axis", spot.name);
+                self.report.error::<()>(place, message);
             }
         }
     }
@@ -112,6 +177,14 @@ impl<'d> Supports<'_, 'd> {
                 self.report.error_with::<()>(place, message, "remove it, or connect a part that has it");
             }
         }
+    }
+
+    /// Notes where the motions of a node end.
+    fn aim(&mut self, node: usize, support: &words::Support) {
+        let held = self.support_points.get(&node).copied().unwrap_or(node);
+        let motions = support.motion.iter().flat_map(|motions| motions.each()).enumerate();
+        let targets = motions.filter_map(|(dof, motion)| Some(([held, dof], motion.as_ref()?.to.as_ref()?.value)));
+        self.topology.targets.extend(targets);
     }
 
     /// The motions of a support.
@@ -143,12 +216,33 @@ impl<'d> Supports<'_, 'd> {
             {
                 self.report.error::<()>(&at.span, "a static analysis takes `history = \"displacement\"` only");
             }
-            let scale = motion.scale.as_ref().map_or(1.0, |scale| scale.value);
+            let to = self.target(motion, (dof, own.is_some()));
+            let scale = to.or(motion.scale.as_ref().map(|scale| scale.value)).unwrap_or(1.0);
             let Some(amplitude) = amplitude else { continue };
             let amplitude = self.scene.amplitude_of_motion(amplitude, history);
             read.push((dof, Some(PrescribedMotion { amplitude, scale, history }), &motion.span));
         }
         read
+    }
+
+    /// The displacement at which a motion ends, where the deck gives one.
+    fn target(&mut self, motion: &'d At<Table<words::Motion>>, (dof, in_stage): (usize, bool)) -> Option<f64> {
+        let to = motion.to.as_ref()?;
+        let others = keys!(motion; amplitude, scale, history);
+        let hint = "it leads to a displacement from t = 0, whatever a static stage begins with";
+        if let Some((key, at)) = others.into_iter().find_map(|(key, at)| Some((key, at?))) {
+            self.report.error_with::<()>(at, format!("`to` takes no `{key}` beside it"), hint);
+        } else if dof > 2 {
+            self.report.error_with::<()>(
+                &to.span,
+                format!("`to` does not lead {}", DIRECTIONS[dof]),
+                "it is for ux, uy and uz",
+            );
+        } else if !in_stage {
+            let hint = "give `amplitude` and `scale`, which count from t = 0 in a deck without stages";
+            self.report.error_with::<()>(&to.span, "`to` needs a support that first acts in a static stage", hint);
+        }
+        Some(to.value)
     }
 
     /// Restrains a node, named by `spot`, in a direction; returns true if it was free before. Two supports may fix the same direction; if

@@ -172,6 +172,10 @@ impl Observer for Expectations {
             if matches!(watch.expect.when, When::Target(_)) && !frame.passed.contains(&index) {
                 continue;
             }
+            let case = frame.case.and_then(|case| case.name).map(|(place, _)| place);
+            if matches!(watch.expect.when, When::Case(place) if case != Some(place)) {
+                continue;
+            }
             if !watch.is_here || watch.expect.when == When::End && !frame.last {
                 continue;
             }
@@ -190,7 +194,7 @@ impl Observer for Expectations {
             let better = |old: Sample| match watch.expect.when {
                 When::Time(t) => (time - t).abs() < (old.time - t).abs(),
                 When::Target(_) => false,
-                When::End => true,
+                When::End | When::Case(_) => true,
                 When::Max => value > old.value,
                 When::Min => value < old.value,
                 When::Abs => value.abs() > old.value.abs(),
@@ -350,6 +354,7 @@ impl Watch {
                 Some(format!("there is no steady motion there, or no `{quantity}`"))
             }
             (_, None, When::Time(t)) => Some(format!("the run has no step at time {t}")),
+            (_, None, When::Case(_)) => Some("the run never came to the case".to_string()),
             (_, None, When::End) => Some("the run never came to the end of the stage".to_string()),
             (_, None, When::Target(_)) => Some("the path never came there".to_string()),
             (_, None, _) => Some(format!("the run never formed `{quantity}`")),

@@ -357,7 +357,9 @@ impl Fields {
     }
 
     fn write(&mut self, frame: &Frame) -> io::Result<()> {
-        let (grid, time) = (&mut self.grid, frame.state.time);
+        // Load cases have one time, and follow each other by their numbers.
+        let case = frame.case.and_then(|case| case.name);
+        let (grid, time) = (&mut self.grid, case.map_or(frame.state.time, |(place, _)| place as f64 + 1.0));
         grid.begin();
         grid.push("<FieldData>\n");
         grid.array("TimeValue", 1, [time].into_iter());
@@ -420,9 +422,16 @@ fn write_points(grid: &mut GridText, places: &[Place], frame: &Frame) {
     let (start, now) = (&frame.model.nodes, &frame.state.nodes);
     let arm = |p: &Place| now[p.node].R() * p.arm;
     grid.push("<PointData>\n");
-    vectors(grid, places, "displacement", |p| now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm));
+    let moved = |p: &Place| match &frame.case {
+        Some(case) => linear(&case.motions[p.node]) + angular(&case.motions[p.node]).cross(&p.arm),
+        None => now[p.node].moved(&start[p.node].x) + (arm(p) - p.arm),
+    };
+    vectors(grid, places, "displacement", moved);
     vectors(grid, places, "velocity", |p| now[p.node].v + now[p.node].omega.cross(&arm(p)));
-    vectors(grid, places, "rotation", |p| rotation::log(&now[p.node].rotation));
+    vectors(grid, places, "rotation", |p| match &frame.case {
+        Some(case) => angular(&case.motions[p.node]),
+        None => rotation::log(&now[p.node].rotation),
+    });
     for (axis, name) in ["frame_x", "frame_y", "frame_z"].into_iter().enumerate() {
         vectors(grid, places, name, |p| now[p.node].R() * p.axes.column(axis));
     }

@@ -1,6 +1,7 @@
 //! The files that grow with a run: the deck selects the files, and every accepted step goes to each.
 
 use super::disk::at;
+use super::envelopes::Envelopes;
 use super::expect::needs;
 use super::fields::{Fields, FieldsMark, LISTS};
 use super::result_json;
@@ -45,6 +46,7 @@ pub struct Files {
     dir: PathBuf,
     tables: Vec<OpenTable>,
     fields: Option<Fields>,
+    envelopes: Envelopes,
     flushed: Instant,
 }
 
@@ -67,12 +69,19 @@ impl Files {
         let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
         let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
         let fields = model.output.fields.map(|_| Fields::open(dir, model)).transpose()?;
-        Ok(Files { dir: dir.to_owned(), tables, fields, flushed: Instant::now() })
+        let envelopes = Envelopes::of(model);
+        Ok(Files { dir: dir.to_owned(), tables, fields, envelopes, flushed: Instant::now() })
     }
 
     /// No files in a folder that holds those of a checkpoint, until they are opened by [`Files::go_on`].
     pub fn waiting(dir: &Path) -> Files {
-        Files { dir: dir.to_owned(), tables: Vec::new(), fields: None, flushed: Instant::now() }
+        Files {
+            dir: dir.to_owned(),
+            tables: Vec::new(),
+            fields: None,
+            envelopes: Envelopes::default(),
+            flushed: Instant::now(),
+        }
     }
 
     /// Goes on with the files of a checkpoint in the stage of this model, as they were then.
@@ -161,10 +170,22 @@ pub fn names(model: &Model) -> Vec<&'static str> {
 
 impl Observer for Files {
     fn on_step(&mut self, frame: &Frame) -> io::Result<()> {
-        for OpenTable { kind, file, write } in &mut self.tables {
+        let case = frame.case.and_then(|case| case.name);
+        for (index, OpenTable { kind, file, write }) in self.tables.iter_mut().enumerate() {
             let Some(write) = write else { continue };
+            if let Some((_, name)) = case {
+                file.begin_case(name);
+            }
             if frame.due || kind.every_step {
                 write(file, frame)?;
+            }
+            if let Some((place, _)) = case.filter(|_| !kind.every_step) {
+                self.envelopes.take(index, place, |rows| write(rows, frame))?;
+            }
+        }
+        if frame.last && case.is_some() {
+            for (index, OpenTable { file, .. }) in self.tables.iter_mut().enumerate() {
+                self.envelopes.write(index, frame.step, file)?;
             }
         }
         if let Some(fields) = &mut self.fields {
@@ -240,7 +261,7 @@ pub fn wanted(model: &Model) -> Wanted {
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
         When::Max | When::Min | When::Abs => needs(expect.at, &expect.quantity).at_every_step(),
-        When::Time(_) | When::Target(_) | When::End => needs(expect.at, &expect.quantity),
+        When::Time(_) | When::Target(_) | When::End | When::Case(_) => needs(expect.at, &expect.quantity),
     });
     let all = tables.chain(fields).chain(expects).fold(Wanted::NOTHING, |all, of| all | of);
     let all = if model.yields() { all } else { all.without(Wanted::PLASTIC_STRAINS) };

@@ -9,6 +9,7 @@ pub mod checkpoint;
 pub mod compare;
 pub mod curve;
 mod disk;
+mod envelopes;
 pub mod error_bars;
 pub mod expect;
 pub mod extent;

@@ -10,6 +10,9 @@ use std::io;
 /// The name of the column behind `step` and `time` that tables of a deck with stages have.
 pub const STAGE: &str = "stage";
 
+/// The name of the column behind these that tables of a deck with load cases have.
+pub const CASE: &str = "case";
+
 /// A function that writes the rows of one frame. It is made once a run, so that it can store constants of the scene.
 pub type WriteRows = Box<dyn Fn(&mut dyn WriteRow, &Frame) -> io::Result<()>>;
 
@@ -83,9 +86,12 @@ impl TableKind {
         self.columns().take(self.columns().count() - left_out)
     }
 
-    /// The header row, without a line break; a deck of stages has a column for the stage.
+    /// The header row, without a line break; in a deck of stages or of load cases, each row names its own.
     pub fn header(&self, model: &Model) -> String {
         let mut names: Vec<&str> = self.columns_of(model).map(|column| column.name).collect();
+        if !model.cases.list.is_empty() {
+            names.insert(2, CASE);
+        }
         if model.analysis.stage.is_some() {
             names.insert(2, STAGE);
         }

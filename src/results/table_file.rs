@@ -29,6 +29,8 @@ pub struct TableFile {
     time: f64,
     /// The stage that rows name; empty in a deck without stages.
     stage: String,
+    /// The load case that rows name; empty in a deck without cases.
+    case: String,
     /// The number of bytes before the rows of the stage under way.
     before_stage: u64,
     empty: Option<EmptyFields>,
@@ -100,6 +102,7 @@ impl TableFile {
             digits: ryu::Buffer::new(),
             time: 0.0,
             stage: String::new(),
+            case: String::new(),
             before_stage: 0,
             empty: None,
         }
@@ -125,6 +128,11 @@ impl TableFile {
         self.flush()?;
         (self.stage, self.before_stage) = (name.to_owned(), self.written);
         Ok(())
+    }
+
+    /// Lets all rows to come name this load case.
+    pub fn begin_case(&mut self, name: &str) {
+        name.clone_into(&mut self.case);
     }
 
     /// Takes away the rows of the stage under way.
@@ -201,6 +209,11 @@ impl WriteRow for TableFile {
             let stage = std::mem::take(&mut self.stage);
             self.text(&stage);
             self.stage = stage;
+        }
+        if !self.case.is_empty() {
+            let case = std::mem::take(&mut self.case);
+            self.text(&case);
+            self.case = case;
         }
         self
     }

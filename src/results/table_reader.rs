@@ -2,7 +2,7 @@
 //! omitted and reported to the reader.
 
 use super::disk::at;
-use super::table::STAGE;
+use super::table::{CASE, STAGE};
 use super::tables;
 use base::text_file::open_regular;
 use std::borrow::Cow;
@@ -56,7 +56,8 @@ impl TableReader {
         let file = self.path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
         if let Some(table) = tables::of_file(file) {
             let is_key = |column: &String| {
-                column == STAGE || table.columns().any(|known| known.is_key() && known.name == column)
+                [STAGE, CASE].contains(&column.as_str())
+                    || table.columns().any(|known| known.is_key() && known.name == column)
             };
             return Ok(self.header.iter().map(is_key).collect());
         }

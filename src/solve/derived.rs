@@ -153,6 +153,8 @@ pub struct Request<'a> {
     pub excitation: &'a Excitation<'a>,
     /// The state at the end of the step.
     pub state: &'a State,
+    /// The loads in this state, where they are not those of its time.
+    pub loads: Option<&'a Loading>,
     /// True for the state at the beginning of a run or stage.
     pub begins: bool,
     /// True where tables are due.
@@ -180,7 +182,7 @@ impl Derived {
     /// Computes the quantities wanted for this step and clears the others.
     pub fn compute(&mut self, wanted: Wanted, request: &Request) {
         self.clear();
-        let &Request { model, system, excitation, state, begins, due, drawn, balance, threads } = request;
+        let &Request { model, system, excitation, state, loads, begins, due, drawn, balance, threads } = request;
         let now = &state.configuration();
         let is_wanted = |what| wanted.has_now(what, due, drawn);
         if is_wanted(Wanted::PLASTIC_STRAINS) {
@@ -209,8 +211,14 @@ impl Derived {
             system.contact_touches(model, now, &mut self.contact_touches);
         }
         if is_wanted(Wanted::SECTIONS) {
-            // Loads that begin with a run or stage act from its beginning; jumps at the end of a step act after it.
-            excitation.loading(state.time, if begins { Side::After } else { Side::Before }, &mut self.loading);
+            match loads {
+                Some(loads) => self.loading.clone_from(loads),
+                // Loads that begin with a run or stage act from its beginning; jumps at the end of a step act after it.
+                None => {
+                    let side = if begins { Side::After } else { Side::Before };
+                    excitation.loading(state.time, side, &mut self.loading);
+                }
+            }
             results::section_points(system, model, (now, &self.loading), &mut self.sections);
         }
         if is_wanted(Wanted::BARS) {
@@ -219,6 +227,23 @@ impl Derived {
         if is_wanted(Wanted::PARTS) {
             energy::part_energies(system, model, now, &mut self.parts);
         }
+    }
+
+    /// Takes over the quantities of others, effort and loads aside.
+    pub fn take_from(&mut self, other: &Derived) {
+        self.energy = other.energy;
+        self.links.clone_from(&other.links);
+        self.joints.clone_from(&other.joints);
+        self.contacts.clone_from(&other.contacts);
+        self.contact_touches.clone_from(&other.contact_touches);
+        self.plastic_strains.clone_from(&other.plastic_strains);
+        self.failed.clone_from(&other.failed);
+        self.broken.clear();
+        self.shells.clone_from(&other.shells);
+        self.nodal_resultants.clone_from(&other.nodal_resultants);
+        self.sections.clone_from(&other.sections);
+        self.bars.clone_from(&other.bars);
+        self.parts.clone_from(&other.parts);
     }
 
     fn clear(&mut self) {

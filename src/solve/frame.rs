@@ -3,6 +3,7 @@
 use super::derived::Derived;
 use super::effort::Effort;
 use crate::modes::Modes;
+use base::math::Vec6;
 use base::snapshot::Snapshot;
 use mechanics::state::State;
 use model::Model;
@@ -42,8 +43,19 @@ pub struct Frame<'a> {
     pub derived: &'a Derived,
     /// The modes about the state, where the frame is theirs.
     pub modes: Option<&'a Modes>,
+    /// The case or time of a linear analysis; `None` in others.
+    pub case: Option<ShownCase<'a>>,
     /// The rows of the response of these modes that are shown.
     pub rows: Range<usize>,
+}
+
+/// What a frame of a linear analysis is about.
+#[derive(Clone, Copy)]
+pub struct ShownCase<'a> {
+    /// The load case, by its place in the model, and its name; `None` at a time.
+    pub name: Option<(usize, &'a str)>,
+    /// Displacements and rotations of all nodes, which are proportional to loads whatever their size.
+    pub motions: &'a [Vec6],
 }
 
 /// The observer of a run.

@@ -72,6 +72,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         system = System::new(model)?;
     }
     let nodes = from.place(state, model, &system.rigid_links);
+    lead_to_targets(&nodes, model);
     if rejoin(&from, cx.model, &nodes, model) {
         system = System::new(model)?;
     }
@@ -96,6 +97,18 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         load_steps: (is_static && !cx.is_dynamic()).then(|| before.load_steps.clone()),
     };
     Ok((system, handover))
+}
+
+/// Gives motions that end at a place the way that is left to it.
+fn lead_to_targets(nodes: &[Node], model: &mut Model) {
+    let Model { nodes: at_start, constraints, .. } = model;
+    for &([node, dof], to) in &constraints.targets {
+        let restraints = &mut constraints.restraints;
+        let Ok(at) = restraints.binary_search_by_key(&(node, dof), |held| (held.node, held.dof)) else { continue };
+        if let Some(motion) = &mut restraints[at].motion {
+            motion.scale = to - nodes[node].moved(&at_start[node].x)[dof];
+        }
+    }
 }
 
 /// Makes no stage plane unless all are: the history of yielding in a plane motion has no components out of the plane.

@@ -21,6 +21,7 @@ mod guards;
 mod handover;
 mod initial_transient;
 mod jumps;
+mod linear_statics;
 mod linear_system;
 mod march;
 mod memory_ahead;
@@ -74,7 +75,7 @@ pub use crate::system::{LinkState, SectionPlace, SectionPoint, ShellState, elast
 pub use derived::{Derived, Wanted};
 pub use effort::Effort;
 pub use failure::{Failure, NamedResidual};
-pub use frame::{Frame, Observer, OtherRun};
+pub use frame::{Frame, Observer, OtherRun, ShownCase};
 pub use global_error::StepError;
 pub use guards::breakage::Broken;
 pub use guards::contacts::settling_energy;

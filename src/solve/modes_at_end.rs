@@ -8,6 +8,7 @@ use super::outcome::Outcome;
 use super::recorder::AcceptedStep;
 use super::report::StepReport;
 use super::warning::Warning;
+use crate::linear_statics;
 use crate::modes::{Linearized, Modes, ModesFault, ResponseProgress, find, multipliers_at_rest, own_stiffnesses};
 use crate::system::{Loading, Side};
 use crate::tolerances::modes_at_end::{BALANCED, ROUNDING};
@@ -22,6 +23,9 @@ const AT_ITS_END: usize = usize::MAX;
 /// The outcome that ends it early.
 pub fn run(controller: &mut Controller, march: &mut March, schedule: &Schedule) -> Result<(), Outcome> {
     let analysis = &march.cx.model.analysis;
+    if analysis.is_linear() {
+        return linear_statics::lead(march, schedule);
+    }
     if !analysis.has_modes() {
         return controller.run(march, schedule);
     }

@@ -6,13 +6,14 @@ use super::effort::Effort;
 use super::energy_growth::{EnergyGrowth, checks_energy_growth};
 use super::events::Events;
 use super::failure::Failure;
-use super::frame::{Frame, Observer};
+use super::frame::{Frame, Observer, ShownCase};
 use super::handover::Handover;
 use super::outcome::{Counts, Outcome};
 use super::report::StepReport;
 use super::sample::Sample;
 use super::workspace::Workspace;
 use crate::guards::breakage::Breakage;
+use crate::linear_statics::AskedResults;
 use crate::modes::Modes;
 use crate::system::energy::{Balance, Energy, work_of_rounding};
 use base::snapshot::keep;
@@ -226,7 +227,8 @@ impl Recorder {
             () => Wanted::NOTHING,
         };
         let shown = due || step.compared;
-        let request = Request { model, system, excitation, state, begins, due: shown, drawn, balance, threads };
+        let request =
+            Request { model, system, excitation, state, loads: None, begins, due: shown, drawn, balance, threads };
         self.derived.compute(self.wanted | watched, &request);
         let scene = (model, cx.plan, system);
         let failure = self.growth.check(scene, state, self.derived.energy, balance, step.last);
@@ -239,6 +241,33 @@ impl Recorder {
             self.observing += began.elapsed();
         }
         failure.map_or(Ok(()), |failure| Err(Outcome::Failed { time: state.time, failure }))
+    }
+
+    /// Shows a solution of a linear analysis, whose derived quantities `compute` finds; returns these. Quantities in `besides` are computed
+    /// where tables are due.
+    ///
+    /// # Errors
+    /// [`Outcome::Io`] where the observer cannot write.
+    pub fn notify_case(
+        &mut self,
+        (cx, ws, state): (&Context, &Workspace, &State),
+        observer: &mut dyn Observer,
+        (step, case): (&AcceptedStep, ShownCase),
+        (besides, compute): (Wanted, &mut dyn FnMut(&AskedResults, &mut Derived)),
+    ) -> Result<&Derived, Outcome> {
+        self.counts.steps += 1;
+        self.counts.iterations += step.report.iterations;
+        let (due, drawn) = self.is_due(cx.model, step, state.time);
+        self.spend(step);
+        let began = Instant::now();
+        compute(&AskedResults { wanted: self.wanted | besides, due: due || step.compared, drawn }, &mut self.derived);
+        let frame = Frame { case: Some(case), ..self.frame(cx, ws, state, step, [due, drawn]) };
+        observer.on_step(&frame).map_err(Outcome::Io)?;
+        if due {
+            self.derived.effort = Effort::default();
+        }
+        self.observing += began.elapsed();
+        Ok(&self.derived)
     }
 
     /// Shows the state at a sample inside the last step of length `dt`, before the step itself is shown, and counts its effort.
@@ -260,8 +289,18 @@ impl Recorder {
         self.spend(step);
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let (excitation, begins) = (&cx.excitation, step.dt == 0.0);
-        let request =
-            Request { model, system, excitation, state, begins, due: due || compared, drawn: false, balance, threads };
+        let request = Request {
+            model,
+            system,
+            excitation,
+            state,
+            loads: None,
+            begins,
+            due: due || compared,
+            drawn: false,
+            balance,
+            threads,
+        };
         self.derived.compute(self.wanted, &request);
         self.looked_inside = true;
         let frame = self.frame(cx, ws, state, step, [due, false]);
@@ -291,7 +330,18 @@ impl Recorder {
         let step = &AcceptedStep { dt, report, cuts: 0, due: true, compared: false, last: false, passed: &[] };
         let (model, system, threads, balance) = (cx.model, cx.system, cx.plan.threads, self.initial_energy);
         let (excitation, begins) = (&cx.excitation, step.dt == 0.0);
-        let request = Request { model, system, excitation, state, begins, due: true, drawn: false, balance, threads };
+        let request = Request {
+            model,
+            system,
+            excitation,
+            state,
+            loads: None,
+            begins,
+            due: true,
+            drawn: false,
+            balance,
+            threads,
+        };
         self.derived.compute(self.wanted, &request);
         observer.on_step(&self.frame(cx, ws, state, step, [true, false])).map_err(Outcome::Io)
     }
@@ -387,6 +437,7 @@ impl Recorder {
             },
             derived: &self.derived,
             modes: None,
+            case: None,
             rows: 0..0,
             passed,
             negative_pivots: cx.model.analysis.step_length.is_arc_length().then(negative),

@@ -85,6 +85,22 @@ pub enum Warning {
         /// True where the shell yields by logarithmic strain.
         logarithmic: bool,
     },
+    /// Something turns too far for a linear analysis.
+    LargeRotation {
+        /// The name of the node.
+        label: String,
+        /// The largest rotation in radians.
+        turn: f64,
+    },
+    /// A material that stays elastic in a linear analysis is stressed beyond its yield stress.
+    BeyondYield {
+        /// The name of the part.
+        name: String,
+        /// The largest stress in it.
+        stress: f64,
+        /// Its yield stress.
+        limit: f64,
+    },
     /// A rotation that is fixed alone has drifted.
     RotationDrifts {
         /// The name of the node.
@@ -129,6 +145,8 @@ keep_either!(Warning {
     14 => RunsPart { asked, difference },
     16 => ContactThrows(what),
     15 => SlipBegins(what),
+    20 => LargeRotation { label, turn },
+    21 => BeyondYield { name, stress, limit },
 });
 
 /// The time and the mode of an instability.
@@ -339,6 +357,8 @@ impl fmt::Display for Warning {
             Warning::Grows { modes, rate, fastest } => grows(*modes, *rate, *fastest),
             Warning::Modes(warnings) => warnings.clone(),
             Warning::RotationDrifts { label, direction, drift } => drifted(label, direction, *drift),
+            Warning::LargeRotation { label, turn } => large_rotation(label, *turn),
+            Warning::BeyondYield { name, stress, limit } => beyond_yield(name, *stress, *limit),
             Warning::LargeStrain { name, strain, logarithmic } => large_strain(name, *strain, *logarithmic),
             Warning::SideBySide { name } => side_by_side(name),
             Warning::ContactThrows(found) => found.to_string(),
@@ -351,6 +371,24 @@ impl fmt::Display for Warning {
             Warning::InitialVelocities { change } => corrected(*change),
         })
     }
+}
+
+fn large_rotation(label: &str, turn: f64) -> String {
+    format!(
+        "node `{label}` turns by {} rad in a linear analysis, which takes rotations as infinitesimal: compare with `geometry = \"finite\"`, or \
+         reduce the loads",
+        to_digits(turn, 2)
+    )
+}
+
+fn beyond_yield(name: &str, stress: f64, limit: f64) -> String {
+    format!(
+        "the stress in `{name}` reaches {}, {} times its yield stress of {}, but a linear analysis keeps it elastic: leave out `geometry = \
+         \"linear\"` to let it yield",
+        to_digits(stress, 3),
+        to_digits(stress / limit, 3),
+        to_digits(limit, 3)
+    )
 }
 
 /// The warnings of a run, only the first of each kind.
@@ -404,6 +442,41 @@ impl Warnings {
             Some((name, old, of)) if strain.abs() > old.abs() => {
                 shell.clone_into(name);
                 (*old, *of) = (strain, logarithmic);
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// Adds the largest rotation of a linear analysis, or keeps it where it is larger than the one known.
+    pub fn large_rotation(&mut self, node: &str, largest: f64) {
+        let known = self.warnings.iter_mut().find_map(|known| match known {
+            Warning::LargeRotation { label, turn } => Some((label, turn)),
+            _ => None,
+        });
+        match known {
+            None => self.warnings.push(Warning::LargeRotation { label: node.to_owned(), turn: largest }),
+            Some((label, turn)) if largest > *turn => {
+                node.clone_into(label);
+                *turn = largest;
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// Adds a stress beyond yield, or keeps it where it is farther beyond than the one known.
+    pub fn beyond_yield(&mut self, part: &str, largest: f64, bound: f64) {
+        let known = self.warnings.iter_mut().find_map(|known| match known {
+            Warning::BeyondYield { name, stress, limit } => Some((name, stress, limit)),
+            _ => None,
+        });
+        match known {
+            None => {
+                let (name, stress, limit) = (part.to_owned(), largest, bound);
+                self.warnings.push(Warning::BeyondYield { name, stress, limit });
+            }
+            Some((name, stress, limit)) if largest / bound > *stress / *limit => {
+                part.clone_into(name);
+                (*stress, *limit) = (largest, bound);
             }
             Some(_) => {}
         }

@@ -194,6 +194,7 @@ fn analysis(model: &Model, deck: &Deck) -> String {
         least_step,
         plane,
         kind: _,
+        geometry: _,
         control: _,
         end_time: _,
         time_step: _,

@@ -2,7 +2,7 @@
 
 use super::file::{Collected, CollectedWhen};
 use results::TABLES;
-use results::table::{STAGE, TableKind};
+use results::table::{CASE, STAGE, TableKind};
 use results::table_reader::{TableReader, fields, number, text};
 use std::io;
 use std::path::Path;
@@ -54,8 +54,8 @@ fn of_table(path: &Path, wanted: &[&Collected]) -> io::Result<Vec<Option<f64>>> 
     for (place, &wanted) in wanted.iter().enumerate() {
         searches.extend(rows.column(&wanted.quantity).map(|column| (place, Search { wanted, column, best: None })));
     }
-    // The stage of a row is part of its time, not of its subject.
-    let says_what = |&key: &usize| rows.is_key(key) && rows.header[key] != STAGE;
+    // The stage and the load case of a row are part of its time, not of its subject.
+    let says_what = |&key: &usize| rows.is_key(key) && ![STAGE, CASE].contains(&rows.header[key].as_str());
     let keys: Vec<usize> = (0..rows.header.len()).filter(says_what).collect();
     let stages = rows.column(STAGE);
     let looked_at = searches.iter().map(|(_, search)| search.column).chain([time]).chain(keys.iter().copied());

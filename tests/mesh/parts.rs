@@ -313,3 +313,146 @@ fn a_part_of_a_large_mesh_has_the_normals_of_a_small_one() {
     assert_eq!(of(&alone).len(), 4);
     assert_eq!(of(&alone), of(&with), "to the last bit");
 }
+
+/// A pressure on a group of elements within a shell: its resultant is that on the area of the group, in its middle. A face named twice is
+/// loaded once; a face outside all shells is an error.
+#[test]
+fn loads_act_on_groups_within_a_shell() {
+    let outer = "*ELSET, ELSET=outer, GENERATE\n5, 8\n13, 16\n21, 24\n*ELSET, ELSET=free\n9\n";
+    let whole = PLATE.inp() + outer;
+    let cut = whole.replace("*ELEMENT, TYPE=S4R, ELSET=plate\n", "*ELEMENT, TYPE=S4R\n")
+        + "*ELSET, ELSET=plate, GENERATE\n1, 8\n10, 24\n";
+    let folder = Folder::with(&[("c.inp", &whole), ("cut.inp", &cut)]);
+    let loaded = |at: &str, load: &str, file: &str| {
+        let deck = meshed("static", file).replace("force_per_length = [100.0, 0.0, 9000.0]", "force = [0.0, 0.0, 0.0]");
+        let deck = deck.replace("force = [0.0, 500.0, 0.0]", "force = [0.0, 0.0, 0.0]");
+        deck.replace("at = \"plate\"\npressure = 1000.0", &format!("at = {at}\n{load}"))
+            + "[sets]\nskin = [\"outer\", \"free\"]\nskins = [\"skin\"]\n"
+    };
+    for (at, load, area) in [
+        ("\"outer\"", "pressure = 1000.0", 0.6),
+        ("[\"outer\", \"outer\"]", "force_per_area = [0.0, 0.0, -1000.0]", 0.6),
+        ("[\"outer\", \"plate\"]", "pressure = 1000.0", 1.2),
+        ("[\"skins\", \"element-set:free\"]", "pressure = 1000.0", 0.65),
+    ] {
+        let model = folder.model(&loaded(at, load, "c.inp"));
+        let forces = || model.loading.nodal.iter().map(|load| (model.nodes[load.node].x, load.force));
+        let force: f64 = forces().map(|(_, force)| force.z).sum();
+        assert!((force + 1000.0 * area).abs() < 1e-10, "{at}: {force}");
+        if area == 0.6 {
+            let moment: f64 = forces().map(|(x, force)| x.x * force.z).sum();
+            assert!((moment + 1000.0 * area * 1.5).abs() < 1e-10, "{at}: {moment}");
+        }
+    }
+    let follower = folder.model(&loaded("\"outer\"", "pressure = 1000.0\nfollower = true", "c.inp"));
+    assert_eq!(follower.loading.pressures[0].faces.len(), 12);
+    let said = folder.read(&loaded("\"free\"", "pressure = 1000.0", "cut.inp")).1;
+    assert!(said.contains("1 of the 1 faces of `free` are in no shell"), "{said}");
+}
+
+/// A plate made of two halves of its thickness, on either side of the nodes, is the plate: statically with large deflections, in its modes,
+/// swinging, and by an explicit scheme.
+#[test]
+fn two_halves_beside_the_nodes_are_the_plate() {
+    let elements = |inp: &str| {
+        let (head, rest) = inp.split_once("*ELEMENT").unwrap();
+        let (block, tail) = rest.split_at(rest.find("*nset").unwrap());
+        let other = block.replace("ELSET=plate", "ELSET=other");
+        let renumbered: String = other
+            .lines()
+            .map(|line| match line.split_once(',') {
+                Some((id, nodes)) if id.parse::<u32>().is_ok() && nodes.trim_end().ends_with(',') => {
+                    format!("1{id:0>3},{nodes}\n")
+                }
+                _ => format!("{line}\n"),
+            })
+            .collect();
+        format!("{head}*ELEMENT{block}*ELEMENT{renumbered}{tail}")
+    };
+    let folder = Folder::with(&[("c.inp", &PLATE.inp()), ("two.inp", &elements(&PLATE.inp()))]);
+    let explicit = "time_step = 1e-5\n[integrator]\nscheme = \"central-difference\"\n";
+    let tip = format!("mesh.{}", PLATE.node(PLATE.n, PLATE.m));
+    for (kind, step, tolerance) in [
+        // Edges bend between their nodes by the thickness of each half: 3e-4 of the deflection, a tenth of the error of the mesh.
+        ("static", "time_step = 0.025\n", 5e-4),
+        // The same in frequencies, over two thirds of a period.
+        ("dynamic", "time_step = 0.0005\n", 2e-3),
+        ("dynamic", explicit, 2e-3),
+    ] {
+        let whole = meshed(kind, "c.inp")
+            .replace("time_step = 0.005\n", step)
+            .replace("force = [0.0, 500.0, 0.0]", "force = [0.0, 0.0, 0.0]");
+        let whole = if step == explicit { whole.replace("end_time = 0.05", "end_time = 0.002") } else { whole };
+        let half = |group: &str, offset: f64| {
+            format!("[[shells]]\ngroup = \"{group}\"\nthickness = 0.01\noffset = {offset}\nmaterial = \"steel\"\n")
+        };
+        let halves = whole.replace("c.inp", "two.inp").replace(
+            "[[shells]]\ngroup = \"plate\"\nthickness = 0.02\nmaterial = \"steel\"\n",
+            &(half("plate", 0.005) + &half("other", -0.005)),
+        );
+        // Steps may be cut apart; both end at the same time.
+        let [one, two] =
+            [&whole, &halves].map(|deck| Vec3::from(*positions(&folder.model(deck), &tip).last().unwrap()));
+        assert!((one - two).norm() < tolerance * one.z.abs(), "{kind}: {one} {two}");
+    }
+}
+
+/// A strip beside its nodes, pulled along them: u = N L/E A + e² N L/E I, w = e N L²/2 E I.
+#[test]
+fn a_strip_beside_its_nodes_bends_as_it_is_pulled() {
+    let folder = Folder::with(&[("c.inp", &PLATE.inp())]);
+    let (N, e, E, h) = (1e5, 0.03, 210e9, 0.02f64);
+    let deck = meshed("static", "c.inp")
+        .replace("end_time = 0.05\ntime_step = 0.005\n", "geometry = \"linear\"\n")
+        .replace("poisson_ratio = 0.3", "poisson_ratio = 0.0")
+        .replace("thickness = 0.02", &format!("thickness = {h}\noffset = {e}"))
+        .replace("force_per_length = [100.0, 0.0, 9000.0]", &format!("force_per_length = [{:?}, 0.0, 0.0]", N / 0.6))
+        .replace("force = [0.0, 500.0, 0.0]", "force = [0.0, 0.0, 0.0]")
+        .replace("pressure = 1000.0", "pressure = 0.0");
+    let (area, inertia) = (0.6 * h, 0.6 * h.powi(3) / 12.0);
+    let (u, w) = (2.0 * N / E * (1.0 / area + e * e / inertia), e * N * 4.0 / (2.0 * E * inertia));
+    let found = displacements(&folder.model(&deck));
+    let tip = found.iter().find(|(label, _)| *label == format!("mesh.{}", PLATE.node(PLATE.n, 1))).unwrap().1;
+    assert!((tip[0] / u - 1.0).abs() < 1e-9, "{tip:?} {u} {w}");
+    assert!((tip[2] / w - 1.0).abs() < 1e-9, "{tip:?} {u} {w}");
+}
+
+/// A strip whose thickness falls from the root to half at the tip: the deflection under a force is ∫ F (L − x)²/(E I) dx with shear, to second
+/// order of the elements' length, and its mass is exact.
+#[test]
+fn thickness_by_node_tapers_a_strip() {
+    let (E, thick, force) = (210e9, 0.04, 100.0);
+    let h = |x: f64| thick * (1.0 - 0.25 * x);
+    let exact: f64 = (0..10_000)
+        .map(|k| {
+            let x = (k as f64 + 0.5) * 2e-4;
+            let (inertia, area) = (0.5 * h(x).powi(3) / 12.0, 0.5 * h(x));
+            force * ((2.0 - x).powi(2) / (E * inertia) + 1.0 / (5.0 / 6.0 * 0.5 * E * area)) * 2e-4
+        })
+        .sum();
+    let off = |n: usize| {
+        let plate = Plate { n, m: 1, size: [2.0, 0.5] };
+        let folder = Folder::with(&[("c.inp", &plate.inp())]);
+        let nodes = (0..=n).flat_map(|i| [0, 1].map(|j| (i, j)));
+        let entries: Vec<String> =
+            nodes.map(|(i, j)| format!("\"mesh.{}\" = {:?}", plate.node(i, j), h(2.0 * i as f64 / n as f64))).collect();
+        let deck = meshed("static", "c.inp")
+            .replace("end_time = 0.05\ntime_step = 0.005\n", "geometry = \"linear\"\n")
+            .replace("poisson_ratio = 0.3", "poisson_ratio = 0.0")
+            .replace("thickness = 0.02", &format!("thickness = 1.0\nnodal_thickness = {{ {} }}", entries.join(", ")))
+            .replace(
+                "force_per_length = [100.0, 0.0, 9000.0]",
+                &format!("force_per_length = [0.0, 0.0, {:?}]", force / 0.5),
+            )
+            .replace("force = [0.0, 500.0, 0.0]", "force = [0.0, 0.0, 0.0]")
+            .replace("pressure = 1000.0", "pressure = 0.0");
+        let model = folder.model(&deck);
+        let mass: f64 = (0..n).map(|e| model.parts[0].element_mass(e, &model.nodes, &[])).sum();
+        assert!((mass / (7850.0 * 0.5 * 2.0 * 0.75 * thick) - 1.0).abs() < 1e-12, "{mass}");
+        let found = displacements(&model);
+        let tip = found.iter().find(|(label, _)| *label == format!("mesh.{}", plate.node(n, 0))).unwrap().1;
+        tip[2] / exact - 1.0
+    };
+    let [coarse, fine] = [8, 16].map(off);
+    assert!(fine.abs() < 2e-3 && (3.0..5.0).contains(&(coarse / fine)), "{coarse:e} {fine:e}");
+}

@@ -42,6 +42,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         title: String::new(),
         analysis: Analysis {
             kind,
+            is_linear: false,
             begin: 0.0,
             end_time,
             stage: None,
@@ -68,6 +69,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
         stresses: vec![],
         parts: vec![],
         constraints: Constraints { restraints: vec![], ..Constraints::default() },
+        cases: LoadCases::default(),
         loading: Loading::default(),
         damping: Damping::default(),
         expects: vec![],
@@ -229,6 +231,7 @@ pub fn shell(
         order: 1,
         elements,
         numbers: vec![],
+        thicknesses: vec![],
     });
     nodes
 }

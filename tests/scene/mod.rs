@@ -57,6 +57,7 @@ pub fn model() -> Model {
         title: "one of each".into(),
         analysis: Analysis {
             kind: AnalysisKind::Dynamic,
+            is_linear: false,
             begin: 0.0,
             end_time: 1.0,
             stage: None,
@@ -126,6 +127,7 @@ pub fn model() -> Model {
             restraints: vec![Restraint { node: 0, dof: 0, motion: None }, Restraint { node: 0, dof: 5, motion: None }],
             ..Constraints::default()
         },
+        cases: LoadCases::default(),
         loading: Loading::default(),
         damping: Damping::default(),
         expects: vec![],
@@ -249,6 +251,7 @@ impl Extras {
             last: step == 10,
             inside: false,
             modes: None,
+            case: None,
             rows: 0..0,
             compared: false,
             reactions: &self.reactions,

@@ -43,6 +43,16 @@ impl ShellResultants {
         &self.layers[..self.count]
     }
 
+    /// Combines each force, moment and stress with that of others of the same layers.
+    pub fn combine(&mut self, others: &ShellResultants, of: &mut impl FnMut(&mut f64, f64)) {
+        self.N.iter_mut().zip(others.N).for_each(|(own, other)| of(own, other));
+        self.M.iter_mut().zip(others.M).for_each(|(own, other)| of(own, other));
+        self.Q.iter_mut().zip(others.Q).for_each(|(own, other)| of(own, other));
+        for (own, other) in self.layers[..self.count].iter_mut().zip(&others.layers) {
+            own.stress.iter_mut().zip(other.stress).for_each(|(own, other)| of(own, other));
+        }
+    }
+
     /// Sets the stress at the bottom and at the top of an elastic shell of thickness `h`, linear between them.
     pub fn set_elastic_layers(&mut self, h: f64) {
         let stress = |side: f64| std::array::from_fn(|i| self.N[i] / h + side * 6.0 * self.M[i] / (h * h));

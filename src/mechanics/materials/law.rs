@@ -103,6 +103,11 @@ impl MaterialLaw {
         &self.elastic
     }
 
+    /// The initial yield stress in tension.
+    pub fn initial_yield(&self) -> f64 {
+        self.yielding.hardening.initial()
+    }
+
     /// Number of history variables per point: plastic strains, accumulated plastic strain, back stresses (kinematic share), damage (failure
     /// by stress or rate), last overstress (viscosity).
     pub fn history<const N: usize, S: StressState<N>>(&self, _: S) -> usize {

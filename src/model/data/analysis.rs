@@ -13,6 +13,8 @@ use std::sync::Arc;
 pub struct Analysis {
     /// The kind of computation.
     pub kind: AnalysisKind,
+    /// True for a static analysis with infinitesimal displacements.
+    pub is_linear: bool,
     /// Time at the beginning: 0, or where the stage before ends.
     pub begin: f64,
     /// Time at the end, of the run or of the stage.
@@ -57,6 +59,11 @@ impl Analysis {
     /// True for an analysis by load steps alone.
     pub fn is_static(&self) -> bool {
         self.kind == AnalysisKind::Static
+    }
+
+    /// True for a static analysis with infinitesimal displacements.
+    pub fn is_linear(&self) -> bool {
+        self.is_linear
     }
 
     /// True where modes of buckling are found.

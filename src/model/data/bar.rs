@@ -1,5 +1,6 @@
 //! Bars and cables: lines of elements that resist stretching alone.
 
+use super::case::YieldLimit;
 use super::integrals::{MassIntegrals, line_mass};
 use super::loading::OwnDamping;
 use super::node::Node;
@@ -41,6 +42,11 @@ impl Bar {
 impl PartAnswers for Bar {
     fn name(&self) -> &str {
         &self.name
+    }
+
+    fn make_elastic(&mut self) -> Option<YieldLimit> {
+        let limit = YieldLimit::of(&self.yielding.take()?);
+        Some(YieldLimit { area: self.axial_stiffness / limit.modulus, ..limit })
     }
 
     fn elements(&self) -> usize {

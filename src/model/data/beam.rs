@@ -1,5 +1,6 @@
 //! Beams: lines of elements that stretch, shear, bend and twist.
 
+use super::case::YieldLimit;
 use super::integrals::{MassIntegrals, line_mass};
 use super::lattice;
 use super::loading::OwnDamping;
@@ -52,6 +53,13 @@ impl Beam {
 impl PartAnswers for Beam {
     fn name(&self) -> &str {
         &self.name
+    }
+
+    fn make_elastic(&mut self) -> Option<YieldLimit> {
+        let model = self.yielding.take()?;
+        let fibres = model.fibres.iter().map(|fibre| [fibre.y, fibre.z]).collect();
+        let sections = self.elements.iter().map(|element| element.section).collect();
+        Some(YieldLimit { fibres, sections, ..YieldLimit::of(&model.law) })
     }
 
     fn elements(&self) -> usize {

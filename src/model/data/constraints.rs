@@ -14,6 +14,8 @@ pub struct Constraints {
     pub joints: Vec<Joint>,
     /// The restraints, at most one for each degree of freedom, sorted by node and degree of freedom.
     pub restraints: Vec<Restraint>,
+    /// Displacements from t = 0 at which motions end that begin wherever a stage finds the node: node, direction and value.
+    pub targets: Vec<([usize; 2], f64)>,
     /// The nodes with all three rotations given, more than one of them moving.
     pub turns: Vec<GivenTurn>,
 }

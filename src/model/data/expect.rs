@@ -72,6 +72,8 @@ pub enum OverFrequencies {
 pub enum When {
     /// At this time; along a path, when the load reaches it for the first time from below.
     Time(f64),
+    /// In the case at this place of the model's list.
+    Case(usize),
     /// When a displacement passes its target, along a path.
     Target(DisplacementTarget),
     /// At the end of the stage that the deck names.

@@ -3,6 +3,7 @@
 mod analysis;
 mod bar;
 mod beam;
+mod case;
 mod constraints;
 mod contact;
 mod displacement_target;
@@ -28,6 +29,7 @@ mod study;
 pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
 pub use beam::{Beam, BeamElement};
+pub use case::{CaseActor, CaseTerm, Envelope, LoadCase, LoadCases, YieldLimit};
 pub use constraints::{
     Constraints, DependentNode, GivenTurn, Joint, JointCoordinate, JointDrive, JointEffort, JointOrigin,
     PrescribedMotion, Restraint,

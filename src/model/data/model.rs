@@ -1,6 +1,7 @@
 //! The scene as a whole.
 
 use super::analysis::{Analysis, Solution};
+use super::case::LoadCases;
 use super::constraints::Constraints;
 use super::expect::Expect;
 use super::loading::{Damping, Loading};
@@ -37,6 +38,8 @@ pub struct Model {
     pub constraints: Constraints,
     /// Loads and amplitudes.
     pub loading: Loading,
+    /// What a linear analysis is solved for.
+    pub cases: LoadCases,
     /// Rayleigh and nodal damping.
     pub damping: Damping,
     /// Expected values.

@@ -1,5 +1,6 @@
 //! The interface of all kinds of parts, implemented in the file of each kind. Defaults answer for kinds without a property.
 
+use super::case::YieldLimit;
 use super::integrals::MassIntegrals;
 use super::loading::OwnDamping;
 use super::node::Node;
@@ -63,6 +64,11 @@ pub trait PartAnswers {
     /// True for a part with a separate table; false for a spring along a joint.
     fn is_listed(&self) -> bool {
         true
+    }
+
+    /// Lets material that yields stay elastic; returns where it would have yielded.
+    fn make_elastic(&mut self) -> Option<YieldLimit> {
+        None
     }
 
     /// Number of elements; a link is one, and so is each point and each box of a contact.

@@ -1,5 +1,6 @@
 //! Shells: surfaces of triangles or of quadrilaterals.
 
+use super::case::YieldLimit;
 use super::integrals::MassIntegrals;
 use super::lattice;
 use super::loading::OwnDamping;
@@ -34,6 +35,8 @@ pub struct Shell {
     pub order: usize,
     /// The elements.
     pub elements: Vec<ShellElement>,
+    /// The thickness of each element; empty where all have that of the plate.
+    pub thicknesses: Vec<f64>,
     /// The number of each element in the deck's part, which is this shell and its neighbours of the same name. Empty where the
     /// shell is the whole part: they count from 0.
     pub numbers: Vec<u32>,
@@ -50,6 +53,11 @@ impl Shell {
             (2, _) => 9,
             (_, corners) => corners,
         }
+    }
+
+    /// The thickness of an element.
+    pub fn thickness(&self, element: usize) -> f64 {
+        self.thicknesses.get(element).copied().unwrap_or(self.plate.thickness)
     }
 
     /// An element's number in the deck's part.
@@ -99,6 +107,10 @@ impl PartAnswers for Shell {
         &self.name
     }
 
+    fn make_elastic(&mut self) -> Option<YieldLimit> {
+        self.yielding.take().map(|model| YieldLimit::of(&model.law))
+    }
+
     fn elements(&self) -> usize {
         self.elements.len()
     }
@@ -134,14 +146,14 @@ impl PartAnswers for Shell {
         let x = |k: usize| nodes[of[k]].x;
         if self.order == 2 {
             let x: Vec<Vec3> = (0..of.len()).map(x).collect();
-            return self.density * self.plate.thickness * shell::shares(&x).iter().sum::<f64>();
+            return self.density * self.thickness(element) * shell::shares(&x).iter().sum::<f64>();
         }
         let twice = (1..of.len() - 1).map(|k| (x(k) - x(0)).cross(&(x(k + 1) - x(0))).norm()).sum::<f64>();
-        self.density * self.plate.thickness * (0.5 * twice)
+        self.density * self.thickness(element) * (0.5 * twice)
     }
 
-    fn stretching(&self, _: usize, _: &[Node], _: &[Stiffness]) -> Option<f64> {
-        Some(self.plate.E * self.plate.thickness)
+    fn stretching(&self, element: usize, _: &[Node], _: &[Stiffness]) -> Option<f64> {
+        Some(self.plate.E * self.thickness(element))
     }
 
     fn depths(&self, _: &[Stiffness]) -> Option<[f64; 2]> {
@@ -163,9 +175,10 @@ impl PartAnswers for Shell {
     /// The mass lies on the surface with ρh³/12 per area about every axis, as its nodes have it while it deforms.
     fn take_out(&mut self, _: &[Stiffness], x: &dyn Fn(usize) -> Vec3, sums: &mut MassIntegrals) -> Vec<Vec<usize>> {
         let mut taken = Vec::new();
-        let (h, size) = (self.plate.thickness, self.size());
+        let size = self.size();
         let density = if self.mass == MassKind::None { 0.0 } else { self.density };
-        for e in std::mem::take(&mut self.elements) {
+        for (index, e) in std::mem::take(&mut self.elements).into_iter().enumerate() {
+            let h = self.thickness(index);
             let nodes = e.nodes[..size].to_vec();
             let x: Vec<Vec3> = nodes.iter().map(|&node| x(node)).collect();
             let products = shell::products(&x);

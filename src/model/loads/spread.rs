@@ -1,6 +1,7 @@
 //! `[[loads]]` spread over shells, along their edges, and along beams and bars.
 
 use crate::data::{Load, Part, Pressure};
+use crate::group_names::{GroupChoice, GroupPlace};
 use crate::loads::per_length::{LineLoad, is_chain};
 use crate::places::nodes::Topology;
 use crate::places::place::Place;
@@ -42,7 +43,7 @@ pub fn spread_load<'d>(
     let mut spread = Spread {
         words: load,
         lines: if line.is_some() { elements_by_ends(&scene.parts.list) } else { HashMap::new() },
-        edges: if line.is_some() { edges_of_shells(&scene.parts.list) } else { HashMap::new() },
+        edges: if line.is_some() { edges_by_name(scene) } else { HashMap::new() },
         line,
         area: vec3_or_zero(&load.force_per_area),
         pressure,
@@ -53,6 +54,8 @@ pub fn spread_load<'d>(
         faces: Vec::new(),
         shares: Vec::new(),
         seen: HashSet::new(),
+        seen_faces: HashSet::new(),
+        shell_faces: None,
     };
     for name in &names.values {
         let Some(place) = scene.names.find(name, report) else { continue };
@@ -121,6 +124,24 @@ fn line_load(load: &words::Load, amplitude: Option<usize>, report: &mut Report) 
     })
 }
 
+/// The edges of all shells, of those beside their nodes by the nodes that carry them too.
+fn edges_by_name(scene: &Scene) -> HashMap<[usize; 2], Edge> {
+    let mut edges = edges_of_shells(&scene.parts.list);
+    for carried in scene.parts.entries().map(|(_, entry)| &entry.carried).filter(|carried| !carried.is_empty()) {
+        let more = edges.iter().filter_map(|(&[a, b], edge)| {
+            let name = |node: usize| carried.get(&node).copied();
+            let (a, b) = (name(a)?, name(b)?);
+            let curve = edge.curve.map(|(nodes, range)| (nodes.map(|node| name(node).unwrap_or(node)), range));
+            Some(([a.min(b), a.max(b)], Edge { curve, ..*edge }))
+        });
+        let more: Vec<_> = more.collect();
+        more.into_iter().for_each(|(ends, edge)| {
+            edges.entry(ends).or_insert(edge);
+        });
+    }
+    edges
+}
+
 /// The elements of beams and bars by their end nodes, in ascending order.
 fn elements_by_ends(parts: &[Part]) -> HashMap<[usize; 2], (usize, usize)> {
     let is_line = |part: &Part| part.kind().is_deformable() && !part.kind().is_surface();
@@ -163,6 +184,10 @@ struct Spread<'a, 'd> {
     shares: Vec<Load>,
     /// Places already loaded: a part named twice is loaded once, like nodes.
     seen: HashSet<Place>,
+    /// Faces already loaded, by their corners in ascending order.
+    seen_faces: HashSet<Vec<usize>>,
+    /// The nodes of all faces of shells, by their corners in ascending order; `None` until a group needs them.
+    shell_faces: Option<HashMap<Vec<usize>, Vec<usize>>>,
 }
 
 impl<'d> Spread<'_, 'd> {
@@ -178,7 +203,7 @@ impl<'d> Spread<'_, 'd> {
             (Place::Part(_) | Place::Body(_), Some(_)) if self.line_of(place).is_some() => {
                 self.line_of(place).into_iter().for_each(|part| self.load_part(part, name, report));
             }
-            (Place::Set(_), Some(_)) if self.is_of_members(place) => {
+            (Place::Set(_), line) if line.is_none() || self.is_of_members(place) => {
                 for leaf in self.scene.names.leaves(place) {
                     if self.seen.insert(leaf) {
                         self.over(leaf, name, report);
@@ -189,8 +214,11 @@ impl<'d> Spread<'_, 'd> {
                 let pairs = line_of(self.scene, place, name, self.topology, report);
                 self.load_segments(&pairs, name, report);
             }
-            _ => match self.scene.names.surface_of(place) {
-                Some(surface) if self.line.is_none() => self.over_surface(surface),
+            _ => match (self.scene.names.surface_of(place), place) {
+                (Some(surface), _) if self.line.is_none() => self.over_surface(surface),
+                (None, Place::Group(GroupPlace { faces: GroupChoice::One(group), .. })) => {
+                    self.over_group(group as usize, name, report);
+                }
                 _ => {
                     let what = if self.line.is_some() { "beams, bars and edges of shells" } else { "shells" };
                     let message = format!("this load acts on {what}, and `{}` is {}", name.value, place.kind());
@@ -334,18 +362,61 @@ impl<'d> Spread<'_, 'd> {
     }
 
     fn over_surface(&mut self, surface: PartIndex) {
-        for nodes in self.scene.parts.elements(surface) {
-            if self.follows {
-                self.faces.extend(Face::of(&nodes));
-                continue;
-            }
-            let x: Vec<Vec3> = nodes.iter().map(|&node| self.topology.x(node)).collect();
-            let parts = shell::shares(&x).into_iter().zip(shell::faces(&x));
-            for (&node, (share, face)) in nodes.iter().zip(parts) {
-                self.forces.entry(node).or_default()[0] += share * self.area - self.pressure * face;
-            }
+        self.scene.parts.elements_by_name(surface).iter().for_each(|nodes| self.load_face(nodes));
+    }
+
+    /// Distributes the load over the faces of shells in a group of the mesh.
+    fn over_group(&mut self, group: usize, name: &'d At<String>, report: &mut Report<'d>) {
+        let all = self.shell_faces.take().unwrap_or_else(|| faces_by_corners(self.scene));
+        let faces = self.scene.names.mesh.group_faces(group);
+        let of_shells: Vec<&Vec<usize>> = faces.iter().filter_map(|corners| all.get(&sorted(corners))).collect();
+        of_shells.iter().for_each(|nodes| self.load_face(nodes));
+        let without = faces.len() - of_shells.len();
+        if without > 0 && self.topology.is_complete() {
+            let message = format!("{without} of the {} faces of `{}` are in no shell", faces.len(), name.value);
+            report.error_with::<()>(
+                &name.span,
+                message,
+                "loads per area act on shells: make one of the group with all",
+            );
+        }
+        self.shell_faces = Some(all);
+    }
+
+    /// Distributes the load over a face, once.
+    fn load_face(&mut self, nodes: &[usize]) {
+        if !self.seen_faces.insert(corners(nodes)) {
+            return;
+        }
+        if self.follows {
+            self.faces.extend(Face::of(nodes));
+            return;
+        }
+        let x: Vec<Vec3> = nodes.iter().map(|&node| self.topology.x(node)).collect();
+        let parts = shell::shares(&x).into_iter().zip(shell::faces(&x));
+        for (&node, (share, face)) in nodes.iter().zip(parts) {
+            self.forces.entry(node).or_default()[0] += share * self.area - self.pressure * face;
         }
     }
+}
+
+/// The nodes of all faces of shells by their corners.
+fn faces_by_corners(scene: &Scene) -> HashMap<Vec<usize>, Vec<usize>> {
+    let surfaces = scene.deck.parts().filter(|part| part.at.kind.is_surface());
+    let faces = surfaces.flat_map(|part| scene.parts.elements_by_name(part.at));
+    faces.map(|nodes| (corners(&nodes), nodes)).collect()
+}
+
+/// The corners of a face of shells in ascending order.
+fn corners(nodes: &[usize]) -> Vec<usize> {
+    sorted(&nodes[..if nodes.len() % 3 == 0 && nodes.len() < 9 { 3 } else { 4 }])
+}
+
+/// Nodes in ascending order.
+fn sorted(nodes: &[usize]) -> Vec<usize> {
+    let mut nodes = nodes.to_vec();
+    nodes.sort_unstable();
+    nodes
 }
 
 /// Pairs of nodes under a load per length: the segments of a group, or edges of shells between nodes of a set. Border edges are preferred.
@@ -369,7 +440,7 @@ fn line_of(
     let (mut edges, mut places): (Vec<([usize; 2], usize)>, _) = (Vec::new(), HashMap::new());
     let mut whole = false;
     for surface in scene.deck.parts().filter(|part| part.at.kind.is_surface()) {
-        for face in scene.parts.elements(surface.at) {
+        for face in scene.parts.elements_by_name(surface.at) {
             whole |= face.iter().all(|node| set.contains(node));
             let round: Vec<usize> = curved_faces::ring(face.len()).map(|k| face[k]).collect();
             for (k, &a) in round.iter().enumerate() {

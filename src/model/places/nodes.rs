@@ -21,6 +21,8 @@ pub struct Nodes {
     /// The index of each dependent node in `dependents`, and the place in the deck that made it depend.
     attachments: HashMap<usize, (usize, Span)>,
     restraints: Restraints,
+    /// Displacements from t = 0 at which motions of restraints end: node, direction and value.
+    pub targets: Vec<([usize; 2], f64)>,
 }
 
 /// The restraints by node and degree of freedom.

@@ -1,6 +1,6 @@
 //! Unused nodes: nodes of a mesh outside all parts, and inner nodes of rigid parts.
 
-use crate::data::{ArcLength, ExpectAt, LoadOrigin, Model, StepLength, Stop, StopQuantity, When};
+use crate::data::{ArcLength, CaseActor, ExpectAt, LoadOrigin, Model, StepLength, Stop, StopQuantity, When};
 use mechanics::elements::pressure::Face;
 
 /// Takes out nodes that neither the deck names nor anything acts on, and numbers the others anew. Decks without a mesh and
@@ -21,6 +21,7 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     let drives = model.constraints.joints.iter_mut().filter_map(|joint| joint.coordinate.as_mut()?.drive.as_mut());
     drives.for_each(|drive| of(&mut drive.node));
     model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));
+    model.constraints.targets.iter_mut().for_each(|([node, _], _)| of(node));
     for load in &mut model.loading.nodal {
         of(&mut load.node);
         if let Some(LoadOrigin::Coordinate(coordinate)) = &mut load.origin {
@@ -37,6 +38,11 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
         }
         if let When::Target(target) = &mut expect.when {
             of(&mut target.node);
+        }
+    }
+    for term in model.cases.list.iter_mut().flat_map(|case| &mut case.terms) {
+        if let CaseActor::Named(actors) = &mut term.acts {
+            actors.motions.iter_mut().for_each(|[node, _]| of(node));
         }
     }
     if let Some(Stop { quantity, .. }) = model.analysis.stage.as_mut().and_then(|stage| stage.stop.as_mut()) {

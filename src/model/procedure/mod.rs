@@ -4,6 +4,7 @@ pub mod choose_scheme;
 pub mod control;
 pub mod displacement_targets;
 pub mod extent;
+pub mod linear;
 pub mod mass_scaling;
 pub mod modes;
 pub mod response;
@@ -12,6 +13,7 @@ pub mod study;
 
 use crate::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use crate::data::{ERROR_TOLERANCE, FIRST_STEP};
+use crate::procedure::linear::linear;
 use crate::procedure::modes::modes;
 use crate::report::{Owner, Report};
 use crate::stages::CurrentStage;
@@ -74,6 +76,9 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
     if let Some(analysis) = modes(analysis, owner.span, word, report) {
         return analysis;
     }
+    if let Some(analysis) = linear(analysis, &owner, word, report) {
+        return analysis;
+    }
     let is_static = word == words::AnalysisKind::Static;
     let is_moved = is_static && analysis.control.as_ref().is_some_and(|at| at.value == words::Control::Displacement);
     let end_time = match &analysis.end_time {
@@ -128,7 +133,7 @@ fn times<'d>(analysis: &'d words::Analysis, owner: Owner<'d>, report: &mut Repor
 /// not known.
 fn unread(kind: AnalysisKind, end_time: Option<f64>) -> Analysis {
     let (end_time, step_length) = (end_time.unwrap_or(f64::MAX), StepLength::Fixed { step: 1.0 });
-    Analysis { kind, begin: 0.0, end_time, stage: None, step_length, least_step: 1.0, plane: true }
+    Analysis { kind, is_linear: false, begin: 0.0, end_time, stage: None, step_length, least_step: 1.0, plane: true }
 }
 
 /// The length of the steps, or the error that it follows.

@@ -66,7 +66,16 @@ pub fn modes<'d>(
         }
     };
     let step_length = StepLength::Fixed { step: STEP };
-    Some(Analysis { kind, begin: 0.0, end_time: END, stage: None, step_length, least_step: LEAST_STEP, plane })
+    Some(Analysis {
+        kind,
+        is_linear: false,
+        begin: 0.0,
+        end_time: END,
+        stage: None,
+        step_length,
+        least_step: LEAST_STEP,
+        plane,
+    })
 }
 
 /// Reads `speeds`; empty where the deck has none.

@@ -86,7 +86,12 @@ fn is_flat(topology: &Topology, element: &ShellElement, ends: [usize; 2], thickn
 fn is_straight(topology: &Topology, element: &ShellElement, ends: [usize; 2]) -> bool {
     let nodes = ends.map(|a| element.nodes[a]);
     let along = topology.x(nodes[1]) - topology.x(nodes[0]);
-    let held = |a: usize| is_held(topology, element.nodes[a], &element.normals[a].cross(&along));
+    // A node beside the one that carries it is held where that one cannot turn either.
+    let holder = |node: usize| match topology.carrier(node) {
+        holder if holder != node && (3..6).all(|dof| topology.restraint(holder, dof).is_some()) => holder,
+        _ => node,
+    };
+    let held = |a: usize| is_held(topology, holder(element.nodes[a]), &element.normals[a].cross(&along));
     ends.into_iter().all(held) || carrier(topology, nodes[0]) == carrier(topology, nodes[1])
 }
 

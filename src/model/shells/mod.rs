@@ -19,7 +19,7 @@ use base::math::{Vec3, curved_faces};
 use deck::shells as words;
 use deck::words::OneOrMany;
 use mechanics::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plate};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 /// Largest number of elements along an edge; more are taken for a typing error, and would exhaust memory.
 const MOST_ELEMENTS: u64 = 10_000;
@@ -34,9 +34,76 @@ pub fn shells(cx: &mut PartContext) {
         let (name, owner) = cx.report.named(("shell", "shells", index), name, &shell.span);
         let at = PartIndex { kind: PartKind::Shell, index };
         cx.parts.begin(at);
-        let made = read_shell(at, name, &owner, shell, &mut edges, cx);
+        let mut made = read_shell(at, name, &owner, shell, &mut edges, cx);
+        set_thicknesses(made.iter_mut().flatten(), shell, cx);
+        if let (Some(shells), Some(offset)) = (&mut made, shell.offset.as_ref().filter(|offset| offset.value != 0.0)) {
+            set_beside(at, shells, offset, cx);
+        }
         cx.parts.add(at, made.unwrap_or_default().into_iter().map(Part::from));
     }
+}
+
+/// Gives each element the mean thickness of its corners, where the deck gives some.
+fn set_thicknesses<'d>(made: impl Iterator<Item = &'d mut Shell>, shell: &'d words::Shell, cx: &mut PartContext) {
+    let mut given: HashMap<usize, f64> = HashMap::new();
+    for (name, thickness) in &shell.nodal_thickness.0 {
+        if thickness.value.is_nan() || thickness.value <= 0.0 {
+            cx.report.error::<()>(&thickness.span, format!("the thickness at `{}` must be above zero", name.value));
+        }
+        let Some(place) = cx.names.find_nodes(name, cx.report) else { continue };
+        given.extend(cx.names.nodes_of(place, &cx.parts).into_iter().map(|node| (node, thickness.value)));
+    }
+    if given.is_empty() {
+        return;
+    }
+    let mut known = HashSet::new();
+    for shell in made {
+        let thickness = |node: &usize| given.get(node).copied().unwrap_or(shell.plate.thickness);
+        let mean = |element: &ShellElement| {
+            let corners = &element.nodes[..shell.corners];
+            corners.iter().map(thickness).sum::<f64>() / shell.corners as f64
+        };
+        shell.thicknesses = shell.elements.iter().map(mean).collect();
+        known.extend(shell.elements.iter().flat_map(|element| element.nodes));
+    }
+    for (name, _) in &shell.nodal_thickness.0 {
+        let nodes = cx.names.place(name).map_or_else(Vec::new, |place| cx.names.nodes_of(place, &cx.parts));
+        if !known.is_empty() && !nodes.is_empty() && !nodes.iter().any(|node| known.contains(node)) {
+            let message = format!("`{}` has no node of this shell, so this thickness is of nothing", name.value);
+            cx.report.error::<()>(&name.span, message);
+        }
+    }
+}
+
+/// Puts elements at a distance from their nodes, on nodes that these carry by rigid arms.
+fn set_beside(at: PartIndex, shells: &mut [Shell], offset: &At<f64>, cx: &mut PartContext) {
+    if cx.deck.part(at).is_some_and(|part| part.is_rigid()) {
+        cx.report.error::<()>(&offset.span, "a rigid shell has no `offset`: place its nodes on the mid-surface");
+        return;
+    }
+    let mut made: HashMap<(usize, [u64; 3]), usize> = HashMap::new();
+    let mut carried = HashMap::new();
+    for shell in shells {
+        let (name, size) = (shell.name.clone(), shell.size());
+        for element in &mut shell.elements {
+            for k in 0..size {
+                let (node, normal) = (element.nodes[k], element.normals[k]);
+                // Faces on either side of a fold have nodes of their own.
+                let key = (node, <[f64; 3]>::from(normal).map(|part| u64::from((part as f32).to_bits())));
+                element.nodes[k] = *made.entry(key).or_insert_with(|| {
+                    let label = format!("{name}.{}", cx.nodes.label(node));
+                    let x = cx.nodes.x(node) + offset.value * normal;
+                    let beside = cx.nodes.add_dependent(label, x, node, &offset.span);
+                    cx.nodes.connect(beside, true);
+                    carried.insert(beside, node);
+                    beside
+                });
+            }
+            let last = element.nodes[size - 1];
+            element.nodes[size..].fill(last);
+        }
+    }
+    cx.parts.entry_mut(at).carried = carried;
 }
 
 /// Reads one shell as far as it can, so that all errors of the shell are found; `None` means there were some. A shell of triangles and
@@ -49,14 +116,7 @@ fn read_shell<'d>(
     edges: &mut Edges,
     cx: &mut PartContext<'_, 'd>,
 ) -> Option<Vec<Shell>> {
-    let mass = chosen(&shell.mass);
-    let damping = own_damping::of_part(&shell.damping, cx.report);
-    let part = plate(owner, shell, mass, cx).map(|(plate, density, yielding, axis)| {
-        cx.parts.entry_mut(at).contact_radius = 0.5 * plate.thickness;
-        let (elements, numbers) = (Vec::new(), Vec::new());
-        let name = name.clone();
-        Shell { name, plate, density, mass, damping, yielding, axis, corners: 0, order: 1, elements, numbers }
-    });
+    let part = empty(at, &name, owner, shell, cx);
     if let Some(group) = &shell.group {
         let unused = keys!(shell; corners, elements, kind, surface, order);
         cx.report.reject_unused("a shell made of a group of the mesh", &unused);
@@ -93,6 +153,36 @@ fn read_shell<'d>(
     let patch = Patch { name: &name, owner, map, corners, counts, order, made: 0 };
     let elements = of_patch(at, patch, triangles, edges, cx)?;
     Some(vec![Shell { corners: if triangles { 3 } else { 4 }, order, elements, ..part }])
+}
+
+/// The shell without elements.
+fn empty<'d>(
+    at: PartIndex,
+    name: &str,
+    owner: &Owner<'d>,
+    shell: &'d words::Shell,
+    cx: &mut PartContext<'_, 'd>,
+) -> Option<Shell> {
+    let mass = chosen(&shell.mass);
+    let damping = own_damping::of_part(&shell.damping, cx.report);
+    let (plate, density, yielding, axis) = plate(owner, shell, mass, cx)?;
+    cx.parts.entry_mut(at).contact_radius = 0.5 * plate.thickness;
+    let (elements, numbers, thicknesses) = (Vec::new(), Vec::new(), Vec::new());
+    let name = name.to_owned();
+    Some(Shell {
+        name,
+        plate,
+        density,
+        mass,
+        damping,
+        yielding,
+        axis,
+        corners: 0,
+        order: 1,
+        elements,
+        numbers,
+        thicknesses,
+    })
 }
 
 /// The elements of a patch; its nodes are noted in its entry.

@@ -265,6 +265,7 @@ impl<'d> CurrentStage<'d> {
         Analysis {
             kind: Some(At { value: word, span: place(span(&table.kind)) }),
             control: table.control.clone().filter(|_| !has_modes),
+            geometry: None,
             end_time: (!has_modes).then(|| At { value: *duration, span: place(span(&table.duration)) }),
             time_step: table.time_step.clone().filter(|_| !has_modes),
             error_tolerance: table.error_tolerance.clone().or(general).filter(|_| !has_modes),

@@ -46,7 +46,11 @@ fn values(drift: &Drift, frame: &Frame) -> [Option<f64>; DRIFT.len()] {
     let across = if apart { moved - line * (line.dot(&moved) / (length * length)) } else { moved };
     // |line + moved| − |line| without the difference of two nearly equal lengths.
     let longer = (2.0 * line.dot(&moved) + moved.norm_squared()) / ((line + moved).norm() + length);
-    let longer = if apart { longer } else { moved.norm() };
+    let longer = match frame.case {
+        Some(_) if apart => line.dot(&moved) / length,
+        _ if apart => longer,
+        _ => moved.norm(),
+    };
     let lateral = across.norm();
     let ratio = apart.then(|| lateral / length);
     [Some(moved.x), Some(moved.y), Some(moved.z), Some(longer), Some(lateral), ratio]

@@ -3,6 +3,7 @@
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
 use base::quantities::{Column, JOINT_COORDINATE, JOINT_REACTION, names};
+use mechanics::state;
 use model::{ExpectAt, Joint, JointCoordinate, Model};
 use solve::{Frame, Wanted};
 use std::io;
@@ -52,9 +53,17 @@ fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
     let (mut f, mut m) = (held.f, held.m);
     let [mut q, mut rate, mut effort] = [f64::NAN; 3];
     if let Some(coordinate) = &made.coordinate {
-        let [from, to] = made.ends.map(|node| &frame.state.nodes[node]);
+        let start = made.ends.map(|node| state::Node::at_rest(frame.model.nodes[node].x));
+        let (from, to) = match &frame.case {
+            Some(_) => (&start[0], &start[1]),
+            None => (&frame.state.nodes[made.ends[0]], &frame.state.nodes[made.ends[1]]),
+        };
         let link = coordinate.spring.and_then(|spring| frame.derived.links.get(spring));
-        let [along, speed, _] = coordinate.lock.gap(from, to);
+        let [mut along, speed, _] = coordinate.lock.gap(from, to);
+        if let Some(case) = &frame.case {
+            let of_ends = coordinate.lock.gradient(from, to).into_iter().zip(made.ends);
+            along += of_ends.map(|(G, node)| G.dot(&case.motions[node])).sum::<f64>();
+        }
         (q, rate) = link.map_or((along, speed), |link| (link.elongation, link.rate));
         // Forces besides those of the constraint equations, positive on the second end.
         let acting = motor(coordinate, frame) - link.map_or(0.0, |link| link.force);
@@ -68,7 +77,9 @@ fn values(joint: usize, frame: &Frame) -> Option<[f64; 9]> {
 
 /// The effort that the deck gives.
 fn motor(coordinate: &JointCoordinate, frame: &Frame) -> f64 {
-    let Some(effort) = &coordinate.effort else { return 0.0 };
+    // Load cases name loads, and motors have no names.
+    let in_case = frame.case.as_ref().is_some_and(|case| case.name.is_some());
+    let Some(effort) = coordinate.effort.as_ref().filter(|_| !in_case) else { return 0.0 };
     let (model, time) = (frame.model, frame.state.time);
     effort.value
         * match (effort.amplitude, model.analysis.is_dynamic()) {

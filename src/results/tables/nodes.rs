@@ -2,7 +2,7 @@
 
 use crate::extent::Rows;
 use crate::table::{Answers, TableKind, WriteRow};
-use base::math::rotation;
+use base::math::{Vec6, angular, linear, rotation};
 use base::quantities::{
     ACCELERATION, ANGULAR_ACCELERATION, ANGULAR_VELOCITY, Column, DISPLACEMENT, MOTION, POSITION, ROTATION, VELOCITY,
     names,
@@ -50,12 +50,22 @@ fn quantities(at: ExpectAt) -> Vec<&'static str> {
 fn value(at: ExpectAt, index: usize, frame: &Frame) -> Option<f64> {
     let ExpectAt::Node(i) = at else { return None };
     let now = frame.state.nodes.get(i)?;
-    values(&frame.model.nodes[i], now).get(index).copied()
+    values(&frame.model.nodes[i], now, motion(frame, i)).get(index).copied()
 }
 
-/// The motion of one node, in the order of [`MOTION`]. The rotation vector is the shortest, of length at most π.
-fn values(start: &model::Node, now: &state::Node) -> [f64; 21] {
-    let vectors = [now.x, now.moved(&start.x), rotation::log(&now.rotation), now.v, now.omega, now.a, now.alpha];
+/// The infinitesimal motion of a node in a linear analysis.
+fn motion<'f>(frame: &'f Frame, node: usize) -> Option<&'f Vec6> {
+    frame.case.as_ref().map(|case| &case.motions[node])
+}
+
+/// The motion of one node, in the order of [`MOTION`]. The rotation vector is the shortest, of length at most π; that of a linear analysis is
+/// proportional to the loads.
+fn values(start: &model::Node, now: &state::Node, small: Option<&Vec6>) -> [f64; 21] {
+    let (moved, turn) = match small {
+        Some(motion) => (linear(motion), angular(motion)),
+        None => (now.moved(&start.x), rotation::log(&now.rotation)),
+    };
+    let vectors = [now.x, moved, turn, now.v, now.omega, now.a, now.alpha];
     std::array::from_fn(|i| vectors[i / 3][i % 3])
 }
 
@@ -63,6 +73,6 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
     frame.model.output.nodes.iter().try_for_each(|&i| {
         let node = &frame.model.nodes[i];
         table.row(frame.step, frame.state.time).text(&node.label);
-        table.numbers(&values(node, &frame.state.nodes[i])).end()
+        table.numbers(&values(node, &frame.state.nodes[i], motion(frame, i))).end()
     })
 }

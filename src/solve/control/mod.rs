@@ -15,4 +15,4 @@ mod targets;
 mod tolerance;
 
 pub use controller::Controller;
-pub use intervals::{COMPARISONS, Schedule, comparison_time, comparison_times};
+pub use intervals::{COMPARISONS, Interval, Schedule, comparison_time, comparison_times};

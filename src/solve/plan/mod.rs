@@ -59,7 +59,11 @@ impl Plan {
         let mut structure = if explicit { structure(&system.bare(), &dofs) } else { structure(system, &dofs) };
         let places: Vec<[f64; 3]> = model.nodes.iter().map(|node| node.x.into()).collect();
         structure.positions = positions(&dofs, &places);
-        let kind = choose::kind(&structure, model.solution.iteration.gyroscopic);
+        let kind = match model.analysis.is_linear() {
+            // Without loads the stiffness at t = 0 is symmetric.
+            true => linear::Factorization::Cholesky,
+            false => choose::kind(&structure, model.solution.iteration.gyroscopic),
+        };
         // A body that rotates in space has J = R J₀ Rᵀ and a gyroscopic moment; about one fixed axis neither changes.
         let mut driven = vec![[false; 6]; nodes.len()];
         model
@@ -175,6 +179,11 @@ impl Plan {
     pub fn with_prescribed(&self, system: &System, prescribed: &[(usize, usize)]) -> Plan {
         let mut unknown: Vec<[bool; 6]> = self.dofs.each_node().iter().map(NodeRows::unknown).collect();
         prescribed.iter().for_each(|&(node, dof)| unknown[node][dof] = true);
+        self.with_unknowns(system, unknown)
+    }
+
+    /// The plan with these unknowns, by node and direction.
+    pub fn with_unknowns(&self, system: &System, unknown: Vec<[bool; 6]>) -> Plan {
         let dofs = DofMap::new(unknown.into_iter(), &system.joints);
         let mut structure = structure(system, &dofs);
         structure.positions = positions(&dofs, &self.places);

@@ -64,7 +64,7 @@ pub use loads::Loading;
 pub use mass_scaling::{MassScaling, ScaledPart};
 pub use mechanics::amplitude::Side;
 pub use multipliers::Multipliers;
-pub use parts::beam_sections::{SectionPlace, SectionPoint, elastic_stresses};
+pub use parts::beam_sections::{SectionPlace, SectionPoint, elastic_stresses, renew_stresses};
 pub use parts::links::LinkState;
 pub use parts::shell_shear::ShearBalance;
 pub use parts::shells::ShellState;

@@ -64,17 +64,25 @@ pub struct ShellGeometry<'a> {
     pub nodes: &'a [usize],
     /// Unit normals at the nodes at t = 0, which are the directors there.
     pub normals: &'a [Vec3],
+    /// Its thickness; `None` for that of the plate.
+    pub thickness: Option<f64>,
     /// The fraction of the bulge of each edge (from each node to the next) in the strain: [`Interpolation::BULGE`], equal in all elements
     /// of an edge, or zero for a straight edge.
     pub bulge: [f64; 4],
 }
 
 impl<'a> ShellGeometry<'a> {
+    /// The plate with the thickness of the element.
+    pub(super) fn plate(&self, plate: &Plate) -> Plate {
+        Plate { thickness: self.thickness.unwrap_or(plate.thickness), ..*plate }
+    }
+
     /// An element whose edges are free, and shared with others of its shape only.
     pub fn new(nodes: &'a [usize], normals: &'a [Vec3]) -> Self {
         ShellGeometry {
             nodes,
             normals,
+            thickness: None,
             bulge: if nodes.len() == 3 { [Triangle::BULGE; 4] } else { [Quadrilateral::BULGE; 4] },
         }
     }
@@ -158,6 +166,7 @@ fn shell<K, const N: usize, const V: usize, const P: usize, const E: usize>(
 where
     K: PlaneStrains<N, V, P, E>,
 {
+    let plate = &e.plate(plate);
     let nodes: [usize; N] = from_fn(|a| e.nodes[a]);
     let D: [Vec3; N] = from_fn(|a| e.normals[a]);
     let surface = ElementSurface::<N, V>::new::<K, P>(from_fn(|a| x[nodes[a]] - x[nodes[0]]));

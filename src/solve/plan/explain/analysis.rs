@@ -12,6 +12,7 @@ pub fn explain(text: &mut Explanation, model: &Model) {
     match (&analysis.kind, &analysis.step_length) {
         (AnalysisKind::Response(asked), _) => text.add("analysis", response::explain(asked, model)),
         (AnalysisKind::Modal(_) | AnalysisKind::Buckling(_), _) => text.add("analysis", modes(analysis)),
+        (AnalysisKind::Static, _) if analysis.is_linear() => text.add("analysis", linear(model, steps)),
         (AnalysisKind::Static, StepLength::ArcLength(control)) => text.add("analysis", path(model, control)),
         (AnalysisKind::Static, _) => text.add("analysis", format!("static, to t = {end} in {steps} load steps")),
         (AnalysisKind::Dynamic, step_length) => {
@@ -30,6 +31,15 @@ pub fn explain(text: &mut Explanation, model: &Model) {
             text.notes.extend(model.solution.scheme.note().map(str::to_owned));
         }
     }
+}
+
+fn linear(model: &Model, steps: f64) -> String {
+    let count = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
+    let of = match model.cases.list.len() {
+        0 => count(steps as usize, "solution"),
+        cases => count(cases, "load case"),
+    };
+    format!("linear static, one factorization for {of}")
 }
 
 fn modes(analysis: &Analysis) -> String {

@@ -34,6 +34,10 @@ fn iteration(model: &Model) -> &'static str {
 
 fn matrix(plan: &Plan, model: &Model, system: &System) -> &'static str {
     match plan.kind {
+        Factorization::Cholesky if model.analysis.is_linear() && system.multipliers() > 0 => {
+            "stiffness at t = 0, sparse L D Lᵀ because of the multipliers"
+        }
+        Factorization::Cholesky if model.analysis.is_linear() => "stiffness at t = 0, sparse Cholesky",
         Factorization::BlockLu if model.solution.iteration.gyroscopic == Gyroscopic::Right => {
             "tangent without gyroscopic terms (these are in the residual), sparse LU by nodal blocks"
         }
@@ -48,6 +52,7 @@ fn matrix(plan: &Plan, model: &Model, system: &System) -> &'static str {
 fn formed(plan: &Plan, model: &Model, system: &System) -> &'static str {
     let mixes = system.yields() && model.solution.iteration.method != Method::TangentStiffness;
     match (plan.linear, model.solution.iteration.update) {
+        _ if model.analysis.is_linear() => "once, for all loads",
         _ if model.analysis.step_length.is_arc_length() => "in every iteration: arc length needs the path's tangent",
         (true, _) => "once per step length: the scene is linear",
         (_, Update::Iteration) => "in every iteration",

@@ -106,6 +106,14 @@ fn stresses(model: &Model, beam: &Beam, element: usize, at: &IntegrationPoint) -
     }
 }
 
+/// Replaces extreme stresses of elastic beams by those of their resultants.
+pub fn renew_stresses(model: &Model, points: &mut [SectionPoint]) {
+    for point in points {
+        let Some(beam) = Beam::of(&model.parts[point.part]) else { continue };
+        point.at.stresses = elastic_stresses(model, beam, point.element, &point.at.forces);
+    }
+}
+
 /// Extreme stresses of an elastic section; `None` of one that does not say where its area is.
 pub fn elastic_stresses(model: &Model, beam: &Beam, element: usize, forces: &[f64; 6]) -> Option<BeamStresses> {
     let section = beam.elements[element].section;

@@ -7,7 +7,7 @@ use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
 use base::math::{Mat3, Vec3};
 use mechanics::elements::shell::{
-    self, CurvedQuadrilaterals, CurvedTriangles, NineNodes, Quadrilateral, Quadrilaterals, SixNodes, Triangle,
+    self, CurvedQuadrilaterals, CurvedTriangles, NineNodes, Plate, Quadrilateral, Quadrilaterals, SixNodes, Triangle,
     Triangles,
 };
 use mechanics::elements::{ElementBlock, ShellResultants};
@@ -47,18 +47,18 @@ impl ShellState {
 
 impl Assembled for Shell {
     fn add_masses(&self, _: &[Stiffness], masses: &mut NodalMasses) {
-        for element in &self.elements {
+        for (index, element) in self.elements.iter().enumerate() {
             let nodes = &element.nodes[..self.size()];
-            masses.add(&lumped(self, nodes, masses));
+            masses.add(&lumped(self, index, masses));
             if self.mass == MassKind::Consistent {
                 let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
-                masses.consistent.push(ConsistentMass::of_shell(nodes, &corners, self.density * self.plate.thickness));
+                masses.consistent.push(ConsistentMass::of_shell(nodes, &corners, self.density * self.thickness(index)));
             }
         }
     }
 
     fn lumped(&self, element: usize, _: &[Stiffness], masses: &NodalMasses) -> Option<LumpedElement> {
-        Some(lumped(self, &self.elements[element].nodes[..self.size()], masses))
+        Some(lumped(self, element, masses))
     }
 
     /// Half the sum of the squares of its sides: of rectangles and of triangles with a right angle the sides themselves, of triangles with
@@ -81,7 +81,8 @@ impl Assembled for Shell {
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
-        pieces(self.elements.len()).map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
+        let pieces = pieces(self.elements.len()).flat_map(|piece| alike(self, piece));
+        pieces.map(|piece| (block(self, piece.clone(), setting), piece.start)).collect()
     }
 
     /// Shells bend out of any plane they lie in.
@@ -90,8 +91,8 @@ impl Assembled for Shell {
     }
 }
 
-fn lumped(part: &Shell, nodes: &[usize], masses: &NodalMasses) -> LumpedElement {
-    let h = part.plate.thickness;
+fn lumped(part: &Shell, element: usize, masses: &NodalMasses) -> LumpedElement {
+    let (h, nodes) = (part.thickness(element), &part.elements[element].nodes[..part.size()]);
     let corners: Vec<Vec3> = nodes.iter().map(|&n| masses.x[n]).collect();
     let areas = shell::lumped_shares(&corners);
     let share = |(&node, area): (&usize, f64)| {
@@ -104,23 +105,36 @@ fn lumped(part: &Shell, nodes: &[usize], masses: &NodalMasses) -> LumpedElement 
     LumpedElement(nodes.iter().zip(areas).map(share).collect())
 }
 
+/// Runs of elements that a block can hold: layers that yield have one thickness.
+fn alike(part: &Shell, piece: Range<usize>) -> Vec<Range<usize>> {
+    if part.yielding.is_none() || part.thicknesses.is_empty() {
+        return vec![piece];
+    }
+    let changes = |&e: &usize| e == piece.start || part.thickness(e) != part.thickness(e - 1);
+    let starts: Vec<usize> = piece.clone().filter(changes).collect();
+    let ends = starts.iter().skip(1).copied().chain([piece.end]);
+    starts.iter().copied().zip(ends).map(|(start, end)| start..end).collect()
+}
+
 fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
     let beta = model.damping.beta(&part.damping);
     let size = part.size();
-    let elements = part.elements[piece].iter().map(|e| shell::ShellGeometry {
+    let plate = &Plate { thickness: part.thickness(piece.start), ..part.plate };
+    let elements = piece.map(|index| (&part.elements[index], index)).map(|(e, index)| shell::ShellGeometry {
+        thickness: Some(part.thickness(index)),
         nodes: &e.nodes[..size],
         normals: &e.normals[..size],
         bulge: e.bulge,
     });
     match (&part.yielding, size) {
-        (None, 6) => Box::new(CurvedTriangles::new(elements, x, &part.plate, beta)),
-        (None, 9) => Box::new(CurvedQuadrilaterals::new(elements, x, &part.plate, beta)),
-        (Some(yielding), 6) => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(elements, x, &part.plate, beta),
-        (Some(yielding), 9) => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(elements, x, &part.plate, beta),
-        (None, 3) => Box::new(Triangles::new(elements, x, &part.plate, beta)),
-        (None, _) => Box::new(Quadrilaterals::new(elements, x, &part.plate, beta)),
-        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, &part.plate, beta),
-        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(elements, x, &part.plate, beta),
+        (None, 6) => Box::new(CurvedTriangles::new(elements, x, plate, beta)),
+        (None, 9) => Box::new(CurvedQuadrilaterals::new(elements, x, plate, beta)),
+        (Some(yielding), 6) => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(elements, x, plate, beta),
+        (Some(yielding), 9) => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(elements, x, plate, beta),
+        (None, 3) => Box::new(Triangles::new(elements, x, plate, beta)),
+        (None, _) => Box::new(Quadrilaterals::new(elements, x, plate, beta)),
+        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, plate, beta),
+        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(elements, x, plate, beta),
     }
 }
 
@@ -136,7 +150,7 @@ pub fn shell_states(groups: &[Group], model: &Model, now: &Configuration, out: &
             let resultants = group.block.resultants(e, &shell.axis, &start[..shell.size()], &now);
             let Some(mut at) = resultants else { continue };
             if at.layers().is_empty() {
-                at.set_elastic_layers(shell.plate.thickness);
+                at.set_elastic_layers(shell.thickness(element));
             }
             out.push(ShellState { part: group.part, element: shell.number(element), at });
         }

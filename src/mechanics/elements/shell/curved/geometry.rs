@@ -91,6 +91,7 @@ fn shell<K, const N: usize, const V: usize, const P: usize, const Q: usize, S>(
 where
     K: CurvedStrains<N, V, P, Q> + SlopesAtNodes<N>,
 {
+    let plate = &e.plate(plate);
     let nodes: [usize; N] = from_fn(|a| e.nodes[a]);
     let D: [Vec3; N] = from_fn(|a| e.normals[a]);
     let surface = CurvedSurface::new::<K>(from_fn(|a| x[nodes[a]] - x[nodes[0]]));
