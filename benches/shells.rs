@@ -150,7 +150,7 @@ fn measure(name: &str, text: String, threads: usize) {
     let (build_s, (mut solver, mut assembly)) = timed(|| plan.build(&system).unwrap());
     let nodes = moved(&model);
     let past = vec![0.0; system.history];
-    let now = Configuration { nodes: &nodes, history: &past, dt: 1e-5, lead: None };
+    let now = Configuration { nodes: &nodes, history: &past, dt: 1e-5, previous: None };
     let mut loading = Loading::default();
     Excitation::new(&model).loading(0.0, Side::After, &mut loading);
     let mut forces = Forces::new(&system, nodes.len()).on_threads(threads);

@@ -373,18 +373,20 @@ impl fmt::Display for Warning {
     }
 }
 
+/// The message of a rotation too large for a linear analysis.
 fn large_rotation(label: &str, turn: f64) -> String {
     format!(
-        "node `{label}` turns by {} rad in a linear analysis, which takes rotations as infinitesimal: compare with `geometry = \"finite\"`, or \
-         reduce the loads",
+        "node `{label}` rotates by {} rad, but a linear analysis takes rotations as infinitesimal: displacements are valid for smaller loads only. \
+         Give `geometry = \"finite\"`, or reduce the loads",
         to_digits(turn, 2)
     )
 }
 
+/// The message of a stress beyond yield.
 fn beyond_yield(name: &str, stress: f64, limit: f64) -> String {
     format!(
-        "the stress in `{name}` reaches {}, {} times its yield stress of {}, but a linear analysis keeps it elastic: leave out `geometry = \
-         \"linear\"` to let it yield",
+        "the stress in `{name}` reaches {}, {} times its yield stress of {}, but a linear analysis keeps materials elastic: the structure is \
+         softer in fact. Give `geometry = \"finite\"` so that it yields",
         to_digits(stress, 3),
         to_digits(stress / limit, 3),
         to_digits(limit, 3)

@@ -6,7 +6,8 @@ use rdsolve::solve::Warning;
 use rdsolve::solve::inner::{ContactThrows, Instability, Remark, SlipBegins};
 
 fn instability(already: bool, certain: bool) -> Instability {
-    Instability { time: 0.41, already, certain, modes: 1, seen: 0.45, label: "knee".to_owned(), direction: "uy" }
+    let (label, direction) = ("knee".to_owned(), "uy");
+    Instability { time: 0.41, already, certain, modes: 1, seen: 0.45, label, direction, ..Instability::default() }
 }
 
 fn slip(name: &str) -> SlipBegins {
@@ -38,6 +39,8 @@ fn warnings() -> Vec<Warning> {
         Warning::LargeStrain { name: "hood".to_owned(), strain: 0.0832, logarithmic: false },
         Warning::LargeStrain { name: "hood".to_owned(), strain: -0.0768, logarithmic: false },
         Warning::LargeStrain { name: "hood".to_owned(), strain: 0.78, logarithmic: true },
+        Warning::LargeRotation { label: "tip".to_owned(), turn: 0.21 },
+        Warning::BeyondYield { name: "post".to_owned(), stress: 4.1e8, limit: 2.35e8 },
         Warning::RotationDrifts { label: "ship".to_owned(), direction: "rz", drift: 0.031 },
         Warning::ContactThrows(throws),
         Warning::SlipBegins(on_contact),
@@ -67,13 +70,15 @@ fn kind(warning: &Warning) -> usize {
         Warning::ContactThrows(_) => 14,
         Warning::SlipBegins(_) => 15,
         Warning::ScaledStep { .. } => 16,
+        Warning::LargeRotation { .. } => 17,
+        Warning::BeyondYield { .. } => 18,
     }
 }
 
 #[test]
 fn every_warning_says_what_it_means_and_what_to_change() {
     let warnings = warnings();
-    for number in 0..=16 {
+    for number in 0..=18 {
         assert!(warnings.iter().any(|warning| kind(warning) == number), "no example of kind {number}");
     }
     let texts: Vec<String> = warnings.iter().map(ToString::to_string).collect();

@@ -147,7 +147,11 @@ impl SectionShape for RolledL {
             return Err("`root_radius` needs legs of one thickness".to_owned());
         }
         let mut section = self.legs.section(nu)?;
-        smaller(("root_radius", self.root_radius), ("the shorter leg", width.min(height) - vertical), "it must be less than")?;
+        smaller(
+            ("root_radius", self.root_radius),
+            ("the shorter leg", width.min(height) - vertical),
+            "it must be less than",
+        )?;
         smaller(("root_radius", 0.5 * self.root_radius), ("thickness", vertical), "half of it must be less than")?;
         let [sharp, [y0, z0]] = self.centroids();
         for (sign, corner, at) in self.corners() {

@@ -6,7 +6,7 @@ use super::result::Result;
 use crate::table::STAGE;
 use crate::table_reader::{TableReader, fields, number, text};
 use crate::tables;
-use base::quantities::{Column, Unit, UnitSystem};
+use base::quantities::{Column, UnitSystem};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::io;
@@ -160,10 +160,10 @@ impl History {
     /// The history as the scripts of the page read it, with the error bars that result.json has.
     pub fn json(&self, result: &Result, numbers: &mut PageNumbers) -> Value {
         let (units, clock) = (result.units(), result.clock());
-        let over = match self.over {
-            OVER_FREQUENCY => format!(" ({})", Unit::Frequency.text(units)),
-            _ if clock.is_empty() => clock,
-            _ => format!(" ({})", clock.trim()),
+        let over = match described(&self.file, self.over).filter(|_| self.over != "time") {
+            Some(column) => format!(" ({})", column.unit.text(units)),
+            None if clock.is_empty() => clock,
+            None => format!(" ({})", clock.trim()),
         };
         let label = |column: &String| label(described(&self.file, column), column, units);
         json!({

@@ -49,7 +49,7 @@ impl LinearEquations {
     /// [`Failure::Singular`] where nothing holds the scene; [`Failure::Stopped`] after a signal; no memory.
     pub fn new(cx: &Context, ws: &mut Workspace, state: &State) -> Result<LinearEquations, Failure> {
         let nodes = at_rest(cx.model);
-        let now = Configuration { nodes: &nodes, history: &state.history, dt: 0.0, lead: None };
+        let now = Configuration { nodes: &nodes, history: &state.history, dt: 0.0, previous: None };
         let nothing = no_loads(cx);
         cx.system.residual(&now, &nothing, &mut ws.forces);
         ws.forces.multipliers.values.fill(0.0);
