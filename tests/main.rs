@@ -7,6 +7,7 @@ mod command;
 mod contact;
 mod decks;
 mod docs;
+mod import;
 mod linear;
 mod mechanics;
 mod mesh;

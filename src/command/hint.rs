@@ -3,8 +3,20 @@
 use base::names::nearest;
 
 /// The commands, by their names on the command line.
-pub const COMMANDS: [&str; 11] =
-    ["run", "check", "compare", "report", "study", "sweep", "summary", "init", "schema", "completions", "man"];
+pub const COMMANDS: [&str; 12] = [
+    "run",
+    "check",
+    "import",
+    "compare",
+    "report",
+    "study",
+    "sweep",
+    "summary",
+    "init",
+    "schema",
+    "completions",
+    "man",
+];
 
 /// The hint for a word that is neither a command nor looks like the name of a file; `None` for any other word.
 pub fn command_hint(word: &str) -> Option<String> {

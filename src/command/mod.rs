@@ -9,6 +9,7 @@ mod estimate;
 mod exit;
 mod folder;
 mod hint;
+mod import;
 mod init;
 mod instructions;
 mod load;
@@ -78,6 +79,8 @@ enum Command {
     ///
     /// Example: `rdsolve check deck.toml --set analysis.time_step=1e-3`
     Check(CheckArgs),
+    /// Make a deck of an input file of Abaqus or CalculiX, and say what became of each keyword
+    Import(import::ImportArgs),
     /// Compare two folders of results within tolerances, for regression tests
     ///
     /// Example: `rdsolve compare old.out new.out --tolerance 1e-6`
@@ -154,7 +157,11 @@ pub fn execute(cli: Cli) -> Exit {
         console::show_json();
     }
     let done = match (cli.command, cli.run) {
+        (Some(Command::Run(args)), _) | (None, Some(args)) if import::is_foreign(&args.deck) => {
+            import::import_and_run(args)
+        }
         (Some(Command::Run(args)), _) | (None, Some(args)) => run::run(&args),
+        (Some(Command::Import(args)), _) => import::import(&args).map(drop),
         (Some(Command::Check(args)), _) => check::check(&args),
         (Some(Command::Compare(args)), _) => compare::compare(&args),
         (Some(Command::Report(args)), _) => report::report(&args),

@@ -9,7 +9,7 @@ const ROWS: [&[&str]; 12] = [
     &["state", "sections", "solids", "materials", "amplitude", "linear", "mesh", "record"],
     &["elements", "constraints", "integrators"],
     &["deck"],
-    &["model", "system"],
+    &["model", "system", "import"],
     &["plan"],
     &["modes"],
     &["solve", "results"],

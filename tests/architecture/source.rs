@@ -7,7 +7,8 @@ use syn::visit::{self, Visit};
 use syn::{Attribute, Item, UseTree, Visibility};
 
 /// The crates below src, each in the folder of its name; what lies beside them is the program itself.
-pub const CRATES: [&str; 9] = ["base", "linear", "mechanics", "deck", "model", "solve", "results", "study", "sweep"];
+pub const CRATES: [&str; 10] =
+    ["base", "linear", "mechanics", "deck", "import", "model", "solve", "results", "study", "sweep"];
 
 /// Folders of a crate that are rooms of their own; the rest of a crate is the room of its name.
 const ROOMS: [&str; 21] = [

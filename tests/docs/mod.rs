@@ -6,6 +6,7 @@
 //! - docs/results.md: every column of every table of results, from their registry;
 //! - docs/validation.md: what decks expect and what comes out, handed over by the test that runs them all;
 //! - docs/gallery.md: every deck, with its title and its picture;
+//! - docs/import.md: what becomes of each keyword of other programs, from their table;
 //! - every ```toml block: a deck where it has `[analysis]`, else words that a deck may have;
 //! - every command in a ```sh block, every link.
 
@@ -13,6 +14,7 @@ mod book;
 mod deck;
 mod examples;
 mod gallery;
+mod keywords;
 mod pages;
 mod prose;
 mod results;

@@ -132,6 +132,12 @@ impl Keyword<'_> {
         self.parameter(name).is_some()
     }
 
+    /// The first parameter that is none of these, which have no blanks in their names.
+    pub fn stranger(&self, known: &[&str]) -> Option<&str> {
+        let is_known = |parameter: &&Parameter| known.iter().any(|known| stands_for(&parameter.name, known));
+        self.parameters.iter().find(|parameter| !is_known(parameter)).map(|parameter| &*parameter.name)
+    }
+
     /// An error at a parameter, or at the keyword where it is missing.
     pub fn fault(&self, text: &Text, name: &str, message: impl Into<String>) -> Fault {
         match self.parameter(name) {

@@ -1,0 +1,91 @@
+//! Functions of time: `*AMPLITUDE`.
+
+use crate::file_content::AmplitudeCard;
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+use std::f64::consts::TAU;
+
+/// Points of a curve that stands for a formula.
+const POINTS: usize = 200;
+
+/// `*AMPLITUDE`.
+pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let Some(name) = keyword.value("NAME") else { return im.refuse(line, "*AMPLITUDE needs NAME=") };
+    let name = name.to_owned();
+    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
+    let kind = keyword.value("DEFINITION").unwrap_or("TABULAR").to_ascii_uppercase();
+    let is_total = keyword.value("TIME").is_some_and(|time| time.to_ascii_uppercase().starts_with("TOTAL"));
+    let mut read = |name: &str| match keyword.value(name) {
+        None => Some(0.0),
+        Some(text) => text.parse::<f64>().ok().or_else(|| {
+            im.refuse(line, &format!("{name} must be a number"));
+            None
+        }),
+    };
+    let (Some(shift), Some(delay), Some(scale), Some(interval)) =
+        (read("SHIFTX"), read("TIMEDELAY"), read("SHIFTY"), read("FIXEDINTERVAL"))
+    else {
+        return;
+    };
+    let all: Vec<f64> = rows.iter().flatten().copied().collect();
+    let mut card = AmplitudeCard { name, line, points: Vec::new(), sine: None, is_total };
+    match &kind[..] {
+        kind if "TABULAR".starts_with(kind) => {
+            card.points = all.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+        }
+        "EQUALLYSPACED" if interval > 0.0 => {
+            card.points = (0..).zip(&all).map(|(k, value)| [f64::from(k) * interval, *value]).collect();
+        }
+        "PERIODIC" => match periodic(&all) {
+            Some(sine) => card.sine = Some(sine),
+            None => {
+                return im.refuse(
+                    line,
+                    "of periodic amplitudes those with one term and without a constant part are translated",
+                );
+            }
+        },
+        "SMOOTHSTEP" => {
+            card.points = smooth_steps(&all);
+            im.change(line, "a smooth step is a table of points");
+        }
+        _ => return im.refuse(line, &format!("DEFINITION={kind} is not translated; give a table of times and values")),
+    }
+    for point in &mut card.points {
+        point[0] += shift + delay;
+        point[1] += scale;
+    }
+    let increase = card.points.windows(2).all(|pair| pair[0][0] < pair[1][0]);
+    if card.sine.is_none() && (card.points.is_empty() || !increase) {
+        return im.refuse(line, "times of an amplitude must increase");
+    }
+    im.amplitudes.push(card);
+}
+
+/// One term: N, ω, t0, A0, then A1, B1.
+fn periodic(values: &[f64]) -> Option<[f64; 4]> {
+    let [count, omega, start, constant, a, b] = values[..] else { return None };
+    if count != 1.0 || constant != 0.0 || omega <= 0.0 {
+        return None;
+    }
+    // A cos + B sin is one sine with a phase.
+    Some([omega / TAU, a.atan2(b), a.hypot(b), start])
+}
+
+/// Steps of fifth degree between the points.
+fn smooth_steps(values: &[f64]) -> Vec<[f64; 2]> {
+    let corners: Vec<[f64; 2]> = values.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect();
+    let each = (POINTS / corners.len().max(2)).max(8);
+    let mut points = Vec::new();
+    for pair in corners.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        points.extend((0..each).map(|k| {
+            let x = k as f64 / each as f64;
+            let rise = x * x * x * (10.0 - 15.0 * x + 6.0 * x * x);
+            [from[0] + (to[0] - from[0]) * x, from[1] + (to[1] - from[1]) * rise]
+        }));
+    }
+    points.extend(corners.last());
+    points
+}

@@ -1,0 +1,56 @@
+//! From what the file says to the deck and its mesh: all families of tables, one after the other.
+
+use crate::build::Build;
+use crate::deck_text::{DeckTable, DeckText};
+use crate::flat_mesh::FlatMesh;
+use crate::importer::Importer;
+use crate::timeline::Timeline;
+use crate::{bodies, joints, links, loads, mesh_text, output, parts, spread_loads, stage_text, supports, ties};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// The text of the deck and of the mesh.
+pub struct BuiltDeck {
+    /// The deck below its head.
+    pub deck: DeckText,
+    /// The mesh.
+    pub mesh: String,
+}
+
+/// Builds the deck.
+pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
+    im.scopes.place_parts();
+    let (mesh, faults) = FlatMesh::new(&im.scopes);
+    faults.iter().for_each(|(line, why)| im.refuse(*line, why));
+    let timeline = Timeline::new(im);
+    let mut build = Build {
+        im,
+        mesh,
+        deck: DeckText::default(),
+        timeline,
+        pieces: Vec::new(),
+        groups: BTreeMap::new(),
+        turned: HashMap::new(),
+        body_of: HashMap::new(),
+        rotating: BTreeSet::new(),
+        bushed: BTreeSet::new(),
+        has_gravity: false,
+        amplitudes: HashMap::new(),
+    };
+    ties::merge(&mut build);
+    build.groups_of_file();
+    build.deck.add(DeckTable::new("mesh", 0).text("file", mesh_file));
+    stage_text::stages(&mut build);
+    parts::parts(&mut build);
+    bodies::bodies(&mut build);
+    links::masses(&mut build);
+    links::links(&mut build);
+    joints::connectors(&mut build);
+    ties::joints(&mut build);
+    supports::supports(&mut build);
+    loads::loads(&mut build);
+    spread_loads::spread_loads(&mut build);
+    loads::velocities(&mut build);
+    output::output(&mut build);
+    let mesh = mesh_text::mesh(&build);
+    BuiltDeck { deck: build.deck, mesh }
+}

@@ -1,0 +1,137 @@
+//! A deck that is being made of what a file says, and how its lines name nodes and elements.
+
+use crate::deck_text::DeckText;
+use crate::flat_mesh::FlatMesh;
+use crate::importer::Importer;
+use crate::part_piece::PartPiece;
+use crate::scopes::{NamedTarget, ScopeContent};
+use crate::timeline::Timeline;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// A deck that is being made.
+pub struct Build<'b, 'a, 't> {
+    /// The file.
+    pub im: &'b mut Importer<'a, 't>,
+    /// Its mesh.
+    pub mesh: FlatMesh,
+    /// The tables so far.
+    pub deck: DeckText,
+    /// Stages and their times.
+    pub timeline: Timeline,
+    /// Beams and shells.
+    pub pieces: Vec<PartPiece>,
+    /// Sets of nodes in the mesh, by their names in the deck.
+    pub groups: BTreeMap<String, Vec<u64>>,
+    /// The reference node of each node that stands for the rotations of a body.
+    pub turned: HashMap<u64, u64>,
+    /// The name of the body of each node that is attached to one.
+    pub body_of: HashMap<u64, String>,
+    /// Nodes whose rotations something holds: nodes of beams, shells, bodies.
+    pub rotating: BTreeSet<u64>,
+    /// Nodes that bushings join.
+    pub bushed: BTreeSet<u64>,
+    /// True where the deck has gravity.
+    pub has_gravity: bool,
+    /// Amplitudes in the deck by their text.
+    pub amplitudes: HashMap<String, String>,
+}
+
+impl Build<'_, '_, '_> {
+    /// Nodes that a line names; refuses what names none.
+    pub fn nodes(&mut self, target: &NamedTarget) -> Vec<u64> {
+        match self.mesh.node_ids(&self.im.scopes, target) {
+            Some(ids) if ids.is_empty() && !target.is_set && target.name.parse::<u64>().is_ok() => {
+                self.im.refuse(target.line, &format!("node {} does not exist", target.name));
+                ids
+            }
+            Some(ids) => ids,
+            None => {
+                self.im.refuse(target.line, &format!("no node set is named `{}`", target.name));
+                Vec::new()
+            }
+        }
+    }
+
+    /// One node that a line names.
+    pub fn node(&mut self, target: &NamedTarget) -> Option<u64> {
+        let nodes = self.nodes(target);
+        if nodes.len() != 1 {
+            self.im.refuse(target.line, &format!("`{}` must be one node, and is {}", target.name, nodes.len()));
+        }
+        nodes.first().copied().filter(|_| nodes.len() == 1)
+    }
+
+    /// Elements that a line names; refuses what names none.
+    pub fn cells(&mut self, target: &NamedTarget) -> Vec<usize> {
+        match self.mesh.cell_indices(&self.im.scopes, target) {
+            Some(cells) => cells,
+            None => {
+                self.im.refuse(target.line, &format!("no element set is named `{}`", target.name));
+                Vec::new()
+            }
+        }
+    }
+
+    /// Names for nodes: sets of the file where these cover them, a new set of many, else the nodes themselves.
+    pub fn names(&mut self, nodes: &BTreeSet<u64>, targets: &[NamedTarget], new: &str) -> Vec<String> {
+        let (mut rest, mut names) = (nodes.clone(), Vec::new());
+        let mut seen = BTreeSet::new();
+        for target in targets.iter().filter(|target| target.is_set || target.name.parse::<u64>().is_err()) {
+            if !seen.insert(&target.name) {
+                continue;
+            }
+            let of_set = self.nodes(target);
+            let covers = !of_set.is_empty()
+                && of_set.iter().all(|id| nodes.contains(id))
+                && of_set.iter().any(|id| rest.contains(id));
+            if covers {
+                rest.retain(|id| !of_set.contains(id));
+                names.push(self.group(&target.name, of_set));
+            }
+        }
+        if rest.len() > 12 {
+            let name = self.group(new, rest.into_iter().collect());
+            names.push(name);
+            return names;
+        }
+        names.extend(rest.iter().map(|id| format!("mesh.{id}")));
+        names
+    }
+
+    /// The name in the deck of a set of nodes, which is added to the mesh where it has none like it.
+    pub fn group(&mut self, name: &str, ids: Vec<u64>) -> String {
+        let inner = name.rsplit_once('.').map_or(name, |(_, inner)| inner).to_lowercase();
+        let known = self.groups.iter().find(|(known, of)| **of == ids && known.to_lowercase().ends_with(&inner));
+        if let Some((known, _)) = known {
+            return known.clone();
+        }
+        let name = self.deck.unique(name);
+        self.groups.insert(name.clone(), ids);
+        name
+    }
+
+    /// Takes the names of all sets of nodes of the file; internal ones get a name where something uses them.
+    pub fn groups_of_file(&mut self) {
+        let scopes = &self.im.scopes;
+        let mut sets: Vec<(String, Vec<u64>)> = Vec::new();
+        let mut add = |content: &ScopeContent, offset: u64, scope: &str| {
+            for (name, ids) in content.node_sets.list.iter().filter(|(name, _)| !name.starts_with('_')) {
+                let ids: BTreeSet<u64> =
+                    ids.iter().map(|id| self.mesh.kept(id + offset)).filter(|id| self.mesh.has(*id)).collect();
+                let name = if scope.is_empty() { name.clone() } else { format!("{scope}.{name}") };
+                sets.push((name, ids.into_iter().collect()));
+            }
+        };
+        add(&scopes.outer, 0, "");
+        let alone = scopes.instances.len() == 1;
+        for at in &scopes.instances {
+            let scope = if alone { "" } else { &at.own.name };
+            add(&at.own, 0, scope);
+            add(&scopes.parts[at.part], at.offset, scope);
+        }
+        for (name, ids) in sets.into_iter().filter(|(_, ids)| !ids.is_empty()) {
+            let name = self.deck.unique(&name);
+            self.groups.insert(name, ids);
+        }
+    }
+}

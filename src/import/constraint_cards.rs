@@ -1,0 +1,158 @@
+//! Constraints: rigid bodies, couplings, constraints of several points, equations.
+
+use crate::file_content::{EquationCard, OpenCoupling, PointsCard, RigidCard};
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+use crate::scopes::{Members, NamedTarget};
+use base::text_file::cards::name_in;
+
+/// `*RIGID BODY`.
+pub fn rigid_body(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let node = |name: &str| keyword.value(name).map(|name| NamedTarget { is_set: false, ..im.set_target(name, line) });
+    let Some(reference) = node("REFNODE") else { return im.refuse(line, "*RIGID BODY needs REF NODE=") };
+    let sets = |names: &[&str]| -> Vec<NamedTarget> {
+        names.iter().filter_map(|name| keyword.value(name)).map(|name| im.set_target(name, line)).collect()
+    };
+    let first = ["NSET", "TIENSET", "ELSET", "PINNSET"].iter().find_map(|name| keyword.value(name));
+    let card = RigidCard {
+        line,
+        name: first.unwrap_or("body").to_owned(),
+        rotations: node("ROTNODE"),
+        tied: sets(&["NSET", "TIENSET"]),
+        pinned: sets(&["PINNSET"]),
+        cells: sets(&["ELSET"]),
+        reference,
+        degrees: Vec::new(),
+        is_coupling: false,
+    };
+    im.constraints.rigid.push(card);
+}
+
+/// Sets of nodes that a surface covers; refuses what is none.
+fn surface(im: &mut Importer, name: &str, line: usize) -> Option<Vec<NamedTarget>> {
+    let target = im.set_target(name, line);
+    let found = im.scopes.surface(&target).map(|lines| lines.iter().map(|(set, _)| set.clone()).collect::<Vec<_>>());
+    let of_nodes = |set: &NamedTarget| im.scopes.members(set, Members::Nodes).is_some();
+    match found {
+        Some(sets) if sets.iter().all(of_nodes) => Some(sets),
+        Some(_) => {
+            im.refuse(line, "the surface of a coupling is a set of nodes here: give *SURFACE, TYPE=NODE");
+            None
+        }
+        None if of_nodes(&target) => Some(vec![target]),
+        None => {
+            im.refuse(line, &format!("no surface before this line is named `{name}`"));
+            None
+        }
+    }
+}
+
+/// `*COUPLING`.
+pub fn coupling(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    im.constraints.open = None;
+    if keyword.has("ORIENTATION") {
+        return im.refuse(line, "the axes of a coupling are the global ones in rdsolve");
+    }
+    let (Some(reference), Some(surface_name)) = (keyword.value("REFNODE"), keyword.value("SURFACE")) else {
+        return im.refuse(line, "*COUPLING needs REF NODE= and SURFACE=");
+    };
+    let reference = NamedTarget { is_set: false, ..im.set_target(reference, line) };
+    let Some(nodes) = surface(im, surface_name, line) else { return };
+    let name = keyword.value("CONSTRAINTNAME").unwrap_or(surface_name).to_owned();
+    im.constraints.open = Some(OpenCoupling { line, name, reference, nodes });
+}
+
+/// `*KINEMATIC` below a coupling.
+pub fn kinematic(im: &mut Importer, block: &KeywordBlock) {
+    let Some(open) = im.constraints.open.take() else { return };
+    let degrees = degrees(im, block, 0);
+    let OpenCoupling { line, name, reference, nodes } = open;
+    let card = RigidCard {
+        line,
+        name,
+        reference,
+        rotations: None,
+        tied: nodes,
+        pinned: Vec::new(),
+        cells: Vec::new(),
+        degrees,
+        is_coupling: true,
+    };
+    im.constraints.rigid.push(card);
+}
+
+/// `*KINEMATIC COUPLING` of older files.
+pub fn kinematic_coupling(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let Some(reference) = block.keyword.value("REFNODE") else {
+        return im.refuse(line, "*KINEMATIC COUPLING needs REF NODE=");
+    };
+    let reference = NamedTarget { is_set: false, ..im.set_target(reference, line) };
+    let tied: Vec<NamedTarget> =
+        block.data.iter().filter_map(|data| data.words.first()).map(|word| im.target(word)).collect();
+    let degrees = degrees(im, block, 1);
+    let name = format!("coupling_{}", reference.name);
+    let (pinned, cells) = (Vec::new(), Vec::new());
+    im.constraints.rigid.push(RigidCard {
+        line,
+        name,
+        reference,
+        rotations: None,
+        tied,
+        pinned,
+        cells,
+        degrees,
+        is_coupling: true,
+    });
+}
+
+/// First and last degree of freedom on each line, from a field on; none is all.
+fn degrees(im: &mut Importer, block: &KeywordBlock, from: usize) -> Vec<usize> {
+    let mut degrees: Vec<usize> = Vec::new();
+    for data in block.data.iter().filter(|data| data.filled() > from) {
+        let first = im.id(data, from).unwrap_or(1) as usize;
+        let last = if data.filled() > from + 1 { im.id(data, from + 1).unwrap_or(1) as usize } else { first };
+        degrees.extend((first..=last).filter(|dof| (1..=6).contains(dof)).map(|dof| dof - 1));
+    }
+    degrees.sort_unstable();
+    degrees.dedup();
+    if degrees.len() == 6 { Vec::new() } else { degrees }
+}
+
+/// `*MPC`.
+pub fn points(im: &mut Importer, block: &KeywordBlock) {
+    for data in &block.data {
+        let Some(kind) = data.words.first().map(name_in) else { continue };
+        let nodes = data.words[1..data.filled()].iter().map(|word| im.target(word)).collect();
+        im.constraints.points.push(PointsCard { line: data.line, kind: kind.to_ascii_uppercase(), nodes });
+    }
+    if im.dialect.is_none() && im.constraints.points.iter().any(|card| ["BEAM", "LINK"].contains(&card.kind.as_str())) {
+        im.refuse(
+            block.keyword.line,
+            "BEAM is a rigid beam in Abaqus and a rod of fixed length in CalculiX: say --from abaqus or --from calculix",
+        );
+    }
+}
+
+/// `*EQUATION`: the number of terms, then four on a line.
+pub fn equations(im: &mut Importer, block: &KeywordBlock) {
+    let mut lines = block.data.iter();
+    while let Some(head) = lines.next() {
+        let Some(count) = im.id(head, 0) else { return };
+        let mut terms = Vec::new();
+        while terms.len() < count as usize {
+            let Some(data) = lines.next() else { return im.refuse(head.line, "this equation lacks terms") };
+            for at in (0..data.filled()).step_by(3) {
+                let Some(dof) = im.id(data, at + 1) else { return };
+                if !(1..=6).contains(&dof) {
+                    return im.refuse(data.line, "a degree of freedom of an equation is one of 1 to 6");
+                }
+                let factor = im.number_at(data, at + 2).unwrap_or(0.0);
+                terms.push((im.target(&data.words[at]), dof as usize - 1, factor));
+            }
+        }
+        im.constraints.equations.push(EquationCard { line: head.line, terms });
+    }
+}

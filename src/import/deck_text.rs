@@ -1,0 +1,208 @@
+//! The text of a deck: tables in the order of the reference, each below the lines of the file that it comes from.
+
+use std::collections::HashSet;
+use std::fmt::Write;
+
+/// Tables in the order of the reference.
+const ORDER: [&str; 26] = [
+    "analysis",
+    "integrator",
+    "iteration",
+    "materials",
+    "sections",
+    "points",
+    "mesh",
+    "sets",
+    "beams",
+    "bars",
+    "shells",
+    "bodies",
+    "masses",
+    "attachments",
+    "supports",
+    "equations",
+    "joints",
+    "links",
+    "contacts",
+    "loads",
+    "amplitudes",
+    "environment",
+    "initial",
+    "damping",
+    "output",
+    "stages",
+];
+/// Tables that stand once.
+const SINGLE: [&str; 7] = ["analysis", "integrator", "iteration", "mesh", "environment", "damping", "output"];
+/// Tables with a name in their head.
+const NAMED: [&str; 3] = ["materials", "sections", "amplitudes"];
+
+/// A table of the deck.
+#[derive(Debug, Clone, Default)]
+pub struct DeckTable {
+    /// The table: `beams`.
+    kind: &'static str,
+    /// Its name in the head, of tables that have one there.
+    name: String,
+    /// Lines of the text that it comes from.
+    lines: Vec<usize>,
+    keys: Vec<(&'static str, String)>,
+}
+
+impl DeckTable {
+    /// A table that comes from a line of the file.
+    pub fn new(kind: &'static str, line: usize) -> Self {
+        DeckTable { kind, lines: vec![line], ..DeckTable::default() }
+    }
+
+    /// A table with its name in the head, such as `[materials.steel]`.
+    pub fn named(kind: &'static str, name: &str, line: usize) -> Self {
+        DeckTable { name: name.to_owned(), ..DeckTable::new(kind, line) }
+    }
+
+    /// Returns the table with further lines that it comes from.
+    pub fn from_lines(mut self, lines: impl IntoIterator<Item = usize>) -> Self {
+        self.lines.extend(lines);
+        self.lines.sort_unstable();
+        self.lines.dedup();
+        self
+    }
+
+    /// Returns the table with a name in its head.
+    pub fn with_name(mut self, name: &str) -> Self {
+        self.name = name.to_owned();
+        self
+    }
+
+    /// Returns the table with a value as TOML has it.
+    pub fn value(mut self, key: &'static str, value: impl Into<String>) -> Self {
+        self.keys.push((key, value.into()));
+        self
+    }
+
+    /// Returns the table with a text.
+    pub fn text(self, key: &'static str, text: &str) -> Self {
+        self.value(key, quoted(text))
+    }
+
+    /// Returns the table with a number.
+    pub fn number(self, key: &'static str, x: f64) -> Self {
+        self.value(key, number(x))
+    }
+
+    /// Returns the table with a list of numbers.
+    pub fn numbers(self, key: &'static str, xs: &[f64]) -> Self {
+        self.value(key, list(xs.iter().map(|x| number(*x))))
+    }
+
+    /// Returns the table with names: one alone, or a list.
+    pub fn names(self, key: &'static str, names: &[String]) -> Self {
+        match names {
+            [name] => self.text(key, name),
+            _ => self.value(key, list(names.iter().map(|name| quoted(name)))),
+        }
+    }
+}
+
+/// A deck as it is put together.
+#[derive(Debug, Default)]
+pub struct DeckText {
+    tables: Vec<DeckTable>,
+    taken: HashSet<String>,
+}
+
+impl DeckText {
+    /// Adds a table.
+    pub fn add(&mut self, table: DeckTable) {
+        self.tables.push(table);
+    }
+
+    /// A name that nothing else in the deck has: the wanted one, if that is free, else with a word behind it.
+    pub fn unique_or(&mut self, wanted: &str, word: &str) -> String {
+        match self.taken.contains(&wanted.to_lowercase()) {
+            true => self.unique(&format!("{wanted}_{word}")),
+            false => self.unique(wanted),
+        }
+    }
+
+    /// A name that nothing else in the deck has: the wanted one, if that is free, else with a number behind it.
+    pub fn unique(&mut self, wanted: &str) -> String {
+        let wanted = if wanted.is_empty() { "unnamed" } else { wanted };
+        let mut name = wanted.to_owned();
+        let mut next = 2;
+        while !self.taken.insert(name.to_lowercase()) {
+            name = format!("{wanted}_{next}");
+            next += 1;
+        }
+        name
+    }
+
+    /// The text, below `head`; `source` tells the origin of a line.
+    pub fn write(&self, head: &str, source: impl Fn(usize) -> String) -> String {
+        let mut text = head.to_owned();
+        for kind in ORDER {
+            for table in self.tables.iter().filter(|table| table.kind == kind) {
+                text.push('\n');
+                let shown = table.lines.iter().filter(|line| **line > 0).take(4);
+                for line in shown {
+                    let _ = writeln!(text, "# {}", source(*line));
+                }
+                if table.lines.len() > 4 {
+                    let _ = writeln!(text, "# … and {} more", table.lines.len() - 4);
+                }
+                let _ = match () {
+                    () if SINGLE.contains(&kind) || kind == "sets" => writeln!(text, "[{kind}]"),
+                    () if NAMED.contains(&kind) => writeln!(text, "[{kind}.{}]", key(&table.name)),
+                    () => writeln!(text, "[[{kind}]]"),
+                };
+                for (key, value) in &table.keys {
+                    let _ = writeln!(text, "{key} = {value}");
+                }
+            }
+        }
+        text
+    }
+}
+
+/// A name as a key of TOML: bare, or in quotes.
+fn key(name: &str) -> String {
+    let bare =
+        !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_' || byte == b'-');
+    if bare { name.to_owned() } else { quoted(name) }
+}
+
+/// A text in quotes.
+pub fn quoted(text: &str) -> String {
+    let mut quoted = String::from("\"");
+    for c in text.chars() {
+        match c {
+            '"' | '\\' => quoted.extend(['\\', c]),
+            c if c.is_control() => drop(write!(quoted, "\\u{:04X}", u32::from(c))),
+            c => quoted.push(c),
+        }
+    }
+    quoted.push('"');
+    quoted
+}
+
+/// A number that reads back to the same double.
+pub fn number(x: f64) -> String {
+    let size = x.abs();
+    if size == 0.0 || (1e-4..1e7).contains(&size) { format!("{:?}", x + 0.0) } else { format!("{x:e}") }
+}
+
+/// A list.
+pub fn list(values: impl Iterator<Item = String>) -> String {
+    format!("[{}]", values.collect::<Vec<_>>().join(", "))
+}
+
+/// A vector.
+pub fn vector(x: &[f64]) -> String {
+    list(x.iter().map(|x| number(*x)))
+}
+
+/// A table within a line.
+pub fn inline(keys: &[(&str, String)]) -> String {
+    let keys: Vec<String> = keys.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+    format!("{{ {} }}", keys.join(", "))
+}

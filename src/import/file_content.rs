@@ -1,0 +1,437 @@
+//! What a file says, before sets and instances are resolved.
+
+use crate::scopes::NamedTarget;
+use base::math::Vec3;
+use std::f64::consts::TAU;
+
+/// Points of a curve that stands for a formula.
+const POINTS: usize = 200;
+
+/// A material as the file has it.
+#[derive(Debug, Clone, Default)]
+pub struct MaterialCard {
+    /// Its name.
+    pub name: String,
+    /// Its line.
+    pub line: usize,
+    /// Young's modulus and Poisson's ratio.
+    pub elastic: Option<[f64; 2]>,
+    /// Stress and plastic strain.
+    pub plastic: Vec<[f64; 2]>,
+    /// True where the hardening is kinematic.
+    pub is_kinematic: bool,
+    /// Density.
+    pub density: Option<f64>,
+    /// Rayleigh's alpha and beta.
+    pub damping: Option<[f64; 2]>,
+    /// Rate and exponent of an overstress.
+    pub rate: Option<[f64; 2]>,
+    /// Coefficient of thermal expansion.
+    pub expansion: Option<f64>,
+}
+
+/// The materials of a file.
+#[derive(Debug, Default)]
+pub struct MaterialCards {
+    /// The materials, the one at hand last.
+    pub list: Vec<MaterialCard>,
+}
+
+impl MaterialCards {
+    /// The material of a name, the last where there are several.
+    pub fn find(&self, name: &str) -> Option<&MaterialCard> {
+        self.list.iter().rfind(|material| material.name.to_lowercase() == name.to_lowercase())
+    }
+
+    /// The factors of Rayleigh damping that all materials with any share; `Err`: the line of one that differs.
+    pub fn damping(&self) -> Result<Option<[f64; 2]>, usize> {
+        let mut damped = self.list.iter().filter(|material| material.elastic.is_some());
+        let first = damped.next().and_then(|material| material.damping);
+        damped.find(|material| material.damping != first).map_or(Ok(first), |other| Err(other.line))
+    }
+}
+
+/// A section as the file has it.
+#[derive(Debug, Clone)]
+pub struct SectionCard {
+    /// Its line.
+    pub line: usize,
+    /// Its elements.
+    pub target: NamedTarget,
+    /// The name of its material.
+    pub material: String,
+    /// What it is.
+    pub what: SectionOf,
+    /// The name of a system of axes.
+    pub orientation: Option<String>,
+}
+
+/// What a section is of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SectionOf {
+    /// Of beams: keys of a table of `[sections]`, and the direction of the first axis.
+    OfBeam {
+        /// Keys of the table and their values.
+        keys: Vec<(&'static str, SectionValue)>,
+        /// The direction of the first axis.
+        n1: Vec3,
+        /// How far the axis lies off the nodes, along the first and the second axis.
+        offset: [f64; 2],
+    },
+    /// Of shells.
+    OfShell {
+        /// The thickness; `None` where nodes have their own.
+        thickness: Option<f64>,
+        /// Points through the thickness.
+        points: Option<u64>,
+        /// How far the middle surface lies off the nodes, along the normal, over the thickness.
+        offset: f64,
+    },
+    /// Of bars: the area. Solids are refused by their type.
+    OfBar(f64),
+}
+
+/// A value of a section.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SectionValue {
+    /// A word.
+    Word(&'static str),
+    /// A number.
+    Number(f64),
+    /// Several numbers.
+    Numbers(Vec<f64>),
+}
+
+/// What a property is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PropertyOf {
+    /// Masses.
+    Mass,
+    /// Moments of inertia.
+    Inertia,
+    /// Springs.
+    Spring,
+    /// Dampers.
+    Damper,
+    /// Gaps.
+    Gap,
+}
+
+/// A property as the file has it.
+#[derive(Debug, Clone)]
+pub struct PropertyCard {
+    /// What it is.
+    pub of: PropertyOf,
+    /// Its line.
+    pub line: usize,
+    /// Its elements.
+    pub target: NamedTarget,
+    /// True for a force by elongation.
+    pub is_nonlinear: bool,
+    /// The name of a system of axes.
+    pub orientation: Option<String>,
+    /// The rows below, blank lines left out by the reader of lines.
+    pub rows: Vec<Vec<f64>>,
+    /// True where a first row has nothing but whole numbers, the degrees of freedom.
+    pub has_degrees: bool,
+}
+
+/// A body that nodes are attached to.
+#[derive(Debug, Clone)]
+pub struct RigidCard {
+    /// Its line.
+    pub line: usize,
+    /// Its name in the deck.
+    pub name: String,
+    /// The reference node.
+    pub reference: NamedTarget,
+    /// The node whose displacements are the rotations of the body, in CalculiX.
+    pub rotations: Option<NamedTarget>,
+    /// Nodes that go with it in all directions.
+    pub tied: Vec<NamedTarget>,
+    /// Nodes whose translations alone go with it.
+    pub pinned: Vec<NamedTarget>,
+    /// Elements that are part of it.
+    pub cells: Vec<NamedTarget>,
+    /// Degrees of freedom of a coupling, from 0 to 5; all where it is empty.
+    pub degrees: Vec<usize>,
+    /// True for a coupling, which has no mass.
+    pub is_coupling: bool,
+}
+
+/// A constraint of several points.
+#[derive(Debug, Clone)]
+pub struct PointsCard {
+    /// Its line.
+    pub line: usize,
+    /// Its kind in capitals.
+    pub kind: String,
+    /// Its nodes.
+    pub nodes: Vec<NamedTarget>,
+}
+
+/// A linear equation between degrees of freedom.
+#[derive(Debug, Clone)]
+pub struct EquationCard {
+    /// Its line.
+    pub line: usize,
+    /// Node, degree of freedom from 0 to 5, coefficient.
+    pub terms: Vec<(NamedTarget, usize, f64)>,
+}
+
+/// A coupling whose kind stands on a later line.
+#[derive(Debug, Clone)]
+pub struct OpenCoupling {
+    /// Its line.
+    pub line: usize,
+    /// Its name in the deck.
+    pub name: String,
+    /// The reference node.
+    pub reference: NamedTarget,
+    /// Its nodes.
+    pub nodes: Vec<NamedTarget>,
+}
+
+/// All constraints of a file.
+#[derive(Debug, Default)]
+pub struct ConstraintCards {
+    /// Bodies and couplings.
+    pub rigid: Vec<RigidCard>,
+    /// `*MPC`.
+    pub points: Vec<PointsCard>,
+    /// `*EQUATION`.
+    pub equations: Vec<EquationCard>,
+    /// The coupling at hand.
+    pub open: Option<OpenCoupling>,
+}
+
+/// A connector section.
+#[derive(Debug, Clone)]
+pub struct ConnectorSection {
+    /// Its line.
+    pub line: usize,
+    /// Its elements.
+    pub target: NamedTarget,
+    /// Its types in capitals: HINGE, or CARTESIAN and CARDAN.
+    pub kinds: Vec<String>,
+    /// The name of its axes at the first node.
+    pub orientation: Option<String>,
+    /// The name of its behaviour.
+    pub behavior: Option<String>,
+}
+
+/// What acts along the components of a connector, by component from 0 to 5.
+#[derive(Debug, Clone, Default)]
+pub struct ConnectorBehavior {
+    /// Its name in small letters.
+    pub name: String,
+    /// Stiffness.
+    pub stiffness: [Option<f64>; 6],
+    /// Damping.
+    pub damping: [Option<f64>; 6],
+    /// Least and greatest coordinate.
+    pub stops: [Option<[f64; 2]>; 6],
+}
+
+/// A motion or a load of connectors in a step.
+#[derive(Debug, Clone)]
+pub struct ConnectorDrive {
+    /// Its line.
+    pub line: usize,
+    /// Its elements.
+    pub target: NamedTarget,
+    /// The component, from 0 to 5.
+    pub component: usize,
+    /// The value.
+    pub value: f64,
+    /// The name of an amplitude.
+    pub amplitude: Option<String>,
+    /// "position", "velocity" or "acceleration"; `None` for a load.
+    pub quantity: Option<&'static str>,
+}
+
+/// All connectors of a file.
+#[derive(Debug, Default)]
+pub struct ConnectorCards {
+    /// Sections.
+    pub sections: Vec<ConnectorSection>,
+    /// Behaviours, the one at hand last.
+    pub behaviors: Vec<ConnectorBehavior>,
+    /// Motions and loads.
+    pub drives: Vec<ConnectorDrive>,
+}
+
+/// A function of time as the file has it.
+#[derive(Debug, Clone)]
+pub struct AmplitudeCard {
+    /// Its name.
+    pub name: String,
+    /// Its line.
+    pub line: usize,
+    /// Times and values; with a sine only those of its line.
+    pub points: Vec<[f64; 2]>,
+    /// A single sine from a time on: frequency, phase, scale, start. The deck has it as it is.
+    pub sine: Option<[f64; 4]>,
+    /// True where times count from the start of the run.
+    pub is_total: bool,
+}
+
+impl AmplitudeCard {
+    /// The value at a time.
+    pub fn at(&self, t: f64) -> f64 {
+        if let Some([frequency, phase, scale, start]) = self.sine {
+            return if t < start { 0.0 } else { scale * (TAU * frequency * (t - start) + phase).sin() };
+        }
+        let after = self.points.partition_point(|point| point[0] <= t);
+        match (after.checked_sub(1).map(|at| self.points[at]), self.points.get(after)) {
+            (None, first) => first.map_or(0.0, |first| first[1]),
+            (Some(last), None) => last[1],
+            (Some(a), Some(b)) => a[1] + (b[1] - a[1]) * (t - a[0]) / (b[0] - a[0]),
+        }
+    }
+
+    /// Times at which a step of this length has corners, from 0 to its end.
+    pub fn corners(&self, duration: f64) -> Vec<f64> {
+        let mut times: Vec<f64> = match self.sine {
+            Some(_) => (0..=POINTS).map(|k| duration * k as f64 / POINTS as f64).collect(),
+            None => self.points.iter().map(|point| point[0]).filter(|t| *t > 0.0 && *t < duration).collect(),
+        };
+        times.extend([0.0, duration]);
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+}
+
+/// What a step computes.
+#[derive(Debug, Clone, PartialEq)]
+pub enum StepProcedure {
+    /// Load steps: the first, and the length of the step.
+    Static { step: f64, duration: f64, is_riks: bool },
+    /// Motion in time.
+    Dynamic { step: Option<f64>, duration: f64, alpha: f64, is_explicit: bool, mass_scaling: Option<f64> },
+    /// Natural modes: number, highest frequency, complex.
+    Frequency { count: Option<u64>, up_to: Option<f64>, is_complex: bool },
+    /// Buckling factors.
+    Buckle { count: u64 },
+}
+
+/// A support on a line of `*BOUNDARY`.
+#[derive(Debug, Clone)]
+pub struct SupportLine {
+    /// Its line.
+    pub line: usize,
+    /// Its nodes.
+    pub target: NamedTarget,
+    /// Degrees of freedom, from 0 to 5.
+    pub degrees: Vec<usize>,
+    /// The value.
+    pub value: f64,
+    /// The name of an amplitude.
+    pub amplitude: Option<String>,
+    /// "displacement", "velocity" or "acceleration".
+    pub history: &'static str,
+    /// True where it holds what has been reached.
+    pub is_fixed: bool,
+}
+
+/// A force on a line of `*CLOAD`.
+#[derive(Debug, Clone)]
+pub struct ForceLine {
+    /// Its line.
+    pub line: usize,
+    /// Its nodes.
+    pub target: NamedTarget,
+    /// Degree of freedom, from 0 to 5.
+    pub degree: usize,
+    /// The value.
+    pub value: f64,
+    /// The name of an amplitude.
+    pub amplitude: Option<String>,
+    /// True where it turns with its node.
+    pub is_follower: bool,
+}
+
+/// A distributed load on a line of `*DLOAD` or `*DSLOAD`.
+#[derive(Debug, Clone)]
+pub struct SpreadLine {
+    /// Its line.
+    pub line: usize,
+    /// Its elements, or its surface.
+    pub target: NamedTarget,
+    /// True where the target is a surface.
+    pub is_surface: bool,
+    /// Its kind in capitals: P, PX, GRAV.
+    pub kind: String,
+    /// Magnitude, then further numbers.
+    pub values: Vec<f64>,
+    /// The name of an amplitude.
+    pub amplitude: Option<String>,
+}
+
+/// What a step asks to be written.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Requests {
+    /// Displacements and velocities.
+    pub nodes: bool,
+    /// Reactions.
+    pub reactions: bool,
+    /// Stress resultants.
+    pub sections: bool,
+    /// Files of the deformed shape.
+    pub fields: bool,
+}
+
+/// A step, or what stands before the first.
+#[derive(Debug, Clone, Default)]
+pub struct StepCard {
+    /// Its line.
+    pub line: usize,
+    /// Its name.
+    pub name: String,
+    /// True with large displacements.
+    pub is_nonlinear: bool,
+    /// True for a perturbation of the state before.
+    pub is_perturbation: bool,
+    /// True or false where loads without an amplitude jump or ramp against the custom of the procedure.
+    pub jumps: Option<bool>,
+    /// What it computes, with the line.
+    pub procedure: Option<(StepProcedure, usize)>,
+    /// Its supports.
+    pub supports: Vec<SupportLine>,
+    /// True where earlier supports end.
+    pub new_supports: bool,
+    /// Its forces.
+    pub forces: Vec<ForceLine>,
+    /// True where earlier forces end.
+    pub new_forces: bool,
+    /// Its distributed loads.
+    pub spread: Vec<SpreadLine>,
+    /// True where earlier distributed loads end.
+    pub new_spread: bool,
+}
+
+/// All steps of a file.
+#[derive(Debug, Default)]
+pub struct StepCards {
+    /// What stands before the first step.
+    pub before: StepCard,
+    /// The steps.
+    pub list: Vec<StepCard>,
+    /// True between `*STEP` and `*END STEP`.
+    pub is_open: bool,
+    /// What all steps ask for.
+    pub requests: Requests,
+    /// Velocities at the start: line, nodes, degree of freedom from 0 to 5, value.
+    pub velocities: Vec<(usize, NamedTarget, usize, f64)>,
+}
+
+impl StepCards {
+    /// The step at hand, or what stands before the first.
+    pub fn at_hand(&mut self) -> &mut StepCard {
+        match self.list.last_mut() {
+            Some(step) if self.is_open => step,
+            _ => &mut self.before,
+        }
+    }
+}

@@ -1,0 +1,195 @@
+//! Connectors as joints, links and bushings.
+
+use crate::build::Build;
+use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
+use crate::element_types::ElementUse;
+use crate::file_content::{ConnectorBehavior, ConnectorSection};
+use base::math::Vec3;
+
+/// A joint of the deck for a connection: its kind, whether the second node is `from`, the components that are its coordinate.
+struct JointOf {
+    word: &'static str,
+    is_turned: bool,
+    free: &'static [usize],
+}
+
+/// Joints by the types of connections, in the order of the alphabet.
+const JOINTS: [(&str, JointOf); 16] = [
+    ("JOIN", JointOf { word: "spherical", is_turned: false, free: &[] }),
+    ("HINGE", JointOf { word: "revolute", is_turned: false, free: &[3] }),
+    ("JOIN+REVOLUTE", JointOf { word: "revolute", is_turned: false, free: &[3] }),
+    ("UJOINT", JointOf { word: "universal", is_turned: false, free: &[] }),
+    ("JOIN+UNIVERSAL", JointOf { word: "universal", is_turned: false, free: &[] }),
+    ("TRANSLATOR", JointOf { word: "prismatic", is_turned: false, free: &[0] }),
+    ("ALIGN+SLOT", JointOf { word: "prismatic", is_turned: false, free: &[0] }),
+    ("CYLINDRICAL", JointOf { word: "cylindrical", is_turned: false, free: &[0, 3] }),
+    ("REVOLUTE+SLOT", JointOf { word: "cylindrical", is_turned: false, free: &[0, 3] }),
+    ("SLOT", JointOf { word: "in-line", is_turned: true, free: &[0] }),
+    ("SLIDE-PLANE", JointOf { word: "in-plane", is_turned: true, free: &[] }),
+    ("PLANAR", JointOf { word: "planar", is_turned: false, free: &[] }),
+    ("WELD", JointOf { word: "fixed", is_turned: false, free: &[] }),
+    ("ALIGN+JOIN", JointOf { word: "fixed", is_turned: false, free: &[] }),
+    ("BEAM", JointOf { word: "fixed", is_turned: false, free: &[] }),
+    ("LINK", JointOf { word: "distance", is_turned: false, free: &[] }),
+];
+
+/// Adds all connectors.
+pub fn connectors(build: &mut Build) {
+    for section in build.im.connectors.sections.clone() {
+        let mut kinds = section.kinds.clone();
+        kinds.sort();
+        let kind = kinds.join("+");
+        for at in build.cells(&section.target) {
+            let cell = build.mesh.cells[at].clone();
+            if build.im.scopes.types[cell.kind].becomes != ElementUse::Connector {
+                continue;
+            }
+            let name = build.deck.unique(&format!("{}_{}", section.target.name, cell.id));
+            build.mesh.used.extend(cell.nodes.iter().filter(|node| **node != 0));
+            let ends = [cell.nodes[0], cell.nodes[1]];
+            match (&kind[..], JOINTS.iter().find(|(word, _)| *word == kind)) {
+                (_, Some((_, joint))) => self::joint(build, &section, joint, (&name, ends)),
+                ("AXIAL", _) => axial(build, &section, &name, ends),
+                ("BUSHING" | "CARDAN+CARTESIAN" | "CARTESIAN+ROTATION" | "CARTESIAN", _) => {
+                    bushing(build, &section, &name, ends);
+                }
+                _ => build.im.refuse(section.line, &format!("connections of type {kind} are not translated")),
+            }
+        }
+    }
+    let lines: Vec<usize> = build.im.connectors.drives.iter().map(|drive| drive.line).collect();
+    if build.timeline.general.len() > 1 {
+        lines.iter().for_each(|line| build.im.change(*line, "what drives a connector acts from the start of the run"));
+    }
+}
+
+/// The axes of a connector: those of its orientation, or the global ones.
+fn axes(build: &mut Build, section: &ConnectorSection) -> [Vec3; 2] {
+    let global = [Vec3::x(), Vec3::y()];
+    let Some(name) = &section.orientation else { return global };
+    match build.im.axes.get(&name.to_lowercase()) {
+        Some(Some(axes)) => *axes,
+        Some(None) => global,
+        None => {
+            build.im.refuse(section.line, &format!("no orientation is named `{name}`"));
+            global
+        }
+    }
+}
+
+/// The behaviour of a section; refuses a name that has none.
+fn behavior(build: &mut Build, section: &ConnectorSection) -> ConnectorBehavior {
+    let Some(name) = &section.behavior else { return ConnectorBehavior::default() };
+    let found = build.im.connectors.behaviors.iter().find(|behavior| behavior.name == *name).cloned();
+    found.unwrap_or_else(|| {
+        build.im.refuse(section.line, &format!("no connector behaviour is named `{name}`"));
+        ConnectorBehavior::default()
+    })
+}
+
+/// A joint between two nodes.
+fn joint(build: &mut Build, section: &ConnectorSection, joint: &JointOf, (name, [a, b]): (&str, [u64; 2])) {
+    let [first, plane] = axes(build, section);
+    let (from, to) = if joint.is_turned { (b, a) } else { (a, b) };
+    let mut table = DeckTable::new("joints", section.line)
+        .text("name", name)
+        .text("kind", joint.word)
+        .value("from", build.end(from, to))
+        .value("to", build.end(to, from));
+    if !["spherical", "fixed", "distance"].contains(&joint.word) {
+        table = table.numbers("axis", first.as_slice());
+    }
+    if joint.word == "universal" {
+        table = table.numbers("cross_axis", first.cross(&plane).normalize().as_slice());
+    }
+    let behavior = behavior(build, section);
+    for component in 0..6 {
+        let [stiffness, damping] = [behavior.stiffness[component], behavior.damping[component]];
+        if stiffness.is_none() && damping.is_none() && behavior.stops[component].is_none() {
+            continue;
+        }
+        if !joint.free.contains(&component) {
+            build.im.refuse(
+                section.line,
+                &format!("a behaviour along component {} of this connection is not translated", component + 1),
+            );
+            continue;
+        }
+        if behavior.stops[component].is_some() {
+            build.im.refuse(section.line, "stops of connectors are rigid, those of rdsolve have a stiffness: give the joint `limits` and `limit_stiffness`");
+        }
+        if joint.word == "cylindrical" {
+            table = table.text("coordinate", if component == 0 { "distance" } else { "angle" });
+        }
+        table = stiffness.map_or(table.clone(), |stiffness| table.number("stiffness", stiffness));
+        table = damping.map_or(table.clone(), |damping| table.number("damping", damping));
+    }
+    let table = drives(build, section, joint, table, [a, b]);
+    build.deck.add(table);
+}
+
+/// Adds motions and loads of the steps.
+fn drives(
+    build: &mut Build,
+    section: &ConnectorSection,
+    joint: &JointOf,
+    table: DeckTable,
+    ends: [u64; 2],
+) -> DeckTable {
+    let mut table = table;
+    for drive in build.im.connectors.drives.clone() {
+        let of_section = build.mesh.cell_indices(&build.im.scopes, &section.target).unwrap_or_default();
+        let cells = build.cells(&drive.target);
+        let is_this = cells.iter().any(|at| of_section.contains(at) && build.mesh.cells[*at].nodes[..2] == ends);
+        if !is_this {
+            continue;
+        }
+        if !joint.free.contains(&drive.component) {
+            build.im.refuse(
+                drive.line,
+                &format!("component {} of this connection does not move by itself", drive.component + 1),
+            );
+            continue;
+        }
+        let sign = if joint.is_turned { -1.0 } else { 1.0 };
+        let mut keys = vec![(drive.quantity.unwrap_or("value"), number(sign * drive.value))];
+        if let Some(name) = &drive.amplitude {
+            let name = build.amplitude_of_file(name, drive.line);
+            keys.extend(name.map(|name| ("amplitude", quoted(&name))));
+        } else if drive.quantity == Some("position") {
+            let end = build.timeline.end().max(f64::MIN_POSITIVE);
+            let ramp = DeckTable::new("amplitudes", drive.line).text("kind", "ramp").number("end", end);
+            keys.push(("amplitude", quoted(&build.amplitude("ramp", ramp))));
+        }
+        table = table.value(if drive.quantity.is_some() { "motion" } else { "effort" }, inline(&keys));
+    }
+    table
+}
+
+/// A spring and damper along the line between two nodes.
+fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
+    let behavior = behavior(build, section);
+    let table = DeckTable::new("links", section.line)
+        .text("name", name)
+        .value("from", build.end(a, b))
+        .value("to", build.end(b, a))
+        .number("stiffness", behavior.stiffness[0].unwrap_or(0.0))
+        .number("damping", behavior.damping[0].unwrap_or(0.0));
+    build.deck.add(table);
+}
+
+/// Springs and dampers along and about three axes.
+fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
+    let behavior = behavior(build, section);
+    let axes = axes(build, section);
+    build.bushed.extend([a, b].iter().filter(|node| **node != 0));
+    let six = |of: &[Option<f64>; 6]| of.map(Option::unwrap_or_default);
+    let table = DeckTable::new("links", section.line)
+        .text("name", name)
+        .value("from", build.end(a, b))
+        .value("to", build.end(b, a))
+        .numbers("bushing", &six(&behavior.stiffness))
+        .numbers("bushing_damping", &six(&behavior.damping))
+        .value("axes", list(axes.iter().map(|axis| vector(axis.as_slice()))));
+    build.deck.add(table);
+}

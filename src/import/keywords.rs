@@ -1,0 +1,380 @@
+//! The table of all keywords: what reads each, or why none does. A keyword that has no row is refused.
+
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+use crate::{
+    amplitude_cards, connector_cards, constraint_cards, material_cards, mesh_cards, property_cards, section_cards,
+    step_cards,
+};
+use std::fmt::Write;
+
+/// What happens to a keyword.
+#[derive(Clone, Copy)]
+pub enum Treatment {
+    /// It is read.
+    Read(fn(&mut Importer, &KeywordBlock)),
+    /// It does not act on the motion.
+    Ignore,
+    /// The deck cannot say it.
+    Refuse,
+}
+
+/// A row of the table.
+pub struct KeywordRow {
+    /// The keyword.
+    pub word: &'static str,
+    /// The parameters that are read or have no meaning for the motion.
+    pub parameters: &'static str,
+    /// What happens to it.
+    pub treatment: Treatment,
+    /// What it becomes in the deck, or the reason.
+    pub about: &'static str,
+}
+
+const fn read(
+    word: &'static str,
+    parameters: &'static str,
+    read: fn(&mut Importer, &KeywordBlock),
+    about: &'static str,
+) -> KeywordRow {
+    KeywordRow { word, parameters, treatment: Treatment::Read(read), about }
+}
+
+const fn ignore(word: &'static str, about: &'static str) -> KeywordRow {
+    KeywordRow { word, parameters: "", treatment: Treatment::Ignore, about }
+}
+
+const fn refuse(word: &'static str, about: &'static str) -> KeywordRow {
+    KeywordRow { word, parameters: "", treatment: Treatment::Refuse, about }
+}
+
+const OUTPUT: &str = "output of the other program; the deck has its own";
+const SOLVER: &str = "settings of the other solver";
+const HEAT: &str = "rdsolve computes no temperatures, and no strains by temperature";
+const FLUID: &str = "rdsolve computes no fluids";
+const FIELDS: &str = "rdsolve computes no electric or magnetic fields";
+const LAW: &str = "rdsolve has elastic, plastic and viscoplastic materials alone";
+const CONTACT: &str = "contact is not translated; add [[contacts]] to the deck";
+const CYCLIC: &str = "rdsolve has no cyclic symmetry";
+const PIECES: &str = "rdsolve has no substructures or submodels";
+const MESH: &str = "makes nodes, elements or numbers; write the mesh as one flat file";
+const OPTIMIZE: &str = "rdsolve computes no sensitivities";
+
+/// All keywords.
+pub const KEYWORDS: &[KeywordRow] = &[
+    read("NODE", "NSET SYSTEM INPUT", mesh_cards::nodes, "nodes of the mesh"),
+    read("ELEMENT", "TYPE ELSET OFFSET INPUT", mesh_cards::elements, "elements of the mesh, by their type"),
+    read("NSET", "NSET ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", mesh_cards::node_sets, "a set of nodes"),
+    read("ELSET", "ELSET GENERATE INSTANCE INTERNAL UNSORTED INPUT", mesh_cards::element_sets, "a set of elements"),
+    read("SURFACE", "NAME TYPE INTERNAL", mesh_cards::surfaces, "where loads and couplings act"),
+    read("PART", "NAME", mesh_cards::part, "nodes and elements of each of its instances"),
+    read("END PART", "", mesh_cards::outside, "nothing of its own"),
+    read("ASSEMBLY", "NAME", mesh_cards::outside, "nothing of its own"),
+    read("END ASSEMBLY", "", mesh_cards::outside, "nothing of its own"),
+    read("INSTANCE", "NAME PART LIBRARY", mesh_cards::instance, "nodes and elements of its part where it stands"),
+    read("END INSTANCE", "", mesh_cards::outside, "nothing of its own"),
+    read(
+        "BEAM SECTION",
+        "ELSET MATERIAL SECTION ORIENTATION OFFSET1 OFFSET2 TEMPERATURE POISSON ROTARYINERTIA LUMPED",
+        section_cards::beam,
+        "[[beams]], [sections]",
+    ),
+    read(
+        "BEAM GENERAL SECTION",
+        "ELSET MATERIAL SECTION ORIENTATION OFFSET1 OFFSET2 DENSITY POISSON ROTARYINERTIA LUMPED ZERO TEMPERATURE",
+        section_cards::general_beam,
+        "[[beams]], [sections], [materials]",
+    ),
+    read(
+        "SHELL SECTION",
+        "ELSET MATERIAL OFFSET ORIENTATION COMPOSITE NODALTHICKNESS SHELLTHICKNESS POISSON SECTIONINTEGRATION THICKNESSMODULUS CONTROLS TEMPERATURE",
+        section_cards::shell,
+        "[[shells]]",
+    ),
+    read("SOLID SECTION", "ELSET MATERIAL ORIENTATION CONTROLS", section_cards::solid, "[[bars]] area, of trusses"),
+    read(
+        "NODAL THICKNESS",
+        "",
+        section_cards::nodal_thickness,
+        "[[shells]] thickness, where it is the same in each element",
+    ),
+    read(
+        "ORIENTATION",
+        "NAME SYSTEM DEFINITION LOCALDIRECTIONS",
+        property_cards::orientation,
+        "axes of joints, bushings and shells",
+    ),
+    read("MATERIAL", "NAME", material_cards::material, "[materials]"),
+    read("ELASTIC", "TYPE MODULI", material_cards::elastic, "[materials] youngs_modulus, poisson_ratio"),
+    read("PLASTIC", "HARDENING DATATYPE", material_cards::plastic, "[materials] hardening, kinematic_share"),
+    read("RATE DEPENDENT", "TYPE", material_cards::rate_dependent, "[materials] viscosity"),
+    read("DENSITY", "", material_cards::density, "[materials] density"),
+    read("DAMPING", "ALPHA BETA STRUCTURAL COMPOSITE", material_cards::damping, "[damping]"),
+    read("EXPANSION", "TYPE ZERO", material_cards::expansion, "no temperature changes"),
+    read("MASS", "ELSET ALPHA", property_cards::mass, "[[masses]]"),
+    read("ROTARY INERTIA", "ELSET ALPHA ORIENTATION", property_cards::inertia, "[[masses]] inertia, or that of a body"),
+    read("SPRING", "ELSET NONLINEAR ORIENTATION", property_cards::spring, "[[links]]"),
+    read("DASHPOT", "ELSET ORIENTATION", property_cards::dashpot, "[[links]] damping"),
+    read("GAP", "ELSET", property_cards::gap, "[[links]] with a gap"),
+    read(
+        "RIGID BODY",
+        "REFNODE ROTNODE NSET TIENSET PINNSET ELSET",
+        constraint_cards::rigid_body,
+        "[[bodies]], [[attachments]]",
+    ),
+    read(
+        "COUPLING",
+        "CONSTRAINTNAME REFNODE SURFACE ORIENTATION",
+        constraint_cards::coupling,
+        "a body at the reference node",
+    ),
+    read("KINEMATIC", "", constraint_cards::kinematic, "[[attachments]] dofs"),
+    read("KINEMATIC COUPLING", "REFNODE", constraint_cards::kinematic_coupling, "a body, [[attachments]] dofs"),
+    read("MPC", "", constraint_cards::points, "nodes that are one, [[joints]] or a body"),
+    read("EQUATION", "", constraint_cards::equations, "nodes that are one, [[joints]] or [[supports]]"),
+    read("CONNECTOR SECTION", "ELSET BEHAVIOR", connector_cards::section, "[[joints]] or [[links]]"),
+    read("CONNECTOR BEHAVIOR", "NAME", connector_cards::behavior, "what acts in joints and bushings"),
+    read("CONNECTOR ELASTICITY", "COMPONENT", connector_cards::elasticity, "stiffness of joints and bushings"),
+    read("CONNECTOR DAMPING", "COMPONENT", connector_cards::damping, "damping of joints and bushings"),
+    read("CONNECTOR STOP", "COMPONENT", connector_cards::stop, "[[joints]] limits"),
+    read("CONNECTOR MOTION", "TYPE AMPLITUDE OP", connector_cards::motion, "[[joints]] motion"),
+    read("CONNECTOR LOAD", "AMPLITUDE OP", connector_cards::load, "[[joints]] effort"),
+    read(
+        "AMPLITUDE",
+        "NAME DEFINITION TIME SHIFTX SHIFTY TIMEDELAY FIXEDINTERVAL VALUE",
+        amplitude_cards::amplitude,
+        "[amplitudes]",
+    ),
+    read("BOUNDARY", "OP AMPLITUDE FIXED TYPE", step_cards::boundary, "[[supports]]"),
+    read("INITIAL CONDITIONS", "TYPE", step_cards::initial_conditions, "[[initial]]"),
+    read(
+        "STEP",
+        "NAME NLGEOM INC PERTURBATION AMPLITUDE UNSYMM EXTRAPOLATION CONVERTSDI SOLVER DIRECT",
+        step_cards::step,
+        "[analysis] or [[stages]]",
+    ),
+    read("END STEP", "", step_cards::end_step, "nothing of its own"),
+    read("STATIC", "DIRECT STABILIZE ALLSDTOL CONTINUE RIKS SOLVER ADAPTIVE", step_cards::statics, "a static analysis"),
+    read(
+        "DYNAMIC",
+        "DIRECT ALPHA EXPLICIT APPLICATION HAFTOL NOHAF INITIAL SOLVER ELEMENTBYELEMENT FIXEDTIMEINCREMENTATION",
+        step_cards::dynamic,
+        "a dynamic analysis",
+    ),
+    read("MODAL DYNAMIC", "DIRECT SOLVER CONTINUE DELTMX", step_cards::modal_dynamic, "a dynamic analysis"),
+    read(
+        "FREQUENCY",
+        "EIGENSOLVER NORMALIZATION SOLVER STORAGE NUMBERINTERVAL ACOUSTICCOUPLING RESIDUALMODES GLOBAL NSET",
+        step_cards::frequency,
+        "natural modes",
+    ),
+    read("COMPLEX FREQUENCY", "CORIOLIS FRICTIONDAMPING", step_cards::complex_frequency, "complex modes"),
+    read("BUCKLE", "EIGENSOLVER SOLVER", step_cards::buckle, "buckling factors"),
+    read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE", step_cards::forces, "[[loads]] force, moment"),
+    read("DLOAD", "OP AMPLITUDE", step_cards::element_loads, "[[loads]] by length or area, or gravity"),
+    read("DSLOAD", "OP AMPLITUDE", step_cards::surface_loads, "[[loads]] pressure"),
+    read("NODE PRINT", "NSET FREQUENCY TOTALS GLOBAL TIMEPOINTS OUTPUT SUMMARY", step_cards::node_output, "[output]"),
+    read(
+        "NODE FILE",
+        "NSET FREQUENCY OUTPUT GLOBAL TIMEPOINTS LASTITERATIONS CONTACTELEMENTS",
+        step_cards::node_output,
+        "[output]",
+    ),
+    read("NODE OUTPUT", "NSET VARIABLE EXTERIOR", step_cards::node_output, "[output]"),
+    read(
+        "EL PRINT",
+        "ELSET FREQUENCY TOTALS GLOBAL TIMEPOINTS POSITION SUMMARY",
+        step_cards::element_output,
+        "[output] sections",
+    ),
+    read(
+        "EL FILE",
+        "ELSET FREQUENCY OUTPUT GLOBAL TIMEPOINTS SECTIONFORCES POSITION",
+        step_cards::element_output,
+        "[output] sections",
+    ),
+    read("ELEMENT OUTPUT", "ELSET VARIABLE DIRECTIONS POSITION", step_cards::element_output, "[output] sections"),
+    read(
+        "OUTPUT",
+        "FIELD HISTORY VARIABLE FREQUENCY TIMEINTERVAL NUMBERINTERVAL TIMEPOINTS NAME OP TIMEMARKS",
+        step_cards::output,
+        "[output] fields",
+    ),
+    read("HEADING", "", step_cards::heading, "title"),
+    read("NO COMPRESSION", "", section_cards::no_compression, "[[bars]] tension_only"),
+    ignore("PREPRINT", SOLVER),
+    ignore("RESTART", OUTPUT),
+    ignore("PHYSICAL CONSTANTS", "constants of radiation and gravitation"),
+    ignore("CONTROLS", SOLVER),
+    ignore("SOLUTION TECHNIQUE", SOLVER),
+    ignore("SECTION CONTROLS", SOLVER),
+    ignore("BULK VISCOSITY", "damping of shock waves in explicit steps; rdsolve has none"),
+    ignore("MONITOR", OUTPUT),
+    ignore("FILE FORMAT", OUTPUT),
+    ignore("FILE OUTPUT", OUTPUT),
+    ignore("ENERGY OUTPUT", OUTPUT),
+    ignore("ENERGY PRINT", OUTPUT),
+    ignore("ENERGY FILE", OUTPUT),
+    ignore("MODAL OUTPUT", OUTPUT),
+    ignore("CONTACT OUTPUT", OUTPUT),
+    ignore("CONTACT PRINT", OUTPUT),
+    ignore("CONTACT FILE", OUTPUT),
+    ignore("SECTION PRINT", OUTPUT),
+    ignore("SECTION FILE", OUTPUT),
+    ignore("FACE PRINT", OUTPUT),
+    ignore("INTEGRATED OUTPUT", OUTPUT),
+    ignore("TIME POINTS", OUTPUT),
+    ignore("PRINT", OUTPUT),
+    ignore("NORMAL", "normals at nodes: those of rdsolve follow from the mesh, and folds keep theirs"),
+    ignore("SPECIFIC HEAT", "no temperature changes"),
+    ignore("CONDUCTIVITY", "no temperature changes"),
+    ignore("USER OUTPUT VARIABLES", OUTPUT),
+    ignore("NO ANALYSIS", "the other program only checks the file"),
+    refuse(
+        "STEADY STATE DYNAMICS",
+        "frequency responses are not translated yet; write [analysis] kind = \"frequency-response\"",
+    ),
+    refuse("MODAL DAMPING", "frequency responses and modal motions are not translated yet"),
+    refuse("BASE MOTION", "frequency responses and modal motions are not translated yet"),
+    refuse("JOINT", "springs of JOINTC elements are not translated; use CONN3D2 with CARTESIAN and CARDAN"),
+    refuse("DISTRIBUTING", "rdsolve has no distributing couplings"),
+    refuse("DISTRIBUTING COUPLING", "rdsolve has no distributing couplings"),
+    refuse("TIE", "ties of surfaces are not translated; give both the same nodes"),
+    refuse("TRANSFORM", "axes at nodes are the global ones in rdsolve"),
+    refuse("SHELL GENERAL SECTION", "rdsolve has no shells by their stiffness"),
+    refuse("MEMBRANE SECTION", "rdsolve has no membranes"),
+    refuse("SURFACE SECTION", "rdsolve has no surface elements"),
+    refuse("COHESIVE SECTION", "rdsolve has no cohesive elements"),
+    refuse("GASKET SECTION", "rdsolve has no gaskets"),
+    refuse("FRAME SECTION", "rdsolve has no frame elements; use beams"),
+    refuse("TRANSVERSE SHEAR STIFFNESS", "shear stiffness follows from the section; give shear_areas in the deck"),
+    refuse("TRANSVERSE SHEAR", "shear stiffness follows from the section; give shear_areas in the deck"),
+    refuse("HOURGLASS STIFFNESS", "elements of rdsolve have no hourglass modes"),
+    refuse("CONTACT PAIR", CONTACT),
+    refuse("CONTACT", CONTACT),
+    refuse("CONTACT INCLUSIONS", CONTACT),
+    refuse("CONTACT PROPERTY ASSIGNMENT", CONTACT),
+    refuse("CONTACT DAMPING", CONTACT),
+    refuse("SURFACE INTERACTION", CONTACT),
+    refuse("SURFACE BEHAVIOR", CONTACT),
+    refuse("CHANGE FRICTION", CONTACT),
+    refuse("CHANGE SURFACE BEHAVIOR", CONTACT),
+    refuse("CLEARANCE", CONTACT),
+    refuse("FRICTION", CONTACT),
+    refuse("MODEL CHANGE", "elements that come or go are not translated; use `stages` of links, joints and supports"),
+    refuse(
+        "PRE-TENSION SECTION",
+        "pre-tension by a section is not translated; use `pretension` of [[links]] or `free_length` of [[bars]]",
+    ),
+    refuse("CREEP", LAW),
+    refuse("VISCO", "steps with creep are not translated"),
+    refuse("HYPERELASTIC", LAW),
+    refuse("HYPERFOAM", LAW),
+    refuse("VISCOELASTIC", LAW),
+    refuse("USER MATERIAL", LAW),
+    refuse("DEPVAR", LAW),
+    refuse("CYCLIC HARDENING", LAW),
+    refuse("DEFORMATION PLASTICITY", LAW),
+    refuse("MOHR COULOMB", LAW),
+    refuse("MOHR COULOMB HARDENING", LAW),
+    refuse("DRUCKER PRAGER", LAW),
+    refuse("DAMAGE INITIATION", "failure is not translated; give `failure_strain` of [materials]"),
+    refuse("DAMAGE EVOLUTION", "failure is not translated; give `failure_strain` of [materials]"),
+    refuse("CHANGE MATERIAL", LAW),
+    refuse("CHANGE PLASTIC", LAW),
+    refuse("CHANGE SOLID SECTION", LAW),
+    refuse(
+        "CONNECTOR FRICTION",
+        "friction in connectors is not translated; give `friction` or `friction_moment` of [[joints]]",
+    ),
+    refuse("CONNECTOR PLASTICITY", "plastic connectors are not translated; give `yield_moment` of [[joints]]"),
+    refuse("CONNECTOR LOCK", "locks of connectors are not translated"),
+    refuse("CONNECTOR FAILURE", "failing connectors are not translated; give `failure` of [[links]]"),
+    refuse("CONNECTOR HARDENING", "plastic connectors are not translated; give `yield_moment` of [[joints]]"),
+    refuse("CONNECTOR CONSTITUTIVE REFERENCE", "reference lengths of connectors are not translated"),
+    refuse("TEMPERATURE", HEAT),
+    refuse("HEAT TRANSFER", HEAT),
+    refuse("COUPLED TEMPERATURE-DISPLACEMENT", HEAT),
+    refuse("UNCOUPLED TEMPERATURE-DISPLACEMENT", HEAT),
+    refuse("CFLUX", HEAT),
+    refuse("DFLUX", HEAT),
+    refuse("FILM", HEAT),
+    refuse("RADIATE", HEAT),
+    refuse("VIEWFACTOR", HEAT),
+    refuse("GAP CONDUCTANCE", HEAT),
+    refuse("GAP HEAT GENERATION", HEAT),
+    refuse("FLUID SECTION", FLUID),
+    refuse("FLUID SECTIONS", FLUID),
+    refuse("FLUID CONSTANTS", FLUID),
+    refuse("SPECIFIC GAS CONSTANT", FLUID),
+    refuse("CFD", FLUID),
+    refuse("BOUNDARYF", FLUID),
+    refuse("TRANSFORMF", FLUID),
+    refuse("EQUATIONF", FLUID),
+    refuse("MASS FLOW", FLUID),
+    refuse("VALUES AT INFINITY", FLUID),
+    refuse("ELECTROMAGNETICS", FIELDS),
+    refuse("ELECTRICAL CONDUCTIVITY", FIELDS),
+    refuse("MAGNETIC PERMEABILITY", FIELDS),
+    refuse("CYCLIC SYMMETRY MODEL", CYCLIC),
+    refuse("SELECT CYCLIC SYMMETRY MODES", CYCLIC),
+    refuse("GREEN", PIECES),
+    refuse("SUBMODEL", PIECES),
+    refuse("SUBSTRUCTURE GENERATE", PIECES),
+    refuse("SUBSTRUCTURE MATRIX OUTPUT", PIECES),
+    refuse("RETAINED NODAL DOFS", PIECES),
+    refuse("SENSITIVITY", OPTIMIZE),
+    refuse("OBJECTIVE", OPTIMIZE),
+    refuse("CONSTRAINT", OPTIMIZE),
+    refuse("DESIGNVARIABLES", OPTIMIZE),
+    refuse("DESIGN RESPONSE", OPTIMIZE),
+    refuse("DESIGN VARIABLES", OPTIMIZE),
+    refuse("FEASIBLE DIRECTION", OPTIMIZE),
+    refuse("NGEN", MESH),
+    refuse("NFILL", MESH),
+    refuse("NCOPY", MESH),
+    refuse("NMAP", MESH),
+    refuse("ELGEN", MESH),
+    refuse("ELCOPY", MESH),
+    refuse("SYSTEM", MESH),
+    refuse("PARAMETER", MESH),
+    refuse("INCLUDE", "this file could not be included"),
+    refuse("IMPORT", "results of another run are not read"),
+    refuse("INERTIA RELIEF", "free bodies are not balanced; hold the structure or compute its motion"),
+    refuse("FIXED MASS SCALING", "mass scaling is not translated; give `mass_scaling_step` of [integrator]"),
+    refuse("VARIABLE MASS SCALING", "mass scaling is not translated; give `mass_scaling_step` of [integrator]"),
+    refuse("EMBEDDED ELEMENT", "embedded elements are not translated"),
+    refuse("FASTENER", "fasteners are not translated; use [[joints]] or [[links]]"),
+    refuse("DISTRIBUTION", "distributions over elements are not translated"),
+    refuse("ROBUST DESIGN", OPTIMIZE),
+    refuse("CORRELATION LENGTH", OPTIMIZE),
+    refuse("GEOMETRIC TOLERANCES", OPTIMIZE),
+    refuse("RANDOM FIELD", OPTIMIZE),
+    refuse("CRACK PROPAGATION", "cracks are not computed"),
+    refuse("RELATIVE CONTACT DISPLACEMENT", CONTACT),
+    refuse("USER ELEMENT", "user elements are not translated"),
+    refuse("MATRIX ASSEMBLE", PIECES),
+    refuse("HCF", "rdsolve computes no fatigue"),
+    refuse("FILTER", OPTIMIZE),
+];
+
+/// The row of a keyword, by its name without blanks.
+pub fn row(key: &str) -> Option<&'static KeywordRow> {
+    KEYWORDS.iter().find(|row| row.word.replace(' ', "") == key)
+}
+
+/// The table of keywords as a page: what becomes of each.
+pub fn page() -> String {
+    let mut page = String::from("| keyword | what becomes of it |\n|---|---|\n");
+    let mut rows: Vec<&KeywordRow> = KEYWORDS.iter().collect();
+    rows.sort_by_key(|row| row.word);
+    for row in rows {
+        let verdict = match row.treatment {
+            Treatment::Read(_) => "",
+            Treatment::Ignore => "ignored: ",
+            Treatment::Refuse => "refused: ",
+        };
+        let _ = writeln!(page, "| `*{}` | {verdict}{} |", row.word, row.about);
+    }
+    page
+}

@@ -1,0 +1,148 @@
+//! Values in time: amplitudes of the file, and tables over all steps.
+
+use crate::build::Build;
+use crate::deck_text::{DeckTable, list, vector};
+use crate::file_content::StepCard;
+use crate::timeline::{GivenValue, InStep, TimeLaw};
+
+/// The least part of a step in which a value jumps.
+const JUMP: f64 = 1e-9;
+
+impl Build<'_, '_, '_> {
+    /// The law of a value by what is so in each general step. `is_motion`: of a support.
+    pub fn law(&mut self, history: &[InStep], is_motion: bool) -> TimeLaw {
+        let first = history.iter().position(|state| *state != InStep::Absent).unwrap_or(0);
+        let is_plain = history[first.min(history.len())..].iter().skip(1).all(|state| *state == InStep::Holds);
+        let steps = &self.im.steps.list;
+        if let Some(InStep::Begins(given)) = history.get(first)
+            && is_plain
+        {
+            let stage = &self.timeline.stages[self.timeline.general[first]];
+            let jumps = steps[stage.step].jumps.unwrap_or(stage.is_dynamic);
+            let stages = self.timeline.from(first);
+            if given.amplitude.is_none() && jumps == stage.is_dynamic && !(is_motion && stage.is_dynamic) {
+                return TimeLaw { scale: given.value, amplitude: None, stages };
+            }
+            if given.amplitude.is_none() && jumps && !self.timeline.is_staged() {
+                let table = DeckTable::new("amplitudes", stage_line(&steps[stage.step])).text("kind", "constant");
+                let amplitude = Some(self.amplitude("constant", table));
+                return TimeLaw { scale: given.value, amplitude, stages };
+            }
+            if let Some(name) = given.amplitude.clone().filter(|_| self.timeline.general.len() == 1) {
+                let scale = given.value;
+                return TimeLaw { scale, amplitude: self.amplitude_of_file(&name, given.line), stages };
+            }
+        }
+        self.law_as_table(history)
+    }
+
+    /// The law of a value as a table over all general steps.
+    pub fn law_as_table(&mut self, history: &[InStep]) -> TimeLaw {
+        let points = self.points(history);
+        let scale = points.iter().map(|point| point[1]).fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+        if scale == 0.0 {
+            return TimeLaw { scale: 0.0, amplitude: None, stages: None };
+        }
+        let rows = list(points.iter().map(|[t, value]| vector(&[*t, value / scale])));
+        let line =
+            history.iter().find_map(|state| if let InStep::Begins(given) = state { Some(given.line) } else { None });
+        let table = DeckTable::new("amplitudes", line.unwrap_or(0)).text("kind", "table").value("points", rows);
+        TimeLaw { scale, amplitude: Some(self.amplitude("history", table)), stages: None }
+    }
+
+    /// Times and values over all general steps.
+    fn points(&mut self, history: &[InStep]) -> Vec<[f64; 2]> {
+        let (mut points, mut value) = (vec![[0.0, 0.0]], 0.0);
+        let mut add = |t: f64, value: f64| match points.last_mut() {
+            Some(last) if t <= last[0] => last[1] = value,
+            _ => points.push([t, value]),
+        };
+        for (state, &at) in history.iter().zip(&self.timeline.general) {
+            let stage = &self.timeline.stages[at];
+            let (start, end) = (stage.start, stage.start + stage.duration);
+            let jumps = self.im.steps.list[stage.step].jumps.unwrap_or(stage.is_dynamic);
+            let soon = if start > 0.0 { start + JUMP * stage.duration } else { 0.0 };
+            match state {
+                InStep::Holds => {}
+                InStep::Begins(GivenValue { value: to, amplitude: Some(name), .. }) => {
+                    let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
+                    let Some(card) = card else { continue };
+                    let shift = if card.is_total { start } else { 0.0 };
+                    for t in card.corners(stage.duration) {
+                        value = to * card.at(t + shift);
+                        add(if t == 0.0 { soon } else { start + t }, value);
+                    }
+                }
+                other => {
+                    let to = if let InStep::Begins(given) = other { given.value } else { 0.0 };
+                    if to != value && jumps {
+                        add(start, value);
+                        add(soon, to);
+                    } else if to != value {
+                        add(start, value);
+                    }
+                    value = to;
+                }
+            }
+            add(end, value);
+        }
+        points
+    }
+
+    /// The name in the deck of an amplitude of the file, which is added; refuses one that does not exist.
+    pub fn amplitude_of_file(&mut self, name: &str, line: usize) -> Option<String> {
+        let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase()).cloned();
+        let Some(card) = card else {
+            self.im.refuse(line, &format!("no amplitude is named `{name}`"));
+            return None;
+        };
+        let table = DeckTable::new("amplitudes", card.line);
+        let table = match card.sine {
+            Some([frequency, phase, scale, start]) if scale == 1.0 => {
+                let table = table.text("kind", "sine").number("frequency", frequency).number("phase", phase);
+                if start == 0.0 { table } else { table.number("start", start) }
+            }
+            Some(_) => {
+                let times = card.corners(self.timeline.end());
+                let rows = times.iter().map(|t| vector(&[*t, card.at(*t)]));
+                table.text("kind", "table").value("points", list(rows)).text("after", "hold")
+            }
+            None if card.points.len() == 1 => {
+                let [t, value] = card.points[0];
+                let rows = [vector(&[t, value]), vector(&[t + 1.0, value])];
+                table
+                    .text("kind", "table")
+                    .value("points", list(rows.into_iter()))
+                    .text("before", "hold")
+                    .text("after", "hold")
+            }
+            None => {
+                let rows = card.points.iter().map(|[t, value]| vector(&[*t, *value]));
+                table.text("kind", "table").value("points", list(rows)).text("before", "hold").text("after", "hold")
+            }
+        };
+        Some(self.amplitude(&card.name, table))
+    }
+
+    /// Adds an amplitude unless the deck has one like it; returns its name.
+    pub fn amplitude(&mut self, name: &str, table: DeckTable) -> String {
+        let text = format!("{table:?}");
+        if let Some(known) = self.amplitudes.get(&text) {
+            return known.clone();
+        }
+        let mut unique = name.to_owned();
+        let mut next = 2;
+        while self.amplitudes.values().any(|known| *known == unique) {
+            unique = format!("{name}_{next}");
+            next += 1;
+        }
+        self.deck.add(table.with_name(&unique));
+        self.amplitudes.insert(text, unique.clone());
+        unique
+    }
+}
+
+/// The line of what a step computes.
+fn stage_line(step: &StepCard) -> usize {
+    step.procedure.as_ref().map_or(step.line, |(_, line)| *line)
+}

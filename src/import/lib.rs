@@ -1,0 +1,179 @@
+//! Decks of Abaqus and CalculiX: a file is read whole, and becomes a deck, its mesh, and a verdict on every keyword.
+//!
+//! ```text
+//!  text ──▶ keywords ──▶ importer ──▶ build ──▶ deck text, mesh text, verdicts
+//! ```
+//!
+//! Each keyword has a row in [`keywords::KEYWORDS`], with the function that reads it or the reason why none does. Reading fills the
+//! importer with what the file says, family by family. Building then resolves sets and instances and writes tables of the deck.
+//! Nothing is dropped in silence.
+
+mod amplitude_cards;
+mod assemble;
+mod bodies;
+mod build;
+mod connector_cards;
+mod constraint_cards;
+mod deck_text;
+mod dialect;
+mod element_types;
+mod file_content;
+mod flat_mesh;
+mod importer;
+mod joints;
+mod keyword_block;
+pub mod keywords;
+mod laws;
+mod links;
+mod loads;
+mod material_cards;
+mod mesh_cards;
+mod mesh_text;
+mod output;
+mod part_piece;
+mod parts;
+mod property_cards;
+mod scopes;
+mod section_cards;
+mod spread_loads;
+mod stage_text;
+mod step_cards;
+mod supports;
+mod ties;
+mod timeline;
+mod units_hint;
+mod verdicts;
+
+pub use dialect::Dialect;
+pub use verdicts::{KeywordVerdict, VerdictRow, Verdicts};
+
+use base::text_file::Text;
+use importer::Importer;
+use keyword_block::KeywordBlock;
+use keywords::Treatment;
+use scopes::Scopes;
+use std::fmt::Write;
+
+/// What the user says about a file.
+#[derive(Debug, Default)]
+pub struct ImportOptions {
+    /// The program that it is for; by default signs in the file tell.
+    pub dialect: Option<Dialect>,
+    /// The word for its units; by default a remark in the file tells.
+    pub units: Option<String>,
+    /// The name of the mesh file in the deck.
+    pub mesh_file: String,
+}
+
+/// A deck that has been made of a file.
+pub struct Imported {
+    /// The deck.
+    pub deck: String,
+    /// Its mesh.
+    pub mesh: String,
+    /// What became of each keyword.
+    pub verdicts: Verdicts,
+}
+
+/// Makes a deck of a file.
+pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
+    let blocks = keyword_block::blocks(text);
+    let keywords = blocks.iter().map(|block| (block.keyword.line, block.keyword.name.clone())).collect();
+    let count = blocks.iter().filter(|block| block.keyword.key() == "INSTANCE").count() as u64;
+    let largest = largest(&blocks);
+    let step =
+        if count > 1 || has_outer_nodes(&blocks) { 10u64.pow(largest.checked_ilog10().unwrap_or(0) + 1) } else { 0 };
+    let text: &Text = text;
+    let scopes = Scopes { outer_offset: count * step, step, largest, ..Scopes::default() };
+    let dialect = options.dialect.or_else(|| Dialect::of(text, &blocks));
+    let mut im = Importer::new(text, Verdicts::new(keywords), dialect, scopes);
+    let rows: Vec<_> = blocks.iter().map(|block| keywords::row(&block.keyword.key())).collect();
+    for (block, row) in blocks.iter().zip(&rows) {
+        read(&mut im, block, *row);
+    }
+    let built = assemble::build(&mut im, &options.mesh_file);
+    for (block, row) in blocks.iter().zip(&rows) {
+        let line = block.keyword.line;
+        if let Some(row) = row
+            && !im.verdicts.has(line)
+        {
+            im.verdicts.add(im.text, KeywordVerdict::Translated, line, None, row.about.to_owned());
+        }
+    }
+    im.verdicts.rows.sort_by_key(|row| row.line);
+    let head = head(&im, options);
+    let deck = built.deck.write(&head, |line| source(text, line));
+    Imported { deck, mesh: built.mesh, verdicts: im.verdicts }
+}
+
+/// Reads one keyword.
+fn read(im: &mut Importer, block: &KeywordBlock, row: Option<&'static keywords::KeywordRow>) {
+    let line = block.keyword.line;
+    let Some(row) = row else {
+        return im.refuse(line, &format!("*{} is not known", block.keyword.name));
+    };
+    match row.treatment {
+        Treatment::Ignore => im.ignore(line, row.about),
+        Treatment::Refuse => im.refuse(line, row.about),
+        Treatment::Read(read) => {
+            let known: Vec<&str> = row.parameters.split(' ').collect();
+            if let Some(stranger) = block.keyword.stranger(&known) {
+                im.refuse(line, &format!("{stranger} of *{} is not read", block.keyword.name));
+            }
+            read(im, block);
+        }
+    }
+}
+
+/// The largest number of a node or an element.
+fn largest(blocks: &[KeywordBlock]) -> u64 {
+    let numbered = blocks.iter().filter(|block| ["NODE", "ELEMENT"].contains(&block.keyword.key().as_str()));
+    let first = numbered.flat_map(|block| &block.data).filter_map(|data| data.words.first()?.whole());
+    first.filter(|id| *id <= u64::from(u32::MAX)).max().unwrap_or(0)
+}
+
+/// True where the assembly has nodes or elements of its own.
+fn has_outer_nodes(blocks: &[KeywordBlock]) -> bool {
+    let (mut is_inside, mut has_instance, mut found) = (false, false, false);
+    for block in blocks {
+        match block.keyword.key().as_str() {
+            "PART" | "INSTANCE" => {
+                is_inside = true;
+                has_instance |= block.keyword.key() == "INSTANCE";
+            }
+            "ENDPART" | "ENDINSTANCE" | "ASSEMBLY" => is_inside = false,
+            "NODE" | "ELEMENT" if !is_inside && has_instance => found = true,
+            _ => {}
+        }
+    }
+    found
+}
+
+/// The file and the line of the text, and what stands there.
+fn source(text: &Text, line: usize) -> String {
+    let excerpt = text.excerpt(line);
+    let (path, number) = text.origin(line);
+    let path = path.rsplit(['/', '\\']).next().unwrap_or(path);
+    let shown: String = excerpt.text.trim().chars().filter(|c| !c.is_control()).take(100).collect();
+    format!("{path}:{number} {shown}")
+}
+
+/// What stands above the tables.
+fn head(im: &Importer, options: &ImportOptions) -> String {
+    let path = im.text.path.rsplit(['/', '\\']).next().unwrap_or(im.text.path);
+    let mut head = format!("# made of {path} by rdsolve import\n");
+    let placed = im.scopes.instances.iter().map(|at| (&at.own.name, at.offset));
+    for (name, offset) in placed.filter(|(_, offset)| *offset > 0) {
+        let _ = writeln!(head, "# node 1 of {name} is mesh.{} here: {offset} is added to all its numbers", offset + 1);
+    }
+    if im.scopes.outer_offset > 0 && !im.scopes.outer.nodes.is_empty() {
+        let _ = writeln!(head, "# {} is added to the numbers of the assembly", im.scopes.outer_offset);
+    }
+    if !im.title.is_empty() {
+        let _ = writeln!(head, "title = {}", deck_text::quoted(&im.title));
+    }
+    if let Some(units) = options.units.clone().or_else(|| units_hint::units(im.text).map(str::to_owned)) {
+        let _ = writeln!(head, "units = {}", deck_text::quoted(&units));
+    }
+    head
+}

@@ -1,0 +1,204 @@
+//! Forces and moments at nodes, and velocities at the start.
+
+use crate::build::Build;
+use crate::deck_text::DeckTable;
+use crate::file_content::{ForceLine, StepProcedure};
+use crate::scopes::NamedTarget;
+use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// Node, degree of freedom, and whether the force turns with the node.
+type ForceKey = (u64, usize, bool);
+
+/// Forces that act alike at several nodes.
+#[derive(Default)]
+struct AlikeForces {
+    six: [f64; 6],
+    nodes: BTreeSet<u64>,
+    lines: BTreeSet<usize>,
+    law: Option<TimeLaw>,
+    is_follower: bool,
+}
+
+/// Adds all forces and moments.
+pub fn loads(build: &mut Build) {
+    let steps = &build.im.steps;
+    let lines: Vec<ForceLine> = steps.list.iter().flat_map(|step| step.forces.clone()).collect();
+    let given: HashMap<usize, Vec<(ForceKey, GivenValue)>> =
+        lines.iter().map(|line| (line.line, given(build, line))).collect();
+    for step in build.im.steps.list.clone() {
+        let all = step.forces.iter().flat_map(|line| given[&line.line].clone());
+        refuse_two_laws(build, all.map(|(key, given)| (format!("{key:?}"), given)));
+    }
+    let of = |forces: &[ForceLine]| -> Vec<(ForceKey, GivenValue)> {
+        let mut sum: BTreeMap<ForceKey, GivenValue> = BTreeMap::new();
+        for (key, one) in forces.iter().flat_map(|line| given[&line.line].clone()) {
+            match sum.get_mut(&key) {
+                Some(other) if other.amplitude == one.amplitude => other.value += one.value,
+                _ => drop(sum.insert(key, one)),
+            }
+        }
+        sum.into_iter().collect()
+    };
+    let steps = &build.im.steps;
+    let all = histories(&build.timeline, &steps.list, Vec::new(), |step| of(&step.forces), |step| step.new_forces);
+    let mut laws: Vec<(ForceKey, TimeLaw, Vec<usize>)> = Vec::new();
+    for (key, history) in all {
+        let lines = lines_of(&history);
+        let law = build.law(&history, false);
+        laws.push((key, law, lines));
+    }
+    laws.extend(of_buckling(build, &of));
+    let mut groups: BTreeMap<String, AlikeForces> = BTreeMap::new();
+    for (node, one) in by_node(laws) {
+        let key = format!("{:?} {:?} {}", one.six, one.law, one.is_follower);
+        let group = groups.entry(key).or_default();
+        group.nodes.insert(node);
+        group.lines.extend(&one.lines);
+        (group.six, group.law, group.is_follower) = (one.six, one.law, one.is_follower);
+    }
+    let targets: Vec<NamedTarget> = lines.iter().map(|line| line.target.clone()).collect();
+    groups.into_values().for_each(|group| write(build, group, &targets));
+}
+
+/// Refuses loads of one step on one thing whose amplitudes differ, for they do not add up to one load.
+pub fn refuse_two_laws(build: &mut Build, all: impl Iterator<Item = (String, GivenValue)>) {
+    let mut first: HashMap<String, GivenValue> = HashMap::new();
+    for (key, given) in all {
+        let of_key = first.entry(key).or_insert_with(|| given.clone());
+        if of_key.amplitude != given.amplitude {
+            build.im.refuse(given.line, "a load in the same place and direction has another amplitude in this step");
+        }
+    }
+}
+
+/// Lines that give values.
+pub fn lines_of(history: &[InStep]) -> Vec<usize> {
+    history.iter().filter_map(|state| if let InStep::Begins(given) = state { Some(given.line) } else { None }).collect()
+}
+
+/// Forces of steps that compute buckling factors, which act in these alone.
+fn of_buckling(
+    build: &Build,
+    of: &impl Fn(&[ForceLine]) -> Vec<(ForceKey, GivenValue)>,
+) -> Vec<(ForceKey, TimeLaw, Vec<usize>)> {
+    let mut laws = Vec::new();
+    if !build.timeline.is_staged() {
+        return laws;
+    }
+    for (at, stage) in build.timeline.stages.iter().enumerate() {
+        let step = &build.im.steps.list[stage.step];
+        let is_buckling = matches!(step.procedure, Some((StepProcedure::Buckle { .. }, _)));
+        if !is_buckling || build.timeline.general.contains(&at) {
+            continue;
+        }
+        for (key, given) in of(&step.forces) {
+            let law = TimeLaw { scale: given.value, amplitude: None, stages: Some(vec![stage.name.clone()]) };
+            laws.push((key, law, vec![given.line]));
+        }
+    }
+    laws
+}
+
+/// Forces of each node with one law in time.
+fn by_node(laws: Vec<(ForceKey, TimeLaw, Vec<usize>)>) -> Vec<(u64, AlikeForces)> {
+    let mut nodes: BTreeMap<(u64, bool, String), AlikeForces> = BTreeMap::new();
+    for ((node, dof, is_follower), law, lines) in laws.into_iter().filter(|(_, law, _)| law.scale != 0.0) {
+        let key = (node, is_follower, format!("{:?} {:?}", law.amplitude, law.stages));
+        let alike = nodes.entry(key).or_default();
+        alike.six[dof] += law.scale;
+        alike.lines.extend(lines);
+        alike.is_follower = is_follower;
+        alike.law = Some(TimeLaw { scale: 1.0, ..law });
+    }
+    nodes.into_iter().map(|((node, _, _), alike)| (node, alike)).collect()
+}
+
+/// Nodes and degrees of freedom of a line; those of a node that turns a body are moments on the body.
+fn given(build: &mut Build, line: &ForceLine) -> Vec<(ForceKey, GivenValue)> {
+    let nodes = build.nodes(&line.target);
+    let mut given = Vec::new();
+    for node in nodes {
+        let (node, shift) = match build.turned.get(&node) {
+            Some(&reference) => (reference, 3),
+            None => (node, 0),
+        };
+        if !build.mesh.used.contains(&node) {
+            if !build.im.is_incomplete() {
+                build.im.refuse(line.line, &format!("node {node} has no element that this force could act on"));
+            }
+            continue;
+        }
+        let dof = line.degree + shift;
+        if dof > 5 {
+            continue;
+        }
+        let value = GivenValue { value: line.value, amplitude: line.amplitude.clone(), line: line.line };
+        given.push(((node, dof, line.is_follower), value));
+    }
+    given
+}
+
+fn write(build: &mut Build, group: AlikeForces, targets: &[NamedTarget]) {
+    let of_lines: Vec<NamedTarget> =
+        targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
+    let names = build.names(&group.nodes, &of_lines, "loaded");
+    let mut table = DeckTable::new("loads", 0).from_lines(group.lines.iter().copied()).names("at", &names);
+    for (key, part) in [("force", &group.six[..3]), ("moment", &group.six[3..])] {
+        if part.iter().any(|x| *x != 0.0) {
+            table = table.numbers(key, part);
+        }
+    }
+    if group.is_follower {
+        table = table.value("follower", "true");
+    }
+    let table = in_time(table, group.law.as_ref());
+    build.deck.add(table);
+}
+
+/// Adds amplitude and stages of a load.
+pub fn in_time(table: DeckTable, law: Option<&TimeLaw>) -> DeckTable {
+    let Some(law) = law else { return table };
+    let table = match &law.amplitude {
+        Some(name) => table.text("amplitude", name),
+        None => table,
+    };
+    match &law.stages {
+        Some(stages) => table.names("stages", stages),
+        None => table,
+    }
+}
+
+/// Adds velocities at the start.
+pub fn velocities(build: &mut Build) {
+    let mut of_node: BTreeMap<u64, ([f64; 6], BTreeSet<usize>)> = BTreeMap::new();
+    let all = build.im.steps.velocities.clone();
+    for (line, target, dof, value) in &all {
+        for node in build.nodes(target) {
+            if build.mesh.used.contains(&node) {
+                let entry = of_node.entry(node).or_default();
+                entry.0[*dof] = *value;
+                entry.1.insert(*line);
+            }
+        }
+    }
+    let mut groups: BTreeMap<String, ([f64; 6], BTreeSet<u64>, BTreeSet<usize>)> = BTreeMap::new();
+    for (node, (six, lines)) in of_node {
+        let group = groups.entry(format!("{six:?}")).or_insert((six, BTreeSet::new(), BTreeSet::new()));
+        group.1.insert(node);
+        group.2.extend(lines);
+    }
+    let targets: Vec<NamedTarget> = all.into_iter().map(|(_, target, _, _)| target).collect();
+    for (six, nodes, lines) in groups.into_values() {
+        let of_lines: Vec<NamedTarget> =
+            targets.iter().filter(|target| lines.contains(&target.line)).cloned().collect();
+        let names = build.names(&nodes, &of_lines, "moving");
+        let mut table = DeckTable::new("initial", 0).from_lines(lines).names("at", &names);
+        for (key, part) in [("velocity", &six[..3]), ("angular_velocity", &six[3..])] {
+            if part.iter().any(|x| *x != 0.0) {
+                table = table.numbers(key, part);
+            }
+        }
+        build.deck.add(table);
+    }
+}

@@ -1,0 +1,146 @@
+//! Materials: `*MATERIAL` and the keywords below it.
+
+use crate::deck_text::{DeckTable, inline, list, number, vector};
+use crate::file_content::MaterialCard;
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+
+/// `*MATERIAL`.
+pub fn material(im: &mut Importer, block: &KeywordBlock) {
+    let name = block.keyword.value("NAME").unwrap_or("material").to_owned();
+    im.materials.list.push(MaterialCard { name, line: block.keyword.line, ..MaterialCard::default() });
+}
+
+/// The material at hand; refuses a line without one.
+fn at_hand<'m>(im: &'m mut Importer, line: usize) -> Option<&'m mut MaterialCard> {
+    if im.materials.list.is_empty() {
+        im.refuse(line, "no *MATERIAL stands before this line");
+    }
+    im.materials.list.last_mut()
+}
+
+/// True where only the first of several rows is taken.
+fn first_of_rows(im: &mut Importer, block: &KeywordBlock) {
+    if block.data.len() > 1 {
+        im.change(block.keyword.line, "values that depend on temperature: those of the first row are taken");
+    }
+}
+
+/// `*ELASTIC`.
+pub fn elastic(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    if let Some(kind) = block.keyword.value("TYPE")
+        && !"ISOTROPIC".starts_with(&kind.to_ascii_uppercase())
+    {
+        return im.refuse(line, "rdsolve has isotropic elastic materials alone");
+    }
+    first_of_rows(im, block);
+    let values = block.data.first().map(|data| im.numbers(data)).unwrap_or_default();
+    let [Some(&modulus), ratio] = [values.first(), values.get(1)] else {
+        return im.refuse(line, "*ELASTIC needs Young's modulus");
+    };
+    let elastic = [modulus, ratio.copied().unwrap_or(0.0)];
+    if let Some(material) = at_hand(im, line) {
+        material.elastic = Some(elastic);
+    }
+}
+
+/// `*PLASTIC`.
+pub fn plastic(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let hardening = block.keyword.value("HARDENING").unwrap_or("ISOTROPIC").to_ascii_uppercase();
+    let is_kinematic = "KINEMATIC".starts_with(&hardening);
+    if !is_kinematic && !"ISOTROPIC".starts_with(&hardening) {
+        return im.refuse(line, "hardening is isotropic or kinematic in rdsolve; other laws are not translated");
+    }
+    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
+    let at = |row: &[f64], i: usize| row.get(i).copied().unwrap_or(0.0);
+    let first = rows.first().map_or(0.0, |row| at(row, 2));
+    let plastic: Vec<[f64; 2]> =
+        rows.iter().filter(|row| at(row, 2) == first).map(|row| [at(row, 0), at(row, 1)]).collect();
+    if plastic.len() < rows.len() {
+        im.change(line, "values that depend on temperature: those of the first temperature are taken");
+    }
+    if let Some(material) = at_hand(im, line) {
+        (material.plastic, material.is_kinematic) = (plastic, is_kinematic);
+    }
+}
+
+/// `*DENSITY`.
+pub fn density(im: &mut Importer, block: &KeywordBlock) {
+    first_of_rows(im, block);
+    let density = block.data.first().and_then(|data| im.number_at(data, 0));
+    if let Some(material) = at_hand(im, block.keyword.line) {
+        material.density = density;
+    }
+}
+
+/// `*EXPANSION`.
+pub fn expansion(im: &mut Importer, block: &KeywordBlock) {
+    let expansion = block.data.first().and_then(|data| im.number_at(data, 0));
+    im.ignore(block.keyword.line, "no temperature changes");
+    if let Some(material) = at_hand(im, block.keyword.line) {
+        material.expansion = expansion;
+    }
+}
+
+/// `*DAMPING`.
+pub fn damping(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let mut read = |name: &str| match block.keyword.value(name) {
+        None => 0.0,
+        Some(text) => text.parse().unwrap_or_else(|_| {
+            im.refuse(line, &format!("{name} must be a number"));
+            0.0
+        }),
+    };
+    let damping = [read("ALPHA"), read("BETA")];
+    if let Some(material) = at_hand(im, line) {
+        material.damping = Some(damping).filter(|damping| *damping != [0.0; 2]);
+    }
+}
+
+/// `*RATE DEPENDENT`.
+pub fn rate_dependent(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let kind: String = block.keyword.value("TYPE").unwrap_or("POWERLAW").to_ascii_uppercase();
+    if !"POWERLAW".starts_with(&kind) {
+        return im.refuse(line, "of the laws of rate dependence rdsolve has POWER LAW, by rate and exponent");
+    }
+    first_of_rows(im, block);
+    let values = block.data.first().map(|data| im.numbers(data)).unwrap_or_default();
+    let [rate, exponent] = [0, 1].map(|at| values.get(at).copied().unwrap_or(1.0));
+    if let Some(material) = at_hand(im, line) {
+        material.rate = Some([rate, exponent]);
+    }
+}
+
+/// The table of a material, under a name.
+pub fn table(material: &MaterialCard, name: &str) -> DeckTable {
+    let model = match (&material.plastic[..], material.rate) {
+        ([], _) => "elastic",
+        (_, None) => "elastic-plastic",
+        (_, Some(_)) => "elastic-viscoplastic",
+    };
+    let [modulus, ratio] = material.elastic.unwrap_or([0.0; 2]);
+    let mut table = DeckTable::named("materials", name, material.line)
+        .text("model", model)
+        .number("youngs_modulus", modulus)
+        .number("poisson_ratio", ratio);
+    if let Some(density) = material.density {
+        table = table.number("density", density);
+    }
+    match &material.plastic[..] {
+        [] => return table,
+        [[stress, _]] => table = table.number("yield_stress", *stress),
+        rows => table = table.value("hardening", list(rows.iter().map(|[stress, strain]| vector(&[*strain, *stress])))),
+    }
+    if material.is_kinematic {
+        table = table.number("kinematic_share", 1.0);
+    }
+    if let Some([rate, exponent]) = material.rate {
+        let keys = [("law", "\"power\"".to_owned()), ("rate", number(rate)), ("exponent", number(exponent))];
+        table = table.value("viscosity", inline(&keys));
+    }
+    table
+}

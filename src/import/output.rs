@@ -1,0 +1,35 @@
+//! What the deck writes, and damping.
+
+use crate::build::Build;
+use crate::deck_text::{DeckTable, inline, quoted};
+
+/// Adds `[damping]` and `[output]`.
+pub fn output(build: &mut Build) {
+    match build.im.materials.damping() {
+        Ok(Some([alpha, beta])) => {
+            let line = build.im.materials.list.iter().find(|material| material.damping.is_some()).map_or(0, |m| m.line);
+            build
+                .deck
+                .add(DeckTable::new("damping", line).number("mass_factor", alpha).number("stiffness_factor", beta));
+        }
+        Ok(None) => {}
+        Err(line) => {
+            build.im.refuse(line, "all materials must have the same damping: [damping] holds for the whole structure")
+        }
+    }
+    let requests = build.im.steps.requests;
+    let mut table = DeckTable::new("output", 0);
+    if requests.nodes || requests.fields {
+        table = table.text("nodes", "all");
+    }
+    if requests.reactions {
+        table = table.value("reactions", "true");
+    }
+    if requests.sections {
+        table = table.value("sections", "true");
+    }
+    if requests.fields {
+        table = table.value("fields", inline(&[("format", quoted("vtu"))]));
+    }
+    build.deck.add(table);
+}

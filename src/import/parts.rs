@@ -1,0 +1,396 @@
+//! Beams, bars and shells: elements with one section, cut where loads or rigid bodies end.
+
+use crate::build::Build;
+use crate::deck_text::{DeckTable, list, number, vector};
+use crate::element_types::ElementUse;
+use crate::file_content::{SectionCard, SectionOf, SectionValue};
+use crate::material_cards;
+use crate::part_piece::PartPiece;
+use crate::scopes::{NamedTarget, PlacedElement};
+use base::math::Vec3;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// How far the middle node of a beam may lie off its straight line, over the length.
+const STRAIGHT: f64 = 1e-6;
+/// A component of a direction that is zero but for rounding, over its length.
+const ROUNDING: f64 = 1e-14;
+/// The sine of the least angle between a beam and its first axis.
+const PARALLEL: f64 = 1e-6;
+
+/// What keeps elements of one section apart.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct PieceKey {
+    section: usize,
+    shape: u8,
+    /// The first axis of a beam, or the thickness of a shell, as text.
+    axis: String,
+    /// Loads and bodies that hold it.
+    marks: Vec<bool>,
+}
+
+/// Adds beams, bars and shells with their sections and materials.
+pub fn parts(build: &mut Build) {
+    let section_of = assigned(build);
+    let marks = marks(build);
+    let thicknesses = thicknesses(build);
+    let mut pieces: BTreeMap<PieceKey, Vec<usize>> = BTreeMap::new();
+    let mut bare: Option<(usize, u64)> = None;
+    for at in 0..build.mesh.cells.len() {
+        let cell = build.mesh.cells[at].clone();
+        let becomes = build.im.scopes.types[cell.kind].becomes;
+        let is_part =
+            matches!(becomes, ElementUse::StraightBeam | ElementUse::CurvedBeam | ElementUse::Truss | ElementUse::Face);
+        if becomes == ElementUse::Foreign {
+            let kind = &build.im.scopes.types[cell.kind];
+            let why = format!("elements of type {}: {}", kind.name, kind.reason());
+            build.im.refuse(cell.line, &why);
+        }
+        if !is_part {
+            continue;
+        }
+        let Some(&section) = section_of.get(&at) else {
+            bare = bare.or(Some((cell.line, cell.id)));
+            continue;
+        };
+        let card = build.im.sections[section].clone();
+        let Some((shape, axis)) = shape_of(build, &cell, &card, becomes) else { continue };
+        let axis = match &card.what {
+            SectionOf::OfShell { thickness, .. } => match thickness.or_else(|| at_nodes(&thicknesses, &cell)) {
+                Some(thickness) => number(thickness),
+                None => {
+                    let why =
+                        "the thickness of a shell is the same everywhere in an element; give each thickness a section";
+                    build.im.refuse(card.line, why);
+                    continue;
+                }
+            },
+            _ => vector(settled(axis).as_slice()),
+        };
+        let marks = marks.iter().map(|cells| cells.contains(&at)).collect();
+        pieces.entry(PieceKey { section, shape, axis, marks }).or_default().push(at);
+    }
+    if let Some((line, id)) = bare.filter(|_| !build.im.is_incomplete()) {
+        build.im.refuse(line, &format!("element {id} has no section"));
+    }
+    write(build, pieces);
+}
+
+/// The thickness of shells at nodes.
+fn thicknesses(build: &mut Build) -> HashMap<u64, f64> {
+    let mut of_node = HashMap::new();
+    for (target, thickness) in build.im.thicknesses.clone() {
+        of_node.extend(build.nodes(&target).into_iter().map(|node| (node, thickness)));
+    }
+    of_node
+}
+
+/// The thickness that all nodes of an element have.
+fn at_nodes(thicknesses: &HashMap<u64, f64>, cell: &PlacedElement) -> Option<f64> {
+    let first = thicknesses.get(&cell.nodes[0]).copied();
+    cell.nodes.iter().all(|node| thicknesses.get(node).copied() == first).then_some(first)?
+}
+
+/// A direction without what rotations leave of zeros.
+fn settled(x: Vec3) -> Vec3 {
+    x.map(|component| if component.abs() < ROUNDING * x.norm() { 0.0 } else { component })
+}
+
+/// The section of each element; the last where there are several.
+fn assigned(build: &mut Build) -> HashMap<usize, usize> {
+    let mut section_of = HashMap::new();
+    for (index, card) in build.im.sections.clone().iter().enumerate() {
+        let cells = build.cells(&card.target);
+        section_of.extend(cells.into_iter().map(|cell| (cell, index)));
+    }
+    section_of
+}
+
+/// Elements of each distributed load and each rigid body.
+fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
+    let steps = build.im.steps.list.iter().chain([&build.im.steps.before]);
+    let mut targets: Vec<NamedTarget> = Vec::new();
+    for line in steps.flat_map(|step| &step.spread).filter(|line| !line.target.name.is_empty()) {
+        match build.im.scopes.surface(&line.target) {
+            Some(lines) if line.is_surface => targets.extend(lines.iter().map(|(set, _)| set.clone())),
+            _ => targets.push(line.target.clone()),
+        }
+    }
+    targets.extend(build.im.constraints.rigid.iter().flat_map(|card| card.cells.clone()));
+    let mut seen = BTreeSet::new();
+    targets.retain(|target| seen.insert((target.scope, target.name.to_lowercase())));
+    let found = targets.iter().filter_map(|target| build.mesh.cell_indices(&build.im.scopes, target));
+    found.map(|cells| cells.into_iter().collect()).collect()
+}
+
+/// The shape of an element, 0 for a beam of two nodes, 1 for a straight one of three, 2 for a curved one, 3 for a bar, 4 for a shell,
+/// and the first axis of its section.
+fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes: ElementUse) -> Option<(u8, Vec3)> {
+    let x = |at: usize| build.mesh.x(cell.nodes[at]);
+    let count = build.im.scopes.types[cell.kind].nodes;
+    let name = build.im.scopes.types[cell.kind].name.clone();
+    let fits = match (&card.what, becomes) {
+        (SectionOf::OfBeam { .. }, ElementUse::StraightBeam | ElementUse::CurvedBeam) => true,
+        (SectionOf::OfShell { .. }, ElementUse::Face) => true,
+        (SectionOf::OfBar(_), ElementUse::Truss) => true,
+        _ => false,
+    };
+    if !fits {
+        build.im.refuse(
+            card.line,
+            &format!("this section is not one of elements of type {name}, such as element {}", cell.id),
+        );
+        return None;
+    }
+    let SectionOf::OfBeam { n1, .. } = &card.what else {
+        return Some((if becomes == ElementUse::Face { 4 } else { 3 }, Vec3::zeros()));
+    };
+    let turned =
+        cell.instance.and_then(|at| build.im.scopes.instances[at].turn.as_ref()).map_or(*n1, |(_, turn)| turn * n1);
+    let last = count - 1;
+    let along = (x(last) - x(0)).normalize();
+    let axis = if cell.nodes.len() > count { x(count) - x(0) } else { turned };
+    let across = axis - along * axis.dot(&along);
+    if !(across.norm() > PARALLEL * axis.norm()) {
+        let about =
+            format!("the first axis of the section, {}, is parallel to element {}", vector(axis.as_slice()), cell.id);
+        build.im.refuse(card.line, &about);
+        return None;
+    }
+    if becomes == ElementUse::StraightBeam {
+        return Some((0, axis));
+    }
+    let off = (x(1) - 0.5 * (x(0) + x(2))).norm() / (x(2) - x(0)).norm();
+    if off <= STRAIGHT {
+        return Some((1, axis));
+    }
+    build.im.change(cell.line, "a beam whose middle node lies off the middle is two straight ones");
+    Some((2, axis))
+}
+
+/// Writes the pieces.
+fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>) {
+    let (mut materials, mut sections) = (HashMap::new(), HashMap::new());
+    let mut names: HashMap<usize, String> = HashMap::new();
+    let mut next = build.mesh.last_cell() + 1;
+    let rigid = rigid_cells(build);
+    for (key, cells) in pieces {
+        let card = build.im.sections[key.section].clone();
+        let Some((material, density)) = material(build, &card, &mut materials) else { continue };
+        let is_rigid = cells.iter().all(|cell| rigid.contains(cell));
+        let mut piece = PartPiece {
+            name: card.target.name.clone(),
+            names: Vec::new(),
+            is_beam: key.shape < 3,
+            is_bar: key.shape == 3,
+            elements: Vec::new(),
+            cells: cells.iter().copied().collect(),
+            size: 0.0,
+            density,
+            is_rigid,
+            sides: None,
+        };
+        if !piece.is_bar {
+            piece.name = match names.get(&key.section) {
+                Some(first) => build.deck.unique(first),
+                None => build.deck.unique_or(&card.target.name, "elements"),
+            };
+            names.entry(key.section).or_insert_with(|| piece.name.clone());
+            piece.names.push(piece.name.clone());
+        }
+        let set = piece.name.clone();
+        for &at in &cells {
+            let cell = &build.mesh.cells[at];
+            let kind = &build.im.scopes.types[cell.kind];
+            elements(&mut piece.elements, cell, (key.shape, kind.nodes), &mut next);
+            let corners = &cell.nodes[..kind.nodes];
+            build.mesh.used.extend(corners);
+            if key.shape != 3 {
+                build.rotating.extend(corners);
+            }
+        }
+        match &card.what {
+            SectionOf::OfBeam { .. } => beam(build, &card, (&mut piece, &key), &material, &mut sections),
+            SectionOf::OfShell { points, offset, .. } => {
+                piece.size = key.axis.parse().unwrap_or(0.0);
+                shell(build, &card, &piece, (&material, *points, *offset));
+            }
+            SectionOf::OfBar(area) => {
+                piece.size = *area;
+                piece.name = set;
+                bars(build, &card, &mut piece, &material);
+            }
+        }
+        build.pieces.push(piece);
+    }
+}
+
+/// Elements of rigid bodies.
+fn rigid_cells(build: &mut Build) -> BTreeSet<usize> {
+    let targets: Vec<NamedTarget> = build.im.constraints.rigid.iter().flat_map(|card| card.cells.clone()).collect();
+    targets.iter().flat_map(|target| build.cells(target)).collect()
+}
+
+/// The elements of a cell as the mesh has them.
+fn elements(
+    list: &mut Vec<(&'static str, u64, Vec<u64>)>,
+    cell: &PlacedElement,
+    (shape, count): (u8, usize),
+    next: &mut u64,
+) {
+    let nodes = cell.nodes[..count].to_vec();
+    match shape {
+        0 => list.push(("B31", cell.id, nodes)),
+        1 => list.push(("B32", cell.id, nodes)),
+        2 => {
+            list.push(("B31", cell.id, vec![nodes[0], nodes[1]]));
+            list.push(("B31", *next, vec![nodes[1], nodes[2]]));
+            *next += 1;
+        }
+        3 => list.push(("T3D2", cell.id, vec![nodes[0], nodes[count - 1]])),
+        _ => {
+            let kind = match count {
+                3 => "S3",
+                4 => "S4",
+                6 => "STRI65",
+                8 => "S8R",
+                _ => "S9R5",
+            };
+            list.push((kind, cell.id, nodes));
+        }
+    }
+}
+
+/// The name of the material of a section in the deck, and its density.
+fn material(build: &mut Build, card: &SectionCard, names: &mut HashMap<String, String>) -> Option<(String, f64)> {
+    let Some(material) = build.im.materials.find(&card.material).cloned() else {
+        let about = format!("no material is named `{}`", card.material);
+        build.im.refuse(card.line, &about);
+        return None;
+    };
+    if material.elastic.is_none() {
+        build.im.refuse(material.line, "a material of beams and shells needs *ELASTIC");
+        return None;
+    }
+    let name = names.entry(material.name.to_lowercase()).or_insert_with(|| {
+        build.deck.add(material_cards::table(&material, &material.name));
+        material.name.clone()
+    });
+    Some((name.clone(), material.density.unwrap_or(0.0)))
+}
+
+/// Adds a beam and its section.
+fn beam(
+    build: &mut Build,
+    card: &SectionCard,
+    (piece, key): (&mut PartPiece, &PieceKey),
+    material: &str,
+    sections: &mut HashMap<usize, String>,
+) {
+    let SectionOf::OfBeam { keys, offset, .. } = &card.what else { return };
+    if card.orientation.is_some() {
+        build.im.refuse(card.line, "ORIENTATION of a beam section is not read; give the first axis on the second line");
+    }
+    if *offset != [0.0; 2] {
+        build.im.refuse(
+            card.line,
+            "offsets of beam sections are not translated yet; put the nodes on the axis of the beam",
+        );
+    }
+    let name = sections.entry(key.section).or_insert_with(|| {
+        let name = card.target.name.clone();
+        let mut table = DeckTable::named("sections", &name, card.line);
+        for (key, value) in keys {
+            table = match value {
+                SectionValue::Word(word) => table.text(key, word),
+                SectionValue::Number(x) => table.number(key, *x),
+                SectionValue::Numbers(xs) => table.numbers(key, xs),
+            };
+        }
+        build.deck.add(table);
+        name
+    });
+    piece.size = area(keys);
+    piece.sides = match &keys[..] {
+        [(_, SectionValue::Word("rectangle")), (_, SectionValue::Number(a)), (_, SectionValue::Number(b))] => {
+            Some([*a, *b])
+        }
+        _ => None,
+    };
+    let table = DeckTable::new("beams", card.line)
+        .text("group", &piece.name)
+        .text("section", name)
+        .text("material", material)
+        .value("order", if key.shape == 1 { "2" } else { "1" })
+        .value("orientation", &*key.axis);
+    build.deck.add(rigid(table, piece));
+}
+
+/// The area of a section, for its mass.
+fn area(keys: &[(&'static str, SectionValue)]) -> f64 {
+    let get = |name: &str| match keys.iter().find(|(key, _)| *key == name) {
+        Some((_, SectionValue::Number(x))) => *x,
+        Some((_, SectionValue::Numbers(xs))) => xs.iter().sum(),
+        _ => 0.0,
+    };
+    match keys.first() {
+        Some((_, SectionValue::Word("rectangle"))) => get("width") * get("height"),
+        Some((_, SectionValue::Word("tube"))) => {
+            let (r, t) = (get("radius"), get("thickness"));
+            std::f64::consts::PI * t * (2.0 * r - t)
+        }
+        _ => get("area"),
+    }
+}
+
+/// Marks a part of a rigid body.
+fn rigid(table: DeckTable, piece: &PartPiece) -> DeckTable {
+    if piece.is_rigid { table.value("rigid", "true") } else { table }
+}
+
+/// Adds a shell.
+fn shell(
+    build: &mut Build,
+    card: &SectionCard,
+    piece: &PartPiece,
+    (material, points, offset): (&str, Option<u64>, f64),
+) {
+    if offset != 0.0 {
+        build.im.refuse(card.line, "rdsolve has the middle surface of a shell at its nodes: OFFSET must be 0");
+    }
+    let mut table = DeckTable::new("shells", card.line)
+        .text("group", &piece.name)
+        .value("thickness", number(piece.size))
+        .text("material", material);
+    let yields = build.im.materials.find(&card.material).is_some_and(|material| !material.plastic.is_empty());
+    if yields {
+        if let Some(points) = points.filter(|points| (2..=10).contains(points)) {
+            table = table.value("layers", points.to_string());
+        }
+        if build.im.steps.list.iter().any(|step| step.is_nonlinear) {
+            table = table.text("strain", "logarithmic");
+        }
+    }
+    if let Some(name) = &card.orientation {
+        match build.im.axes.get(&name.to_lowercase()) {
+            Some(Some([first, _])) => table = table.numbers("axis", first.as_slice()),
+            Some(None) => {}
+            None => build.im.refuse(card.line, &format!("no orientation is named `{name}`")),
+        }
+    }
+    build.deck.add(rigid(table, piece));
+}
+
+/// Adds a bar for each element.
+fn bars(build: &mut Build, card: &SectionCard, piece: &mut PartPiece, material: &str) {
+    for (_, id, nodes) in &piece.elements.clone() {
+        let name = build.deck.unique(&format!("{}_{id}", piece.name));
+        let path = list(nodes.iter().map(|node| format!("\"mesh.{node}\"")));
+        let table = DeckTable::new("bars", card.line)
+            .text("name", &name)
+            .value("path", path)
+            .text("material", material)
+            .number("area", piece.size);
+        piece.names.push(name);
+        build.deck.add(rigid(table, piece));
+    }
+}

@@ -1,0 +1,247 @@
+//! Sections of beams, shells and bars: `*BEAM SECTION`, `*SHELL SECTION`, `*SOLID SECTION` and their kin.
+
+use crate::dialect::Dialect;
+use crate::file_content::MaterialCard;
+use crate::file_content::{SectionCard, SectionOf, SectionValue};
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+use base::math::Vec3;
+
+/// Elements and material of a section; refuses what lacks them.
+fn section(im: &mut Importer, block: &KeywordBlock) -> Option<SectionCard> {
+    let line = block.keyword.line;
+    let Some(set) = block.keyword.value("ELSET") else {
+        im.refuse(line, &format!("*{} needs ELSET=", block.keyword.name));
+        return None;
+    };
+    let material = block.keyword.value("MATERIAL").unwrap_or_default().to_owned();
+    let orientation = block.keyword.value("ORIENTATION").map(str::to_owned);
+    Some(SectionCard { line, target: im.set_target(set, line), material, what: SectionOf::OfBar(0.0), orientation })
+}
+
+/// `*SOLID SECTION`.
+pub fn solid(im: &mut Importer, block: &KeywordBlock) {
+    let area = block.data.first().and_then(|data| im.number_at(data, 0)).unwrap_or(1.0);
+    if let Some(card) = section(im, block) {
+        im.sections.push(SectionCard { what: SectionOf::OfBar(area), ..card });
+    }
+}
+
+/// `*SHELL SECTION`.
+pub fn shell(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    if block.keyword.has("COMPOSITE") {
+        return im.refuse(line, "rdsolve has no layered shells");
+    }
+    if block.keyword.has("SHELLTHICKNESS") {
+        return im.refuse(line, "thickness by a distribution is not translated; give each thickness a section");
+    }
+    let offset = match block.keyword.value("OFFSET").map(str::to_ascii_uppercase).as_deref() {
+        None | Some("MIDDLE") => 0.0,
+        Some("SPOS") => 0.5,
+        Some("SNEG") => -0.5,
+        Some(text) => match text.parse::<f64>() {
+            Ok(offset) => offset,
+            Err(_) => return im.refuse(line, "OFFSET must be a number, SPOS or SNEG"),
+        },
+    };
+    let nodal = block.keyword.has("NODALTHICKNESS");
+    let thickness = block.data.first().and_then(|data| im.number_at(data, 0)).filter(|_| !nodal);
+    if thickness.is_none() && !nodal {
+        return im.refuse(line, "a shell section needs a thickness on the line below");
+    }
+    let points = block.data.first().and_then(|data| data.words.get(1)).and_then(|word| word.whole());
+    if let Some(card) = section(im, block) {
+        im.sections.push(SectionCard { what: SectionOf::OfShell { thickness, points, offset }, ..card });
+    }
+}
+
+/// `*NODAL THICKNESS`.
+pub fn nodal_thickness(im: &mut Importer, block: &KeywordBlock) {
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
+        let Some(thickness) = im.number_at(data, 1) else { continue };
+        let target = im.target(&data.words[0]);
+        im.thicknesses.push((target, thickness));
+    }
+}
+
+/// `*BEAM SECTION`.
+pub fn beam(im: &mut Importer, block: &KeywordBlock) {
+    read_beam(im, block, false);
+}
+
+/// `*BEAM GENERAL SECTION`.
+pub fn general_beam(im: &mut Importer, block: &KeywordBlock) {
+    read_beam(im, block, true);
+}
+
+fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
+    let line = block.keyword.line;
+    let Some(mut card) = section(im, block) else { return };
+    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
+    let word = block.keyword.value("SECTION").unwrap_or("GENERAL").to_ascii_uppercase();
+    let word = ["RECT", "CIRC"]
+        .iter()
+        .find(|short| word.starts_with(**short))
+        .map_or(word.clone(), |short| (*short).to_owned());
+    let sizes = rows.first().map(Vec::as_slice).unwrap_or_default();
+    let keys = match shape(&word, sizes, im.dialect) {
+        Ok(keys) => keys,
+        Err(why) => return im.refuse(line, &why),
+    };
+    if word == "GENERAL" && im.dialect != Some(Dialect::Calculix) {
+        im.change(line, "the shear areas are the area; Abaqus lowers them for slender elements");
+    }
+    let n1 = match rows.get(1).map(Vec::as_slice) {
+        Some([x, rest @ ..]) if [*x].iter().chain(rest).any(|x| *x != 0.0) => {
+            Vec3::new(*x, rest.first().copied().unwrap_or(0.0), rest.get(1).copied().unwrap_or(0.0))
+        }
+        _ => Vec3::new(0.0, 0.0, -1.0),
+    };
+    let own = rows.get(2).filter(|_| is_general && card.material.is_empty());
+    if let Some([modulus, shear, ..]) = own.map(Vec::as_slice) {
+        card.material = format!("{}_material", card.target.name);
+        let density = block.keyword.value("DENSITY").and_then(|text| text.parse().ok());
+        let elastic = Some([*modulus, modulus / (2.0 * shear) - 1.0]);
+        let name = card.material.clone();
+        im.materials.list.push(MaterialCard { name, line, elastic, density, ..MaterialCard::default() });
+    }
+    let mut read = |name: &str| match block.keyword.value(name) {
+        None => 0.0,
+        Some(text) => text.parse().unwrap_or_else(|_| {
+            im.refuse(line, &format!("{name} must be a number"));
+            0.0
+        }),
+    };
+    let offset = [read("OFFSET1"), read("OFFSET2")];
+    card.what = SectionOf::OfBeam { keys, n1, offset };
+    im.sections.push(card);
+}
+
+/// The keys of a section of beams.
+fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<Vec<(&'static str, SectionValue)>, String> {
+    use SectionValue::{Number, Numbers, Word};
+    let needs = |count: usize| match sizes.len() >= count {
+        true => Ok(()),
+        false => Err(format!("SECTION={word} needs {count} numbers on the line below")),
+    };
+    let at = |i: usize| Number(sizes[i]);
+    Ok(match word {
+        "RECT" => {
+            // CalculiX takes the first side for a second one that is missing.
+            needs(if dialect == Some(Dialect::Calculix) { 1 } else { 2 })?;
+            vec![("shape", Word("rectangle")), ("width", at(0)), ("height", at(sizes.len().min(2) - 1))]
+        }
+        "CIRC" => {
+            needs(1)?;
+            let radius = match dialect {
+                None => {
+                    return Err("SECTION=CIRC has the radius in Abaqus and the diameter in CalculiX: say --from abaqus or --from \
+                                calculix"
+                        .to_owned());
+                }
+                Some(Dialect::Abaqus) => sizes[0],
+                Some(Dialect::Calculix) if sizes.get(1).is_some_and(|other| *other != sizes[0]) => {
+                    return Ok(ellipse(sizes[0], sizes[1]));
+                }
+                Some(Dialect::Calculix) => 0.5 * sizes[0],
+            };
+            vec![("shape", Word("tube")), ("radius", Number(radius)), ("thickness", Number(radius))]
+        }
+        "PIPE" | "THICKPIPE" => {
+            needs(2)?;
+            vec![("shape", Word("tube")), ("radius", at(0)), ("thickness", at(1))]
+        }
+        "BOX" => {
+            needs(6)?;
+            if sizes[2] != sizes[4] || sizes[3] != sizes[5] {
+                return Err("opposite walls of a box are alike in rdsolve".to_owned());
+            }
+            let walls = Numbers(vec![sizes[2], sizes[3]]);
+            vec![("shape", Word("box")), ("width", at(0)), ("height", at(1)), ("thickness", walls)]
+        }
+        "I" => {
+            needs(7)?;
+            i_section(sizes)?
+        }
+        "L" => {
+            needs(4)?;
+            let legs = Numbers(vec![sizes[3], sizes[2]]);
+            vec![("shape", Word("l")), ("width", at(0)), ("height", at(1)), ("thickness", legs)]
+        }
+        "GENERAL" => {
+            needs(4)?;
+            general(sizes, dialect)
+        }
+        _ => return Err(format!("SECTION={word} is not translated; give its area and moments by SECTION=GENERAL")),
+    })
+}
+
+/// An ellipse with these axes, by its integrals.
+fn ellipse(a: f64, b: f64) -> Vec<(&'static str, SectionValue)> {
+    use SectionValue::{Number, Numbers, Word};
+    let (a, b) = (0.5 * a, 0.5 * b);
+    let area = std::f64::consts::PI * a * b;
+    let torsion = area * a * a * b * b / (a * a + b * b);
+    vec![
+        ("shape", Word("general")),
+        ("area", Number(area)),
+        ("moments", Numbers(vec![0.25 * area * b * b, 0.25 * area * a * a])),
+        ("torsion_constant", Number(torsion)),
+        ("shear_areas", Numbers(vec![0.9 * area, 0.9 * area])),
+    ]
+}
+
+/// An I section whose node lies at its centroid.
+fn i_section(sizes: &[f64]) -> Result<Vec<(&'static str, SectionValue)>, String> {
+    use SectionValue::{Number, Word};
+    let [l, height, bottom, top, lower, upper, web] = sizes[..7] else { unreachable!("seven numbers") };
+    let middle = height - lower - upper;
+    let areas =
+        [(bottom * lower, 0.5 * lower), (top * upper, height - 0.5 * upper), (web * middle, lower + 0.5 * middle)];
+    let area: f64 = areas.iter().map(|part| part.0).sum();
+    let centroid = areas.iter().map(|(area, z)| area * z).sum::<f64>() / area;
+    if (l - centroid).abs() > 1e-3 * height {
+        return Err(format!(
+            "the node of this I section lies {l} above its lower edge, and rdsolve has it at the centroid, {centroid:.6}"
+        ));
+    }
+    Ok(vec![
+        ("shape", Word("i")),
+        ("height", Number(height)),
+        ("bottom_width", Number(bottom)),
+        ("top_width", Number(top)),
+        ("bottom_flange_thickness", Number(lower)),
+        ("top_flange_thickness", Number(upper)),
+        ("web_thickness", Number(web)),
+    ])
+}
+
+/// Area and moments: area, I11, I12, I22, then the torsion constant of Abaqus or the shear factor of CalculiX.
+fn general(sizes: &[f64], dialect: Option<Dialect>) -> Vec<(&'static str, SectionValue)> {
+    use SectionValue::{Number, Numbers, Word};
+    let fifth = sizes.get(4).copied().filter(|x| *x > 0.0);
+    let (torsion, factor) = match dialect {
+        Some(Dialect::Calculix) => (sizes[1] + sizes[3], fifth.unwrap_or(5.0 / 6.0)),
+        _ => (fifth.unwrap_or(sizes[1] + sizes[3]), 1.0),
+    };
+    let mut keys = vec![
+        ("shape", Word("general")),
+        ("area", Number(sizes[0])),
+        ("moments", Numbers(vec![sizes[1], sizes[3]])),
+        ("torsion_constant", Number(torsion)),
+        ("shear_areas", Numbers(vec![factor * sizes[0], factor * sizes[0]])),
+    ];
+    if sizes[2] != 0.0 {
+        keys.push(("product_moment", Number(sizes[2])));
+    }
+    keys
+}
+
+/// `*NO COMPRESSION`: the sets of bars that take tension alone.
+pub fn no_compression(im: &mut Importer, block: &KeywordBlock) {
+    im.refuse(
+        block.keyword.line,
+        "which bars take tension alone is not read; set `tension_only = true` of [[bars]] in the deck",
+    );
+}

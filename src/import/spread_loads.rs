@@ -1,0 +1,209 @@
+//! Loads per length and per area, and gravity.
+
+use crate::build::Build;
+use crate::deck_text::DeckTable;
+use crate::dialect::Dialect;
+use crate::file_content::{SpreadLine, StepProcedure};
+use crate::loads::{in_time, lines_of, refuse_two_laws};
+use crate::part_piece::PartPiece;
+use crate::scopes::NamedTarget;
+use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
+use base::math::Vec3;
+use std::collections::{BTreeMap, BTreeSet};
+
+/// What tells one load from another: surface or elements, their name, kind, direction as text.
+type SpreadKey = (bool, NamedTarget, String, String);
+
+fn key(line: &SpreadLine) -> SpreadKey {
+    let target = NamedTarget { line: 0, ..line.target.clone() };
+    (line.is_surface, target, line.kind.clone(), format!("{:?}", line.values.get(1..).unwrap_or_default()))
+}
+
+fn value_of(line: &SpreadLine) -> GivenValue {
+    let value = line.values.first().copied().unwrap_or(0.0);
+    GivenValue { value, amplitude: line.amplitude.clone(), line: line.line }
+}
+
+/// Adds all distributed loads.
+pub fn spread_loads(build: &mut Build) {
+    for step in build.im.steps.list.clone() {
+        let all = step.spread.iter().map(|line| (format!("{:?}", key(line)), value_of(line)));
+        refuse_two_laws(build, all);
+    }
+    let given = |lines: &[SpreadLine]| -> Vec<(SpreadKey, GivenValue)> {
+        let mut sum: BTreeMap<SpreadKey, GivenValue> = BTreeMap::new();
+        for line in lines {
+            let one = value_of(line);
+            sum.entry(key(line)).and_modify(|other| other.value += one.value).or_insert(one);
+        }
+        sum.into_iter().collect()
+    };
+    let steps = &build.im.steps.list;
+    let lines: Vec<SpreadLine> = steps.iter().flat_map(|step| step.spread.clone()).collect();
+    let all = histories(&build.timeline, steps, Vec::new(), |step| given(&step.spread), |step| step.new_spread);
+    let mut of_buckling = Vec::new();
+    for (at, stage) in build.timeline.stages.iter().enumerate().filter(|_| build.timeline.is_staged()) {
+        let step = &steps[stage.step];
+        if matches!(step.procedure, Some((StepProcedure::Buckle { .. }, _))) && !build.timeline.general.contains(&at) {
+            of_buckling.extend(given(&step.spread).into_iter().map(|(key, given)| (key, given, stage.name.clone())));
+        }
+    }
+    for (of, history) in all {
+        let at = lines_of(&history);
+        let law = build.law(&history, false);
+        if let Some(line) = lines.iter().find(|line| key(line) == of).cloned() {
+            one(build, &line, &law, (&at, &history));
+        }
+    }
+    for (of, given, stage) in of_buckling {
+        let law = TimeLaw { scale: given.value, amplitude: None, stages: Some(vec![stage]) };
+        if let Some(line) = lines.iter().find(|line| key(line) == of).cloned() {
+            one(build, &line, &law, (&[given.line], &[]));
+        }
+    }
+}
+
+/// Adds one load.
+fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&[usize], &[InStep])) {
+    if law.scale == 0.0 {
+        return;
+    }
+    if line.kind == "GRAV" {
+        return gravity(build, line, law, (lines, history));
+    }
+    if line.is_surface {
+        return surface(build, line, law, lines);
+    }
+    let pieces = pieces(build, &line.target, line.line);
+    for piece in pieces {
+        let table = DeckTable::new("loads", 0).from_lines(lines.iter().copied());
+        let of_piece = if piece.is_beam || piece.is_bar { Some(()) } else { None };
+        let table = table.names("part", &piece.names);
+        let unit = |at: usize| {
+            let mut x = [0.0; 3];
+            x[at] = law.scale;
+            x
+        };
+        let size = piece.size;
+        let direction = |last: u8| usize::from(last.wrapping_sub(b'X')).min(2);
+        let table = match (line.kind.as_bytes(), of_piece) {
+            (b"P", None) => pressure(build, table, -law.scale),
+            ([b'P', last @ b'X'..=b'Z'], Some(())) => table.numbers("force_per_length", &unit(direction(*last))),
+            ([b'B', last @ b'X'..=b'Z'], Some(())) if size > 0.0 => {
+                table.numbers("force_per_length", &unit(direction(*last)).map(|x| x * size))
+            }
+            ([b'B', last @ b'X'..=b'Z'], None) => {
+                table.numbers("force_per_area", &unit(direction(*last)).map(|x| x * size))
+            }
+            (b"P1" | b"P2", Some(())) if piece.is_beam => {
+                let axis = usize::from(line.kind.ends_with('2'));
+                let width = match width(build, &piece, axis) {
+                    Ok(width) => width,
+                    Err(why) => return build.im.refuse(line.line, why),
+                };
+                let mut local = [0.0; 3];
+                local[1 + axis] = law.scale * width;
+                table.numbers("local", &local)
+            }
+            _ => {
+                build.im.refuse(line.line, &reason(&line.kind));
+                return;
+            }
+        };
+        build.deck.add(in_time(table, Some(law)));
+    }
+}
+
+/// Why a kind of load is not translated.
+fn reason(kind: &str) -> String {
+    match kind {
+        "CENTRIF" | "CENT" | "ROTA" | "CORIO" => {
+            format!("loads of kind {kind} act in a rotating frame; give the parts an angular velocity instead")
+        }
+        "NEWTON" => "bodies do not attract each other in rdsolve".to_owned(),
+        _ if kind.starts_with("ED") => {
+            format!("loads of kind {kind} act on edges: give a force per length at a set of nodes")
+        }
+        _ => format!("loads of kind {kind} are not translated"),
+    }
+}
+
+/// The width of the side that a pressure of CalculiX acts on; 1 for a force per length of Abaqus.
+fn width(build: &Build, piece: &PartPiece, axis: usize) -> Result<f64, &'static str> {
+    match (build.im.dialect, piece.sides) {
+        (Some(Dialect::Abaqus), _) => Ok(1.0),
+        (Some(Dialect::Calculix), Some(sides)) => Ok(sides[1 - axis]),
+        (Some(Dialect::Calculix), None) => Err("the width that this pressure acts on is known of rectangles alone"),
+        (None, _) => Err("P1 and P2 are forces per length in Abaqus and pressures on a side in CalculiX: say --from \
+                          abaqus or --from calculix"),
+    }
+}
+
+fn pressure(build: &Build, table: DeckTable, value: f64) -> DeckTable {
+    let table = table.number("pressure", value);
+    let is_nonlinear = build.im.steps.list.iter().any(|step| step.is_nonlinear);
+    if is_nonlinear { table.value("follower", "true") } else { table }
+}
+
+/// Parts that lie in a set of elements.
+fn pieces(build: &mut Build, target: &NamedTarget, line: usize) -> Vec<PartPiece> {
+    let cells: BTreeSet<usize> = build.cells(&NamedTarget { line, ..target.clone() }).into_iter().collect();
+    let inside: Vec<PartPiece> = build.pieces.iter().filter(|piece| piece.cells.is_subset(&cells)).cloned().collect();
+    if inside.is_empty() && !cells.is_empty() && !build.im.is_incomplete() {
+        build.im.refuse(line, "this load acts on elements that are no beams, bars or shells of the deck");
+    }
+    inside
+}
+
+/// A load on a surface.
+fn surface(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize]) {
+    let found = build.im.scopes.surface(&line.target).map(<[(NamedTarget, String)]>::to_vec);
+    let Some(found) = found else {
+        return build.im.refuse(line.line, &format!("no surface is named `{}`", line.target.name));
+    };
+    for (set, side) in found {
+        let sense = match (&side[..], &line.kind[..]) {
+            ("SPOS" | "", "P") => 1.0,
+            ("SNEG", "P") => -1.0,
+            _ => {
+                let about =
+                    format!("of loads on surfaces P on SPOS or SNEG is translated, not {} on {side}", line.kind);
+                return build.im.refuse(line.line, &about);
+            }
+        };
+        for piece in pieces(build, &set, line.line) {
+            let table = DeckTable::new("loads", 0).from_lines(lines.iter().copied()).names("part", &piece.names);
+            let table = pressure(build, table, sense * law.scale);
+            build.deck.add(in_time(table, Some(law)));
+        }
+    }
+}
+
+/// Gravity acts on everything.
+fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&[usize], &[InStep])) {
+    let of = |at: usize| line.values.get(at).copied().unwrap_or(0.0);
+    let Some(direction) = Vec3::new(of(1), of(2), of(3)).try_normalize(0.0) else {
+        return build.im.refuse(line.line, "GRAV needs the direction behind its magnitude");
+    };
+    if !line.target.name.is_empty() {
+        let cells: BTreeSet<usize> = build.cells(&line.target).into_iter().collect();
+        let heavy = build.pieces.iter().filter(|piece| piece.density > 0.0);
+        if heavy.clone().any(|piece| !piece.cells.is_subset(&cells)) {
+            return build.im.refuse(
+                line.line,
+                "gravity acts on everything in rdsolve, and this set does not hold all that has mass",
+            );
+        }
+    }
+    if build.has_gravity {
+        return build.im.refuse(line.line, "gravity has one direction and one amplitude in rdsolve");
+    }
+    build.has_gravity = true;
+    let law = if law.stages.is_some() { build.law_as_table(history) } else { law.clone() };
+    let g = direction * law.scale;
+    let table = DeckTable::new("environment", 0).from_lines(lines.iter().copied()).numbers("gravity", g.as_slice());
+    build.deck.add(match &law.amplitude {
+        Some(name) => table.text("gravity_amplitude", name),
+        None => table,
+    });
+}

@@ -1,0 +1,295 @@
+//! Steps: what each computes, and which supports and loads begin in it.
+
+use crate::file_content::{ForceLine, SpreadLine, StepCard, StepProcedure, SupportLine};
+use crate::importer::Importer;
+use crate::keyword_block::KeywordBlock;
+use base::text_file::cards::{Data, name_in};
+
+/// `*STEP`.
+pub fn step(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let number = im.steps.list.len() + 1;
+    let is_yes =
+        |name: &str| keyword.has(name) && !keyword.value(name).is_some_and(|value| value.eq_ignore_ascii_case("NO"));
+    let jumps = keyword.value("AMPLITUDE").map(|word| word.eq_ignore_ascii_case("STEP"));
+    im.steps.is_open = true;
+    im.steps.list.push(StepCard {
+        line,
+        name: keyword.value("NAME").map_or_else(|| format!("step_{number}"), str::to_owned),
+        is_nonlinear: is_yes("NLGEOM"),
+        is_perturbation: is_yes("PERTURBATION"),
+        jumps,
+        ..StepCard::default()
+    });
+}
+
+/// `*END STEP`.
+pub fn end_step(im: &mut Importer, _: &KeywordBlock) {
+    im.steps.is_open = false;
+}
+
+/// Sets what the step at hand computes.
+fn set(im: &mut Importer, line: usize, procedure: StepProcedure) {
+    if !im.steps.is_open {
+        return im.refuse(line, "no *STEP is open at this line");
+    }
+    im.steps.at_hand().procedure = Some((procedure, line));
+}
+
+/// Step and duration on the first line of data.
+fn times(im: &mut Importer, block: &KeywordBlock) -> [Option<f64>; 2] {
+    let mut read = |at: usize| block.data.first().and_then(|data| im.number_at(data, at)).filter(|time| *time > 0.0);
+    [read(0), read(1)]
+}
+
+/// `*STATIC`.
+pub fn statics(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let [step, duration] = times(im, block);
+    let duration = duration.unwrap_or(1.0);
+    if block.keyword.has("STABILIZE") {
+        im.change(line, "nothing is stabilized by dampers; rdsolve halves load steps that do not converge");
+    }
+    let is_riks = block.keyword.has("RIKS");
+    let step = step.unwrap_or(duration).min(duration);
+    set(im, line, StepProcedure::Static { step, duration, is_riks });
+}
+
+/// `*DYNAMIC`.
+pub fn dynamic(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let is_explicit = keyword.has("EXPLICIT");
+    let [first, second] = times(im, block);
+    let has_direct = keyword.has("DIRECT");
+    // In Abaqus/Explicit the first field is the time step, blank as a rule.
+    let (step, duration) = (first.filter(|_| has_direct), second);
+    let Some(duration) = duration.or(first.filter(|_| !is_explicit)) else {
+        return im.refuse(line, "*DYNAMIC needs the time step and the duration on the line below");
+    };
+    let alpha = match keyword.value("ALPHA") {
+        None => -0.05,
+        Some(text) => match text.parse() {
+            Ok(alpha) => alpha,
+            Err(_) => return im.refuse(line, "ALPHA must be a number"),
+        },
+    };
+    if keyword.has("APPLICATION") {
+        im.change(line, "APPLICATION chooses further settings, which are not those of rdsolve");
+    }
+    set(im, line, StepProcedure::Dynamic { step, duration, alpha, is_explicit, mass_scaling: None });
+}
+
+/// `*MODAL DYNAMIC`.
+pub fn modal_dynamic(im: &mut Importer, block: &KeywordBlock) {
+    let [first, second] = times(im, block);
+    let Some(duration) = second else { return im.refuse(block.keyword.line, "*MODAL DYNAMIC needs the duration") };
+    im.change(block.keyword.line, "all motions take part, not only the modes computed before");
+    set(
+        im,
+        block.keyword.line,
+        StepProcedure::Dynamic { step: first, duration, alpha: 0.0, is_explicit: false, mass_scaling: None },
+    );
+}
+
+/// `*FREQUENCY`.
+pub fn frequency(im: &mut Importer, block: &KeywordBlock) {
+    modes(im, block, false);
+}
+
+/// `*COMPLEX FREQUENCY`.
+pub fn complex_frequency(im: &mut Importer, block: &KeywordBlock) {
+    if block.keyword.has("CORIOLIS") {
+        return im.refuse(block.keyword.line, "rotating frames are not translated");
+    }
+    modes(im, block, true);
+}
+
+fn modes(im: &mut Importer, block: &KeywordBlock, is_complex: bool) {
+    let count = block.data.first().and_then(|data| data.words.first()).and_then(|word| word.whole());
+    let mut at = |at: usize| block.data.first().and_then(|data| im.number_at(data, at)).filter(|x| *x > 0.0);
+    let [from, up_to] = [at(1), at(2)];
+    if from.is_some() && !is_complex {
+        im.change(block.keyword.line, "modes below the lower frequency are computed as well");
+    }
+    let up_to = if is_complex { None } else { up_to };
+    set(im, block.keyword.line, StepProcedure::Frequency { count, up_to, is_complex });
+}
+
+/// `*BUCKLE`.
+pub fn buckle(im: &mut Importer, block: &KeywordBlock) {
+    let count = block.data.first().and_then(|data| data.words.first()).and_then(|word| word.whole()).unwrap_or(1);
+    set(im, block.keyword.line, StepProcedure::Buckle { count });
+}
+
+/// True where earlier entries end.
+fn is_new(block: &KeywordBlock) -> bool {
+    block.keyword.value("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW"))
+}
+
+/// Degrees of freedom by the words of `*BOUNDARY`.
+const WORDS: [(&str, &[usize]); 10] = [
+    ("ENCASTRE", &[0, 1, 2, 3, 4, 5]),
+    ("PINNED", &[0, 1, 2]),
+    ("XSYMM", &[0, 4, 5]),
+    ("YSYMM", &[1, 3, 5]),
+    ("ZSYMM", &[2, 3, 4]),
+    ("XASYMM", &[1, 2, 3]),
+    ("YASYMM", &[0, 2, 4]),
+    ("ZASYMM", &[0, 1, 5]),
+    ("NOWARP", &[]),
+    ("NOOVAL", &[]),
+];
+
+/// `*BOUNDARY`.
+pub fn boundary(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let history = match keyword.value("TYPE").map(str::to_ascii_uppercase).as_deref() {
+        None | Some("DISPLACEMENT") => "displacement",
+        Some("VELOCITY") => "velocity",
+        Some("ACCELERATION") => "acceleration",
+        Some(_) => return im.refuse(line, "TYPE is DISPLACEMENT, VELOCITY or ACCELERATION"),
+    };
+    if is_new(block) {
+        let step = im.steps.at_hand();
+        (step.new_supports, step.supports) = (true, Vec::new());
+    }
+    let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
+        let Some((degrees, value)) = directions(im, data) else { continue };
+        let (target, amplitude) = (im.target(&data.words[0]), amplitude.clone());
+        let is_fixed = keyword.has("FIXED");
+        let support = SupportLine { line: data.line, target, degrees, value, amplitude, history, is_fixed };
+        im.steps.at_hand().supports.push(support);
+    }
+}
+
+/// Degrees of freedom and the value on a line of `*BOUNDARY`.
+fn directions(im: &mut Importer, data: &Data) -> Option<(Vec<usize>, f64)> {
+    let Some(second) = data.words.get(1) else {
+        im.refuse(data.line, "this line needs a degree of freedom");
+        return None;
+    };
+    let word = name_in(second).to_ascii_uppercase();
+    if let Some((_, degrees)) = WORDS.iter().find(|(known, _)| *known == word) {
+        return Some((degrees.to_vec(), 0.0));
+    }
+    let first = im.id(data, 1)?;
+    let blank = data.words.get(2).is_none_or(|word| word.bytes.is_empty());
+    let last = if blank { first } else { im.id(data, 2)? };
+    if first == 0 || last < first || last > 6 {
+        let about = match first {
+            7.. => "rdsolve has the degrees of freedom 1 to 6 alone: no warping, pressure or temperature",
+            _ => "first and last degree of freedom must count upwards from 1 to 6",
+        };
+        im.refuse_at(second, about);
+        return None;
+    }
+    let value = im.number_at(data, 3).unwrap_or(0.0);
+    Some(((first as usize - 1..last as usize).collect(), value))
+}
+
+/// `*CLOAD`.
+pub fn forces(im: &mut Importer, block: &KeywordBlock) {
+    let keyword = &block.keyword;
+    if keyword.value("LOADCASE").is_some_and(|case| case != "1") {
+        return im.refuse(keyword.line, "a load with a phase is not translated");
+    }
+    if is_new(block) {
+        let step = im.steps.at_hand();
+        (step.new_forces, step.forces) = (true, Vec::new());
+    }
+    let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
+        let Some(degree) = im.id(data, 1) else { continue };
+        if !(1..=6).contains(&degree) {
+            im.refuse(data.line, "rdsolve has forces along the degrees of freedom 1 to 6 alone");
+            continue;
+        }
+        let value = im.number_at(data, 2).unwrap_or(0.0);
+        let (target, amplitude) = (im.target(&data.words[0]), amplitude.clone());
+        let is_follower = keyword.has("FOLLOWER");
+        let force = ForceLine { line: data.line, target, degree: degree as usize - 1, value, amplitude, is_follower };
+        im.steps.at_hand().forces.push(force);
+    }
+}
+
+/// `*DLOAD`.
+pub fn element_loads(im: &mut Importer, block: &KeywordBlock) {
+    spread(im, block, false);
+}
+
+/// `*DSLOAD`.
+pub fn surface_loads(im: &mut Importer, block: &KeywordBlock) {
+    spread(im, block, true);
+}
+
+fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
+    if is_new(block) {
+        let step = im.steps.at_hand();
+        (step.new_spread, step.spread) = (true, Vec::new());
+    }
+    let amplitude = block.keyword.value("AMPLITUDE").map(str::to_owned);
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
+        let Some(kind) = data.words.get(1).map(name_in) else {
+            im.refuse(data.line, "this line needs the kind of the load");
+            continue;
+        };
+        let values = (2..data.filled()).map(|at| im.number_at(data, at).unwrap_or(0.0)).collect();
+        let (target, amplitude, kind) = (im.target(&data.words[0]), amplitude.clone(), kind.to_ascii_uppercase());
+        im.steps.at_hand().spread.push(SpreadLine { line: data.line, target, is_surface, kind, values, amplitude });
+    }
+}
+
+/// `*INITIAL CONDITIONS`.
+pub fn initial_conditions(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    match block.keyword.value("TYPE").unwrap_or_default().to_ascii_uppercase().as_str() {
+        "VELOCITY" => {
+            for data in block.data.iter().filter(|data| data.filled() > 0) {
+                let Some(degree) = im.id(data, 1).filter(|degree| (1..=6).contains(degree)) else { continue };
+                let (value, target) = (im.number_at(data, 2).unwrap_or(0.0), im.target(&data.words[0]));
+                im.steps.velocities.push((data.line, target, degree as usize - 1, value));
+            }
+        }
+        "TEMPERATURE" => im.ignore(line, "no temperature changes"),
+        kind => im.refuse(line, &format!("initial conditions of TYPE={kind} are not translated")),
+    }
+}
+
+/// `*NODE PRINT`, `*NODE FILE`, `*NODE OUTPUT`.
+pub fn node_output(im: &mut Importer, block: &KeywordBlock) {
+    let words: Vec<String> =
+        block.data.iter().flat_map(|data| &data.words).map(|word| name_in(word).to_ascii_uppercase()).collect();
+    let requests = &mut im.steps.requests;
+    requests.nodes |= words.iter().any(|word| word.starts_with(['U', 'V', 'A']));
+    requests.reactions |= words.iter().any(|word| word.starts_with("RF"));
+    requests.fields |= block.keyword.key() != "NODEPRINT";
+}
+
+/// `*EL PRINT`, `*EL FILE`, `*ELEMENT OUTPUT`, `*SECTION PRINT`.
+pub fn element_output(im: &mut Importer, block: &KeywordBlock) {
+    let words: Vec<String> =
+        block.data.iter().flat_map(|data| &data.words).map(|word| name_in(word).to_ascii_uppercase()).collect();
+    im.steps.requests.sections |= words.iter().any(|word| word.starts_with('S') || word.starts_with("PEEQ"));
+}
+
+/// `*OUTPUT`.
+pub fn output(im: &mut Importer, block: &KeywordBlock) {
+    let keyword = &block.keyword;
+    let preselect = keyword
+        .value("VARIABLE")
+        .is_some_and(|word| ["PRESELECT", "ALL"].contains(&word.to_ascii_uppercase().as_str()));
+    let requests = &mut im.steps.requests;
+    requests.fields |= keyword.has("FIELD");
+    requests.nodes |= preselect || keyword.has("FIELD");
+    requests.reactions |= preselect;
+    requests.sections |= preselect;
+}
+
+/// `*HEADING`.
+pub fn heading(im: &mut Importer, block: &KeywordBlock) {
+    // PrePoMax has its own remarks there.
+    if let Some(data) = block.data.iter().find(|data| !data.words[0].bytes.starts_with(b"Hash:")) {
+        im.title = data.words.iter().map(|word| word.text()).collect::<Vec<_>>().join(", ");
+    }
+}

@@ -1,0 +1,222 @@
+//! Supports: which degrees of freedom are held or moved, in which stages.
+
+use crate::bodies::DEGREES;
+use crate::build::Build;
+use crate::deck_text::{DeckTable, inline, list, number, quoted};
+use crate::file_content::SupportLine;
+use crate::scopes::NamedTarget;
+use crate::timeline::{GivenValue, InStep, histories};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+/// What becomes of a degree of freedom.
+#[derive(Debug, Clone, PartialEq)]
+enum HeldAs {
+    /// Held where it is.
+    Fixed,
+    /// Moved: scale, amplitude, and what the amplitude gives.
+    Moved(f64, Option<String>, &'static str),
+}
+
+/// A degree of freedom and the stages in which it is held.
+type Held = (HeldAs, Option<Vec<String>>);
+
+/// Nodes that are held alike, and the lines that say so.
+#[derive(Default)]
+struct Alike {
+    held: [Option<Held>; 6],
+    nodes: BTreeSet<u64>,
+    lines: BTreeSet<usize>,
+}
+
+/// Adds all supports.
+pub fn supports(build: &mut Build) {
+    let steps = &build.im.steps;
+    let lines: Vec<SupportLine> =
+        steps.list.iter().chain([&steps.before]).flat_map(|step| step.supports.clone()).collect();
+    let by_line: HashMap<usize, SupportLine> = lines.iter().map(|line| (line.line, line.clone())).collect();
+    let given: HashMap<usize, Vec<((u64, usize), GivenValue)>> =
+        lines.iter().map(|line| (line.line, given(build, line))).collect();
+    let of = |supports: &[SupportLine]| -> Vec<((u64, usize), GivenValue)> {
+        supports.iter().flat_map(|line| given[&line.line].clone()).collect()
+    };
+    let steps = &build.im.steps;
+    let all = histories(
+        &build.timeline,
+        &steps.list,
+        of(&steps.before.supports),
+        |step| of(&step.supports),
+        |step| step.new_supports,
+    );
+    let mut of_node: BTreeMap<u64, Alike> = BTreeMap::new();
+    for ((node, dof), history) in all {
+        let lines: Vec<usize> = history
+            .iter()
+            .filter_map(|state| if let InStep::Begins(given) = state { Some(given.line) } else { None })
+            .collect();
+        let held = held(build, history, &by_line);
+        let entry = of_node.entry(node).or_default();
+        entry.held[dof] = held;
+        entry.lines.extend(lines);
+    }
+    add_rotations(build, &mut of_node);
+    let mut groups: BTreeMap<String, Alike> = BTreeMap::new();
+    for (node, alike) in of_node {
+        let group = groups.entry(format!("{:?}", alike.held)).or_default();
+        group.held = alike.held;
+        group.nodes.insert(node);
+        group.lines.extend(alike.lines);
+    }
+    let targets: Vec<NamedTarget> = lines.iter().map(|line| line.target.clone()).collect();
+    for group in groups.into_values() {
+        write(build, group, &targets);
+    }
+}
+
+/// Nodes and degrees of freedom of a line; those of a node that turns a body are rotations of the body.
+fn given(build: &mut Build, line: &SupportLine) -> Vec<((u64, usize), GivenValue)> {
+    let nodes = build.nodes(&line.target);
+    let mut given = Vec::new();
+    let mut unused = false;
+    for node in nodes {
+        let (node, shift) = match build.turned.get(&node) {
+            Some(&reference) => (reference, 3),
+            None => (node, 0),
+        };
+        if !build.mesh.used.contains(&node) {
+            unused = true;
+            continue;
+        }
+        for dof in line.degrees.iter().map(|dof| dof + shift).filter(|dof| *dof < 6) {
+            let value = GivenValue { value: line.value, amplitude: line.amplitude.clone(), line: line.line };
+            given.push(((node, dof), value));
+        }
+    }
+    if unused {
+        build.im.ignore(line.line, "nodes without elements are not in the model");
+    }
+    given
+}
+
+/// What becomes of one degree of freedom.
+fn held(build: &mut Build, mut history: Vec<InStep>, lines: &HashMap<usize, SupportLine>) -> Option<Held> {
+    let is_fixed = |given: &GivenValue| lines.get(&given.line).is_some_and(|line| line.is_fixed);
+    for at in 1..history.len() {
+        if let InStep::Begins(given) = &history[at]
+            && is_fixed(given)
+            && history[at - 1] != InStep::Absent
+        {
+            history[at] = InStep::Holds;
+        }
+    }
+    let first = history.iter().position(|state| *state != InStep::Absent)?;
+    let InStep::Begins(start) = history[first].clone() else { return None };
+    let is_zero = history.iter().all(|state| match state {
+        InStep::Begins(given) => given.value == 0.0,
+        _ => true,
+    });
+    if first > 0 && !is_fixed(&start) {
+        build.im.refuse(
+            start.line,
+            "a degree of freedom that was free before is held where it is found, not at a value: say FIXED",
+        );
+        return None;
+    }
+    if is_zero {
+        let end = history.iter().rposition(|state| *state != InStep::Absent).unwrap_or(first);
+        let stages = match (first, end + 1 == history.len()) {
+            (0, true) => None,
+            (_, true) => build.timeline.from(first),
+            _ => {
+                let general = &build.timeline.general[first..=end];
+                Some(general.iter().map(|&at| build.timeline.stages[at].name.clone()).collect())
+            }
+        };
+        return Some((HeldAs::Fixed, stages));
+    }
+    let kind = lines.get(&start.line).map_or("displacement", |line| line.history);
+    let stage = &build.timeline.stages[build.timeline.general[first]];
+    if stage.is_dynamic && kind == "displacement" && start.amplitude.is_none() {
+        build.im.refuse(start.line, "a displacement that jumps at the start of a dynamic step needs an AMPLITUDE");
+        return None;
+    }
+    let law = build.law(&history, true);
+    Some((HeldAs::Moved(law.scale, law.amplitude, kind), law.stages))
+}
+
+/// Holds what nothing resists: rotations of nodes that bushings alone join, and motion out of the plane of plane elements.
+fn add_rotations(build: &mut Build, of_node: &mut BTreeMap<u64, Alike>) {
+    let mut add = |node: u64, degrees: &[usize]| {
+        let alike = of_node.entry(node).or_default();
+        for &dof in degrees {
+            alike.held[dof].get_or_insert((HeldAs::Fixed, None));
+        }
+    };
+    for node in build.bushed.iter().filter(|node| !build.rotating.contains(node) && !build.body_of.contains_key(node)) {
+        add(*node, &[3, 4, 5]);
+    }
+    let is_plane = |name: &str| ["B2", "T2", "PIPE2", "R2D", "RB2"].iter().any(|begin| name.starts_with(begin));
+    for cell in build.mesh.cells.iter().filter(|cell| is_plane(&build.im.scopes.types[cell.kind].name)) {
+        let turns = cell.nodes.iter().filter(|node| build.mesh.used.contains(node));
+        for node in turns {
+            add(*node, if build.rotating.contains(node) { &[2, 3, 4] } else { &[2] });
+        }
+    }
+}
+
+/// Writes the supports of nodes that are held alike: a table for each choice of stages.
+fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
+    let mut seen: Vec<Option<Vec<String>>> = Vec::new();
+    for (_, stages) in group.held.iter().flatten() {
+        if !seen.contains(stages) {
+            seen.push(stages.clone());
+        }
+    }
+    if seen.is_empty() {
+        return;
+    }
+    let of_lines: Vec<NamedTarget> =
+        targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
+    let names = build.names(&group.nodes, &of_lines, "held");
+    for stages in seen {
+        let mut table = DeckTable::new("supports", 0).from_lines(group.lines.iter().copied()).names("at", &names);
+        let here = |dof: &usize| group.held[*dof].as_ref().filter(|(_, at)| *at == stages).map(|(held, _)| held);
+        let fixed: Vec<usize> = (0..6).filter(|dof| here(dof) == Some(&HeldAs::Fixed)).collect();
+        if !fixed.is_empty() {
+            table = table.value("fix", words(&fixed));
+        }
+        let moved: Vec<(&str, String)> = (0..6)
+            .filter_map(|dof| match here(&dof) {
+                Some(HeldAs::Moved(scale, amplitude, kind)) => {
+                    Some((DEGREES[dof], motion(*scale, amplitude.as_ref(), kind)))
+                }
+                _ => None,
+            })
+            .collect();
+        if !moved.is_empty() {
+            table = table.value("motion", inline(&moved));
+        }
+        if let Some(stages) = &stages {
+            table = table.names("stages", stages);
+        }
+        build.deck.add(table);
+    }
+}
+
+/// Degrees of freedom as the deck writes them.
+fn words(degrees: &[usize]) -> String {
+    match degrees {
+        [0, 1, 2, 3, 4, 5] => quoted("all"),
+        [0, 1, 2] => quoted("translations"),
+        [3, 4, 5] => quoted("rotations"),
+        some => list(some.iter().map(|dof| quoted(DEGREES[*dof]))),
+    }
+}
+
+fn motion(scale: f64, amplitude: Option<&String>, kind: &str) -> String {
+    let mut keys = vec![("scale", number(scale))];
+    keys.extend(amplitude.map(|name| ("amplitude", quoted(name))));
+    if kind != "displacement" {
+        keys.push(("history", quoted(kind)));
+    }
+    inline(&keys)
+}

@@ -1,0 +1,166 @@
+//! Constraints of several points and equations: nodes that are one, joints, supports.
+
+use crate::build::Build;
+use crate::deck_text::DeckTable;
+use crate::dialect::Dialect;
+use crate::file_content::{RigidCard, SupportLine};
+use crate::scopes::NamedTarget;
+use std::collections::BTreeMap;
+
+/// How far nodes that are one may lie apart, over the size of the mesh.
+const COINCIDENT: f64 = 1e-6;
+
+/// Merges nodes that are tied where they coincide; adds bodies for rigid beams and supports for equations of one term.
+pub fn merge(build: &mut Build) {
+    let size = build.mesh.size();
+    for card in build.im.constraints.points.clone() {
+        let nodes: Vec<Vec<u64>> = card.nodes.iter().map(|target| build.nodes(target)).collect();
+        let is_beam = card.kind == "BEAM" && build.im.dialect == Some(Dialect::Abaqus);
+        match (&card.kind[..], &nodes[..]) {
+            ("BEAM", [_, _]) if build.im.dialect.is_none() => {
+                let why = "BEAM is a rigid beam in Abaqus and keeps a distance in CalculiX: say --from abaqus or --from calculix";
+                build.im.refuse(card.line, why);
+            }
+            ("TIE", [slaves, masters]) if slaves.len() == masters.len() => {
+                for (a, b) in slaves.iter().zip(masters) {
+                    if (build.mesh.x(*a) - build.mesh.x(*b)).norm() > COINCIDENT * size {
+                        build.im.refuse(
+                            card.line,
+                            &format!("nodes {a} and {b} of TIE lie apart; rdsolve merges nodes that coincide"),
+                        );
+                        continue;
+                    }
+                    build.mesh.merge(*a, *b);
+                }
+            }
+            ("BEAM", [_, _]) if is_beam => {
+                build.im.constraints.rigid.push(RigidCard {
+                    line: card.line,
+                    name: format!("beam_{}", card.nodes[1].name),
+                    reference: card.nodes[1].clone(),
+                    rotations: None,
+                    tied: vec![card.nodes[0].clone()],
+                    pinned: Vec::new(),
+                    cells: Vec::new(),
+                    degrees: Vec::new(),
+                    is_coupling: true,
+                });
+            }
+            ("PIN" | "LINK" | "BEAM", [_, _]) => {}
+            (kind, _) => build.im.refuse(card.line, &format!("constraints of type {kind} are not translated")),
+        }
+    }
+    for (pair, of_pair) in pairs(build) {
+        if of_pair.degrees == [true; 6] || of_pair.degrees == [true, true, true, false, false, false] && !of_pair.turns
+        {
+            build.mesh.merge(pair.1, pair.0);
+        }
+    }
+    build.mesh.apply_merges();
+}
+
+/// What equations say about two nodes.
+struct PairOf {
+    degrees: [bool; 6],
+    line: usize,
+    /// True where one of them has rotations.
+    turns: bool,
+}
+
+/// Equations of two terms that say that two coincident nodes move alike, by the nodes; others become supports or are refused.
+fn pairs(build: &mut Build) -> BTreeMap<(u64, u64), PairOf> {
+    let size = build.mesh.size();
+    let mut pairs: BTreeMap<(u64, u64), PairOf> = BTreeMap::new();
+    for card in build.im.constraints.equations.clone() {
+        let nodes: Vec<(Vec<u64>, usize, f64)> =
+            card.terms.iter().map(|(target, dof, factor)| (build.nodes(target), *dof, *factor)).collect();
+        match &nodes[..] {
+            [(_, dof, _)] => hold(build, &card.terms[0].0, *dof, card.line),
+            [(a, p, f), (b, q, g)] if a.len() == 1 && b.len() == 1 && p == q && *f == -*g => {
+                if (build.mesh.x(a[0]) - build.mesh.x(b[0])).norm() > COINCIDENT * size {
+                    build.im.refuse(card.line, "this equation ties nodes that lie apart, which is not translated");
+                    continue;
+                }
+                let turns = |id: u64| {
+                    build.mesh.cells.iter().any(|cell| {
+                        cell.nodes.contains(&id)
+                            && build.im.scopes.types[cell.kind].becomes <= crate::element_types::ElementUse::Face
+                            && build.im.scopes.types[cell.kind].becomes != crate::element_types::ElementUse::Truss
+                    })
+                };
+                let turns = turns(a[0]) || turns(b[0]);
+                let pair = pairs.entry((a[0].min(b[0]), a[0].max(b[0]))).or_insert(PairOf {
+                    degrees: [false; 6],
+                    line: card.line,
+                    turns,
+                });
+                pair.degrees[*p] = true;
+            }
+            _ => build.im.refuse(card.line, "equations between several degrees of freedom are not translated"),
+        }
+    }
+    pairs
+}
+
+/// Holds a degree of freedom.
+fn hold(build: &mut Build, target: &NamedTarget, dof: usize, line: usize) {
+    let support = SupportLine {
+        line,
+        target: target.clone(),
+        degrees: vec![dof],
+        value: 0.0,
+        amplitude: None,
+        history: "displacement",
+        is_fixed: false,
+    };
+    build.im.steps.before.supports.push(support);
+}
+
+/// Adds joints between points.
+pub fn joints(build: &mut Build) {
+    for card in build.im.constraints.points.clone() {
+        let is_beam = card.kind == "BEAM" && build.im.dialect == Some(Dialect::Abaqus);
+        let kind = match &card.kind[..] {
+            "PIN" => "spherical",
+            "LINK" | "BEAM" if !is_beam => "distance",
+            _ => continue,
+        };
+        let nodes: Vec<u64> = card.nodes.iter().filter_map(|target| build.node(target)).collect();
+        if let [a, b] = nodes[..] {
+            add(build, (kind, &card.kind.to_lowercase()), (a, b), card.line, None);
+        }
+    }
+    let alike = pairs(build);
+    for ((a, b), pair) in alike {
+        match pair.degrees {
+            [true, true, true, true, true, true] => {}
+            [true, true, true, false, false, false] if pair.turns => {
+                add(build, ("spherical", "tie"), (a, b), pair.line, None)
+            }
+            [true, true, true, false, false, false] => {}
+            [true, true, true, rx, ry, rz] if [rx, ry, rz].iter().filter(|held| !**held).count() == 1 => {
+                let axis = [rx, ry, rz].map(|held| if held { 0.0 } else { 1.0 });
+                add(build, ("revolute", "tie"), (a, b), pair.line, Some(axis));
+            }
+            _ => build.im.refuse(pair.line, "equations that tie these degrees of freedom alone are not translated"),
+        }
+    }
+}
+
+fn add(build: &mut Build, (kind, name): (&str, &str), (a, b): (u64, u64), line: usize, axis: Option<[f64; 3]>) {
+    let (a, b) = (build.mesh.kept(a), build.mesh.kept(b));
+    if a == b {
+        return;
+    }
+    let name = build.deck.unique(&format!("{name}_{a}_{b}"));
+    build.mesh.used.extend([a, b]);
+    let table = DeckTable::new("joints", line)
+        .text("name", &name)
+        .text("kind", kind)
+        .value("from", build.end(a, b))
+        .value("to", build.end(b, a));
+    build.deck.add(match axis {
+        Some(axis) => table.numbers("axis", &axis),
+        None => table,
+    });
+}

@@ -1,0 +1,168 @@
+//! Steps in the order in which the deck has them, and how values go on from one to the next.
+
+use crate::dialect::Dialect;
+use crate::file_content::{StepCard, StepProcedure};
+use crate::importer::Importer;
+use std::collections::BTreeMap;
+
+/// A stage of the deck.
+#[derive(Debug, Clone)]
+pub struct StageOfStep {
+    /// Its name.
+    pub name: String,
+    /// The index of its step.
+    pub step: usize,
+    /// The time at which it begins.
+    pub start: f64,
+    /// How long it lasts; 0 for modes.
+    pub duration: f64,
+    /// True for motion in time.
+    pub is_dynamic: bool,
+}
+
+/// All stages.
+#[derive(Debug, Default)]
+pub struct Timeline {
+    /// Stages in the order of the deck.
+    pub stages: Vec<StageOfStep>,
+    /// Those in which time passes, by index; the first where time passes in none.
+    pub general: Vec<usize>,
+}
+
+/// What a line gives: value, amplitude, line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GivenValue {
+    /// The value.
+    pub value: f64,
+    /// The name of an amplitude of the file.
+    pub amplitude: Option<String>,
+    /// The line.
+    pub line: usize,
+}
+
+/// What is so in a step.
+#[derive(Debug, Clone, PartialEq)]
+pub enum InStep {
+    /// Nothing acts.
+    Absent,
+    /// It begins, or has a new value.
+    Begins(GivenValue),
+    /// It goes on from the step before.
+    Holds,
+}
+
+/// A value in time as the deck has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimeLaw {
+    /// The factor.
+    pub scale: f64,
+    /// The name of an amplitude of the deck.
+    pub amplitude: Option<String>,
+    /// The stages in which it acts, if not in all.
+    pub stages: Option<Vec<String>>,
+}
+
+impl Timeline {
+    /// The stages of the steps of a file.
+    pub fn new(im: &mut Importer) -> Timeline {
+        let (mut first, mut rest) = (Vec::new(), Vec::new());
+        let (mut start, mut unsure) = (0.0, Vec::new());
+        let names = names(&im.steps.list);
+        for step in 0..im.steps.list.len() {
+            let (card, name) = (&im.steps.list[step], names[step].clone());
+            let before = step.checked_sub(1).map(|before| &im.steps.list[before]);
+            let stage = |duration: f64, is_dynamic: bool| StageOfStep { name, step, start, duration, is_dynamic };
+            match &card.procedure {
+                Some((StepProcedure::Static { duration, .. }, _)) => {
+                    rest.push(stage(*duration, false));
+                    start += duration;
+                }
+                Some((StepProcedure::Dynamic { duration, .. }, _)) => {
+                    rest.push(stage(*duration, true));
+                    start += duration;
+                }
+                Some((StepProcedure::Frequency { .. } | StepProcedure::Buckle { .. }, _)) => {
+                    let in_abaqus = before.is_some_and(|before| before.is_nonlinear);
+                    let counts = match im.dialect {
+                        Some(Dialect::Calculix) => card.is_perturbation,
+                        _ => in_abaqus,
+                    };
+                    if im.dialect.is_none() && before.is_some() && in_abaqus != card.is_perturbation {
+                        unsure.push(card.line);
+                    }
+                    let place = if counts { &mut rest } else { &mut first };
+                    place.push(stage(0.0, false));
+                }
+                None => {}
+            }
+        }
+        let why = "modes see the load before them if that step has NLGEOM in Abaqus, with PERTURBATION in CalculiX: say --from abaqus or --from calculix";
+        unsure.iter().for_each(|line| im.refuse(*line, why));
+        first.iter_mut().for_each(|stage| stage.start = 0.0);
+        first.append(&mut rest);
+        let timed: Vec<usize> = (0..first.len()).filter(|&at| first[at].duration > 0.0).collect();
+        // Modes alone are about what acts in their own step.
+        let general = if timed.is_empty() { (0..first.len().min(1)).collect() } else { timed };
+        Timeline { stages: first, general }
+    }
+
+    /// True for a deck of stages; false for one of a single analysis.
+    pub fn is_staged(&self) -> bool {
+        self.stages.len() > 1
+    }
+
+    /// The time at which the last stage ends.
+    pub fn end(&self) -> f64 {
+        self.stages.last().map_or(0.0, |stage| stage.start + stage.duration)
+    }
+
+    /// Names of the stages in which a value acts that begins in a general stage; `None` where these are all.
+    pub fn from(&self, first: usize) -> Option<Vec<String>> {
+        let begin = self.general.get(first).copied().unwrap_or(0);
+        (begin > 0).then(|| self.stages[begin..].iter().map(|stage| stage.name.clone()).collect())
+    }
+}
+
+/// Names of steps, each once.
+fn names(steps: &[StepCard]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for step in steps {
+        let mut name = step.name.clone();
+        let mut next = 2;
+        while names.iter().any(|known| known.to_lowercase() == name.to_lowercase()) {
+            name = format!("{}_{next}", step.name);
+            next += 1;
+        }
+        names.push(name);
+    }
+    names
+}
+
+/// What is so in each general step, from lines that replace earlier ones. `lines`: of a step; `is_new`: earlier ones end.
+pub fn histories<K: Ord + Clone>(
+    timeline: &Timeline,
+    steps: &[StepCard],
+    before: Vec<(K, GivenValue)>,
+    lines: impl Fn(&StepCard) -> Vec<(K, GivenValue)>,
+    is_new: impl Fn(&StepCard) -> bool,
+) -> BTreeMap<K, Vec<InStep>> {
+    let count = timeline.general.len();
+    let mut histories: BTreeMap<K, Vec<InStep>> = BTreeMap::new();
+    let mut current: BTreeMap<K, GivenValue> = BTreeMap::new();
+    for (at, &stage) in timeline.general.iter().enumerate() {
+        let step = &steps[timeline.stages[stage].step];
+        let mut next = if at == 0 { before.iter().cloned().collect() } else { current.clone() };
+        if is_new(step) {
+            next.clear();
+        }
+        next.extend(lines(step));
+        for (key, given) in &next {
+            let history = histories.entry(key.clone()).or_insert_with(|| vec![InStep::Absent; count]);
+            let same = |old: &GivenValue| old.value == given.value && old.amplitude == given.amplitude;
+            let goes_on = at > 0 && current.get(key).is_some_and(same);
+            history[at] = if goes_on { InStep::Holds } else { InStep::Begins(given.clone()) };
+        }
+        current = next;
+    }
+    histories
+}

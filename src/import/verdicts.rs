@@ -1,0 +1,118 @@
+//! Verdicts: what became of each keyword of a file.
+
+use base::diagnostic::{Diagnostic, Severity};
+use base::text_file::{Fault, Text, Word};
+
+/// What became of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum KeywordVerdict {
+    /// The deck says the same.
+    Translated,
+    /// It does not act on the motion: output and settings of the solver.
+    Ignored,
+    /// The deck computes it otherwise.
+    Changed,
+    /// The deck cannot say it.
+    Refused,
+}
+
+impl KeywordVerdict {
+    /// All verdicts, in the order in which a summary counts them.
+    pub const ALL: [KeywordVerdict; 4] =
+        [KeywordVerdict::Translated, KeywordVerdict::Changed, KeywordVerdict::Ignored, KeywordVerdict::Refused];
+
+    /// The word in the report.
+    pub fn word(self) -> &'static str {
+        match self {
+            KeywordVerdict::Translated => "translated",
+            KeywordVerdict::Ignored => "ignored",
+            KeywordVerdict::Changed => "changed",
+            KeywordVerdict::Refused => "refused",
+        }
+    }
+}
+
+/// One line of the report.
+#[derive(Debug)]
+pub struct VerdictRow {
+    /// The path of the file.
+    pub file: String,
+    /// The line in that file, counted from 1.
+    pub file_line: usize,
+    /// The line in the text with all included files.
+    pub line: usize,
+    /// The keyword that the line belongs to, with its asterisk.
+    pub keyword: String,
+    /// The verdict.
+    pub verdict: KeywordVerdict,
+    /// What became of it, or why it is refused.
+    pub text: String,
+    /// The message with the line, for what is changed or refused.
+    pub said: Option<Fault>,
+}
+
+/// The verdicts so far.
+#[derive(Debug, Default)]
+pub struct Verdicts {
+    /// Line and name of every keyword, ascending.
+    keywords: Vec<(usize, String)>,
+    /// All rows, as they were found.
+    pub rows: Vec<VerdictRow>,
+}
+
+impl Verdicts {
+    /// No verdicts yet on keywords at these lines.
+    pub fn new(keywords: Vec<(usize, String)>) -> Self {
+        Verdicts { keywords, rows: Vec::new() }
+    }
+
+    /// The keyword that a line belongs to: its place in the list.
+    fn keyword(&self, line: usize) -> Option<usize> {
+        self.keywords.partition_point(|(first, _)| *first <= line).checked_sub(1)
+    }
+
+    /// Adds a verdict on a line. The same about two lines of a keyword is said once.
+    pub fn add(&mut self, text: &Text, verdict: KeywordVerdict, line: usize, said: Option<Fault>, about: String) {
+        let of = self.keyword(line);
+        let first = of.map_or(0, |of| self.keywords[of].0);
+        if self
+            .rows
+            .iter()
+            .any(|row| row.verdict == verdict && row.line >= first && row.line <= line && row.text == about)
+        {
+            return;
+        }
+        let keyword = of.map_or_else(String::new, |of| format!("*{}", self.keywords[of].1));
+        let (file, file_line) = text.origin(line);
+        let severe = verdict >= KeywordVerdict::Changed;
+        let said = severe.then(|| said.unwrap_or_else(|| text.fault(&*about, line))).map(|mut said| {
+            if verdict == KeywordVerdict::Changed {
+                said.severity = Severity::Warning;
+            }
+            said
+        });
+        self.rows.push(VerdictRow { file: file.to_owned(), file_line, line, keyword, verdict, text: about, said });
+    }
+
+    /// Adds a verdict at a word.
+    pub fn at(&mut self, text: &Text, verdict: KeywordVerdict, word: &Word, about: String) {
+        let said = text.fault_at(&*about, word);
+        self.add(text, verdict, word.line, Some(said), about);
+    }
+
+    /// True where a keyword has a verdict already; `line`: its own.
+    pub fn has(&self, line: usize) -> bool {
+        let next = self.keyword(line).and_then(|of| self.keywords.get(of + 1)).map_or(usize::MAX, |next| next.0);
+        self.rows.iter().any(|row| (line..next).contains(&row.line))
+    }
+
+    /// The number of rows with a verdict.
+    pub fn count(&self, verdict: KeywordVerdict) -> usize {
+        self.rows.iter().filter(|row| row.verdict == verdict).count()
+    }
+
+    /// The messages about what is changed and refused, in the order of the file.
+    pub fn said(&self) -> Vec<Diagnostic> {
+        self.rows.iter().filter_map(|row| row.said.as_deref().cloned()).collect()
+    }
+}

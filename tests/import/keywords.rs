@@ -1,0 +1,60 @@
+//! Every keyword has a verdict, and every refusal its reason.
+
+use super::{decks, imported, refusals};
+use import::keywords::{KEYWORDS, Treatment};
+use std::collections::BTreeSet;
+
+/// A keyword that the deck cannot say is refused at its line with the reason of its row; one that does not act is told.
+#[test]
+fn refused_and_ignored_keywords() {
+    for row in KEYWORDS {
+        let made = imported(&format!("*{}\n1, 2, 3\n", row.word));
+        let of = made.verdicts.rows.iter().find(|of| of.line == 1 && of.text == row.about);
+        match row.treatment {
+            Treatment::Read(_) => {}
+            Treatment::Ignore => assert_eq!(of.map(|of| of.verdict.word()), Some("ignored"), "{}", row.word),
+            Treatment::Refuse => assert_eq!(of.map(|of| of.verdict.word()), Some("refused"), "{}", row.word),
+        }
+    }
+    assert!(refusals(&imported("*TELEPORT\n")).contains(&"1 *TELEPORT: *TELEPORT is not known".to_owned()));
+    let stranger = refusals(&imported("*BOUNDARY, SUBMODEL\n"));
+    assert!(stranger.contains(&"1 *BOUNDARY: SUBMODEL of *BOUNDARY is not read".to_owned()), "{stranger:?}");
+}
+
+/// No keyword stands in two rows.
+#[test]
+fn rows_are_one_for_each_keyword() {
+    let words: BTreeSet<&str> = KEYWORDS.iter().map(|row| row.word).collect();
+    assert_eq!(words.len(), KEYWORDS.len());
+}
+
+/// Each line with a keyword is in the report.
+#[test]
+fn the_report_has_every_keyword() {
+    for (name, text) in decks() {
+        let made = imported(&text);
+        let lines: Vec<usize> = text
+            .lines()
+            .enumerate()
+            .filter(|(_, line)| {
+                line.trim_start_matches(['\u{feff}', ' ']).starts_with('*') && !line.trim_start().starts_with("**")
+            })
+            .map(|(at, _)| at + 1)
+            .collect();
+        for (at, line) in lines.iter().enumerate() {
+            let next = lines.get(at + 1).copied().unwrap_or(usize::MAX);
+            assert!(made.verdicts.rows.iter().any(|row| (*line..next).contains(&row.line)), "{name}:{line}");
+        }
+    }
+}
+
+/// Cut anywhere, a file gives verdicts and no panic.
+#[test]
+fn files_cut_anywhere() {
+    for (_, text) in decks() {
+        for end in (0..text.len()).step_by(7).filter(|end| text.is_char_boundary(*end)) {
+            imported(&text[..end]);
+            imported(&text[end..]);
+        }
+    }
+}

@@ -1,0 +1,463 @@
+//! Rows of the mapping, each with a file of some lines and the words of the deck that come out.
+
+use super::{imported, imported_from, reasons, refusals, tables};
+use import::{Dialect, KeywordVerdict};
+
+/// A cantilever of one beam; `edits` replace parts of it.
+const BEAM: &str = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0.5, 0., 0.\n9, 0., 0., 1.\n*ELEMENT, TYPE=B31, ELSET=rod\n1, 1, 2\n*NSET, NSET=tip\n2\n\
+                    *MATERIAL, NAME=m\n*ELASTIC\n1e9, 0.3\n*DENSITY\n7.\n*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.\n\
+                    *BOUNDARY\n1, 1, 6\n*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n2, 3, 5.\n*END STEP\n";
+/// A square of shell.
+const SHELL: &str = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n*ELEMENT, TYPE=S4, ELSET=skin\n1, 1, 2, 3, 4\n\
+                     *MATERIAL, NAME=m\n*ELASTIC\n1e9, 0.3\n*DENSITY\n7.\n*SHELL SECTION, ELSET=skin, MATERIAL=m\n0.01\n\
+                     *BOUNDARY\n1, 1, 6\n*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.\n*END STEP\n";
+
+fn edited(text: &str, edits: &[(&str, &str)]) -> String {
+    edits.iter().fold(text.to_owned(), |text, (old, new)| {
+        assert!(text.contains(old), "`{old}` must stand in the file");
+        text.replace(old, new)
+    })
+}
+
+/// The deck has these lines one after the other, and nothing is refused.
+fn has(text: &str, edits: &[(&str, &str)], dialect: Option<Dialect>, wanted: &str) {
+    let made = imported_from(&edited(text, edits), dialect);
+    assert_eq!(refusals(&made), [""; 0], "{edits:?}");
+    assert!(tables(&made.deck).contains(wanted), "{wanted} is not in\n{}", made.deck);
+}
+
+/// A reason for which it is refused.
+fn refuses(text: &str, edits: &[(&str, &str)], wanted: &str) {
+    let said = refusals(&imported(&edited(text, edits)));
+    assert!(said.iter().any(|said| said.contains(wanted)), "{wanted} is not in {said:?}");
+}
+
+#[test]
+fn sections_of_beams() {
+    let with = |section: &'static str, sizes: &'static str| [("SECTION=RECT", section), ("0.1, 0.2", sizes)];
+    let calculix = Some(Dialect::Calculix);
+    let abaqus = Some(Dialect::Abaqus);
+    has(BEAM, &[], None, "[sections.rod]\nshape = \"rectangle\"\nwidth = 0.1\nheight = 0.2\n");
+    has(BEAM, &with("SECTION=RECT", "0.1"), calculix, "shape = \"rectangle\"\nwidth = 0.1\nheight = 0.1\n");
+    refuses(BEAM, &with("SECTION=RECT", "0.1"), "SECTION=RECT needs 2 numbers");
+    has(BEAM, &with("SECTION=CIRC", "0.1"), abaqus, "shape = \"tube\"\nradius = 0.1\nthickness = 0.1\n");
+    has(BEAM, &with("SECTION=CIRC", "0.1, 0.1"), calculix, "shape = \"tube\"\nradius = 0.05\nthickness = 0.05\n");
+    has(BEAM, &with("SECTION=PIPE", "0.1, 0.01"), None, "shape = \"tube\"\nradius = 0.1\nthickness = 0.01\n");
+    let walls = "shape = \"box\"\nwidth = 0.1\nheight = 0.2\nthickness = [0.01, 0.02]\n";
+    has(BEAM, &with("SECTION=BOX", "0.1, 0.2, 0.01, 0.02, 0.01, 0.02"), None, walls);
+    refuses(BEAM, &with("SECTION=BOX", "0.1, 0.2, 0.01, 0.02, 0.03, 0.02"), "opposite walls of a box are alike");
+    let flanges = "height = 0.2\nbottom_width = 0.1\ntop_width = 0.1\nbottom_flange_thickness = 0.01\ntop_flange_thickness = 0.01\n\
+                   web_thickness = 0.005\n";
+    has(BEAM, &with("SECTION=I", "0.1, 0.2, 0.1, 0.1, 0.01, 0.01, 0.005"), None, flanges);
+    refuses(BEAM, &with("SECTION=I", "0., 0.2, 0.1, 0.1, 0.01, 0.01, 0.005"), "rdsolve has it at the centroid");
+    has(
+        BEAM,
+        &with("SECTION=L", "0.1, 0.2, 0.01, 0.02"),
+        None,
+        "shape = \"l\"\nwidth = 0.1\nheight = 0.2\nthickness = [0.02, 0.01]\n",
+    );
+    refuses(BEAM, &with("SECTION=CIRC", "0.1"), "--from abaqus or --from calculix");
+    refuses(BEAM, &with("SECTION=HEX", "0.1, 0.01"), "SECTION=HEX is not translated");
+    // An ellipse: A = π a b, I = A a²/4, J = π a³ b³/(a² + b²).
+    let made = imported_from(&edited(BEAM, &with("SECTION=CIRC", "0.2, 0.4")), calculix);
+    let area = std::f64::consts::PI * 0.02;
+    assert!(
+        made.deck.contains(&format!("moments = [{:?}, {:?}]", 0.25 * area * 0.2 * 0.2, 0.25 * area * 0.1 * 0.1)),
+        "{}",
+        made.deck
+    );
+}
+
+#[test]
+fn general_sections() {
+    let keyword = "*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.\n";
+    let general = "*BEAM GENERAL SECTION, ELSET=rod, SECTION=GENERAL, DENSITY=9.\n0.02, 3e-3, 1e-3, 4e-3, 5e-3\n0., 1., 0.\n2e9, 1e9\n";
+    let wanted = "area = 0.02\nmoments = [0.003, 0.004]\ntorsion_constant = 0.005\nshear_areas = [0.02, 0.02]\nproduct_moment = 0.001\n";
+    has(BEAM, &[(keyword, general)], Some(Dialect::Abaqus), wanted);
+    let material =
+        "[materials.rod_material]\nmodel = \"elastic\"\nyoungs_modulus = 2e9\npoisson_ratio = 0.0\ndensity = 9.0\n";
+    has(BEAM, &[(keyword, general)], Some(Dialect::Abaqus), material);
+}
+
+#[test]
+fn elements_of_beams() {
+    has(BEAM, &[("TYPE=B31", "TYPE=B32"), ("1, 1, 2\n*NSET", "1, 1, 3, 2\n*NSET")], None, "order = 2\n");
+    has(BEAM, &[("\n1, 1, 2\n", "\n1, 1, 2, 9\n")], None, "orientation = [0.0, 0.0, 1.0]\n");
+    refuses(BEAM, &[("0., 1., 0.\n*BOUNDARY", "1., 0., 0.\n*BOUNDARY")], "is parallel to element 1");
+    // A curved beam is two straight ones.
+    let curved = edited(
+        BEAM,
+        &[("TYPE=B31", "TYPE=B32"), ("1, 1, 2\n*NSET", "1, 1, 3, 2\n*NSET"), ("3, 0.5, 0.", "3, 0.5, 0.1")],
+    );
+    let made = imported(&curved);
+    assert!(made.mesh.contains("*ELEMENT, TYPE=B31, ELSET=rod\n1, 1, 3\n2, 3, 2\n"), "{}", made.mesh);
+    assert!(reasons(&made, KeywordVerdict::Changed)[0].contains("two straight ones"));
+    for (kind, why) in [
+        ("C3D8", "no solid elements"),
+        ("CPS4", "no plane elements"),
+        ("CAX4", "no axisymmetric elements"),
+        ("M3D4", "no membranes"),
+        ("ELBOW31", "no elements of this type"),
+    ] {
+        let nodes = "1, ".repeat(kind.chars().filter_map(|c| c.to_digit(10)).last().unwrap_or(2) as usize);
+        let nodes = if kind == "ELBOW31" { "1, 2".to_owned() } else { nodes.trim_end_matches(", ").to_owned() };
+        refuses(
+            BEAM,
+            &[("*NSET, NSET=tip", &format!("*ELEMENT, TYPE={kind}, ELSET=x\n7, {nodes}\n*NSET, NSET=tip"))],
+            why,
+        );
+    }
+}
+
+#[test]
+fn bars() {
+    let truss = [
+        ("TYPE=B31", "TYPE=T3D2"),
+        (
+            "*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.",
+            "*SOLID SECTION, ELSET=rod, MATERIAL=m\n0.02",
+        ),
+    ];
+    has(
+        BEAM,
+        &truss,
+        None,
+        "[[bars]]\nname = \"rod_1\"\npath = [\"mesh.1\", \"mesh.2\"]\nmaterial = \"m\"\narea = 0.02\n",
+    );
+}
+
+#[test]
+fn shells() {
+    has(SHELL, &[], None, "[[shells]]\ngroup = \"skin\"\nthickness = 0.01\nmaterial = \"m\"\n");
+    has(SHELL, &[("*BOUNDARY\n", "*NSET, NSET=skin\n1\n*BOUNDARY\n")], None, "[[shells]]\ngroup = \"skin_elements\"\n");
+    let nodal = [
+        ("MATERIAL=m\n0.01", "MATERIAL=m, NODAL THICKNESS\n0.01"),
+        ("*STEP", "*NSET, NSET=all, GENERATE\n1, 4\n*NODAL THICKNESS\nall, 0.03\n*STEP"),
+    ];
+    has(SHELL, &nodal, None, "thickness = 0.03\n");
+    refuses(
+        SHELL,
+        &[nodal[0], ("*STEP", "*NODAL THICKNESS\n1, 0.03\n2, 0.04\n*STEP")],
+        "the same everywhere in an element",
+    );
+    let axis = [
+        ("MATERIAL=m\n0.01", "MATERIAL=m, ORIENTATION=o\n0.01"),
+        ("*STEP", "*ORIENTATION, NAME=O\n0., 1., 0., -1., 0., 0.\n*STEP"),
+    ];
+    has(SHELL, &axis, None, "axis = [0.0, 1.0, 0.0]\n");
+    let yields = [("*DENSITY", "*PLASTIC\n200., 0.\n300., 0.1\n*DENSITY"), ("MATERIAL=m\n0.01", "MATERIAL=m\n0.01, 5")];
+    has(SHELL, &yields, None, "layers = 5\nstrain = \"logarithmic\"\n");
+    has(
+        SHELL,
+        &yields,
+        None,
+        "model = \"elastic-plastic\"\nyoungs_modulus = 1e9\npoisson_ratio = 0.3\ndensity = 7.0\nhardening = [[0.0, 200.0], [0.1, 300.0]]\n",
+    );
+    let rate = [yields[0], ("*PLASTIC", "*RATE DEPENDENT, TYPE=POWER LAW\n40., 5.\n*PLASTIC, HARDENING=KINEMATIC")];
+    has(SHELL, &rate, None, "kinematic_share = 1.0\nviscosity = { law = \"power\", rate = 40.0, exponent = 5.0 }\n");
+}
+
+#[test]
+fn loads_on_parts() {
+    let load = |line: &'static str| [("*CLOAD\n3, 3, 5.", line)];
+    has(SHELL, &load("*DLOAD\nskin, P, 5."), None, "[[loads]]\npart = \"skin\"\npressure = -5.0\nfollower = true\n");
+    has(
+        SHELL,
+        &[("*CLOAD\n3, 3, 5.", "*DSLOAD\ntop, P, 5."), ("*STEP", "*SURFACE, NAME=top\nskin, SPOS\n*STEP")],
+        None,
+        "pressure = 5.0\n",
+    );
+    has(SHELL, &load("*DLOAD\n, GRAV, 9.81, 0., 0., -2."), None, "[environment]\ngravity = [0.0, 0.0, -9.81]\n");
+    refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, 5., 0., 0., 0., 0., 0., 1."), "angular velocity");
+    refuses(SHELL, &load("*DLOAD\nskin, EDNOR1, 5."), "act on edges");
+    let load = |line: &'static str| [("*CLOAD\n2, 3, 5.", line)];
+    has(BEAM, &load("*DLOAD\nrod, PZ, 5."), None, "part = \"rod\"\nforce_per_length = [0.0, 0.0, 5.0]\n");
+    refuses(BEAM, &load("*DLOAD\nrod, P2, 5."), "say --from abaqus or --from calculix");
+    has(BEAM, &load("*DLOAD\nrod, P2, 5."), Some(Dialect::Abaqus), "local = [0.0, 0.0, 5.0]\n");
+    has(BEAM, &load("*DLOAD\nrod, P2, 5."), Some(Dialect::Calculix), "local = [0.0, 0.0, 0.5]\n");
+}
+
+/// A part is cut where a load ends.
+#[test]
+fn parts_are_cut_where_loads_end() {
+    let two = [
+        ("3, 0.5, 0., 0.", "3, 2., 0., 0."),
+        ("\n1, 1, 2\n", "\n1, 1, 2\n2, 2, 3\n"),
+        ("*CLOAD\n2, 3, 5.", "*DLOAD\n2, PZ, 5."),
+    ];
+    let made = imported(&edited(BEAM, &two));
+    assert_eq!(refusals(&made), [""; 0]);
+    assert!(
+        made.mesh.contains("ELSET=rod\n1, 1, 2\n") && made.mesh.contains("ELSET=rod_2\n2, 2, 3\n"),
+        "{}",
+        made.mesh
+    );
+    assert!(made.deck.contains("part = \"rod_2\"\nforce_per_length"), "{}", made.deck);
+}
+
+#[test]
+fn supports() {
+    let with = |lines: &'static str| [("*BOUNDARY\n1, 1, 6", lines)];
+    has(BEAM, &[], None, "[[supports]]\nat = \"mesh.1\"\nfix = \"all\"\n");
+    has(
+        BEAM,
+        &with("*BOUNDARY\n1, PINNED\ntip, 2\ntip, 5, 6"),
+        None,
+        "[[supports]]\nat = \"tip\"\nfix = [\"uy\", \"ry\", \"rz\"]\n",
+    );
+    has(BEAM, &with("*BOUNDARY\n1, XSYMM"), None, "fix = [\"ux\", \"ry\", \"rz\"]\n");
+    has(BEAM, &with("*BOUNDARY\n1, 1, 6\n2, 3, 3, 0.1"), None, "at = \"mesh.2\"\nmotion = { uz = { scale = 0.1 } }\n");
+    refuses(BEAM, &with("*BOUNDARY\n1, 1, 6\n77, 3"), "node 77 does not exist");
+    refuses(BEAM, &with("*BOUNDARY\n1, 1, 6\n2, 11, 11, 0.1"), "the degrees of freedom 1 to 6 alone");
+    let amplitude = [
+        ("*BOUNDARY\n1, 1, 6", "*BOUNDARY\n1, 1, 6\n*BOUNDARY, AMPLITUDE=a\n2, 3, 3, 0.1"),
+        ("*STEP", "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*STEP"),
+    ];
+    has(BEAM, &amplitude, None, "motion = { uz = { scale = 0.1, amplitude = \"A\" } }\n");
+    has(BEAM, &amplitude, None, "[amplitudes.A]\nkind = \"table\"\npoints = [[0.0, 0.0], [1.0, 2.0]]\n");
+}
+
+const SECOND: &str = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*CLOAD\n2, 3, 10.\n*END STEP\n";
+
+/// Loads go on from step to step, and run from value to value over a step.
+#[test]
+fn several_steps() {
+    let two = |lines: &'static str| -> [(&str, &str); 1] { [("*END STEP\n", lines)] };
+    let stages = "[[stages]]\nname = \"step_1\"\nkind = \"static\"\nduration = 1.0\ntime_step = 0.5\n[[stages]]\nname = \"step_2\"\nkind = \"static\"\n\
+                  duration = 2.0\ntime_step = 1.0\n";
+    has(BEAM, &two(SECOND), None, stages);
+    has(BEAM, &two(SECOND), None, "force = [0.0, 0.0, 10.0]\namplitude = \"history\"\n");
+    has(
+        BEAM,
+        &two(SECOND),
+        None,
+        "[amplitudes.history]\nkind = \"table\"\npoints = [[0.0, 0.0], [1.0, 0.5], [3.0, 1.0]]\n",
+    );
+    // What begins in a later step acts from there on, and what is not named again goes on.
+    let other = "*END STEP\n*STEP, NLGEOM, NAME=push\n*STATIC\n1., 2.\n*CLOAD\n2, 2, 1.\n*END STEP\n";
+    has(BEAM, &two(other), None, "at = \"mesh.2\"\nforce = [0.0, 1.0, 0.0]\nstages = \"push\"\n");
+    has(BEAM, &two(other), None, "at = \"mesh.2\"\nforce = [0.0, 0.0, 5.0]\n[");
+    // OP=NEW takes away what is not named again.
+    let new = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*CLOAD, OP=NEW\n2, 2, 1.\n*END STEP\n";
+    has(BEAM, &two(new), None, "points = [[0.0, 0.0], [1.0, 1.0], [3.0, 0.0]]\n");
+    let freed = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*BOUNDARY, OP=NEW\n1, 1, 3\n*END STEP\n";
+    has(BEAM, &two(freed), None, "at = \"mesh.1\"\nfix = \"rotations\"\nstages = \"step_1\"\n");
+    let late = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*BOUNDARY\n2, 3\n*END STEP\n";
+    refuses(BEAM, &two(late), "say FIXED");
+    has(
+        BEAM,
+        &[("*END STEP\n", &late.replace("*BOUNDARY", "*BOUNDARY, FIXED"))],
+        None,
+        "at = \"mesh.2\"\nfix = [\"uz\"]\nstages = \"step_2\"\n",
+    );
+    // A force in a dynamic step acts at once.
+    let motion = "*END STEP\n*STEP, NLGEOM\n*DYNAMIC, DIRECT\n0.01, 2.\n*CLOAD\n2, 3, 10.\n*END STEP\n";
+    let made = imported(&edited(BEAM, &two(motion)));
+    assert!(made.deck.contains("integrator = { scheme = \"hht-alpha\", alpha = -0.05 }"), "{}", made.deck);
+    assert!(made.deck.contains("points = [[0.0, 0.0], [1.0, 0.5], [1.000000002, 1.0], [3.0, 1.0]]"), "{}", made.deck);
+}
+
+/// Loads with two amplitudes in one place are not one load.
+#[test]
+fn loads_with_two_amplitudes() {
+    let amplitude = ("*STEP", "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*STEP");
+    let forces = ("*CLOAD\n2, 3, 5.", "*CLOAD\n2, 3, 5.\n*CLOAD, AMPLITUDE=A\n2, 3, 1.");
+    refuses(BEAM, &[amplitude, forces], "has another amplitude in this step");
+    let spread = ("*CLOAD\n2, 3, 5.", "*DLOAD\nrod, PZ, 5.\n*DLOAD, AMPLITUDE=A\nrod, PZ, 1.");
+    refuses(BEAM, &[amplitude, spread], "has another amplitude in this step");
+    let sum = ("*CLOAD\n2, 3, 5.", "*CLOAD\n2, 3, 5.\ntip, 3, 1.");
+    has(BEAM, &[sum], None, "force = [0.0, 0.0, 6.0]\n");
+}
+
+/// Modes count a load before them with NLGEOM in Abaqus, and with PERTURBATION in CalculiX.
+#[test]
+fn modes_and_what_they_see() {
+    let modes = |step: &str| format!("*END STEP\n*STEP{step}\n*FREQUENCY\n4\n*END STEP\n");
+    let first = |text: &str, dialect| {
+        let made = imported_from(text, Some(dialect));
+        assert_eq!(refusals(&made), [""; 0]);
+        tables(&made.deck).find("kind = \"modal\"").unwrap() < tables(&made.deck).find("kind = \"static\"").unwrap()
+    };
+    let (plain, perturbed) =
+        (edited(BEAM, &[("*END STEP\n", &modes(""))]), edited(BEAM, &[("*END STEP\n", &modes(", PERTURBATION"))]));
+    assert!(
+        !first(&plain, Dialect::Abaqus) && first(&plain, Dialect::Calculix) && !first(&perturbed, Dialect::Calculix)
+    );
+    assert!(first(&plain.replace("*STEP, NLGEOM", "*STEP"), Dialect::Abaqus));
+    refuses(&plain, &[], "modes see the load before them");
+    has(
+        BEAM,
+        &[("*STATIC\n0.5, 1.\n*CLOAD\n2, 3, 5.", "*FREQUENCY\n4")],
+        None,
+        "[analysis]\nkind = \"modal\"\nmodes = 4\n",
+    );
+    has(BEAM, &[("*STATIC\n0.5, 1.", "*BUCKLE\n3")], None, "[analysis]\nkind = \"buckling\"\nmodes = 3\n");
+}
+
+#[test]
+fn masses_and_links() {
+    let with = |lines: &'static str| [("*BOUNDARY", lines)];
+    has(
+        BEAM,
+        &with("*ELEMENT, TYPE=MASS, ELSET=w\n5, 2\n*MASS, ELSET=w\n3.\n*BOUNDARY"),
+        None,
+        "[[masses]]\nat = \"mesh.2\"\nmass = 3.0\n",
+    );
+    let spring = "*ELEMENT, TYPE=SPRINGA, ELSET=k\n5, 2, 9\n*SPRING, ELSET=k\n\n3.\n*BOUNDARY\n9, 1, 3";
+    has(
+        BEAM,
+        &with(spring),
+        None,
+        "[[links]]\nname = \"k_5\"\nfrom = { node = \"mesh.2\" }\nto = { node = \"mesh.9\" }\nstiffness = 3.0\n",
+    );
+    let curve = "*ELEMENT, TYPE=SPRINGA, ELSET=k\n5, 2, 9\n*SPRING, ELSET=k, NONLINEAR\n\n-4., -1.\n0., 0.\n8., 1.\n*BOUNDARY\n9, 1, 3";
+    has(
+        BEAM,
+        &with(curve),
+        None,
+        "law = \"table\"\npoints = [[-2001.0, -4.0], [-1.0, -4.0], [0.0, 0.0], [1.0, 8.0], [2001.0, 8.0]]\n",
+    );
+    let ground = "*ELEMENT, TYPE=SPRING1, ELSET=k\n5, 2\n*SPRING, ELSET=k\n3\n7.\n*BOUNDARY";
+    has(
+        BEAM,
+        &with(ground),
+        None,
+        "from = { ground = [1.0, 0.0, 0.0] }\nto = { node = \"mesh.2\" }\nbushing = [0.0, 0.0, 7.0, 0.0, 0.0, 0.0]\n",
+    );
+    let damper = "*ELEMENT, TYPE=DASHPOTA, ELSET=k\n5, 2, 9\n*DASHPOT, ELSET=k\n\n3.\n*BOUNDARY\n9, 1, 3";
+    has(BEAM, &with(damper), None, "stiffness = 0.0\ndamping = 3.0\n");
+    let gap = "*ELEMENT, TYPE=GAPUNI, ELSET=k\n5, 2, 9\n*GAP, ELSET=k\n0.1, 0., 0., 1.\n*BOUNDARY\n9, 1, 3";
+    has(
+        BEAM,
+        &with(gap),
+        None,
+        "law = \"compression-only\"\nstiffness = 1e10\ngap = 0.1\ndirection = [0.0, 0.0, 1.0]\n",
+    );
+}
+
+#[test]
+fn bodies_and_couplings() {
+    let with = |lines: &'static str| [("*BOUNDARY", lines), ("*CLOAD\n2,", "*CLOAD\n9,")];
+    let body = "*RIGID BODY, NSET=tip, REF NODE=9\n*BOUNDARY";
+    has(BEAM, &with(body), None, "[[attachments]]\nbody = \"tip_body\"\nnodes = [\"tip\", \"mesh.9\"]\n");
+    has(
+        BEAM,
+        &with("*RIGID BODY, PIN NSET=tip, REF NODE=9\n*BOUNDARY"),
+        None,
+        "nodes = \"tip\"\ndofs = \"translations\"\n",
+    );
+    let coupling = "*SURFACE, TYPE=NODE, NAME=s\ntip\n*COUPLING, CONSTRAINT NAME=c, REF NODE=9, SURFACE=s\n*KINEMATIC\n1, 3\n*BOUNDARY";
+    has(
+        BEAM,
+        &with(coupling),
+        None,
+        "[[attachments]]\nbody = \"c\"\nnodes = \"tip\"\ndofs = [\"ux\", \"uy\", \"uz\"]\n",
+    );
+    // The mass of two points: at their centre, with their arms.
+    let masses = "*NSET, NSET=both\n2, 3\n*ELEMENT, TYPE=MASS, ELSET=w\n5, 2\n6, 9\n*MASS, ELSET=w\n3.\n*RIGID BODY, NSET=tip, REF NODE=9\n*BOUNDARY";
+    let wanted = "center = [0.5, 0.0, 0.5]\nmass = 6.0\ninertia = [1.5, 3.0, 1.5, 0.0, 0.0, 1.5]\n";
+    has(BEAM, &with(masses), None, wanted);
+    // In CalculiX the rotations are displacements of a node of their own.
+    let turned = [
+        ("*BOUNDARY", "*NODE\n8, 0., 0., 1.\n*RIGID BODY, NSET=tip, REF NODE=9, ROT NODE=8\n*BOUNDARY"),
+        ("*CLOAD\n2, 3, 5.", "*CLOAD\n8, 2, 5."),
+    ];
+    has(BEAM, &turned, None, "at = \"mesh.9\"\nmoment = [0.0, 5.0, 0.0]\n");
+}
+
+#[test]
+fn constraints_of_points() {
+    let with = |lines: &'static str| {
+        [
+            ("*BOUNDARY", lines),
+            ("9, 0., 0., 1.", "9, 1., 0., 0.\n8, 2., 0., 0."),
+            ("\n1, 1, 2\n", "\n1, 1, 2\n2, 9, 8\n"),
+        ]
+    };
+    let made = imported(&edited(BEAM, &with("*MPC\nTIE, 9, 2\n*BOUNDARY")));
+    assert_eq!(refusals(&made), [""; 0]);
+    assert!(made.mesh.contains("1, 1, 2\n2, 2, 8\n") && !made.mesh.contains("\n9, "), "{}", made.mesh);
+    let pinned = "[[joints]]\nname = \"pin_9_2\"\nkind = \"spherical\"\nfrom = { node = \"mesh.9\" }\nto = { node = \"mesh.2\" }\n";
+    has(BEAM, &with("*MPC\nPIN, 9, 2\n*BOUNDARY"), None, pinned);
+    has(BEAM, &with("*MPC\nLINK, 9, 8\n*BOUNDARY"), Some(Dialect::Abaqus), "kind = \"distance\"\n");
+    refuses(BEAM, &with("*MPC\nBEAM, 9, 8\n*BOUNDARY"), "say --from abaqus or --from calculix");
+    refuses(BEAM, &with("*MPC\nTIE, 8, 2\n*BOUNDARY"), "lie apart");
+    refuses(BEAM, &with("*MPC\nSLIDER, 8, 2, 1\n*BOUNDARY"), "constraints of type SLIDER are not translated");
+    let equations = |dofs: &str| {
+        let lines = dofs.split(' ').map(|dof| format!("2\n9, {dof}, 1., 2, {dof}, -1.\n"));
+        format!("*EQUATION\n{}*BOUNDARY", lines.collect::<String>())
+    };
+    let merged = imported(&edited(BEAM, &[("*BOUNDARY", &equations("1 2 3 4 5 6")), with("")[1], with("")[2]]));
+    assert!(merged.mesh.contains("1, 1, 2\n2, 2, 8\n"), "{}", merged.mesh);
+    let hinge =
+        "kind = \"revolute\"\nfrom = { node = \"mesh.2\" }\nto = { node = \"mesh.9\" }\naxis = [0.0, 1.0, 0.0]\n";
+    has(BEAM, &[("*BOUNDARY", &equations("1 2 3 4 6")), with("")[1], with("")[2]], None, hinge);
+}
+
+#[test]
+fn connectors() {
+    let with = |kind: &str, more: &str| {
+        let orientation = "*ORIENTATION, NAME=o\n0., 1., 0., 0., 0., 1.\n";
+        let section = format!(
+            "*ELEMENT, TYPE=CONN3D2, ELSET=c\n7, 2, 9\n{orientation}*CONNECTOR SECTION, ELSET=c, BEHAVIOR=b\n{kind}\no\n"
+        );
+        edited(
+            BEAM,
+            &[
+                ("*BOUNDARY", &format!("{section}*CONNECTOR BEHAVIOR, NAME=B\n{more}*BOUNDARY\n9, 1, 6")),
+                ("9, 0., 0., 1.", "9, 1., 0., 0."),
+            ],
+        )
+    };
+    let plain = [
+        ("JOIN", "spherical", ""),
+        ("HINGE", "revolute", "axis = [0.0, 1.0, 0.0]\n"),
+        ("JOIN, REVOLUTE", "revolute", "axis = [0.0, 1.0, 0.0]\n"),
+        ("UJOINT", "universal", "axis = [0.0, 1.0, 0.0]\ncross_axis = [1.0, 0.0, 0.0]\n"),
+        ("TRANSLATOR", "prismatic", "axis = [0.0, 1.0, 0.0]\n"),
+        ("CYLINDRICAL", "cylindrical", "axis = [0.0, 1.0, 0.0]\n"),
+        ("PLANAR", "planar", "axis = [0.0, 1.0, 0.0]\n"),
+        ("WELD", "fixed", ""),
+        ("LINK", "distance", ""),
+    ];
+    for (kind, word, axis) in plain {
+        let joint = format!("kind = \"{word}\"\nfrom = {{ node = \"mesh.2\" }}\nto = {{ node = \"mesh.9\" }}\n{axis}");
+        has(&with(kind, ""), &[], None, &joint);
+    }
+    // The first node carries the slot, and here that is `to`.
+    has(&with("SLOT", ""), &[], None, "kind = \"in-line\"\nfrom = { node = \"mesh.9\" }\nto = { node = \"mesh.2\" }\n");
+    has(
+        &with("HINGE", "*CONNECTOR ELASTICITY, COMPONENT=4\n7.\n*CONNECTOR DAMPING, COMPONENT=4\n8.\n"),
+        &[],
+        None,
+        "stiffness = 7.0\ndamping = 8.0\n",
+    );
+    refuses(&with("HINGE", "*CONNECTOR ELASTICITY, COMPONENT=1\n7.\n"), &[], "along component 1");
+    refuses(&with("FLEXION-TORSION", ""), &[], "FLEXION-TORSION are not translated");
+    let bushing = "bushing = [7.0, 0.0, 0.0, 0.0, 0.0, 0.0]\nbushing_damping = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]\naxes = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n";
+    has(&with("CARTESIAN, CARDAN", "*CONNECTOR ELASTICITY, COMPONENT=1\n7.\n"), &[], None, bushing);
+    let driven = with("HINGE", "").replace("*CLOAD", "*CONNECTOR MOTION, TYPE=VELOCITY\nc, 4, 3.\n*CLOAD");
+    has(&driven, &[], None, "motion = { velocity = 3.0 }\n");
+}
+
+#[test]
+fn velocities_damping_and_output() {
+    has(
+        BEAM,
+        &[("*STEP", "*INITIAL CONDITIONS, TYPE=VELOCITY\ntip, 3, -2.\n*STEP")],
+        None,
+        "[[initial]]\nat = \"tip\"\nvelocity = [0.0, 0.0, -2.0]\n",
+    );
+    has(
+        BEAM,
+        &[("*DENSITY", "*DAMPING, ALPHA=0.1, BETA=0.2\n*DENSITY")],
+        None,
+        "[damping]\nmass_factor = 0.1\nstiffness_factor = 0.2\n",
+    );
+    has(
+        BEAM,
+        &[("*CLOAD", "*NODE FILE\nU, RF\n*EL PRINT\nS\n*CLOAD")],
+        None,
+        "[output]\nnodes = \"all\"\nreactions = true\nsections = true\n",
+    );
+}

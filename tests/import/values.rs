@@ -1,0 +1,65 @@
+//! Decks that were imported give values known otherwise.
+
+use super::{deck, imported, refusals};
+use crate::support;
+use rdsolve::diagnostic::Source;
+use rdsolve::model;
+
+/// Displacement and rotation vector of a node at the end of a deck that has been imported; and the largest displacement along x.
+fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
+    let made = imported(text);
+    assert_eq!(refusals(&made), [""; 0]);
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.mesh.inp"), &made.mesh).unwrap();
+    let source = Source::new(folder.path().join("a.toml").display().to_string(), made.deck.as_str(), &[]);
+    let (model, said) = model::read(&source);
+    let model = model.unwrap_or_else(|| panic!("{}\n{}", said[0].draw(&source, false), made.deck));
+    let at = support::node(&model, node);
+    let start = model.nodes[at].x;
+    let done = support::run_to_the_end(&model, &mut |frame| (frame.state.nodes[at].x - start).as_slice().to_vec());
+    let last = done.rows.last().unwrap();
+    let most = done.rows.iter().map(|row| row[0]).fold(0.0, f64::max);
+    ([last[0], last[1], last[2]], most)
+}
+
+fn near(value: f64, wanted: f64, tolerance: f64) {
+    assert!((value / wanted - 1.0).abs() < tolerance, "{value} for {wanted}");
+}
+
+/// P L³/(3 E I) and shear of a tube as a pre-processor writes it, with the shear area that Saint-Venant's theory gives; at large
+/// displacements the tip sinks less by the square of its slope, 2e-3 times 3/5.
+#[test]
+fn tube_of_a_pre_processor() {
+    near(moves(&deck("beam_pipe"), "mesh.2").0[2], -258.56, 2e-3);
+}
+
+/// M L²/(2 E I) at the free edge, and beyond it M L/(E I) times the arm; Poisson's ratio is zero. At large rotations of 6e-3 both sink
+/// less by the square of it over 12.
+#[test]
+fn a_rigid_edge_turned_by_a_moment() {
+    near(moves(&deck("rigid_edge"), "mesh.32").0[2], -2.857135e-3, 1e-5);
+    near(moves(&deck("rigid_edge"), "mesh.100").0[2], -3.999986e-3, 1e-5);
+}
+
+/// Two beams at a right angle, one an instance that is turned: bending of both and torsion of the first.
+#[test]
+fn instances_that_are_joined() {
+    near(moves(&deck("two_instances"), "mesh.15").0[2], 2.021035e-3, 1e-3);
+}
+
+/// A mass on a spring and a damper, pulled at once: F/k (1 − exp(−d t) (cos w t + d/w sin w t)) with k = 200, m = 2, c = 4.
+#[test]
+fn an_oscillator() {
+    let (decay, rate) = (1.0, (100.0_f64 - 1.0).sqrt());
+    let at = |t: f64| 1.0 / 200.0 * (1.0 - (-decay * t).exp() * ((rate * t).cos() + decay / rate * (rate * t).sin()));
+    let (end, most) = moves(&deck("oscillator"), "mesh.2");
+    // Trapezoidal steps of a hundredth of the angle err by its square over 12.
+    near(end[0], at(0.5), 1e-4);
+    near(most, at(std::f64::consts::PI / rate), 1e-4);
+}
+
+/// A rod of two elements, one of them an instance to which the other is tied: P L³/(3 E I) and the shear of a rectangle.
+#[test]
+fn unusual_lines() {
+    near(moves(&deck("syntax"), "mesh.3").0[2], -7.9390e-4, 1e-3);
+}
