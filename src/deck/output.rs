@@ -100,6 +100,9 @@ pub struct Fields {
 pub enum Format {
     /// VTK unstructured grids, one file a time, with a .pvd file that lists them.
     Vtu,
+    /// One file `fields.frd` in ASCII as CalculiX writes it, with a block for each time and mode: displacements of nodes, and stresses at the
+    /// upper side of shells. FreeCAD, PrePoMax and cgx read it.
+    Frd,
 }
 
 /// Length, mass and time; `SI` is `m-kg-s`.

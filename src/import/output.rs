@@ -2,6 +2,7 @@
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, quoted};
+use crate::dialect::Dialect;
 
 /// Adds `[damping]` and `[output]`.
 pub fn output(build: &mut Build) {
@@ -29,7 +30,9 @@ pub fn output(build: &mut Build) {
         table = table.value("sections", "true");
     }
     if requests.fields {
-        table = table.value("fields", inline(&[("format", quoted("vtu"))]));
+        // Pre-processors of CalculiX read its own results; those of Abaqus read no others.
+        let format = if build.im.dialect == Some(Dialect::Calculix) { "frd" } else { "vtu" };
+        table = table.value("fields", inline(&[("format", quoted(format))]));
     }
     build.deck.add(table);
 }

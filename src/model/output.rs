@@ -1,6 +1,6 @@
 //! `[output]`: tables, nodes and times of output.
 
-use super::data::{Cadence, Drift, Model, Node, Output};
+use super::data::{Cadence, Drift, FieldFormat, Model, Node, Output};
 use super::places::place::Place;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -13,6 +13,15 @@ use deck::words::{FlagOrTable, Table};
 const MOST_FIELDS: f64 = 200.0;
 /// Largest number of output times; more are taken for a typing error, and would exhaust memory.
 const MOST_ROWS: f64 = 1e7;
+
+/// The format of field files.
+fn field_format(table: &Table<words::Output>) -> FieldFormat {
+    let word = table.fields.as_ref().and_then(|fields| fields.format.as_ref());
+    match word.map(|word| word.value) {
+        Some(words::Format::Frd) => FieldFormat::Frd,
+        _ => FieldFormat::Vtu,
+    }
+}
 
 /// The output of a run. For `nodes = "all"` the list of nodes stays empty until unused nodes have been removed.
 pub(super) struct Selection {
@@ -43,6 +52,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
             parts: false,
             joints: false,
             fields: None,
+            field_format: FieldFormat::Vtu,
             checkpoint: None,
         };
         return Selection { output, all_nodes: false };
@@ -80,6 +90,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         parts: flag(&table.parts, false),
         joints: flag(&table.joints, false),
         fields,
+        field_format: field_format(table),
         checkpoint: report.positive("checkpoint", &table.checkpoint),
     };
     Selection { output, all_nodes: word == Some("all") }

@@ -4,6 +4,7 @@ use super::disk::at;
 use super::envelopes::Envelopes;
 use super::expect::needs;
 use super::fields::{Fields, FieldsMark, LISTS};
+use super::frd::{self, FrdFile, FrdMark};
 use super::result_json;
 use super::table::{TableKind, WriteRows};
 use super::table_file::{EmptyFields, TableFile, TableMark};
@@ -11,7 +12,7 @@ use super::table_size::size_in_words;
 use super::tables::{TABLES, holds_response};
 use base::names::instant;
 use base::snapshot::keep;
-use model::{Cadence, Model, When};
+use model::{Cadence, FieldFormat, Model, When};
 use solve::plan::Plan;
 use solve::{Frame, Observer, Wanted};
 use std::fs;
@@ -47,6 +48,7 @@ pub struct Files {
     tables: Vec<OpenTable>,
     fields: Option<Fields>,
     envelopes: Envelopes,
+    frd: Option<FrdFile>,
     flushed: Instant,
 }
 
@@ -55,9 +57,10 @@ pub struct Files {
 pub struct FilesMark {
     tables: Vec<TableMark>,
     fields: Option<FieldsMark>,
+    frd: Option<FrdMark>,
 }
 
-keep!(FilesMark: Default { tables, fields });
+keep!(FilesMark: Default { tables, fields, frd });
 
 impl Files {
     /// Creates the folder and its files.
@@ -68,9 +71,11 @@ impl Files {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
         let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
         let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
-        let fields = model.output.fields.map(|_| Fields::open(dir, model)).transpose()?;
+        let format = model.output.fields.map(|_| model.output.field_format);
+        let fields = (format == Some(FieldFormat::Vtu)).then(|| Fields::open(dir, model)).transpose()?;
+        let frd = (format == Some(FieldFormat::Frd)).then(|| FrdFile::open(dir, model)).transpose()?;
         let envelopes = Envelopes::of(model);
-        Ok(Files { dir: dir.to_owned(), tables, fields, envelopes, flushed: Instant::now() })
+        Ok(Files { dir: dir.to_owned(), tables, fields, frd, envelopes, flushed: Instant::now() })
     }
 
     /// No files in a folder that holds those of a checkpoint, until they are opened by [`Files::go_on`].
@@ -79,6 +84,7 @@ impl Files {
             dir: dir.to_owned(),
             tables: Vec::new(),
             fields: None,
+            frd: None,
             envelopes: Envelopes::default(),
             flushed: Instant::now(),
         }
@@ -99,6 +105,7 @@ impl Files {
             fields.go_on(mark)?;
             self.fields = Some(fields);
         }
+        self.frd = mark.frd.map(|mark| FrdFile::reopen(&self.dir, model, mark)).transpose()?;
         // The result is that of the part before.
         let result = self.dir.join(result_json::NAME);
         match fs::remove_file(&result) {
@@ -113,7 +120,11 @@ impl Files {
     /// As for [`Files::finish`].
     pub fn mark(&mut self) -> io::Result<FilesMark> {
         let tables = self.tables.iter_mut().map(|table| table.file.mark()).collect::<io::Result<_>>()?;
-        Ok(FilesMark { tables, fields: self.fields.as_ref().map(Fields::mark) })
+        Ok(FilesMark {
+            tables,
+            fields: self.fields.as_ref().map(Fields::mark),
+            frd: self.frd.as_ref().map(FrdFile::mark),
+        })
     }
 
     /// Goes on with the next stage, whose model this is.
@@ -134,6 +145,9 @@ impl Files {
         }
         if let Some(fields) = &mut self.fields {
             fields.next_stage(model)?;
+        }
+        if let Some(frd) = &mut self.frd {
+            frd.next_stage(model);
         }
         Ok(())
     }
@@ -165,7 +179,8 @@ impl Files {
 /// Names of the tables and lists that a run of this model writes; grids come with the steps.
 pub fn names(model: &Model) -> Vec<&'static str> {
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file);
-    tables.chain(model.output.fields.iter().flat_map(|_| LISTS)).collect()
+    let lists = |format| if format == FieldFormat::Frd { vec![frd::NAME] } else { LISTS.to_vec() };
+    tables.chain(model.output.fields.iter().flat_map(|_| lists(model.output.field_format))).collect()
 }
 
 impl Observer for Files {
@@ -191,6 +206,9 @@ impl Observer for Files {
         if let Some(fields) = &mut self.fields {
             fields.on_step(frame)?;
         }
+        if let Some(frd) = &mut self.frd {
+            frd.on_step(frame)?;
+        }
         // The clock is looked at where there is something to write.
         let writes = frame.due || frame.step.is_multiple_of(64);
         if writes && self.flushed.elapsed() > PATIENCE { self.finish() } else { Ok(()) }
@@ -201,6 +219,9 @@ impl Observer for Files {
             if let Some(write) = write.as_ref().filter(|_| kind.needs.has(Wanted::MODES)) {
                 write(file, frame)?;
             }
+        }
+        if let Some(frd) = &mut self.frd {
+            frd.on_modes(frame)?;
         }
         match &mut self.fields {
             Some(fields) => fields.on_modes(frame),
@@ -220,6 +241,9 @@ impl Observer for Files {
     fn restart(&mut self, model: &Model) -> io::Result<()> {
         if let Some(fields) = &mut self.fields {
             fields.withdraw()?;
+        }
+        if let Some(frd) = &mut self.frd {
+            frd.withdraw()?;
         }
         if model.analysis.begin > 0.0 {
             return self.tables.iter_mut().try_for_each(|table| table.file.withdraw_stage());

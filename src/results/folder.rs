@@ -4,7 +4,7 @@ use super::disk::{UNFINISHED, at};
 use super::files::names;
 use super::lock;
 use super::run_list::{self, RunList, foreign};
-use super::{checkpoint, fields, log, result_json, tables};
+use super::{checkpoint, fields, frd, log, result_json, tables};
 use model::Model;
 use std::collections::HashSet;
 use std::fs;
@@ -84,7 +84,8 @@ fn take_away(dir: &Path, files: &[String], ours: &HashSet<String>) -> io::Result
 /// Whether a run writes a file of this name, whole or unfinished.
 fn is_of_a_run(name: &str) -> bool {
     let whole = name.strip_suffix(UNFINISHED).unwrap_or(name);
-    let is_result = tables::of_file(whole).is_some() || fields::is_file(whole) || whole == result_json::NAME;
+    let is_result =
+        tables::of_file(whole).is_some() || fields::is_file(whole) || [frd::NAME, result_json::NAME].contains(&whole);
     is_result || [log::NAME, run_list::NAME, lock::NAME, checkpoint::NAME].contains(&name)
 }
 

@@ -1,11 +1,11 @@
 //! Predicts the sizes of tables before a run, and chooses the times of their rows if the deck does not.
 
 use super::extent::{Extent, Rows};
-use super::fields;
 use super::table::TableKind;
 use super::tables::TABLES;
+use super::{fields, frd};
 use base::names::amount;
-use model::{Cadence, Model, StepLength};
+use model::{Cadence, FieldFormat, Model, StepLength};
 use solve::plan::Plan;
 
 /// The number of bytes of a number with its comma: most have sixteen or seventeen digits.
@@ -64,7 +64,9 @@ pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f
     let times = times(model, model.output.cadence)?;
     let mut all: Vec<_> = sizes(model, plan).into_iter().map(|(file, size)| (file, size as f64 * times)).collect();
     if let Some(cadence) = model.output.fields {
-        all.push(("fields", self::times(model, cadence)? * fields::bytes(model) as f64));
+        let bytes =
+            if model.output.field_format == FieldFormat::Frd { frd::bytes(model) } else { fields::bytes(model) };
+        all.push(("fields", self::times(model, cadence)? * bytes as f64));
     }
     Some(all)
 }

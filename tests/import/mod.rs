@@ -3,6 +3,7 @@
 mod command;
 mod dresses;
 mod keywords;
+mod round_trip;
 mod rows;
 mod values;
 

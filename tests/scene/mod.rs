@@ -148,6 +148,7 @@ pub fn model() -> Model {
             parts: false,
             joints: false,
             fields: None,
+            field_format: FieldFormat::default(),
             checkpoint: None,
         },
         study: None,

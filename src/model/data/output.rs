@@ -36,6 +36,8 @@ pub struct Output {
     pub joints: bool,
     /// The times of field files; `None`: no fields.
     pub fields: Option<Cadence>,
+    /// The format of field files.
+    pub field_format: FieldFormat,
     /// Seconds of run time between two checkpoints; `None`: only when the run is stopped.
     pub checkpoint: Option<f64>,
 }
@@ -47,6 +49,16 @@ pub struct Drift {
     pub name: String,
     /// The node that it is relative to, and the node whose displacement it is.
     pub ends: [usize; 2],
+}
+
+/// The format of field files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum FieldFormat {
+    /// Grids of VTK, a file for each time.
+    #[default]
+    Vtu,
+    /// One file as CalculiX writes it.
+    Frd,
 }
 
 /// The times of output to histories or fields; t = 0 and the end are always among them.
