@@ -160,20 +160,20 @@ impl History {
     /// The history as the scripts of the page read it, with the error bars that result.json has.
     pub fn json(&self, result: &Result, numbers: &mut PageNumbers) -> Value {
         let (units, clock) = (result.units(), result.clock());
-        let over = match described(&self.file, self.over).filter(|_| self.over != "time") {
-            Some(column) => format!(" ({})", column.unit.text(units)),
-            None if clock.is_empty() => clock,
-            None => format!(" ({})", clock.trim()),
+        let label = |column: &str| label(described(&self.file, column), column, units);
+        let over_label = match self.over {
+            "time" if clock.is_empty() => "time".to_owned(),
+            "time" => format!("time ({})", clock.trim()),
+            other => label(other),
         };
-        let label = |column: &String| label(described(&self.file, column), column, units);
         json!({
             "file": self.file,
             "over": self.over,
             "names": self.names,
             "columns": self.columns,
             "kinds": self.columns.iter().map(|column| described(&self.file, column).map(|known| known.kind)).collect::<Vec<_>>(),
-            "labels": self.columns.iter().map(label).collect::<Vec<_>>(),
-            "over_label": self.over.to_owned() + &over,
+            "labels": self.columns.iter().map(|column| label(column)).collect::<Vec<_>>(),
+            "over_label": over_label,
             "bands": self.columns.iter().map(|column| band(&result.json, &self.file, column)).collect::<Vec<_>>(),
             "times": numbers.add(&self.times, 1),
             "values": numbers.add(&self.values, self.names.len() * self.columns.len()),
