@@ -61,7 +61,7 @@ impl DeckTable {
     }
 
     /// Returns the table with further lines that it comes from.
-    pub fn from_lines(mut self, lines: impl IntoIterator<Item = usize>) -> Self {
+    pub fn with_lines(mut self, lines: impl IntoIterator<Item = usize>) -> Self {
         self.lines.extend(lines);
         self.lines.sort_unstable();
         self.lines.dedup();

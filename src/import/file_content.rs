@@ -70,7 +70,7 @@ pub struct SectionCard {
 #[derive(Debug, Clone, PartialEq)]
 pub enum SectionOf {
     /// Of beams: keys of a table of `[sections]`, and the direction of the first axis.
-    OfBeam {
+    Beam {
         /// Keys of the table and their values.
         keys: Vec<(&'static str, SectionValue)>,
         /// The direction of the first axis.
@@ -79,7 +79,7 @@ pub enum SectionOf {
         offset: [f64; 2],
     },
     /// Of shells.
-    OfShell {
+    Shell {
         /// The thickness; `None` where nodes have their own.
         thickness: Option<f64>,
         /// Points through the thickness.
@@ -88,7 +88,7 @@ pub enum SectionOf {
         offset: f64,
     },
     /// Of bars: the area. Solids are refused by their type.
-    OfBar(f64),
+    Bar(f64),
 }
 
 /// A value of a section.

@@ -98,7 +98,7 @@ impl Build<'_, '_, '_> {
         };
         let table = DeckTable::new("amplitudes", card.line);
         let table = match card.sine {
-            Some([frequency, phase, scale, start]) if scale == 1.0 => {
+            Some([frequency, phase, 1.0, start]) => {
                 let table = table.text("kind", "sine").number("frequency", frequency).number("phase", phase);
                 if start == 0.0 { table } else { table.number("start", start) }
             }

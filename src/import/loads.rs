@@ -10,6 +10,9 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Node, degree of freedom, and whether the force turns with the node.
 type ForceKey = (u64, usize, bool);
 
+/// Velocity and angular velocity, nodes that have it, and lines that say so.
+type MovingNodes = ([f64; 6], BTreeSet<u64>, BTreeSet<usize>);
+
 /// Forces that act alike at several nodes.
 #[derive(Default)]
 struct AlikeForces {
@@ -143,7 +146,7 @@ fn write(build: &mut Build, group: AlikeForces, targets: &[NamedTarget]) {
     let of_lines: Vec<NamedTarget> =
         targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
     let names = build.names(&group.nodes, &of_lines, "loaded");
-    let mut table = DeckTable::new("loads", 0).from_lines(group.lines.iter().copied()).names("at", &names);
+    let mut table = DeckTable::new("loads", 0).with_lines(group.lines.iter().copied()).names("at", &names);
     for (key, part) in [("force", &group.six[..3]), ("moment", &group.six[3..])] {
         if part.iter().any(|x| *x != 0.0) {
             table = table.numbers(key, part);
@@ -182,7 +185,7 @@ pub fn velocities(build: &mut Build) {
             }
         }
     }
-    let mut groups: BTreeMap<String, ([f64; 6], BTreeSet<u64>, BTreeSet<usize>)> = BTreeMap::new();
+    let mut groups: BTreeMap<String, MovingNodes> = BTreeMap::new();
     for (node, (six, lines)) in of_node {
         let group = groups.entry(format!("{six:?}")).or_insert((six, BTreeSet::new(), BTreeSet::new()));
         group.1.insert(node);
@@ -193,7 +196,7 @@ pub fn velocities(build: &mut Build) {
         let of_lines: Vec<NamedTarget> =
             targets.iter().filter(|target| lines.contains(&target.line)).cloned().collect();
         let names = build.names(&nodes, &of_lines, "moving");
-        let mut table = DeckTable::new("initial", 0).from_lines(lines).names("at", &names);
+        let mut table = DeckTable::new("initial", 0).with_lines(lines).names("at", &names);
         for (key, part) in [("velocity", &six[..3]), ("angular_velocity", &six[3..])] {
             if part.iter().any(|x| *x != 0.0) {
                 table = table.numbers(key, part);

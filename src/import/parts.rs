@@ -55,7 +55,7 @@ pub fn parts(build: &mut Build) {
         let card = build.im.sections[section].clone();
         let Some((shape, axis)) = shape_of(build, &cell, &card, becomes) else { continue };
         let axis = match &card.what {
-            SectionOf::OfShell { thickness, .. } => match thickness.or_else(|| at_nodes(&thicknesses, &cell)) {
+            SectionOf::Shell { thickness, .. } => match thickness.or_else(|| at_nodes(&thicknesses, &cell)) {
                 Some(thickness) => number(thickness),
                 None => {
                     let why =
@@ -128,12 +128,12 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
     let x = |at: usize| build.mesh.x(cell.nodes[at]);
     let count = build.im.scopes.types[cell.kind].nodes;
     let name = build.im.scopes.types[cell.kind].name.clone();
-    let fits = match (&card.what, becomes) {
-        (SectionOf::OfBeam { .. }, ElementUse::StraightBeam | ElementUse::CurvedBeam) => true,
-        (SectionOf::OfShell { .. }, ElementUse::Face) => true,
-        (SectionOf::OfBar(_), ElementUse::Truss) => true,
-        _ => false,
-    };
+    let fits = matches!(
+        (&card.what, becomes),
+        (SectionOf::Beam { .. }, ElementUse::StraightBeam | ElementUse::CurvedBeam)
+            | (SectionOf::Shell { .. }, ElementUse::Face)
+            | (SectionOf::Bar(_), ElementUse::Truss)
+    );
     if !fits {
         build.im.refuse(
             card.line,
@@ -141,7 +141,7 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
         );
         return None;
     }
-    let SectionOf::OfBeam { n1, .. } = &card.what else {
+    let SectionOf::Beam { n1, .. } = &card.what else {
         return Some((if becomes == ElementUse::Face { 4 } else { 3 }, Vec3::zeros()));
     };
     let turned =
@@ -150,7 +150,8 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
     let along = (x(last) - x(0)).normalize();
     let axis = if cell.nodes.len() > count { x(count) - x(0) } else { turned };
     let across = axis - along * axis.dot(&along);
-    if !(across.norm() > PARALLEL * axis.norm()) {
+    let is_across = across.norm() > PARALLEL * axis.norm();
+    if !is_across {
         let about =
             format!("the first axis of the section, {}, is parallel to element {}", vector(axis.as_slice()), cell.id);
         build.im.refuse(card.line, &about);
@@ -209,12 +210,12 @@ fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>) {
             }
         }
         match &card.what {
-            SectionOf::OfBeam { .. } => beam(build, &card, (&mut piece, &key), &material, &mut sections),
-            SectionOf::OfShell { points, offset, .. } => {
+            SectionOf::Beam { .. } => beam(build, &card, (&mut piece, &key), &material, &mut sections),
+            SectionOf::Shell { points, offset, .. } => {
                 piece.size = key.axis.parse().unwrap_or(0.0);
                 shell(build, &card, &piece, (&material, *points, *offset));
             }
-            SectionOf::OfBar(area) => {
+            SectionOf::Bar(area) => {
                 piece.size = *area;
                 piece.name = set;
                 bars(build, &card, &mut piece, &material);
@@ -286,7 +287,7 @@ fn beam(
     material: &str,
     sections: &mut HashMap<usize, String>,
 ) {
-    let SectionOf::OfBeam { keys, offset, .. } = &card.what else { return };
+    let SectionOf::Beam { keys, offset, .. } = &card.what else { return };
     if card.orientation.is_some() {
         build.im.refuse(card.line, "ORIENTATION of a beam section is not read; give the first axis on the second line");
     }

@@ -16,14 +16,14 @@ fn section(im: &mut Importer, block: &KeywordBlock) -> Option<SectionCard> {
     };
     let material = block.keyword.value("MATERIAL").unwrap_or_default().to_owned();
     let orientation = block.keyword.value("ORIENTATION").map(str::to_owned);
-    Some(SectionCard { line, target: im.set_target(set, line), material, what: SectionOf::OfBar(0.0), orientation })
+    Some(SectionCard { line, target: im.set_target(set, line), material, what: SectionOf::Bar(0.0), orientation })
 }
 
 /// `*SOLID SECTION`.
 pub fn solid(im: &mut Importer, block: &KeywordBlock) {
     let area = block.data.first().and_then(|data| im.number_at(data, 0)).unwrap_or(1.0);
     if let Some(card) = section(im, block) {
-        im.sections.push(SectionCard { what: SectionOf::OfBar(area), ..card });
+        im.sections.push(SectionCard { what: SectionOf::Bar(area), ..card });
     }
 }
 
@@ -52,7 +52,7 @@ pub fn shell(im: &mut Importer, block: &KeywordBlock) {
     }
     let points = block.data.first().and_then(|data| data.words.get(1)).and_then(|word| word.whole());
     if let Some(card) = section(im, block) {
-        im.sections.push(SectionCard { what: SectionOf::OfShell { thickness, points, offset }, ..card });
+        im.sections.push(SectionCard { what: SectionOf::Shell { thickness, points, offset }, ..card });
     }
 }
 
@@ -114,7 +114,7 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         }),
     };
     let offset = [read("OFFSET1"), read("OFFSET2")];
-    card.what = SectionOf::OfBeam { keys, n1, offset };
+    card.what = SectionOf::Beam { keys, n1, offset };
     im.sections.push(card);
 }
 

@@ -76,7 +76,7 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
     }
     let pieces = pieces(build, &line.target, line.line);
     for piece in pieces {
-        let table = DeckTable::new("loads", 0).from_lines(lines.iter().copied());
+        let table = DeckTable::new("loads", 0).with_lines(lines.iter().copied());
         let of_piece = if piece.is_beam || piece.is_bar { Some(()) } else { None };
         let table = table.names("part", &piece.names);
         let unit = |at: usize| {
@@ -172,7 +172,7 @@ fn surface(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize])
             }
         };
         for piece in pieces(build, &set, line.line) {
-            let table = DeckTable::new("loads", 0).from_lines(lines.iter().copied()).names("part", &piece.names);
+            let table = DeckTable::new("loads", 0).with_lines(lines.iter().copied()).names("part", &piece.names);
             let table = pressure(build, table, sense * law.scale);
             build.deck.add(in_time(table, Some(law)));
         }
@@ -201,7 +201,7 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
     build.has_gravity = true;
     let law = if law.stages.is_some() { build.law_as_table(history) } else { law.clone() };
     let g = direction * law.scale;
-    let table = DeckTable::new("environment", 0).from_lines(lines.iter().copied()).numbers("gravity", g.as_slice());
+    let table = DeckTable::new("environment", 0).with_lines(lines.iter().copied()).numbers("gravity", g.as_slice());
     build.deck.add(match &law.amplitude {
         Some(name) => table.text("gravity_amplitude", name),
         None => table,

@@ -14,7 +14,7 @@ pub fn stages(build: &mut Build) {
     if build.im.steps.list.is_empty() {
         build.im.refuse(1, "the file has no *STEP; a mesh alone goes into a deck by `[mesh] file`");
     }
-    if !build.im.steps.list.is_empty() && build.timeline.general.len() > 0 {
+    if !build.im.steps.list.is_empty() && !build.timeline.general.is_empty() {
         lines_of_modes(build);
     }
     let stages = build.timeline.stages.clone();
@@ -23,8 +23,8 @@ pub fn stages(build: &mut Build) {
         let Some((procedure, line)) = &step.procedure else { continue };
         say_changes(build, &step, procedure, *line);
         let table = match build.timeline.is_staged() {
-            true => DeckTable::new("stages", step.line).from_lines([*line]).text("name", &stage.name),
-            false => DeckTable::new("analysis", step.line).from_lines([*line]),
+            true => DeckTable::new("stages", step.line).with_lines([*line]).text("name", &stage.name),
+            false => DeckTable::new("analysis", step.line).with_lines([*line]),
         };
         let table = table.text("kind", kind(procedure));
         let table = times(table, procedure, build.timeline.is_staged());

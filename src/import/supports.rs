@@ -28,15 +28,17 @@ struct Alike {
     lines: BTreeSet<usize>,
 }
 
+/// A node, its degree of freedom, and what a line gives.
+type GivenFreedom = ((u64, usize), GivenValue);
+
 /// Adds all supports.
 pub fn supports(build: &mut Build) {
     let steps = &build.im.steps;
     let lines: Vec<SupportLine> =
         steps.list.iter().chain([&steps.before]).flat_map(|step| step.supports.clone()).collect();
     let by_line: HashMap<usize, SupportLine> = lines.iter().map(|line| (line.line, line.clone())).collect();
-    let given: HashMap<usize, Vec<((u64, usize), GivenValue)>> =
-        lines.iter().map(|line| (line.line, given(build, line))).collect();
-    let of = |supports: &[SupportLine]| -> Vec<((u64, usize), GivenValue)> {
+    let given: HashMap<usize, Vec<GivenFreedom>> = lines.iter().map(|line| (line.line, given(build, line))).collect();
+    let of = |supports: &[SupportLine]| -> Vec<GivenFreedom> {
         supports.iter().flat_map(|line| given[&line.line].clone()).collect()
     };
     let steps = &build.im.steps;
@@ -73,7 +75,7 @@ pub fn supports(build: &mut Build) {
 }
 
 /// Nodes and degrees of freedom of a line; those of a node that turns a body are rotations of the body.
-fn given(build: &mut Build, line: &SupportLine) -> Vec<((u64, usize), GivenValue)> {
+fn given(build: &mut Build, line: &SupportLine) -> Vec<GivenFreedom> {
     let nodes = build.nodes(&line.target);
     let mut given = Vec::new();
     let mut unused = false;
@@ -178,7 +180,7 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
         targets.iter().filter(|target| group.lines.contains(&target.line)).cloned().collect();
     let names = build.names(&group.nodes, &of_lines, "held");
     for stages in seen {
-        let mut table = DeckTable::new("supports", 0).from_lines(group.lines.iter().copied()).names("at", &names);
+        let mut table = DeckTable::new("supports", 0).with_lines(group.lines.iter().copied()).names("at", &names);
         let here = |dof: &usize| group.held[*dof].as_ref().filter(|(_, at)| *at == stages).map(|(held, _)| held);
         let fixed: Vec<usize> = (0..6).filter(|dof| here(dof) == Some(&HeldAs::Fixed)).collect();
         if !fixed.is_empty() {
