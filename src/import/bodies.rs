@@ -3,7 +3,7 @@
 use crate::build::Build;
 use crate::deck_text::{DeckTable, list, quoted};
 use crate::element_types::ElementUse;
-use crate::file_content::{PropertyOf, RigidCard};
+use crate::file_content::{PropertyOf, RigidCard, StepCard, StepProcedure};
 use crate::scopes::NamedTarget;
 use base::math::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -155,6 +155,12 @@ fn inertia(
     let size = build.mesh.size();
     if mass <= 0.0 {
         let x = build.mesh.x(reference);
+        let is_still = |step: &StepCard| {
+            matches!(step.procedure, Some((StepProcedure::Static { .. } | StepProcedure::Buckle { .. }, _)))
+        };
+        if build.im.steps.list.iter().all(is_still) {
+            return table.numbers("center", x.as_slice());
+        }
         let all: f64 = build.pieces.iter().map(|piece| piece.mass(|id| build.mesh.x(id))).sum();
         let light = if all > 0.0 { LIGHT * all } else { LIGHT };
         build.im.change(card.line, "the body has no mass; the deck gives it a billionth of that of all parts");

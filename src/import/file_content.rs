@@ -411,6 +411,16 @@ pub struct StepCard {
     pub new_spread: bool,
 }
 
+impl StepCard {
+    /// True where something in it follows an amplitude.
+    pub fn has_amplitude(&self) -> bool {
+        let supports = self.supports.iter().any(|line| line.amplitude.is_some());
+        supports
+            || self.forces.iter().any(|line| line.amplitude.is_some())
+            || self.spread.iter().any(|line| line.amplitude.is_some())
+    }
+}
+
 /// All steps of a file.
 #[derive(Debug, Default)]
 pub struct StepCards {

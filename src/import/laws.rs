@@ -16,6 +16,7 @@ impl Build<'_, '_, '_> {
         let steps = &self.im.steps.list;
         if let Some(InStep::Begins(given)) = history.get(first)
             && is_plain
+            && !self.timeline.is_joined()
         {
             let stage = &self.timeline.stages[self.timeline.general[first]];
             let jumps = steps[stage.step].jumps.unwrap_or(stage.is_dynamic);

@@ -24,6 +24,7 @@ mod joints;
 mod keyword_block;
 pub mod keywords;
 mod laws;
+mod linear;
 mod links;
 mod loads;
 mod material_cards;

@@ -17,6 +17,9 @@ pub fn stages(build: &mut Build) {
     if !build.im.steps.list.is_empty() && !build.timeline.general.is_empty() {
         lines_of_modes(build);
     }
+    if let Some(step) = build.timeline.linear_step {
+        return linear(build, step);
+    }
     let stages = build.timeline.stages.clone();
     for stage in &stages {
         let step = build.im.steps.list[stage.step].clone();
@@ -42,6 +45,18 @@ pub fn stages(build: &mut Build) {
         };
         build.deck.add(table);
     }
+}
+
+/// Adds the linear analysis that all steps are together.
+fn linear(build: &mut Build, time_step: f64) {
+    let lines: Vec<usize> = build.im.steps.list.iter().map(|step| step.line).collect();
+    let table = DeckTable::new("analysis", lines[0])
+        .with_lines(lines)
+        .text("kind", "static")
+        .text("geometry", "linear")
+        .number("end_time", build.timeline.end())
+        .number("time_step", time_step);
+    build.deck.add(table);
 }
 
 /// Supports in a step of modes hold there alone, which no deck says beside steps in which time passes.
@@ -73,7 +88,7 @@ fn kind(procedure: &StepProcedure) -> &'static str {
 fn say_changes(build: &mut Build, step: &StepCard, procedure: &StepProcedure, line: usize) {
     match procedure {
         StepProcedure::Static { .. } if !step.is_nonlinear => {
-            build.im.change(line, "a step without NLGEOM is linear; rdsolve computes it at large displacements");
+            build.im.change(line, "a step without NLGEOM is linear; beside other steps, gaps and yielding rdsolve computes it at large displacements");
         }
         StepProcedure::Dynamic { .. } if !step.is_nonlinear => {
             build

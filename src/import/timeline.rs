@@ -3,6 +3,7 @@
 use crate::dialect::Dialect;
 use crate::file_content::{StepCard, StepProcedure};
 use crate::importer::Importer;
+use crate::linear;
 use std::collections::BTreeMap;
 
 /// A stage of the deck.
@@ -27,6 +28,8 @@ pub struct Timeline {
     pub stages: Vec<StageOfStep>,
     /// Those in which time passes, by index; the first where time passes in none.
     pub general: Vec<usize>,
+    /// The time step where all steps are one linear analysis.
+    pub linear_step: Option<f64>,
 }
 
 /// What a line gives: value, amplitude, line.
@@ -103,12 +106,17 @@ impl Timeline {
         let timed: Vec<usize> = (0..first.len()).filter(|&at| first[at].duration > 0.0).collect();
         // Modes alone are about what acts in their own step.
         let general = if timed.is_empty() { (0..first.len().min(1)).collect() } else { timed };
-        Timeline { stages: first, general }
+        Timeline { stages: first, general, linear_step: linear::time_step(im) }
     }
 
     /// True for a deck of stages; false for one of a single analysis.
     pub fn is_staged(&self) -> bool {
-        self.stages.len() > 1
+        self.stages.len() > 1 && self.linear_step.is_none()
+    }
+
+    /// True where several steps are one analysis.
+    pub fn is_joined(&self) -> bool {
+        self.stages.len() > 1 && self.linear_step.is_some()
     }
 
     /// The time at which the last stage ends.
@@ -119,7 +127,7 @@ impl Timeline {
     /// Names of the stages in which a value acts that begins in a general stage; `None` where these are all.
     pub fn from(&self, first: usize) -> Option<Vec<String>> {
         let begin = self.general.get(first).copied().unwrap_or(0);
-        (begin > 0).then(|| self.stages[begin..].iter().map(|stage| stage.name.clone()).collect())
+        (begin > 0 && self.is_staged()).then(|| self.stages[begin..].iter().map(|stage| stage.name.clone()).collect())
     }
 }
 

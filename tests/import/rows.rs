@@ -217,6 +217,41 @@ fn supports() {
     has(BEAM, &amplitude, None, "[amplitudes.A]\nkind = \"table\"\npoints = [[0.0, 0.0], [1.0, 2.0]]\n");
 }
 
+/// Static steps without NLGEOM are one linear analysis, with all that acts in a step at its end.
+#[test]
+fn linear_steps() {
+    let linear = |text: &str| text.replace("STEP, NLGEOM", "STEP");
+    let one = "[analysis]\nkind = \"static\"\ngeometry = \"linear\"\nend_time = 1.0\ntime_step = 1.0\n";
+    has(&linear(BEAM), &[], None, one);
+    let two = linear(&edited(BEAM, &[("*END STEP\n", SECOND)]));
+    has(&two, &[], None, "geometry = \"linear\"\nend_time = 3.0\ntime_step = 1.0\n");
+    has(&two, &[], None, "points = [[0.0, 0.0], [1.0, 0.5], [3.0, 1.0]]\n");
+    // A load of the first step alone goes on.
+    let other =
+        linear(&edited(BEAM, &[("*END STEP\n", "*END STEP\n*STEP\n*STATIC\n1., 2.\n*CLOAD\n2, 2, 1.\n*END STEP\n")]));
+    has(&other, &[], None, "points = [[0.0, 0.0], [1.0, 1.0], [3.0, 1.0]]\n");
+    has(&other, &[], None, "points = [[0.0, 0.0], [1.0, 0.0], [3.0, 1.0]]\n");
+    // An amplitude is followed in the increments of the file.
+    let amplitude = [("*CLOAD", "*CLOAD, AMPLITUDE=A"), ("*STEP", "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*STEP")];
+    has(
+        &linear(&edited(BEAM, &amplitude[..1])),
+        &[("*STEP\n*STATIC", "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*STEP\n*STATIC")],
+        None,
+        "time_step = 0.5\n",
+    );
+    // Supports named again are the same; others make stages at large displacements.
+    let again =
+        linear(&edited(BEAM, &[("*END STEP\n", "*END STEP\n*STEP\n*STATIC\n*BOUNDARY, OP=NEW\n1, 1, 6\n*END STEP\n")]));
+    has(&again, &[], None, "geometry = \"linear\"\nend_time = 2.0\n");
+    let freed = imported(&again.replace("OP=NEW\n1, 1, 6", "OP=NEW\n1, 1, 3"));
+    assert!(!freed.deck.contains("geometry") && reasons(&freed, KeywordVerdict::Changed).len() == 2, "{}", freed.deck);
+    // So do modes beside it, and yielding.
+    let modes = imported(&linear(&edited(BEAM, &[("*END STEP\n", "*END STEP\n*STEP\n*FREQUENCY\n4\n*END STEP\n")])));
+    assert!(!modes.deck.contains("geometry") && reasons(&modes, KeywordVerdict::Changed)[0].contains("without NLGEOM"));
+    let yields = imported(&linear(&edited(BEAM, &[("*DENSITY", "*PLASTIC\n1e6, 0.\n2e6, 0.1\n*DENSITY")])));
+    assert!(!yields.deck.contains("geometry"), "{}", yields.deck);
+}
+
 const SECOND: &str = "*END STEP\n*STEP, NLGEOM\n*STATIC\n1., 2.\n*CLOAD\n2, 3, 10.\n*END STEP\n";
 
 /// Loads go on from step to step, and run from value to value over a step.

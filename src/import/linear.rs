@@ -1,0 +1,58 @@
+//! Linear statics: which files are one linear analysis, and its time steps.
+
+use crate::file_content::{PropertyOf, StepCard, StepProcedure, SupportLine};
+use crate::importer::Importer;
+use std::collections::BTreeSet;
+
+/// How near the length of a step must come to whole time steps, over a time step.
+const WHOLE: f64 = 1e-9;
+/// The most time steps in the shortest step of the file.
+const PARTS: u32 = 100;
+
+/// The time step of the linear analysis that all steps of a file are together; `None` where they are none. Loads of each step then act in
+/// full at its end.
+pub fn time_step(im: &Importer) -> Option<f64> {
+    let mut lengths = Vec::new();
+    let mut shortest = f64::INFINITY;
+    for step in &im.steps.list {
+        match &step.procedure {
+            Some((StepProcedure::Static { step: first, duration, is_riks: false }, _)) if !step.is_nonlinear => {
+                lengths.push(*duration);
+                shortest = shortest.min(if step.has_amplitude() { *first } else { *duration });
+            }
+            _ => return None,
+        }
+    }
+    if lengths.is_empty() || !has_linear_parts(im) || has_changing_supports(im) {
+        return None;
+    }
+    let fits = |step: f64| {
+        lengths.iter().all(|length| {
+            let count = (length / step).round();
+            (length - count * step).abs() <= WHOLE * step
+        })
+    };
+    (1..=PARTS).map(|parts| shortest / f64::from(parts)).find(|step| fits(*step))
+}
+
+/// True where no force depends on the state.
+fn has_linear_parts(im: &Importer) -> bool {
+    let is_plastic = im.materials.list.iter().any(|material| !material.plastic.is_empty());
+    let opens = im.properties.iter().any(|card| card.is_nonlinear || card.of == PropertyOf::Gap);
+    !is_plastic && !opens
+}
+
+/// True where a degree of freedom is held or freed in a later step.
+fn has_changing_supports(im: &Importer) -> bool {
+    let held_in = |step: &StepCard| -> BTreeSet<(String, usize)> {
+        let name = |line: &SupportLine| line.target.name.to_lowercase();
+        step.supports.iter().flat_map(|line| line.degrees.iter().map(move |dof| (name(line), *dof))).collect()
+    };
+    let mut known = held_in(&im.steps.before);
+    let Some((first, later)) = im.steps.list.split_first() else { return false };
+    known.extend(held_in(first));
+    later.iter().any(|step| {
+        let held = held_in(step);
+        if step.new_supports { held != known } else { !held.is_subset(&known) }
+    })
+}
