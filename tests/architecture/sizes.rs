@@ -17,13 +17,13 @@ const LINES: usize = 60;
 /// Plain data: what a deck says or means, and what a step writes to.
 const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 18),
-    ("deck/analysis.rs: Analysis", 17),
+    ("deck/analysis.rs: Analysis", 19),
     ("deck/beams.rs: Beam", 19),
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 17),
-    ("deck/lib.rs: Deck", 34),
+    ("deck/lib.rs: Deck", 35),
     ("deck/shells.rs: Shell", 17),
-    ("model/data/model.rs: Model", 16),
+    ("model/data/model.rs: Model", 17),
     ("solve/derived.rs: Derived", 16),
     ("solve/frame.rs: Frame", 17),
     ("solve/workspace.rs: Workspace", 17),

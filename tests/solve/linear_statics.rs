@@ -10,8 +10,9 @@ const STEEL: &str = r#"
     sections = { square = { shape = "rectangle", width = 0.1, height = 0.2 } }
 "#;
 
-/// Columns that say what a row is about, and the stress that is no linear function of loads.
-const KEYS: [&str; 9] = ["step", "time", "x", "y", "z", "s", "element", "layer", "von_mises"];
+/// Columns that say what a row is about, and stresses that are no linear functions of loads.
+const KEYS: [&str; 12] =
+    ["step", "time", "x", "y", "z", "s", "element", "layer", "von_mises", "sigma_max", "sigma_min", "tau_max"];
 
 /// The rows of a table that belong to a case, or to the last step where there are none.
 fn of_case(model: &Model, file: &str, case: Option<&str>) -> Vec<Vec<f64>> {
