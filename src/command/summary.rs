@@ -6,7 +6,7 @@ use base::names::to_digits;
 use clap::{Args, ValueEnum};
 use results::compare::Selector;
 use results::curve::{Curve, CurveAxis};
-use results::low_pass::{LowPass, Sampling};
+use results::low_pass::{LowPass, TimeSampling};
 use results::summary::{ColumnSummary, Extremum, Filter, ResultSummary};
 use std::path::PathBuf;
 
@@ -98,7 +98,7 @@ const DIGITS: usize = 7;
 
 /// Filters both columns of a curve.
 fn smoothen(curve: &mut Curve, filter: &Filter) -> Result<(), String> {
-    let sampling = Sampling::of(&curve.time)?;
+    let sampling = TimeSampling::of(&curve.time)?;
     for values in [&mut curve.x, &mut curve.y] {
         let smooth = filter.low_pass.apply(&sampling, filter.second, &curve.time, values)?;
         *values = sampling.at_rows(&smooth, &curve.time);

@@ -101,19 +101,7 @@ impl<'d> Expects<'_, 'd> {
         let when = self.when(owner, expect);
         let judged = self.judged(owner, expect);
         let ((at, _), quantity, when, (value, tolerance)) = (at?, column?, when?, judged?);
-        let moment = match when {
-            When::Time(time) => format!("at t = {time}"),
-            When::Case(place) => format!("in case `{}`", self.cases.list[place].name),
-            When::Target(at) => {
-                let (node, direction) = (&self.topology.list[at.node].label, DIRECTIONS[at.dof]);
-                let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
-                format!("where {direction} of {node} is {}{pass}", at.value)
-            }
-            When::End => format!("at the end of stage `{}`", expect.stage.as_ref().map_or("", |stage| stage.as_str())),
-            When::Max => "at its maximum".to_owned(),
-            When::Min => "at its minimum".to_owned(),
-            When::Abs => "at its greatest absolute value".to_owned(),
-        };
+        let moment = self.moment(expect, &when);
         let stage = expect.stage.as_ref().map_or(String::new(), |stage| match when {
             When::End => String::new(),
             _ => format!(" in stage `{}`", stage.value),
@@ -128,6 +116,23 @@ impl<'d> Expects<'_, 'd> {
             source: expect.source.as_ref().map(|source| source.value.clone()).unwrap_or_default(),
             label: format!("{quantity} of {} {moment}{stage}", name?.value),
         })
+    }
+
+    /// The instant in words, as `at t = 0.5`.
+    fn moment(&self, expect: &words::Expect, when: &When) -> String {
+        match when {
+            When::Time(time) => format!("at t = {time}"),
+            When::Case(place) => format!("in case `{}`", self.cases.list[*place].name),
+            When::Target(at) => {
+                let (node, direction) = (&self.topology.list[at.node].label, DIRECTIONS[at.dof]);
+                let pass = if at.pass == 1 { String::new() } else { format!(", pass {}", at.pass) };
+                format!("where {direction} of {node} is {}{pass}", at.value)
+            }
+            When::End => format!("at the end of stage `{}`", expect.stage.as_ref().map_or("", |stage| stage.as_str())),
+            When::Max => "at its maximum".to_owned(),
+            When::Min => "at its minimum".to_owned(),
+            When::Abs => "at its greatest absolute value".to_owned(),
+        }
     }
 
     /// A quantity of a mode.

@@ -36,26 +36,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
     let units = scene.deck.units.as_ref().map(|units| units.label().to_owned());
     let Some(table) = &scene.deck.output else {
         let nodes = named_nodes(scene, nodes);
-        let output = Output {
-            units,
-            nodes,
-            drifts: drifts(scene, report),
-            cadence: Cadence::Steps(1),
-            cadence_is_open: true,
-            energy: true,
-            links: false,
-            contacts: None,
-            reactions: false,
-            sections: None,
-            failures: may_fail(scene),
-            layers: false,
-            parts: false,
-            joints: false,
-            fields: None,
-            field_format: FieldFormat::Vtu,
-            checkpoint: None,
-        };
-        return Selection { output, all_nodes: false };
+        return Selection { output: by_default(scene, nodes, units, report), all_nodes: false };
     };
     let word = table.nodes.as_ref().filter(|nodes| nodes.single).map(|nodes| nodes.values[0].as_str());
     let nodes = match word {
@@ -94,6 +75,29 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         checkpoint: report.positive("checkpoint", &table.checkpoint),
     };
     Selection { output, all_nodes: word == Some("all") }
+}
+
+/// The output of a deck without `[output]`.
+fn by_default<'d>(scene: &Scene<'d>, nodes: Vec<usize>, units: Option<String>, report: &mut Report<'d>) -> Output {
+    Output {
+        units,
+        nodes,
+        drifts: drifts(scene, report),
+        cadence: Cadence::Steps(1),
+        cadence_is_open: true,
+        energy: true,
+        links: false,
+        contacts: None,
+        reactions: false,
+        sections: None,
+        failures: may_fail(scene),
+        layers: false,
+        parts: false,
+        joints: false,
+        fields: None,
+        field_format: FieldFormat::Vtu,
+        checkpoint: None,
+    }
 }
 
 /// Lists all nodes of a model but bodies, for output.

@@ -81,7 +81,7 @@ impl Biquad {
 
 /// Even times at which values are filtered.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sampling {
+pub struct TimeSampling {
     begin: f64,
     /// The time between two samples.
     pub step: f64,
@@ -89,12 +89,12 @@ pub struct Sampling {
     is_even: bool,
 }
 
-impl Sampling {
+impl TimeSampling {
     /// The samples for rows at these times: the rows themselves where they are even, otherwise steps as long as their shortest.
     ///
     /// # Errors
     /// There are too few rows, or time does not grow, in words.
-    pub fn of(times: &[f64]) -> Result<Sampling, String> {
+    pub fn of(times: &[f64]) -> Result<TimeSampling, String> {
         let (Some(first), Some(last)) = (times.first(), times.last()) else {
             return Err("there are no rows".to_owned());
         };
@@ -107,11 +107,11 @@ impl Sampling {
         }
         let mean = (last - first) / (times.len() - 1) as f64;
         if apart().all(|step| (step - mean).abs() <= EVEN * mean) {
-            return Ok(Sampling { begin: *first, step: mean, count: times.len(), is_even: true });
+            return Ok(TimeSampling { begin: *first, step: mean, count: times.len(), is_even: true });
         }
         let least = apart().filter(|step| *step > EVEN * mean).fold(f64::INFINITY, f64::min);
         let count = 1 + (((last - first) / least).round() as usize).clamp(3, DENSER * times.len());
-        Ok(Sampling { begin: *first, step: (last - first) / (count - 1) as f64, count, is_even: false })
+        Ok(TimeSampling { begin: *first, step: (last - first) / (count - 1) as f64, count, is_even: false })
     }
 
     /// The times of the samples.
@@ -183,7 +183,13 @@ impl LowPass {
     ///
     /// # Errors
     /// The rows do not hold frequencies as high as the cutoff, in words.
-    pub fn apply(&self, sampling: &Sampling, second: f64, times: &[f64], values: &[f64]) -> Result<Vec<f64>, String> {
+    pub fn apply(
+        &self,
+        sampling: &TimeSampling,
+        second: f64,
+        times: &[f64],
+        values: &[f64],
+    ) -> Result<Vec<f64>, String> {
         let (order, cutoff) = self.pass(second);
         let nyquist = 0.5 / sampling.step;
         if cutoff >= nyquist {
@@ -285,7 +291,7 @@ mod tests {
             ),
         ];
         let [times, values] = signal();
-        let sampling = Sampling::of(&times).unwrap();
+        let sampling = TimeSampling::of(&times).unwrap();
         for (word, expected) in known {
             let filtered = word.parse::<LowPass>().unwrap().apply(&sampling, 1.0, &times, &values).unwrap();
             for (place, expected) in places.into_iter().zip(expected) {
@@ -317,16 +323,16 @@ mod tests {
     fn constants_pass_and_coarse_rows_do_not() {
         let times = [0.0, 0.001, 0.002, 0.0025, 0.004, 0.004, 0.005];
         let values = times.map(|_| 3.0);
-        let sampling = Sampling::of(&times).unwrap();
+        let sampling = TimeSampling::of(&times).unwrap();
         let filtered = LowPass::Cfc(60.0).apply(&sampling, 1.0, &times, &values).unwrap();
         assert!(filtered.len() == 11 && filtered.iter().all(|value| (value - 3.0).abs() < 1e-12), "{filtered:?}");
         assert!(sampling.at_rows(&filtered, &times).iter().zip(&values).all(|(a, b)| (a - b).abs() < 1e-12));
         let coarse: Vec<f64> = (0..10).map(|k| 0.01 * k as f64).collect();
-        let refused = LowPass::Cfc(60.0).apply(&Sampling::of(&coarse).unwrap(), 1.0, &coarse, &coarse);
+        let refused = LowPass::Cfc(60.0).apply(&TimeSampling::of(&coarse).unwrap(), 1.0, &coarse, &coarse);
         assert!(refused.unwrap_err().contains("hold frequencies up to 50"));
         assert!(LowPass::Cfc(60.0).doubt(0.01, 1.0).unwrap().contains("0.001667"));
         assert!(LowPass::Cfc(60.0).doubt(1.6e-3, 1.0).is_none());
-        assert!(Sampling::of(&[0.0, 1.0, 0.5, 2.0]).unwrap_err().contains("falls"));
+        assert!(TimeSampling::of(&[0.0, 1.0, 0.5, 2.0]).unwrap_err().contains("falls"));
         for word in ["cfc", "cfc0", "butterworth", "butterworth:5:0", "butterworth:5:11", "bessel:5"] {
             assert!(word.parse::<LowPass>().is_err(), "{word}");
         }

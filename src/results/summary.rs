@@ -2,7 +2,7 @@
 
 use super::compare::Selector;
 use super::disk::at;
-use super::low_pass::{LowPass, Sampling};
+use super::low_pass::{LowPass, TimeSampling};
 use super::result_json;
 use super::table::STAGE;
 use super::table_reader::{TableReader, fields, number, text};
@@ -211,7 +211,7 @@ fn filtered(
     let unfit = |why: String| at(&path, io::Error::other(why));
     let mut found: Vec<Option<[Extremum; 3]>> = vec![None; columns.len()];
     for Series { name, times, values } in &all {
-        let sampling = Sampling::of(times).map_err(unfit)?;
+        let sampling = TimeSampling::of(times).map_err(unfit)?;
         let doubt = filter.low_pass.doubt(sampling.step, filter.second).map(|doubt| format!("{file}: {doubt}"));
         doubts.extend(doubt.filter(|doubt| !doubts.contains(doubt)));
         for (extremes, values) in

@@ -11,8 +11,8 @@ use std::collections::{BTreeMap, BTreeSet};
 const PARTS: [&str; 5] = ["Beam", "Bar", "Shell", "Link", "Contact"];
 const STRANGERS: usize = 6;
 
-/// Kinds of parts that more files name.
-const WELL_KNOWN: Known = &[];
+/// Kinds of parts that more files name: stresses, foundations and loads at a place are those of beams alone.
+const WELL_KNOWN: Known = &[("Beam", 10)];
 
 /// Folders in which each file is a kind of its own, and what else stands there.
 const CATALOGUES: [(&str, &[&str]); 7] = [
@@ -33,7 +33,10 @@ const CATALOGUES: [(&str, &[&str]); 7] = [
     ),
     ("mechanics/materials/models", &["kind"]),
     ("results/tables", &["shell_order"]),
-    ("mechanics/sections", &["dimensions", "fibres", "profile", "section", "section_shape", "wall"]),
+    (
+        "mechanics/sections",
+        &["dimensions", "fibres", "profile", "rounded", "section", "section_shape", "stresses", "wall"],
+    ),
     ("mechanics/solids", &["element_faces", "hollow", "hull_points", "kind", "outline", "segment"]),
 ];
 

@@ -5,7 +5,7 @@ use super::fibres::Fibre;
 use super::profile::{Profile, thin};
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape};
-use super::stresses::Outline;
+use super::stresses::SectionOutline;
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -61,7 +61,7 @@ impl SectionShape for C {
         Ok(c(self.height, self.width, self.web, self.flange)?.fibres(counts))
     }
 
-    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
         Some(c(self.height, self.width, self.web, self.flange).ok()?.outline(section))
     }
 

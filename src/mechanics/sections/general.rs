@@ -4,7 +4,7 @@ use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, Stiffness};
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
-use super::stresses::Outline;
+use super::stresses::SectionOutline;
 use base::words::kinds::Values;
 use base::words::kinds::{Form, Given, Key};
 
@@ -137,7 +137,7 @@ impl SectionShape for General {
         Err(NO_FIBRES.into())
     }
 
-    fn outline(&self, _: f64, _: &Section) -> Option<Outline> {
+    fn outline(&self, _: f64, _: &Section) -> Option<SectionOutline> {
         None
     }
 

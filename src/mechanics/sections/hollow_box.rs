@@ -3,12 +3,13 @@
 use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::Profile;
-use super::rounded::RoundedBox;
+use super::rounded::Corner;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
-use super::stresses::Outline;
+use super::stresses::SectionOutline;
 use super::wall::Wall;
 use base::words::kinds::{Form, Given, Key};
+use std::f64::consts::PI;
 
 /// The shape's word, keys and maker.
 pub static KIND: SectionKind = SectionKind {
@@ -78,7 +79,7 @@ impl SectionShape for HollowBox {
         Ok(cell(self.width, self.height, self.web, self.flange)?.fibres(counts))
     }
 
-    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
         Some(cell(self.width, self.height, self.web, self.flange).ok()?.outline(section))
     }
 
@@ -115,6 +116,67 @@ fn cell(width: f64, height: f64, web: f64, flange: f64) -> Result<Profile, Strin
         cell: true,
         torsion: bredt + 2.0 / 3.0 * (b * flange.powi(3) + h * web.powi(3)),
     })
+}
+
+/// A rectangular hollow section of one thickness with rounded corners.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RoundedBox {
+    /// The section with sharp corners.
+    pub sharp: HollowBox,
+    /// Radii of the corners outside and inside.
+    pub radii: [f64; 2],
+}
+
+impl SectionShape for RoundedBox {
+    fn section(&self, nu: f64) -> Result<Section, String> {
+        let HollowBox { width, height, web: t, flange } = self.sharp;
+        if t != flange {
+            return Err("`corner_radii` need walls of one thickness".to_owned());
+        }
+        let mut section = self.sharp.section(nu)?;
+        let [outer, inner] = self.radii;
+        smaller(
+            ("corner_radii", outer),
+            ("half of the smaller side", 0.5 * width.min(height)),
+            "they must be less than",
+        )?;
+        smaller(
+            ("corner_radii", inner),
+            ("half of the hollow", 0.5 * width.min(height) - t),
+            "they must be less than",
+        )?;
+        for (sign, radius, wall) in [(-1.0, outer, 0.0), (1.0, inner, t)] {
+            let corner = Corner::new(radius);
+            let place = [width, height].map(|side| 0.5 * side - wall - corner.arm);
+            corner.add(sign, place, &mut section);
+        }
+        // Bredt's cell and the wall's own part over the rounded middle line (EN 10210-2, annex A).
+        let (radius, missing) = (0.5 * (outer + inner), 4.0 - PI);
+        let length = 2.0 * (width + height - 2.0 * t) - 2.0 * radius * missing;
+        let enclosed = (width - t) * (height - t) - radius * radius * missing;
+        let torsion = t.powi(3) * length / 3.0 + 4.0 * enclosed * enclosed * t / length;
+        Ok(Section { torsion, ..section })
+    }
+
+    fn default_fibres(&self, share: Option<usize>) -> Result<[usize; 2], String> {
+        self.sharp.default_fibres(share)
+    }
+
+    /// Fibres of the section with sharp corners, with the area of this one.
+    fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
+        let mut fibres = self.sharp.lay_fibres(counts, section)?;
+        let whole: f64 = fibres.iter().map(|fibre| fibre.area).sum();
+        fibres.iter_mut().for_each(|fibre| fibre.area *= section.area / whole);
+        Ok(fibres)
+    }
+
+    fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline> {
+        self.sharp.outline(nu, section)
+    }
+
+    fn half_depth(&self) -> f64 {
+        self.sharp.half_depth()
+    }
 }
 
 #[cfg(test)]

@@ -3,10 +3,10 @@
 use super::dimensions::{positive, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
-use super::rounded::RolledI;
+use super::rounded::Corner;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, pair};
-use super::stresses::Outline;
+use super::stresses::SectionOutline;
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -91,7 +91,7 @@ impl SectionShape for I {
             .fibres(counts))
     }
 
-    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
         let made = i(self.height, self.top_width, self.bottom_width, self.web, self.top_flange, self.bottom_flange);
         Some(made.ok()?.outline(section))
     }
@@ -145,6 +145,68 @@ pub(super) fn i(
         ([0.5 * b, bottom], b, flange_bottom),
     ];
     thin(points, &walls, plates, &[flange_top, flange_top, flange_bottom, flange_bottom])
+}
+
+/// A rolled I section: equal flanges with radii at the root of the web.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RolledI {
+    /// The plates.
+    pub plates: I,
+    /// Radius between web and flanges.
+    pub root_radius: f64,
+}
+
+impl RolledI {
+    /// The corner at each root, and the place of one.
+    fn roots(&self) -> (Corner, [f64; 2]) {
+        let corner = Corner::new(self.root_radius);
+        let I { height, web, top_flange, .. } = self.plates;
+        (corner, [0.5 * web + corner.arm, 0.5 * height - top_flange - corner.arm])
+    }
+
+    /// Saint-Venant torsion constant: flanges, web, and the bulges where they meet, by the circle that fits there (El Darwish & Johnston 1965).
+    fn torsion(&self) -> f64 {
+        let I { height, top_width: width, web, top_flange: flange, .. } = self.plates;
+        let r = self.root_radius;
+        let circle = ((r + 0.5 * web).powi(2) + (r + flange).powi(2) - r * r) / (2.0 * r + flange);
+        let bulge = web / flange * (0.145 + 0.1 * r / flange) * circle.powi(4);
+        2.0 / 3.0 * (width - 0.63 * flange) * flange.powi(3) + (height - 2.0 * flange) * web.powi(3) / 3.0 + 2.0 * bulge
+    }
+}
+
+impl SectionShape for RolledI {
+    fn section(&self, nu: f64) -> Result<Section, String> {
+        let I { height, top_width, bottom_width, web, top_flange, bottom_flange } = self.plates;
+        if top_width != bottom_width || top_flange != bottom_flange {
+            return Err("`root_radius` needs equal flanges".to_owned());
+        }
+        let mut section = self.plates.section(nu)?;
+        let room = (0.5 * (top_width - web)).min(0.5 * height - top_flange);
+        smaller(("root_radius", self.root_radius), ("the room beside the web", room), "it must be less than")?;
+        let (corner, place) = self.roots();
+        corner.add(1.0, place, &mut section);
+        Ok(Section { torsion: self.torsion(), ..section })
+    }
+
+    fn default_fibres(&self, share: Option<usize>) -> Result<[usize; 2], String> {
+        self.plates.default_fibres(share)
+    }
+
+    fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
+        let mut fibres = self.plates.lay_fibres(counts, section)?;
+        let (Corner { area, .. }, [y, z]) = self.roots();
+        let root = |[a, b]: [f64; 2]| Fibre { area, y: a * y, z: b * z, shear: [[0.0; 3]; 2] };
+        fibres.extend([[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]].map(root));
+        Ok(fibres)
+    }
+
+    fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline> {
+        self.plates.outline(nu, section)
+    }
+
+    fn half_depth(&self) -> f64 {
+        self.plates.half_depth()
+    }
 }
 
 #[cfg(test)]

@@ -1,12 +1,12 @@
 //! The angle.
 
-use super::dimensions::{positive, smaller};
+use super::dimensions::{positive, rectangles, smaller};
 use super::fibres::Fibre;
 use super::profile::{Profile, thin};
-use super::rounded::RolledL;
+use super::rounded::Corner;
 use super::section::Section;
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
-use super::stresses::Outline;
+use super::stresses::SectionOutline;
 use base::words::kinds::{Form, Given, Key};
 
 /// The shape's word, keys and maker.
@@ -77,7 +77,7 @@ impl SectionShape for L {
         Ok(l(self.height, self.width, self.vertical, self.horizontal)?.fibres(counts))
     }
 
-    fn outline(&self, _: f64, section: &Section) -> Option<Outline> {
+    fn outline(&self, _: f64, section: &Section) -> Option<SectionOutline> {
         Some(l(self.height, self.width, self.vertical, self.horizontal).ok()?.outline(section))
     }
 
@@ -102,6 +102,94 @@ fn l(height: f64, width: f64, vertical: f64, horizontal: f64) -> Result<Profile,
     let points = vec![[y, height], [y, z], [width, z]];
     let walls = [(0, 1, vertical), (1, 2, horizontal)];
     thin(points, &walls, plates, &[vertical, horizontal])
+}
+
+/// A rolled angle of one thickness: a radius between the legs, and half of it at the inner edges of their ends (EN 10056-1).
+#[derive(Debug, Clone, PartialEq)]
+pub struct RolledL {
+    /// The legs with sharp corners.
+    pub legs: L,
+    /// Radius between the legs.
+    pub root_radius: f64,
+}
+
+impl RolledL {
+    /// The corners with their sign and the place of their centroids, from the outer edges: the root, and what both ends lack.
+    fn corners(&self) -> [(f64, Corner, [f64; 2]); 3] {
+        let L { height, width, vertical: t, .. } = self.legs;
+        let (root, toe) = (Corner::new(self.root_radius), Corner::new(0.5 * self.root_radius));
+        [
+            (1.0, root, [t + root.arm; 2]),
+            (-1.0, toe, [t - toe.arm, height - toe.arm]),
+            (-1.0, toe, [width - toe.arm, t - toe.arm]),
+        ]
+    }
+
+    /// The centroid of the sharp legs from the outer edges, and the shift of that of the rounded ones from there.
+    fn centroids(&self) -> [[f64; 2]; 2] {
+        let L { height, width, vertical: t, .. } = self.legs;
+        let plates = [([0.5 * t, 0.5 * height], t, height), ([0.5 * (width + t), 0.5 * t], width - t, t)];
+        let (area, sharp, _) = rectangles(&plates);
+        let corners = self.corners();
+        let whole = area + corners.iter().map(|(sign, corner, _)| sign * corner.area).sum::<f64>();
+        let shift = [0, 1].map(|axis| {
+            let moment = |(sign, corner, at): &(f64, Corner, [f64; 2])| sign * corner.area * (at[axis] - sharp[axis]);
+            corners.iter().map(moment).sum::<f64>() / whole
+        });
+        [sharp, shift]
+    }
+}
+
+impl SectionShape for RolledL {
+    fn section(&self, nu: f64) -> Result<Section, String> {
+        let L { height, width, vertical, horizontal } = self.legs;
+        if vertical != horizontal {
+            return Err("`root_radius` needs legs of one thickness".to_owned());
+        }
+        let mut section = self.legs.section(nu)?;
+        smaller(
+            ("root_radius", self.root_radius),
+            ("the shorter leg", width.min(height) - vertical),
+            "it must be less than",
+        )?;
+        smaller(("root_radius", 0.5 * self.root_radius), ("thickness", vertical), "half of it must be less than")?;
+        let [sharp, [y0, z0]] = self.centroids();
+        for (sign, corner, at) in self.corners() {
+            let (y, z) = (at[0] - sharp[0], at[1] - sharp[1]);
+            section.area += sign * corner.area;
+            section.Iy += sign * (corner.moment + corner.area * z * z);
+            section.Iz += sign * (corner.moment + corner.area * y * y);
+            section.Iyz += sign * (corner.product + corner.area * y * z);
+        }
+        section.Iy -= section.area * z0 * z0;
+        section.Iz -= section.area * y0 * y0;
+        section.Iyz -= section.area * y0 * z0;
+        let [ys, zs] = section.shear_center;
+        Ok(Section { shear_center: [ys - y0, zs - z0], ..section })
+    }
+
+    fn default_fibres(&self, share: Option<usize>) -> Result<[usize; 2], String> {
+        self.legs.default_fibres(share)
+    }
+
+    /// Fibres of the sharp legs with the area of the rounded ones, about their own centroid.
+    fn lay_fibres(&self, counts: [usize; 2], section: &Section) -> Result<Vec<Fibre>, String> {
+        let mut fibres = self.legs.lay_fibres(counts, section)?;
+        let whole: f64 = fibres.iter().map(|fibre| fibre.area).sum();
+        fibres.iter_mut().for_each(|fibre| fibre.area *= section.area / whole);
+        Ok(fibres)
+    }
+
+    fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline> {
+        let [_, [y0, z0]] = self.centroids();
+        let SectionOutline::Points(mut points) = self.legs.outline(nu, section)? else { return None };
+        points.iter_mut().for_each(|point| point.at = [point.at[0] - y0, point.at[1] - z0]);
+        Some(SectionOutline::Points(points))
+    }
+
+    fn half_depth(&self) -> f64 {
+        self.legs.half_depth()
+    }
 }
 
 #[cfg(test)]

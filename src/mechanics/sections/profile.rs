@@ -8,7 +8,7 @@
 use super::dimensions::rectangles;
 use super::fibres::Fibre;
 use super::section::Section;
-use super::stresses::{Outline, StressPoint};
+use super::stresses::{SectionOutline, StressPoint};
 use super::wall::{Wall, flow_at, shear};
 use base::math::quadrature::pairs;
 use nalgebra::Vector2;
@@ -82,7 +82,7 @@ impl Profile {
 
     /// The points of `section`, which is that of the profile, at which stresses may be extreme: on both faces of each wall, at the ends of its
     /// plate and of its middle line, in its middle, and where a flow turns back.
-    pub fn outline(&self, section: &Section) -> Outline {
+    pub fn outline(&self, section: &Section) -> SectionOutline {
         let (_, center, _) = rectangles(&self.plates);
         let shear = shear(&self.points, &self.walls, self.cell);
         let mut points = Vec::new();
@@ -109,7 +109,7 @@ impl Profile {
                 }
             }
         }
-        Outline::Points(points)
+        SectionOutline::Points(points)
     }
 }
 

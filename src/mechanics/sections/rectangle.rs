@@ -4,7 +4,7 @@ use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, saint_venant};
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape};
-use super::stresses::{Outline, StressPoint};
+use super::stresses::{SectionOutline, StressPoint};
 use base::math::quadrature::kinked;
 use base::words::kinds::{Form, Given, Key};
 use std::f64::consts::PI;
@@ -55,8 +55,8 @@ impl SectionShape for Rectangle {
         Ok(rectangle_fibres(self.width, self.height, counts))
     }
 
-    fn outline(&self, nu: f64, section: &Section) -> Option<Outline> {
-        Some(Outline::Points(rectangle_points(self.width, self.height, nu, section)))
+    fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline> {
+        Some(SectionOutline::Points(rectangle_points(self.width, self.height, nu, section)))
     }
 
     fn half_depth(&self) -> f64 {

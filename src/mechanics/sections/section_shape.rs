@@ -2,7 +2,7 @@
 
 use super::fibres::{Fibre, calibrated};
 use super::section::{Section, Stiffness};
-use super::stresses::{Outline, SectionStresses};
+use super::stresses::{SectionOutline, SectionStresses};
 use base::names::short;
 use base::words::kinds::{Form, Given, Key, Kind, Values};
 use std::fmt;
@@ -40,7 +40,7 @@ pub trait SectionShape: fmt::Debug {
 
     /// The points of `section`, which is that of the shape, at which stresses may be extreme; `None` of a section that does not say where its
     /// area is.
-    fn outline(&self, nu: f64, section: &Section) -> Option<Outline>;
+    fn outline(&self, nu: f64, section: &Section) -> Option<SectionOutline>;
 
     /// What stresses of `section`, which is that of the shape, follow from; `None` as for [`SectionShape::outline`].
     fn stresses(&self, nu: f64, section: &Section) -> Option<SectionStresses> {

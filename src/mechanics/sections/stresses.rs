@@ -4,7 +4,6 @@
 //! middle lines in walls. Warping that is held, fillets and the places of loads are left out, as in the stiffness of the beam.
 
 use super::section::Section;
-use super::tube::edge_shear;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::TAU;
 
@@ -19,12 +18,12 @@ pub struct SectionStresses {
     /// Gradient of the normal stress along (y, z) from (M_y, M_z).
     bending: Matrix2<f64>,
     shear_center: [f64; 2],
-    outline: Outline,
+    outline: SectionOutline,
 }
 
 /// The points of a section at which stresses may be extreme.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Outline {
+pub enum SectionOutline {
     /// Points of polygons and walls.
     Points(Vec<StressPoint>),
     /// All points of a circular tube.
@@ -72,7 +71,7 @@ impl BeamStresses {
 
 impl SectionStresses {
     /// Stresses of a section with these points.
-    pub fn new(section: &Section, outline: Outline) -> SectionStresses {
+    pub fn new(section: &Section, outline: SectionOutline) -> SectionStresses {
         let Section { area, Iy, Iz, Iyz, shear_center, .. } = *section;
         // (M_y, M_z) = E [I_y −I_yz; −I_yz I_z] (κ₂, κ₃), and σ = E (z κ₂ − y κ₃).
         let det = Iy * Iz - Iyz * Iyz;
@@ -88,12 +87,12 @@ impl SectionStresses {
         let sigma = |y: f64, z: f64| N / self.area + slope.x * y + slope.y * z;
         let mut found = BeamStresses::default();
         match self.outline {
-            Outline::Points(ref points) => {
+            SectionOutline::Points(ref points) => {
                 for StressPoint { at: [y, z], shear } in points {
                     found.include(sigma(*y, *z), &shear.map(|s| s[0] * Vy + s[1] * Vz + s[2] * twist));
                 }
             }
-            Outline::Circle { outer, inner, nu } => {
+            SectionOutline::Circle { outer, inner, nu } => {
                 let force = Vector2::new(Vy, Vz);
                 for begin in [slope, force].map(|of| of.y.atan2(of.x)) {
                     for k in 0..AROUND {
@@ -116,6 +115,33 @@ impl SectionStresses {
 fn twist_of([outer, inner]: [f64; 2], twist: f64, [y, z]: [f64; 2]) -> Vector2<f64> {
     let polar = 0.25 * TAU * (outer.powi(4) - inner.powi(4));
     Vector2::new(-z, y) * (twist / polar)
+}
+
+/// Shear stress (τ_y, τ_z) of a shear force (V_y, V_z) at a point (y, z) of a circular tube, solid where the inner radius is 0 (A. E. H. Love,
+/// A Treatise on the Mathematical Theory of Elasticity, §§ 229-231).
+fn edge_shear([a, b]: [f64; 2], nu: f64, [y, z]: [f64; 2], force: Vector2<f64>) -> Vector2<f64> {
+    let size = force.norm();
+    if size == 0.0 {
+        return Vector2::zeros();
+    }
+    // p along the force, q across it.
+    let e = force / size;
+    let across = Vector2::new(-e.y, e.x);
+    let (p, q) = (e.dot(&Vector2::new(y, z)), across.dot(&Vector2::new(y, z)));
+    let (a2, b2, r2) = (a * a, b * b, p * p + q * q);
+    let k = 0.75 + 0.5 * nu;
+    // What the hole adds; without one there is no pole.
+    let [hole_p, hole_q] = if b2 == 0.0 {
+        [0.0; 2]
+    } else {
+        [a2 * b2 * (1.0 / r2 - 2.0 * p * p / (r2 * r2)), -2.0 * a2 * b2 * p * q / (r2 * r2)]
+    };
+    let chi_p = -k * (a2 + b2 + hole_p) + 0.75 * (p * p - q * q);
+    let chi_q = -k * hole_q - 1.5 * p * q;
+    let factor = -size / (2.0 * (1.0 + nu) * 0.25 * PI * (a2 * a2 - b2 * b2));
+    let along = factor * (chi_p + 0.5 * nu * p * p + (1.0 - 0.5 * nu) * q * q);
+    let sideways = factor * (chi_q + (2.0 + nu) * p * q);
+    along * e + sideways * across
 }
 
 #[cfg(test)]

@@ -4,10 +4,9 @@ use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, saint_venant};
 use super::section_shape::{CrossSection, MakeSection, SHEAR_FACTOR, SectionKind, SectionShape, check_walls};
-use super::stresses::Outline;
+use super::stresses::SectionOutline;
 use base::math::quadrature::pairs;
 use base::words::kinds::{Form, Given, Key};
-use nalgebra::Vector2;
 use std::f64::consts::{PI, TAU};
 
 /// The shape's word, keys and maker.
@@ -66,8 +65,8 @@ impl SectionShape for Tube {
         Ok(tube_fibres(self.radius, self.radius - self.thickness, section.shear[0], counts))
     }
 
-    fn outline(&self, nu: f64, _: &Section) -> Option<Outline> {
-        Some(Outline::Circle { outer: self.radius, inner: self.radius - self.thickness, nu })
+    fn outline(&self, nu: f64, _: &Section) -> Option<SectionOutline> {
+        Some(SectionOutline::Circle { outer: self.radius, inner: self.radius - self.thickness, nu })
     }
 
     fn half_depth(&self) -> f64 {
@@ -95,33 +94,6 @@ pub fn tube(outer_radius: f64, thickness: f64, nu: f64) -> Result<Section, Strin
     let a = (1.0 + m2).powi(2);
     let shear = 6.0 * a / (7.0 * a + 20.0 * m2 + saint_venant(nu) * (1.0 - m2).powi(2)) * area;
     Ok(Section { area, Iy: I, Iz: I, Iyz: 0.0, torsion: 2.0 * I, shear: [shear, shear, 0.0], shear_center: [0.0; 2] })
-}
-
-/// Shear stress (τ_y, τ_z) of a shear force (V_y, V_z) at a point (y, z) of a circular tube, solid where the inner radius is 0 (A. E. H. Love,
-/// A Treatise on the Mathematical Theory of Elasticity, §§ 229-231).
-pub(super) fn edge_shear([a, b]: [f64; 2], nu: f64, [y, z]: [f64; 2], force: Vector2<f64>) -> Vector2<f64> {
-    let size = force.norm();
-    if size == 0.0 {
-        return Vector2::zeros();
-    }
-    // p along the force, q across it.
-    let e = force / size;
-    let across = Vector2::new(-e.y, e.x);
-    let (p, q) = (e.dot(&Vector2::new(y, z)), across.dot(&Vector2::new(y, z)));
-    let (a2, b2, r2) = (a * a, b * b, p * p + q * q);
-    let k = 0.75 + 0.5 * nu;
-    // What the hole adds; without one there is no pole.
-    let [hole_p, hole_q] = if b2 == 0.0 {
-        [0.0; 2]
-    } else {
-        [a2 * b2 * (1.0 / r2 - 2.0 * p * p / (r2 * r2)), -2.0 * a2 * b2 * p * q / (r2 * r2)]
-    };
-    let chi_p = -k * (a2 + b2 + hole_p) + 0.75 * (p * p - q * q);
-    let chi_q = -k * hole_q - 1.5 * p * q;
-    let factor = -size / (2.0 * (1.0 + nu) * 0.25 * PI * (a2 * a2 - b2 * b2));
-    let along = factor * (chi_p + 0.5 * nu * p * p + (1.0 - 0.5 * nu) * q * q);
-    let sideways = factor * (chi_q + (2.0 + nu) * p * q);
-    along * e + sideways * across
 }
 
 /// Fibres around and through the wall. The shear of Γ₃ is the gradient of ψ = f(r) sin φ with ∇²ψ = −z A_s/I and free surfaces. This is

@@ -17,6 +17,7 @@ mod response;
 mod rest;
 mod shape;
 mod shares;
+mod speed_modes;
 mod speeds;
 mod steady;
 
@@ -26,7 +27,7 @@ pub use matrices::SceneMatrices;
 pub use mode::{EigenMode, ModeKind, Modes, Share};
 pub use response::complex_solver;
 pub use rest::{multipliers_at_rest, own_stiffnesses};
-pub use speeds::{CriticalSpeed, SpeedMode, SpeedModes};
+pub use speed_modes::{CriticalSpeed, SpeedMode, SpeedModes};
 pub use steady::{Response, ResponseProgress, ResponseRow, ResponseSoFar};
 
 use crate::system::assembly::Assembly;

@@ -1,6 +1,6 @@
 //! Data of a mode.
 
-use super::speeds::{CriticalSpeed, SpeedModes};
+use super::speed_modes::{CriticalSpeed, SpeedModes};
 use super::steady::Response;
 use base::math::Vec6;
 use linear::eigen::Complex;

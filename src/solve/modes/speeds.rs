@@ -7,47 +7,13 @@ use super::damped::damped_modes;
 use super::fault::ModesFault;
 use super::linearized::Linearized;
 use super::mode::Modes;
+use super::speed_modes::{CriticalSpeed, SpeedMode, SpeedModes};
 use crate::system::assembly::Assembly;
 use crate::tolerances::speeds::{CLOSE, CONTINUOUS, MOST_STEPS};
 use base::names::short;
 use linear::Solver;
 use linear::eigen::Complex;
 use mechanics::state::State;
-
-/// The modes at a speed of rotation.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SpeedModes {
-    /// The speed of the body that spins fastest.
-    pub speed: f64,
-    /// The modes, by their frequency.
-    pub list: Vec<SpeedMode>,
-}
-
-/// A mode at a speed, without its shape.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SpeedMode {
-    /// Growth rate and angular frequency, 0 or more.
-    pub root: Complex,
-    /// As in [`super::EigenMode::whirl`].
-    pub whirl: Option<f64>,
-}
-
-/// A speed that is the frequency of a mode.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CriticalSpeed {
-    /// The speed.
-    pub speed: f64,
-    /// The mode.
-    pub mode: SpeedMode,
-}
-
-impl SpeedMode {
-    /// The part of critical damping; `None` where nothing oscillates nor decays.
-    pub fn damping_ratio(&self) -> Option<f64> {
-        let size = self.root[0].hypot(self.root[1]);
-        (size > 0.0).then(|| -self.root[0] / size + 0.0)
-    }
-}
 
 /// A scene whose spin is scaled.
 struct Spinning<'s, 'a> {
