@@ -118,7 +118,10 @@ impl FrdFile {
         }
         let kind = if frame.model.analysis.is_dynamic() { FrdKind::Time } else { FrdKind::Static };
         let (now, start) = (&frame.state.nodes, &frame.model.nodes);
-        self.displacements((frame, kind, frame.state.time), &|node| now[node].moved(&start[node].x));
+        self.displacements((frame, kind, frame.state.time), &|node| match &frame.case {
+            Some(case) => linear(&case.motions[node]),
+            None => now[node].moved(&start[node].x),
+        });
         self.stresses(frame, kind);
         self.append()
     }

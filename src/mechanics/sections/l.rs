@@ -126,7 +126,7 @@ impl RolledL {
     }
 
     /// The centroid of the sharp legs from the outer edges, and the shift of that of the rounded ones from there.
-    fn centroids(&self) -> [[f64; 2]; 2] {
+    pub(super) fn centroids(&self) -> [[f64; 2]; 2] {
         let L { height, width, vertical: t, .. } = self.legs;
         let plates = [([0.5 * t, 0.5 * height], t, height), ([0.5 * (width + t), 0.5 * t], width - t, t)];
         let (area, sharp, _) = rectangles(&plates);

@@ -5,7 +5,7 @@
 
 use super::section::Section;
 use nalgebra::{Matrix2, Vector2};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Points of a circle at which stresses are compared, from the direction of bending and from that of the shear force on: the largest of a
 /// smooth function lies half a step away at most, where a cosine has lost 0.1 %.
@@ -154,7 +154,6 @@ mod tests {
     use crate::sections::rectangle::Rectangle;
     use crate::sections::tests::close;
     use crate::sections::tube::Tube;
-    use std::f64::consts::PI;
 
     fn extremes(shape: &dyn SectionShape, nu: f64, forces: [f64; 6]) -> [f64; 4] {
         shape.stresses(nu, &shape.section(nu).unwrap()).unwrap().extremes(&forces).values
