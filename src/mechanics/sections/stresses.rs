@@ -154,6 +154,7 @@ mod tests {
     use crate::sections::rectangle::Rectangle;
     use crate::sections::tests::close;
     use crate::sections::tube::Tube;
+    use std::f64::consts::PI;
 
     fn extremes(shape: &dyn SectionShape, nu: f64, forces: [f64; 6]) -> [f64; 4] {
         shape.stresses(nu, &shape.section(nu).unwrap()).unwrap().extremes(&forces).values
