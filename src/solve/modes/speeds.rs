@@ -12,7 +12,6 @@ use crate::system::assembly::Assembly;
 use crate::tolerances::speeds::{CLOSE, CONTINUOUS, MOST_STEPS};
 use base::names::short;
 use linear::Solver;
-use linear::eigen::Complex;
 use mechanics::state::State;
 
 /// A scene whose spin is scaled.
