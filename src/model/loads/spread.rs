@@ -409,7 +409,7 @@ fn faces_by_corners(scene: &Scene) -> HashMap<Vec<usize>, Vec<usize>> {
 
 /// The corners of a face of shells in ascending order.
 fn corners(nodes: &[usize]) -> Vec<usize> {
-    sorted(&nodes[..if nodes.len() % 3 == 0 && nodes.len() < 9 { 3 } else { 4 }])
+    sorted(&nodes[..if nodes.len().is_multiple_of(3) && nodes.len() < 9 { 3 } else { 4 }])
 }
 
 /// Nodes in ascending order.

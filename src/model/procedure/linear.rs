@@ -101,9 +101,7 @@ pub fn check_linear(deck: &Deck, report: &mut Report) {
         }
     }
     for (name, material) in &deck.materials.0 {
-        if material.values.numbers("yield_stress").first().is_some()
-            || material.values.numbers("hardening").first().is_some()
-        {
+        if !material.values.numbers("yield_stress").is_empty() || !material.values.numbers("hardening").is_empty() {
             let message = format!("`{}` stays elastic in a linear analysis", name.value);
             let hint = "stresses beyond its yield stress are reported where they are known; leave out `geometry = \"linear\"` to let it yield";
             report.push(Diagnostic::note(message).at(&name.span).hint(hint));
