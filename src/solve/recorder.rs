@@ -22,6 +22,9 @@ use model::{Cadence, Model};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
+/// Finds the derived quantities that are asked for.
+pub type FindDerived<'f> = &'f mut dyn FnMut(&AskedResults, &mut Derived);
+
 /// The account of a run. It is allocated once.
 pub struct Recorder {
     wanted: Wanted,
@@ -253,7 +256,7 @@ impl Recorder {
         (cx, ws, state): (&Context, &Workspace, &State),
         observer: &mut dyn Observer,
         (step, case): (&AcceptedStep, ShownCase),
-        (besides, compute): (Wanted, &mut dyn FnMut(&AskedResults, &mut Derived)),
+        (besides, compute): (Wanted, FindDerived<'_>),
     ) -> Result<&Derived, Outcome> {
         self.counts.steps += 1;
         self.counts.iterations += step.report.iterations;

@@ -111,18 +111,18 @@ impl IndependentRows {
         let length = if arms > 0.0 { arms } else { 1.0 };
         self.left.fill(0.0);
         for (k, &equation) in equations.iter().enumerate() {
-            let mut span = usize::MAX..0;
+            let (mut begin, mut end) = (usize::MAX, 0);
             for (node, G) in rows[equation].iter().zip(&G[equation]) {
                 let Some(node) = *node else { continue };
                 let free = masses.of(node).map_or([false; 6], |block| block.free);
                 let first = self.first[node];
-                span = span.start.min(first)..span.end.max(first + 6);
+                (begin, end) = (begin.min(first), end.max(first + 6));
                 let at = k * self.width + first;
                 for dof in (0..6).filter(|&dof| free[dof]) {
                     self.left[at + dof] += if dof < 3 { G[dof] } else { G[dof] / length };
                 }
             }
-            self.spans[k] = if span.is_empty() { 0..0 } else { span };
+            self.spans[k] = begin.min(end)..end;
         }
     }
 
