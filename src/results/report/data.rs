@@ -40,7 +40,8 @@ pub struct PageScene {
 impl PageScene {
     /// Whether there is a face, a line or a named point at any time.
     pub fn is_seen(&self) -> bool {
-        !self.times.is_empty() && !(self.triangles.is_empty() && self.lines.is_empty() && self.labels.is_empty())
+        let lengths = [self.triangles.len(), self.lines.len(), self.labels.len()];
+        !self.times.is_empty() && lengths.iter().any(|&length| length > 0)
     }
 
     /// The number of the time nearest to one, from 0; without one, the last time, or the first of a mode.

@@ -496,9 +496,9 @@ fn sides(sight: &ScreenView, [width, height]: [f64; 2], note: &str, unit: &str) 
     );
     let length = round_below(0.25 * width / sight.scale());
     let (bar, right) = (length * sight.scale(), width - RIMS[2]);
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "<path class=\"s\" d=\"M{right} {}v4h-{bar:.1}v-4\"/><text x=\"{right}\" y=\"{}\" text-anchor=\"end\">{} ({})</text>\n",
+        "<path class=\"s\" d=\"M{right} {}v4h-{bar:.1}v-4\"/><text x=\"{right}\" y=\"{}\" text-anchor=\"end\">{} ({})</text>",
         height - 12.0,
         height - 16.0,
         short(length),
