@@ -36,16 +36,16 @@ fn page() -> String {
     decks(&root().join("decks"), &mut all);
     all.sort_by_key(|path| name(path));
     let mut text = read(&root().join("docs/gallery.md")).split("\n## ").next().unwrap().to_owned();
-    let groups: [(&str, &dyn Fn(&str) -> bool); 4] = [
-        ("Tutorial", &|name| name.starts_with("tutorial/")),
-        ("Problems with a solution or a measurement", &|name| {
-            !name.starts_with("tutorial/") && !name.starts_with("published/") && !name.starts_with("extreme/")
-        }),
-        ("Published problems", &|name| name.starts_with("published/")),
-        ("Extreme numbers", &|name| name.starts_with("extreme/")),
+    let folders = ["tutorial/", "published/", "extreme/"];
+    let groups = [
+        ("Tutorial", Some(folders[0])),
+        ("Problems with a solution or a measurement", None),
+        ("Published problems", Some(folders[1])),
+        ("Extreme numbers", Some(folders[2])),
     ];
-    for (title, holds) in groups {
-        let cells: Vec<String> = all.iter().filter(|path| holds(&name(path))).map(|path| cell(path)).collect();
+    for (title, folder) in groups {
+        let holds = |path: &Path| folders.into_iter().find(|&folder| name(path).starts_with(folder)) == folder;
+        let cells: Vec<String> = all.iter().filter(|path| holds(path)).map(|path| cell(path)).collect();
         text += &format!("\n## {title}\n\n| | | |\n|---|---|---|\n");
         for row in cells.chunks(ROW) {
             text += &format!("| {} |\n", row.join(" | "));

@@ -99,7 +99,7 @@ fn elements_of_beams() {
         ("M3D4", "no membranes"),
         ("ELBOW31", "no elements of this type"),
     ] {
-        let nodes = "1, ".repeat(kind.chars().filter_map(|c| c.to_digit(10)).last().unwrap_or(2) as usize);
+        let nodes = "1, ".repeat(kind.chars().filter_map(|c| c.to_digit(10)).next_back().unwrap_or(2) as usize);
         let nodes = if kind == "ELBOW31" { "1, 2".to_owned() } else { nodes.trim_end_matches(", ").to_owned() };
         refuses(
             BEAM,
