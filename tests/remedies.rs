@@ -283,7 +283,7 @@ fn remedies_of_statics_work() {
             (bent(20), "do more work than is stored", |deck, _| {
                 with(&with(deck, "time_step", "0.1"), "least_step", "0.1")
             }),
-            (pressed_truss(39.0, "[[0.0, 0.0], [100.0, 100.0]]", ""), "passed its largest value", |deck, said| {
+            (pressed_truss(39.0, "[[0.0, 0.0], [100.0, 100.0]]", ""), "reaches its limit load", |deck, said| {
                 let control = given(said, "control");
                 replaced(deck, "time_step", &format!("control = {control}\ntime_step"))
             }),

@@ -80,6 +80,8 @@ enum Command {
     /// Example: `rdsolve check deck.toml --set analysis.time_step=1e-3`
     Check(CheckArgs),
     /// Make a deck of an input file of Abaqus or CalculiX, and say what became of each keyword
+    ///
+    /// Example: `rdsolve import model.inp -o model`
     Import(import::ImportArgs),
     /// Compare two folders of results within tolerances, for regression tests
     ///

@@ -88,6 +88,8 @@ impl Verdicts {
         let said = severe.then(|| said.unwrap_or_else(|| text.fault(&*about, line))).map(|mut said| {
             if verdict == KeywordVerdict::Changed {
                 said.severity = Severity::Warning;
+            } else if said.hints.is_empty() {
+                said.hints.push("remove it, or import with --partial".to_owned());
             }
             said
         });

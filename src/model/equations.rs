@@ -44,7 +44,8 @@ pub(super) fn equations<'d>(
         };
         if let Some(term) = terms.iter().enumerate().find_map(twice) {
             let (label, dof) = (topology.label(term.node), DIRECTIONS[term.dof]);
-            report.error::<()>(&table.span, format!("{} has two terms with {dof} of `{label}`", owner.what));
+            let message = format!("{} has two terms with {dof} of `{label}`", owner.what);
+            report.error_with::<()>(&table.span, message, "add their factors, and give one term");
             continue;
         }
         has_sums |= terms.len() > 2;

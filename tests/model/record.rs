@@ -77,7 +77,7 @@ fn what_is_wrong_is_said() {
             "a line has 2 values: `columns` says which of them is the value, or `rows = true`",
         ),
         ("0,1\n1,2\n", &select(&[RecordColumn::Number(1), RecordColumn::Number(2)], Some(0.1)), "names one column"),
-        ("0,1\n1,2\n", &select(&[RecordColumn::Number(1)], None), "names two columns"),
+        ("0,1\n1,2\n", &select(&[RecordColumn::Number(1)], None), "`columns` must be two numbers"),
     ] {
         let found = faults(text, selection);
         assert!(found[0].contains(said), "{text:?}: {found:?}");

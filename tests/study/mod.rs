@@ -318,8 +318,8 @@ fn runs_that_fail_are_listed_as_failed() {
     );
     let rows = table(&folder.path().join("x.study/study.csv"));
     assert_eq!(rows[2]["status"], "failed", "{text}");
-    assert!(rows[2]["reason"].contains("`least_step` is above `time_step`"), "{text}");
-    assert!(text.contains("failed: `least_step` is above"), "{text}");
+    assert!(rows[2]["reason"].contains("`least_step` must not be above `time_step`"), "{text}");
+    assert!(text.contains("failed: `least_step` must not be above"), "{text}");
     assert!(rows[2]["error"].is_empty() && rows[2]["loop_s"].is_empty());
     // One setting has an order with none.
     let folder = self::folder(&format!("{OSCILLATOR}{KEYS}"));

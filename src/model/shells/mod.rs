@@ -78,7 +78,8 @@ fn set_thicknesses<'d>(made: impl Iterator<Item = &'d mut Shell>, shell: &'d wor
 /// Puts elements at a distance from their nodes, on nodes that these carry by rigid arms.
 fn set_beside(at: PartIndex, shells: &mut [Shell], offset: &At<f64>, cx: &mut PartContext) {
     if cx.deck.part(at).is_some_and(|part| part.is_rigid()) {
-        cx.report.error::<()>(&offset.span, "a rigid shell has no `offset`: place its nodes on the mid-surface");
+        let message = "`offset` does not apply to a rigid shell";
+        cx.report.error_with::<()>(&offset.span, message, "remove it, and place the nodes on the mid-surface");
         return;
     }
     let mut made: HashMap<(usize, [u64; 3]), usize> = HashMap::new();

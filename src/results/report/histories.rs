@@ -3,7 +3,7 @@
 
 use super::data::PageNumbers;
 use super::result::Result;
-use crate::table::STAGE;
+use crate::table::{CASE, STAGE};
 use crate::table_reader::{TableReader, fields, number, text};
 use crate::tables;
 use base::quantities::{Column, UnitSystem};
@@ -51,7 +51,9 @@ impl Places {
     fn of(rows: &TableReader, over: &str) -> Places {
         let is = |place: &usize, wanted: bool| rows.is_key(*place) == wanted;
         let time = rows.column("time");
-        let when = [rows.column("step"), if over == "time" { time } else { rows.column(over) }];
+        // All load cases of a linear analysis have one time.
+        let step = rows.column("step").filter(|_| rows.column(CASE).is_none());
+        let when = [step, if over == "time" { time } else { rows.column(over) }];
         // Curves go on from stage to stage.
         let all = (0..rows.header.len()).filter(|&place| rows.header[place] != STAGE);
         let keys = all.clone().filter(|place| is(place, true)).collect();
