@@ -121,7 +121,7 @@ impl<'d> Reader<'_, 'd> {
                 report.error::<()>(&name.span, "a name must not be empty");
             } else if self.names.contains(&name.as_str()) {
                 let message = format!("two cases, combinations or envelopes have the name `{}`", name.value);
-                report.error::<()>(&name.span, message);
+                report.error_with::<()>(&name.span, message, "give one of them another name");
             }
             self.names.push(name.as_str());
         }

@@ -72,7 +72,7 @@ fn read<'d>(
         Some(Place::Body(body)) => scene.names.body_node(body),
         Some(place) => {
             let message = format!("{} takes points and bodies, and `{}` is {}", owner.what, name.value, place.kind());
-            return report.error(&name.span, message);
+            return report.error_with(&name.span, message, "name a point on it");
         }
         None => return scene.names.unknown("point or body", name, || scene.names.known(|_| true), report),
     };
@@ -83,7 +83,8 @@ fn read<'d>(
     let at = dof.value as usize;
     if !topology.is_taken(node, at) {
         let message = format!("nothing connected to `{}` has the degree of freedom {}", name.value, DIRECTIONS[at]);
-        return if topology.is_complete() { report.error(&dof.span, message) } else { None };
+        let hint = "name a degree of freedom of a connected part, or remove the term";
+        return if topology.is_complete() { report.error_with(&dof.span, message, hint) } else { None };
     }
     Some(Term { node, dof: at, factor: factor.value })
 }

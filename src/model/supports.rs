@@ -152,7 +152,7 @@ impl<'d> Supports<'_, 'd> {
                 given_twice.and_then(|k| motions.iter().find(|(dof, ..)| *dof == k)).map(|given| given.2)
             {
                 let message = format!("two supports prescribe the motion of `{}` along this axis", spot.name);
-                self.report.error::<()>(place, message);
+                self.report.error_with::<()>(place, message, "remove one of the two motions");
             }
         }
     }

@@ -70,7 +70,7 @@ fn set_thicknesses<'d>(made: impl Iterator<Item = &'d mut Shell>, shell: &'d wor
         let nodes = cx.names.place(name).map_or_else(Vec::new, |place| cx.names.nodes_of(place, &cx.parts));
         if !known.is_empty() && !nodes.is_empty() && !nodes.iter().any(|node| known.contains(node)) {
             let message = format!("`{}` has no node of this shell, so this thickness is of nothing", name.value);
-            cx.report.error::<()>(&name.span, message);
+            cx.report.error_with::<()>(&name.span, message, "name nodes of this shell, or remove the entry");
         }
     }
 }
