@@ -33,7 +33,7 @@ fn leg(step: &str) -> String {
 #[test]
 fn the_stiffness_chosen_is_that_of_the_part_whatever_the_step() {
     let mut works = Vec::new();
-    for step in ["1e-4", "5e-5", "2.5e-5", "1.25e-5"] {
+    for step in ["1e-4", "5e-5", "2.5e-5", "1.25e-5", "6.25e-6"] {
         let text = leg(step);
         let element = 0.3f64.hypot(0.484) / 4.0;
         let exact = 2.1e11 * 9e-4 / element;
@@ -43,10 +43,10 @@ fn the_stiffness_chosen_is_that_of_the_part_whatever_the_step() {
         works.push(done.rows.last().expect("a row")[0]);
     }
     println!("plastic work {works:?}");
-    let change: Vec<f64> = works.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
-    // Impacts that the steps hardly resolve leave an order near one: each change is less than three quarters of the one before.
-    assert!(change[1] < 0.75 * change[0] && change[2] < 0.75 * change[1], "{works:?}");
-    assert!(works[3] > 100.0 && change[2] < 0.02 * works[3], "{works:?}");
+    // Impacts that the steps hardly resolve leave order one: a halved step has at most three quarters of the distance to the finest run.
+    let error: Vec<f64> = works[..4].iter().map(|work| (work - works[4]).abs()).collect();
+    assert!(error.windows(2).all(|pair| pair[1] < 0.75 * pair[0]), "{works:?}");
+    assert!(works[4] > 100.0 && error[3] < 0.02 * works[4], "{works:?}");
 }
 
 /// A rod of 1 m flies on a wall at 1 m/s.

@@ -15,8 +15,8 @@ pub struct Refresh {
     update: Update,
     /// Cost of a fresh matrix in iterations.
     cost: f64,
-    /// True if earlier corrections tell when a fresh matrix pays. Load steps are few and yield in turn; matrices of bodies alone lack gyroscopic
-    /// terms, so fresh ones contract no faster.
+    /// True if earlier corrections tell when a fresh matrix pays. Load steps are few and yield in turn. In equal steps of bodies alone a matrix
+    /// without gyroscopic terms contracts no faster when it is fresh.
     learns: bool,
     /// Step length of the current matrix; `None` if there is none, or it has proved useless.
     dt: Option<f64>,
@@ -71,11 +71,12 @@ impl Refresh {
         let (method, update) = Refresh::rule(cx);
         let update = if cx.plan.linear { Update::Never } else { update };
         let cost = cx.plan.refresh_cost;
+        let deforms = cx.system.groups.iter().any(|group| group.kind.is_deformable());
         Refresh {
             method,
             update,
             cost,
-            learns: cx.is_dynamic() && cx.system.groups.iter().any(|group| group.kind.is_deformable()),
+            learns: cx.is_dynamic() && (cx.model.analysis.step_length.is_automatic() || deforms),
             dt: None,
             wanted: false,
             baseline: None,
