@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::step::convergence::Judgement;
 use crate::strategy::cheaper_update::CheaperUpdate;
-use crate::tolerances::refresh::{GROWTH, LOST, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
+use crate::tolerances::refresh::{GROWTH, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use model::{Iteration, Method, Update};
@@ -46,7 +46,7 @@ keep!(Refresh {
 pub enum Advice {
     /// The iteration continues.
     GoOn,
-    /// The matrix has misled: the iteration goes back to the prediction with a fresh one.
+    /// The old matrix has misled: the iteration goes back to the prediction with a fresh one.
     Restart,
 }
 
@@ -167,9 +167,6 @@ impl Refresh {
             self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
             return Advice::Restart;
         }
-        if self.learns && judgement.grows && contraction > LOST && self.require_fresh_matrix() {
-            return Advice::Restart;
-        }
         self.wanted = contraction > USED_UP
             || (self.update == Update::Auto && judgement.remaining(self.learns) > 1.0 + self.cost);
         Advice::GoOn
@@ -197,8 +194,7 @@ impl Refresh {
 
     /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if this was already required.
     pub fn require_fresh_matrix(&mut self) -> bool {
-        let has_them = self.fresh_matrix_required || self.has_fresh_matrices();
-        let more = !has_them && matches!(self.update, Update::Auto | Update::Step);
+        let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
         self.fresh_matrix_required |= more;
         more
     }
