@@ -120,6 +120,8 @@ pub mod refresh {
     pub const USED_UP: f64 = 0.9;
     /// Contraction above which an old matrix is misleading, because a fresh one pays within two iterations.
     pub const MISLED: f64 = 0.5;
+    /// Growth of a correction above which the iterate is worse than the prediction, whatever its matrix is.
+    pub const LOST: f64 = 3.0;
     /// Relative difference of equal steps due to the rounding of their ends.
     pub const SAME_STEP: f64 = 1e-9;
     /// The contraction of the second correction above which the matrix is useless.

@@ -264,7 +264,7 @@ impl Newton {
         if progress.has_converged(cx, ws, correction, (self.tolerance.tolerance, self.regime), &judgement) {
             return Ok(Verdict::Converged);
         }
-        if progress.is_exhausted() {
+        if progress.is_exhausted() || progress.new_matrix && self.regime.is_lost(correction) {
             return Ok(Verdict::Exhausted);
         }
         // The first correction starts from the prediction, so the second may well be longer.
@@ -312,7 +312,8 @@ impl Newton {
         step: &Step,
         progress: &mut StepProgress,
     ) -> Result<(), Failure> {
-        if self.require_fresh_matrix(cx, ws, step, progress).is_err() {
+        let had_them = progress.report.factorizations >= progress.report.iterations;
+        if had_them || self.require_fresh_matrix(cx, ws, step, progress).is_err() {
             return Err(self.not_converged(cx, ws, step, progress));
         }
         progress.limit += cx.model.solution.iteration.limit;

@@ -3,7 +3,7 @@
 use crate::context::Context;
 use crate::step::convergence::Judgement;
 use crate::strategy::cheaper_update::CheaperUpdate;
-use crate::tolerances::refresh::{GROWTH, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
+use crate::tolerances::refresh::{GROWTH, LOST, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use model::{Iteration, Method, Update};
@@ -15,8 +15,8 @@ pub struct Refresh {
     update: Update,
     /// Cost of a fresh matrix in iterations.
     cost: f64,
-    /// True if earlier corrections tell when a fresh matrix pays. Load steps are few and yield in turn. In equal steps of bodies alone a matrix
-    /// without gyroscopic terms contracts no faster when it is fresh.
+    /// True if earlier corrections tell when a fresh matrix pays. Load steps are few and yield in turn; matrices of bodies alone lack gyroscopic
+    /// terms, so fresh ones contract no faster.
     learns: bool,
     /// Step length of the current matrix; `None` if there is none, or it has proved useless.
     dt: Option<f64>,
@@ -46,7 +46,7 @@ keep!(Refresh {
 pub enum Advice {
     /// The iteration continues.
     GoOn,
-    /// The old matrix has misled: the iteration goes back to the prediction with a fresh one.
+    /// The matrix has misled: the iteration goes back to the prediction with a fresh one.
     Restart,
 }
 
@@ -71,12 +71,11 @@ impl Refresh {
         let (method, update) = Refresh::rule(cx);
         let update = if cx.plan.linear { Update::Never } else { update };
         let cost = cx.plan.refresh_cost;
-        let deforms = cx.system.groups.iter().any(|group| group.kind.is_deformable());
         Refresh {
             method,
             update,
             cost,
-            learns: cx.is_dynamic() && (cx.model.analysis.step_length.is_automatic() || deforms),
+            learns: cx.is_dynamic() && cx.system.groups.iter().any(|group| group.kind.is_deformable()),
             dt: None,
             wanted: false,
             baseline: None,
@@ -167,6 +166,9 @@ impl Refresh {
             self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
             return Advice::Restart;
         }
+        if self.learns && judgement.grows && contraction > LOST && self.require_fresh_matrix() {
+            return Advice::Restart;
+        }
         self.wanted = contraction > USED_UP
             || (self.update == Update::Auto && judgement.remaining(self.learns) > 1.0 + self.cost);
         Advice::GoOn
@@ -194,7 +196,8 @@ impl Refresh {
 
     /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if this was already required.
     pub fn require_fresh_matrix(&mut self) -> bool {
-        let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
+        let has_them = self.fresh_matrix_required || self.has_fresh_matrices();
+        let more = !has_them && matches!(self.update, Update::Auto | Update::Step);
         self.fresh_matrix_required |= more;
         more
     }
