@@ -36,8 +36,8 @@ pub struct Judgement {
     pub grows: bool,
     /// Number of corrections whose residual did not fall.
     stagnant: usize,
-    /// Estimated remaining error or residual, the larger, relative; the second one at the contraction of the matrix.
-    left: [f64; 2],
+    /// Estimated remaining error or residual, the larger, relative.
+    left: f64,
     /// The tolerance of the correction.
     pub tolerance: f64,
 }
@@ -80,12 +80,9 @@ impl Convergence {
             _ => self.stagnant,
         };
         // The corrections to come are a geometric series; the next residual contracts likewise.
+        let error = contraction / (1.0 - contraction) * size;
         let [tolerance, of_residual] = self.tolerances;
-        let left = |contraction: f64, of_forces: f64| {
-            (contraction / (1.0 - contraction) * size).max(of_forces * residual * (tolerance / of_residual))
-        };
-        let left =
-            [left(contraction, contraction_of_residual), left(of_matrix, of_matrix.min(contraction_of_residual))];
+        let left = error.max(contraction_of_residual * residual * (tolerance / of_residual));
         let grows = self.last.is_some_and(|last| size > last.size);
         let seen = self.last.replace(Correction { size, residual }).is_some();
         Judgement { grows, contraction, of_matrix, stagnant: self.stagnant, seen, left, tolerance }
@@ -95,7 +92,7 @@ impl Convergence {
 impl Judgement {
     /// True where the remaining error and residual are below the tolerance.
     pub fn converged(&self) -> bool {
-        self.contraction < 1.0 && self.left[0] <= self.tolerance
+        self.contraction < 1.0 && self.left <= self.tolerance
     }
 
     /// True where the iteration contracts slowly or not at all: only rounding may be left.
@@ -109,10 +106,8 @@ impl Judgement {
         self.stagnant >= STAGNANT
     }
 
-    /// Number of iterations still needed at this rate, or at the contraction of the matrix.
-    pub fn remaining(&self, of_matrix: bool) -> f64 {
-        let contraction = if of_matrix { self.of_matrix } else { self.contraction };
-        let left = self.left[usize::from(of_matrix)];
-        if contraction < 1.0 { (self.tolerance / left).ln() / contraction.ln() } else { f64::INFINITY }
+    /// Number of iterations still needed at this rate.
+    pub fn remaining(&self) -> f64 {
+        if self.contraction < 1.0 { (self.tolerance / self.left).ln() / self.contraction.ln() } else { f64::INFINITY }
     }
 }

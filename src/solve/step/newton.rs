@@ -258,7 +258,7 @@ impl Newton {
         }
         let judgement = progress.convergence.judge(size, residual, quadratic);
         self.tolerance.note(&judgement);
-        progress.remaining = judgement.remaining(false);
+        progress.remaining = judgement.remaining();
         let refresh = &mut self.matrix.refresh;
         refresh.note(iterations, fresh, size, &judgement);
         if progress.has_converged(cx, ws, correction, (self.tolerance.tolerance, self.regime), &judgement) {

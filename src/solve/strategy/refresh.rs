@@ -169,8 +169,7 @@ impl Refresh {
         if self.learns && judgement.grows && contraction > LOST && self.require_fresh_matrix() {
             return Advice::Restart;
         }
-        self.wanted = contraction > USED_UP
-            || (self.update == Update::Auto && judgement.remaining(self.learns) > 1.0 + self.cost);
+        self.wanted = contraction > USED_UP || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
         Advice::GoOn
     }
 
