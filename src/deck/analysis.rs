@@ -255,7 +255,7 @@ pub enum Update {
     Iteration,
     /// Once in every step.
     Step,
-    /// When a factorisation costs less than the iterations that it saves, by counts; in every iteration while that is cheaper.
+    /// When convergence has slowed so far that a factorisation costs less than the iterations it saves.
     #[default]
     Auto,
     /// Once in the run.

@@ -61,7 +61,6 @@ pub mod inner {
     pub use crate::start::start;
     pub use crate::step::load_steps::{LoadSteps, Peak};
     pub use crate::strategy::anderson::Anderson;
-    pub use crate::strategy::cheaper_update::CheaperUpdate;
     pub use crate::strategy::rotated_matrix::RotatedMatrix;
     pub use crate::sudden_loads::SuddenLoads;
     pub use crate::system::inner::*;

@@ -18,8 +18,6 @@ pub mod convergence {
     pub const STAGNANT: usize = 3;
     /// Contraction above which the remaining correction may be only rounding.
     pub const SLOW: f64 = 0.5;
-    /// Residual, relative to the largest forces, above which it consists of these forces: its ratios then tell nothing of the contraction.
-    pub const SATURATED: f64 = 0.1;
     /// Ratio to the last residual above which a residual counts as not decreased.
     pub const FALLS: f64 = 0.5;
     /// Safety on the square of the ratio of two corrections, which is the contraction of the residual with an own matrix.
@@ -120,8 +118,6 @@ pub mod refresh {
     pub const USED_UP: f64 = 0.9;
     /// Contraction above which an old matrix is misleading, because a fresh one pays within two iterations.
     pub const MISLED: f64 = 0.5;
-    /// Growth of a correction above which the iterate is worse than the prediction, whatever its matrix is.
-    pub const LOST: f64 = 3.0;
     /// Relative difference of equal steps due to the rounding of their ends.
     pub const SAME_STEP: f64 = 1e-9;
     /// The contraction of the second correction above which the matrix is useless.
@@ -132,17 +128,6 @@ pub mod refresh {
     pub const SHARE: f64 = 0.8;
     /// Growth of this limit per step, so that useless matrices are tried again.
     pub const GROWTH: f64 = 1.02;
-}
-
-pub mod cheaper_update {
-    /// Number of steps after which the update is first judged: enough to reuse a matrix.
-    pub const FIRST: usize = 4;
-    /// Number of steps of a trial of the other update.
-    pub const TRIAL: usize = 4;
-    /// The largest number of steps between two trials: these then cost a sixteenth where the other update is twice as dear.
-    pub const MOST: usize = 64;
-    /// Number of iterations with a fresh matrix that a nonlinear step needs at the least.
-    pub const LEAST: f64 = 2.0;
 }
 
 pub mod anderson {

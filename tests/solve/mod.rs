@@ -6,7 +6,6 @@ mod auto_step;
 mod breakage;
 mod central_difference;
 mod chains;
-mod cheaper_update;
 mod dependents;
 mod determinism;
 mod edge_cases;

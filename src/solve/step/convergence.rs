@@ -1,6 +1,6 @@
 //! The convergence criterion of the iteration: it rests on the sizes of corrections and residuals alone.
 
-use crate::tolerances::convergence::{FALLS, SATURATED, SECOND_ORDER, SLOW, STAGNANT};
+use crate::tolerances::convergence::{FALLS, SECOND_ORDER, SLOW, STAGNANT};
 
 /// Judges the corrections of a step.
 pub struct Convergence {
@@ -27,9 +27,6 @@ struct Correction {
 pub struct Judgement {
     /// The larger ratio of size or residual to the previous correction; the usual contraction for the first one.
     pub contraction: f64,
-    /// The contraction that tells of the matrix: that of sizes alone while the residual has the size of the forces. Stiff parts keep it there
-    /// until their rotations are right, so its ratio tells nothing.
-    pub of_matrix: f64,
     /// True where there was a correction before.
     pub seen: bool,
     /// True if the correction is larger than the previous one.
@@ -66,10 +63,6 @@ impl Convergence {
             None => self.usual,
             Some(last) => (size / last.size).max(residual / last.residual),
         };
-        let of_matrix = match self.last {
-            Some(last) if last.residual.min(residual) > SATURATED => size / last.size,
-            _ => contraction,
-        };
         let contraction_of_residual = match self.last {
             Some(last) if quadratic => contraction.min(SECOND_ORDER * (size / last.size).powi(2)),
             _ => contraction,
@@ -85,7 +78,7 @@ impl Convergence {
         let left = error.max(contraction_of_residual * residual * (tolerance / of_residual));
         let grows = self.last.is_some_and(|last| size > last.size);
         let seen = self.last.replace(Correction { size, residual }).is_some();
-        Judgement { grows, contraction, of_matrix, stagnant: self.stagnant, seen, left, tolerance }
+        Judgement { grows, contraction, stagnant: self.stagnant, seen, left, tolerance }
     }
 }
 

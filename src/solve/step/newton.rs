@@ -260,11 +260,13 @@ impl Newton {
         self.tolerance.note(&judgement);
         progress.remaining = judgement.remaining();
         let refresh = &mut self.matrix.refresh;
-        refresh.note(iterations, fresh, size, &judgement);
+        if self.tolerance.carries {
+            refresh.note(iterations, fresh, size, &judgement);
+        }
         if progress.has_converged(cx, ws, correction, (self.tolerance.tolerance, self.regime), &judgement) {
             return Ok(Verdict::Converged);
         }
-        if progress.is_exhausted() || progress.new_matrix && self.regime.is_lost(correction) {
+        if progress.is_exhausted() {
             return Ok(Verdict::Exhausted);
         }
         // The first correction starts from the prediction, so the second may well be longer.
@@ -312,8 +314,7 @@ impl Newton {
         step: &Step,
         progress: &mut StepProgress,
     ) -> Result<(), Failure> {
-        let had_them = progress.report.factorizations >= progress.report.iterations;
-        if had_them || self.require_fresh_matrix(cx, ws, step, progress).is_err() {
+        if self.require_fresh_matrix(cx, ws, step, progress).is_err() {
             return Err(self.not_converged(cx, ws, step, progress));
         }
         progress.limit += cx.model.solution.iteration.limit;

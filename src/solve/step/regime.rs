@@ -1,11 +1,9 @@
 //! The differences between load steps and time steps in the equilibrium iteration.
 
 use crate::context::Context;
-use crate::step::size::Size;
 use crate::tolerances::progress::UNBALANCED;
 use crate::workspace::Workspace;
 use mechanics::integrators::{Coefficients, load_steps};
-use std::f64::consts::TAU;
 
 /// Steps of load, or steps of time.
 pub trait Regime {
@@ -20,11 +18,6 @@ pub trait Regime {
         true
     }
 
-    /// True if a correction with the matrix of its own iterate is too long to lead back to the equilibrium.
-    fn is_lost(&self, _correction: Size) -> bool {
-        false
-    }
-
     /// True where loads are given and the path may end before them.
     fn has_load_control(&self, _cx: &Context) -> bool {
         false
@@ -37,11 +30,6 @@ pub struct TimeSteps;
 impl Regime for TimeSteps {
     fn coefficients(&self, cx: &Context, dt: f64) -> Coefficients {
         cx.model.solution.scheme.coefficients(dt)
-    }
-
-    /// Predictions contain the spin of bodies, so a useful correction is far below a whole turn.
-    fn is_lost(&self, correction: Size) -> bool {
-        correction.rotation > TAU
     }
 }
 

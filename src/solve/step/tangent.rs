@@ -38,9 +38,9 @@ keep!(IterationMatrix { refresh, rotated, mechanisms, mass_weight } without { un
 impl IterationMatrix {
     /// No matrix yet, with the rule of the deck.
     pub fn new(cx: &Context) -> IterationMatrix {
-        let (_, update) = Refresh::rule(cx);
+        let (method, update) = Refresh::rule(cx);
         IterationMatrix {
-            refresh: Refresh::new(cx),
+            refresh: Refresh::new(method, update, cx.plan.linear, cx.plan.refresh_cost),
             rotated: RotatedMatrix::new(cx).filter(|_| update != Update::Iteration),
             mechanisms: MechanismWatch::new(cx),
             mass_weight: 0.0,

@@ -4,7 +4,6 @@ pub mod anderson;
 pub mod arc_length;
 pub mod augmentation;
 pub mod beam_trees;
-pub mod cheaper_update;
 pub mod extrapolation;
 pub mod line_search;
 pub mod linearized_prediction;

@@ -2,8 +2,7 @@
 
 use crate::context::Context;
 use crate::step::convergence::Judgement;
-use crate::strategy::cheaper_update::CheaperUpdate;
-use crate::tolerances::refresh::{GROWTH, LOST, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
+use crate::tolerances::refresh::{GROWTH, MISLED, MOST_EAGER, SAME_STEP, SHARE, USED_UP, USEFUL, USELESS};
 use base::snapshot::keep;
 use mechanics::elements::Moduli;
 use model::{Iteration, Method, Update};
@@ -15,9 +14,6 @@ pub struct Refresh {
     update: Update,
     /// Cost of a fresh matrix in iterations.
     cost: f64,
-    /// True if earlier corrections tell when a fresh matrix pays. Load steps are few and yield in turn; matrices of bodies alone lack gyroscopic
-    /// terms, so fresh ones contract no faster.
-    learns: bool,
     /// Step length of the current matrix; `None` if there is none, or it has proved useless.
     dt: Option<f64>,
     wanted: bool,
@@ -33,20 +29,18 @@ pub struct Refresh {
     first: Option<f64>,
     /// True where the step gets a fresh matrix in every iteration, since anything less has failed.
     fresh_matrix_required: bool,
-    /// Whether reusing the matrix pays.
-    cheaper: CheaperUpdate,
 }
 
 keep!(Refresh {
-    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required, cheaper,
- } without { method, update, cost, learns });
+    dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required,
+ } without { method, update, cost });
 
 /// The advice after a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advice {
     /// The iteration continues.
     GoOn,
-    /// The matrix has misled: the iteration goes back to the prediction with a fresh one.
+    /// The old matrix has misled: the iteration goes back to the prediction with a fresh one.
     Restart,
 }
 
@@ -67,15 +61,12 @@ impl Refresh {
     }
 
     /// The rule of the deck; a linear scene never needs a new matrix.
-    pub fn new(cx: &Context) -> Self {
-        let (method, update) = Refresh::rule(cx);
-        let update = if cx.plan.linear { Update::Never } else { update };
-        let cost = cx.plan.refresh_cost;
+    pub fn new(method: Method, update: Update, linear: bool, cost: f64) -> Self {
+        let update = if linear { Update::Never } else { update };
         Refresh {
             method,
             update,
             cost,
-            learns: cx.is_dynamic() && cx.system.groups.iter().any(|group| group.kind.is_deformable()),
             dt: None,
             wanted: false,
             baseline: None,
@@ -85,7 +76,6 @@ impl Refresh {
             stale_beyond: f64::INFINITY,
             first: None,
             fresh_matrix_required: false,
-            cheaper: CheaperUpdate::new(cost),
         }
     }
 
@@ -106,7 +96,7 @@ impl Refresh {
         match self.update {
             Update::Iteration => true,
             Update::Step => iteration == 0,
-            Update::Auto => self.has_fresh_matrices() || iteration == 0 && self.eager > 0,
+            Update::Auto => iteration == 0 && self.eager > 0,
             Update::Never => false,
         }
     }
@@ -114,12 +104,7 @@ impl Refresh {
     /// The rule inside a completed step: the current matrix is reused, whatever the deck requires.
     pub fn inside(&self) -> Refresh {
         let update = if self.update == Update::Never { Update::Never } else { Update::Auto };
-        Refresh { update, eager: 0, wanted: false, cheaper: self.cheaper.reused(), ..self.clone() }
-    }
-
-    /// True if every iteration has a fresh matrix because that is the cheaper update.
-    fn has_fresh_matrices(&self) -> bool {
-        self.learns && self.update == Update::Auto && self.method != Method::InitialLoad && self.cheaper.is_fresh()
+        Refresh { update, eager: 0, wanted: false, ..self.clone() }
     }
 
     /// Records a new matrix for this step length.
@@ -128,14 +113,12 @@ impl Refresh {
         self.baseline = None;
         self.excess = 0;
         self.wanted = false;
-        self.cheaper.count_matrix();
     }
 
     /// Records a correction of this size, the `count`-th of its iteration. A long correction turns slender parts so far that the earlier
     /// matrix no longer contracts; observed contractions set the limit of this size.
     pub fn note(&mut self, count: usize, fresh: bool, size: f64, judgement: &Judgement) {
-        self.cheaper.count_iteration();
-        if !self.learns || self.update != Update::Auto || self.method == Method::InitialLoad {
+        if self.update != Update::Auto || self.method == Method::InitialLoad {
             return;
         }
         if count == 1 {
@@ -143,9 +126,9 @@ impl Refresh {
             self.first = fresh.then_some(size).filter(|_| size <= self.stale_beyond);
             self.wanted |= fresh && size > self.stale_beyond;
         } else if let Some(first) = self.first.take() {
-            if judgement.of_matrix > USELESS {
+            if judgement.contraction > USELESS {
                 self.stale_beyond = self.stale_beyond.min(SHARE * first);
-            } else if judgement.of_matrix < USEFUL {
+            } else if judgement.contraction < USEFUL {
                 self.stale_beyond = self.stale_beyond.max(first);
             }
         }
@@ -154,7 +137,7 @@ impl Refresh {
     /// Judges the matrix after a correction that was compared with another of the same step. `fresh`: the matrix was
     /// formed in this step.
     pub fn advise(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
-        let contraction = if self.learns { judgement.of_matrix } else { judgement.contraction };
+        let contraction = judgement.contraction;
         // An elastic matrix contracts slowly where material yields, and a new one would not be faster.
         let patient = self.update == Update::Never || self.method == Method::InitialLoad;
         if patient && (contraction < 1.0 || fresh) {
@@ -166,9 +149,6 @@ impl Refresh {
             self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
             return Advice::Restart;
         }
-        if self.learns && judgement.grows && contraction > LOST && self.require_fresh_matrix() {
-            return Advice::Restart;
-        }
         self.wanted = contraction > USED_UP || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
         Advice::GoOn
     }
@@ -176,7 +156,6 @@ impl Refresh {
     /// Counts an accepted step. Renewing a matrix pays once its excess iterations over a fresh one cost as much as the renewal.
     pub fn accepted(&mut self, iterations: usize) {
         self.fresh_matrix_required = false;
-        self.cheaper.accepted(self.dt.unwrap_or(0.0));
         let baseline = *self.baseline.get_or_insert(iterations);
         self.excess += iterations.saturating_sub(baseline);
         self.wanted = self.update == Update::Auto && self.excess as f64 >= self.cost;
@@ -195,8 +174,7 @@ impl Refresh {
 
     /// Asks, after a step that did not converge, for a fresh matrix in every iteration. Returns false if this was already required.
     pub fn require_fresh_matrix(&mut self) -> bool {
-        let has_them = self.fresh_matrix_required || self.has_fresh_matrices();
-        let more = !has_them && matches!(self.update, Update::Auto | Update::Step);
+        let more = !self.fresh_matrix_required && matches!(self.update, Update::Auto | Update::Step);
         self.fresh_matrix_required |= more;
         more
     }
