@@ -183,6 +183,10 @@ impl ConstraintEquation {
             ConstraintEquation::GlobalAxis { axis, .. } => {
                 ConstraintEquation::BodyAxis { e: as_seen(b, &Vec3::ith(*axis, 1.0)), at: d[*axis] }
             }
+            // The axes of a support stay as they are.
+            ConstraintEquation::BodyAxis { e, .. } if supports => {
+                ConstraintEquation::BodyAxis { e: *e, at: d.dot(&(b.R() * e)) }
+            }
             ConstraintEquation::BodyAxis { e, .. } => {
                 let now = a.R() * e;
                 ConstraintEquation::BodyAxis { e: as_seen(b, &now), at: d.dot(&now) }

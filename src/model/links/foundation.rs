@@ -20,7 +20,13 @@ pub fn foundations(scene: &Scene, nodes: &mut Nodes, report: &mut Report) -> Vec
             report.error_with::<()>(&at.span, "a foundation needs stiffnesses of 0 or more, one of them above 0", hint);
             continue;
         }
-        for beam in scene.parts.of(PartIndex { kind: PartKind::Beam, index }).iter().filter_map(Beam::of) {
+        let part = PartIndex { kind: PartKind::Beam, index };
+        if scene.parts.entry(part).is_some_and(|entry| entry.rigid_elements.is_some()) {
+            let hint = "remove it, and put `[[links]]` between points of the beam and the ground";
+            report.error_with::<()>(&at.span, "`foundation` does not apply to a rigid beam", hint);
+            continue;
+        }
+        for beam in scene.parts.of(part).iter().filter_map(Beam::of) {
             for (number, (node, length)) in lengths(beam, nodes).into_iter().enumerate() {
                 let name = format!("{}.foundation[{number}]", beam.name);
                 let ground = nodes.add(format!("{name}.ground"), false, nodes.x(node));

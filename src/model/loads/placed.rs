@@ -1,6 +1,7 @@
 //! Forces and moments at a place on a beam between its nodes: shares of the nodes of the element, as its interpolation has them.
 
-use crate::data::{Beam, Load, LoadOrigin, Node, PartType};
+use crate::data::{Beam, Load, LoadOrigin, Node, Part, PartType};
+use crate::loads::per_length::is_chain;
 use crate::places::nodes::Topology;
 use crate::places::place::Place;
 use crate::report::{Owner, Report};
@@ -38,6 +39,11 @@ pub fn placed_load<'d>(
     for name in &names.values {
         let Some(place) = scene.names.find(name, report) else { continue };
         let index = match place {
+            Place::Part(part) if scene.parts.entry(part).is_some_and(|entry| entry.rigid_elements.is_some()) => {
+                let message = format!("`{}` belongs to a rigid body, which has no `distance`", name.value);
+                report.error_with::<()>(&name.span, message, "name a point of the body in `at`");
+                continue;
+            }
             Place::Part(part) if part.kind.has_sections() => scene.parts.entry(part).map(|entry| entry.range.start),
             _ => {
                 let message = format!("`distance` is one along a beam, and `{}` is {}", name.value, place.kind());
@@ -47,6 +53,10 @@ pub fn placed_load<'d>(
         };
         let beam = index.and_then(|index| Some((index, Beam::of(scene.parts.list.get(index)?)?)));
         let Some((part, beam)) = beam.filter(|(_, beam)| !beam.elements.is_empty()) else { continue };
+        if let Some((message, hint)) = unfit(beam, &scene.parts.list[part], &name.value) {
+            report.error_with::<()>(&name.span, message, hint);
+            continue;
+        }
         match shares(beam, distance, &topology.list) {
             Ok((element, shares)) => loads.extend(shares.into_iter().map(|(node, share)| Load {
                 node,
@@ -65,6 +75,18 @@ pub fn placed_load<'d>(
         }
     }
     loads
+}
+
+/// The reason why a place on a beam has no shares of nodes, and the remedy. A concentrated load bends an element by cubic functions, which
+/// elements of lower order lack.
+fn unfit(beam: &Beam, part: &Part, name: &str) -> Option<(String, &'static str)> {
+    if !is_chain(part) {
+        let message = format!("`distance` goes along a line, and the elements of `{name}` do not follow each other");
+        return Some((message, "order the segments of the group from end to end, or name a node in `at`"));
+    }
+    let message = || format!("`distance` needs elements of order 3 or 4, and `{name}` has order {}", beam.order);
+    (beam.order < 3)
+        .then(|| (message(), "give the beam `order = 3`, or divide its path there and name the point in `at`"))
 }
 
 /// The element at a distance from the start of a beam, and the share of each of its nodes in what acts there; the length of the beam where it
