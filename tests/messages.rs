@@ -1354,6 +1354,7 @@ fn releases_and_shares() {
     let of = |keys: &str| portal(&[("elements = 12", &format!("elements = 12\n{keys}"))]);
     assert_snapshot!("release_of_translations", of("release = { start = [\"ux\", \"ry\"], ends = \"ry\" }"));
     assert_snapshot!("foundation_that_pushes", of("foundation = [0.0, 0.0, -1e7]"));
+    assert_snapshot!("foundation_of_a_rigid_beam", of("rigid = true\nfoundation = [0.0, 0.0, 1e7]"));
     assert_snapshot!("hinges_of_others", of("hinges = \"start\"\nreleases = [\"ry\"]"));
     let both = "force = [0.0, 0.0, -100.0]\ntotal_force = [0.0, 0.0, -100.0]";
     assert_snapshot!("force_and_share", portal(&[("force = [0.0, 0.0, -100.0]", both)]));
@@ -1367,6 +1368,11 @@ fn loads_on_beams() {
     assert_snapshot!("load_on_a_beam_of_nothing", load("distance = 1.0"));
     let block = "[[loads]]\npart = \"block\"\ndistance = 1.0\nforce = [0.0, 0.0, -1.0]\nat = \"feet\"";
     assert_snapshot!("load_along_a_body", portal_and(block));
+    let low = [
+        ("elements = 12", "elements = 12\norder = 2"),
+        ("[[loads]]", "[[loads]]\npart = \"portal\"\ndistance = 1.0\nforce = [0.0, 0.0, -1.0]\n[[loads]]"),
+    ];
+    assert_snapshot!("load_on_a_beam_of_low_order", portal(&low));
 }
 
 #[test]

@@ -117,6 +117,35 @@ fn an_inclined_roller_has_its_closed_form() {
     assert!((of("ux") / (R * n[0]) - 1.0).abs() < 1e-9 && (of("uz") / (R * n[1]) - 1.0).abs() < 1e-9);
 }
 
+/// A roller that comes when the tip has turned keeps the axis of the deck: the tip no longer moves along it.
+#[test]
+fn axes_of_a_later_stage_stay_as_they_are() {
+    let text = r#"
+        materials = { steel = { model = "elastic", youngs_modulus = 2e11, poisson_ratio = 0.25 } }
+        sections = { strip = { shape = "rectangle", width = 0.1, height = 0.02 } }
+        points = { a = [0.0, 0.0, 0.0], b = [2.0, 0.0, 0.0] }
+        beams = [{ name = "beam", path = ["a", "b"], elements = 2, material = "steel", section = "strip", orientation = [0.0, 1.0, 0.0] }]
+        supports = [{ at = "a", fix = "all" },
+                    { at = "b", stages = "slide", axes = [[0.6, 0.0, 0.8], [0.0, 1.0, 0.0]], fix = ["ux"] }]
+        loads = [{ at = "b", force = [0.0, 0.0, -3e3] }, { at = "b", stages = "slide", force = [-2e3, 0.0, 0.0] }]
+        stages = [{ name = "bend", kind = "static", duration = 1.0, time_step = 0.25 },
+                  { name = "slide", kind = "static", duration = 1.0, time_step = 0.25 }]
+    "#;
+    let mut tip = 0;
+    let done = run_source(&Source::new("deck.toml", text, &[]), &mut |frame| {
+        tip = frame.model.nodes.iter().position(|node| node.label == "b").unwrap();
+        let node = &frame.state.nodes[tip];
+        vec![frame.state.time, node.x.x, node.x.z, rotation::log(&node.rotation).y]
+    });
+    let at = |time: f64| done.rows.iter().rfind(|row| (row[0] - time).abs() < 1e-9).unwrap().clone();
+    let (bent, slid) = (at(1.0), at(2.0));
+    assert!(bent[3].abs() > 0.2, "{bent:?}");
+    let moved = [slid[1] - bent[1], slid[2] - bent[2]];
+    assert!(moved[0].hypot(moved[1]) > 1e-3, "{moved:?}");
+    // What multipliers leave open in an iteration that has converged.
+    assert!((0.6 * moved[0] + 0.8 * moved[1]).abs() < 1e-8, "{moved:?}");
+}
+
 /// A spring that a force has lengthened is led to a place: the reaction is what the spring takes there, less the force.
 #[test]
 fn a_support_leads_to_a_place_from_wherever_it_begins() {
