@@ -141,7 +141,7 @@ fn axes_of_a_later_stage_stay_as_they_are() {
     let (bent, slid) = (at(1.0), at(2.0));
     assert!(bent[3].abs() > 0.2, "{bent:?}");
     let moved = [slid[1] - bent[1], slid[2] - bent[2]];
-    assert!(moved[0].hypot(moved[1]) > 1e-3, "{moved:?}");
+    assert!(moved[0].hypot(moved[1]) > 1e-4, "{moved:?}");
     // What multipliers leave open in an iteration that has converged.
     assert!((0.6 * moved[0] + 0.8 * moved[1]).abs() < 1e-8, "{moved:?}");
 }
