@@ -16,7 +16,12 @@ pub fn amplitude(im: &mut Importer, block: &KeywordBlock) {
     let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
     let kind = keyword.value("DEFINITION").unwrap_or("TABULAR").to_ascii_uppercase();
     let is_total = keyword.value("TIME").is_some_and(|time| time.to_ascii_uppercase().starts_with("TOTAL"));
-    let mut read = |name: &str| match keyword.value(name) {
+    if keyword.value("VALUE").is_some_and(|value| value.to_ascii_uppercase().starts_with("ABS")) {
+        return im.refuse(line, "VALUE=ABSOLUTE is not translated: give values over the magnitude of the load");
+    }
+    // TIME alone is no abbreviation of TIME DELAY.
+    let is_delay = |name: &str| name != "TIMEDELAY" || keyword.value(name) != keyword.value("TIME");
+    let mut read = |name: &str| match keyword.value(name).filter(|_| is_delay(name)) {
         None => Some(0.0),
         Some(text) => text.parse::<f64>().ok().or_else(|| {
             im.refuse(line, &format!("{name} must be a number"));

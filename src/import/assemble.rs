@@ -5,7 +5,9 @@ use crate::deck_text::{DeckTable, DeckText};
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::timeline::Timeline;
-use crate::{bodies, joints, links, loads, mesh_text, output, parts, spread_loads, stage_text, supports, ties};
+use crate::{
+    bodies, joints, links, loads, mesh_text, output, parts, property_cards, spread_loads, stage_text, supports, ties,
+};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// The text of the deck and of the mesh.
@@ -21,6 +23,8 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     im.scopes.place_parts();
     let (mesh, faults) = FlatMesh::new(&im.scopes);
     faults.iter().for_each(|(line, why)| im.refuse(*line, why));
+    loads::drop_those_of_modes(im);
+    property_cards::refuse_turned_axes(im);
     let timeline = Timeline::new(im);
     let mut build = Build {
         im,

@@ -44,6 +44,10 @@ impl Build<'_, '_, '_> {
                 self.im.refuse(target.line, &format!("node {} does not exist", target.name));
                 ids
             }
+            Some(ids) if ids.is_empty() => {
+                self.im.refuse(target.line, &format!("none of the nodes of `{}` exists", target.name));
+                ids
+            }
             Some(ids) => ids,
             None => {
                 self.im.refuse(target.line, &format!("no node set is named `{}`", target.name));
@@ -64,6 +68,10 @@ impl Build<'_, '_, '_> {
     /// Elements that a line names; refuses what names none.
     pub fn cells(&mut self, target: &NamedTarget) -> Vec<usize> {
         match self.mesh.cell_indices(&self.im.scopes, target) {
+            Some(cells) if cells.is_empty() => {
+                self.im.refuse(target.line, &format!("none of the elements of `{}` exists", target.name));
+                cells
+            }
             Some(cells) => cells,
             None => {
                 self.im.refuse(target.line, &format!("no element set is named `{}`", target.name));

@@ -14,7 +14,7 @@ pub enum Dialect {
 
 /// Keywords that only one of the programs knows.
 const OF_ABAQUS: [&str; 6] = ["PART", "INSTANCE", "ASSEMBLY", "PREPRINT", "CONNECTORSECTION", "CONNECTORBEHAVIOR"];
-const OF_CALCULIX: [&str; 6] = ["PHYSICALCONSTANTS", "NODEFILE", "ELFILE", "CONTACTFILE", "NODEPRINT", "ELPRINT"];
+const OF_CALCULIX: [&str; 1] = ["PHYSICALCONSTANTS"];
 
 impl Dialect {
     /// The program that a file is for; `None` where nothing tells. Signs of Abaqus come first, for CalculiX knows parts too where

@@ -412,6 +412,13 @@ pub struct StepCard {
 }
 
 impl StepCard {
+    /// True for a step in which time passes at large displacements; later modes are about the state that it leaves.
+    pub fn is_large(&self) -> bool {
+        let is_general =
+            matches!(self.procedure, Some((StepProcedure::Static { .. } | StepProcedure::Dynamic { .. }, _)));
+        self.is_nonlinear && is_general
+    }
+
     /// True where something in it follows an amplitude.
     pub fn has_amplitude(&self) -> bool {
         let supports = self.supports.iter().any(|line| line.amplitude.is_some());

@@ -28,6 +28,8 @@ pub struct Importer<'a, 't> {
     pub scopes: Scopes,
     /// Systems of axes by name in small letters.
     pub axes: HashMap<String, SystemOfAxes>,
+    /// Lines of systems of axes that stand in parts, with the index of the part.
+    pub axes_of_parts: Vec<(usize, usize)>,
     /// Materials.
     pub materials: MaterialCards,
     /// Sections of beams, shells and bars.
@@ -56,6 +58,7 @@ impl<'a, 't> Importer<'a, 't> {
             title: String::new(),
             scopes,
             axes: HashMap::new(),
+            axes_of_parts: Vec::new(),
             materials: MaterialCards::default(),
             sections: Vec::new(),
             thicknesses: Vec::new(),

@@ -152,6 +152,7 @@ fn drives(
             continue;
         }
         let sign = if joint.is_turned { -1.0 } else { 1.0 };
+        let sign = sign * drive.amplitude.as_ref().map_or(1.0, |name| build.over_sine(name));
         let mut keys = vec![(drive.quantity.unwrap_or("value"), number(sign * drive.value))];
         if let Some(name) = &drive.amplitude {
             let name = build.amplitude_of_file(name, drive.line);

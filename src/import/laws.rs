@@ -2,11 +2,13 @@
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, list, vector};
-use crate::file_content::StepCard;
-use crate::timeline::{GivenValue, InStep, TimeLaw};
+use crate::file_content::{AmplitudeCard, StepCard};
+use crate::timeline::{GivenValue, InStep, StageOfStep, TimeLaw};
 
 /// The least part of a step in which a value jumps.
 const JUMP: f64 = 1e-9;
+/// The most periods of a sine in a step that a table of points follows.
+const MOST_PERIODS: f64 = 10.0;
 
 impl Build<'_, '_, '_> {
     /// The law of a value by what is so in each general step. `is_motion`: of a support.
@@ -30,7 +32,7 @@ impl Build<'_, '_, '_> {
                 return TimeLaw { scale: given.value, amplitude, stages };
             }
             if let Some(name) = given.amplitude.clone().filter(|_| self.timeline.general.len() == 1) {
-                let scale = given.value;
+                let scale = given.value * self.over_sine(&name);
                 return TimeLaw { scale, amplitude: self.amplitude_of_file(&name, given.line), stages };
             }
         }
@@ -54,6 +56,7 @@ impl Build<'_, '_, '_> {
     /// Times and values over all general steps.
     fn points(&mut self, history: &[InStep]) -> Vec<[f64; 2]> {
         let (mut points, mut value) = (vec![[0.0, 0.0]], 0.0);
+        let (mut refused, steps) = (Vec::new(), self.timeline.general.len());
         let mut add = |t: f64, value: f64| match points.last_mut() {
             Some(last) if t <= last[0] => last[1] = value,
             _ => points.push([t, value]),
@@ -65,12 +68,15 @@ impl Build<'_, '_, '_> {
             let soon = if start > 0.0 { start + JUMP * stage.duration } else { 0.0 };
             match state {
                 InStep::Holds => {}
-                InStep::Begins(GivenValue { value: to, amplitude: Some(name), .. }) => {
+                InStep::Begins(GivenValue { value: to, amplitude: Some(name), line }) => {
                     let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
+                    match card {
+                        None => refused.push((*line, format!("no amplitude is named `{name}`"))),
+                        Some(card) => refused.extend(unsaid(card, stage, steps).map(|why| (*line, why.to_owned()))),
+                    }
                     let Some(card) = card else { continue };
-                    let shift = if card.is_total { start } else { 0.0 };
                     for t in card.corners(stage.duration) {
-                        value = to * card.at(t + shift);
+                        value = to * card.at(t);
                         add(if t == 0.0 { soon } else { start + t }, value);
                     }
                 }
@@ -87,7 +93,14 @@ impl Build<'_, '_, '_> {
             }
             add(end, value);
         }
+        refused.into_iter().for_each(|(line, why)| self.im.refuse(line, &why));
         points
+    }
+
+    /// The largest value of an amplitude of the file that is a sine, which in the deck is 1; 1 for other amplitudes.
+    pub fn over_sine(&self, name: &str) -> f64 {
+        let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
+        card.and_then(|card| card.sine).map_or(1.0, |[_, _, scale, _]| scale)
     }
 
     /// The name in the deck of an amplitude of the file, which is added; refuses one that does not exist.
@@ -99,14 +112,9 @@ impl Build<'_, '_, '_> {
         };
         let table = DeckTable::new("amplitudes", card.line);
         let table = match card.sine {
-            Some([frequency, phase, 1.0, start]) => {
+            Some([frequency, phase, _, start]) => {
                 let table = table.text("kind", "sine").number("frequency", frequency).number("phase", phase);
                 if start == 0.0 { table } else { table.number("start", start) }
-            }
-            Some(_) => {
-                let times = card.corners(self.timeline.end());
-                let rows = times.iter().map(|t| vector(&[*t, card.at(*t)]));
-                table.text("kind", "table").value("points", list(rows)).text("after", "hold")
             }
             None if card.points.len() == 1 => {
                 let [t, value] = card.points[0];
@@ -140,6 +148,18 @@ impl Build<'_, '_, '_> {
         self.deck.add(table.with_name(&unique));
         self.amplitudes.insert(text, unique.clone());
         unique
+    }
+}
+
+/// Why a table over all steps does not say what an amplitude does in one of them.
+fn unsaid(card: &AmplitudeCard, stage: &StageOfStep, steps: usize) -> Option<&'static str> {
+    let periods = card.sine.map_or(0.0, |[frequency, ..]| frequency * stage.duration);
+    if card.is_total && steps > 1 {
+        Some("an amplitude with TOTAL TIME is not translated where the file has several steps")
+    } else if periods > MOST_PERIODS {
+        Some("a periodic amplitude has too many periods here for a table of points: give it a file of one step")
+    } else {
+        None
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::build::Build;
 use crate::deck_text::DeckTable;
 use crate::file_content::{ForceLine, StepProcedure};
+use crate::importer::Importer;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -62,6 +63,19 @@ pub fn loads(build: &mut Build) {
     }
     let targets: Vec<NamedTarget> = lines.iter().map(|line| line.target.clone()).collect();
     groups.into_values().for_each(|group| write(build, group, &targets));
+}
+
+/// Takes away the loads of steps of natural modes, on which they do not act.
+pub fn drop_those_of_modes(im: &mut Importer) {
+    for at in 0..im.steps.list.len() {
+        let step = &mut im.steps.list[at];
+        if !matches!(step.procedure, Some((StepProcedure::Frequency { .. }, _))) {
+            continue;
+        }
+        let forces = step.forces.drain(..).map(|force| force.line);
+        let lines: Vec<usize> = forces.chain(step.spread.drain(..).map(|load| load.line)).collect();
+        lines.into_iter().for_each(|line| im.ignore(line, "loads of a step do not act on its natural modes"));
+    }
 }
 
 /// Refuses loads of one step on one thing whose amplitudes differ, for they do not add up to one load.

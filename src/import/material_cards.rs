@@ -95,6 +95,9 @@ pub fn damping(im: &mut Importer, block: &KeywordBlock) {
         }),
     };
     let damping = [read("ALPHA"), read("BETA")];
+    if [read("STRUCTURAL"), read("COMPOSITE")] != [0.0; 2] {
+        im.refuse(line, "rdsolve damps by ALPHA and BETA alone: no structural damping, and none of modes");
+    }
     if let Some(material) = at_hand(im, line) {
         material.damping = Some(damping).filter(|damping| *damping != [0.0; 2]);
     }

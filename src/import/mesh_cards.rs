@@ -6,6 +6,9 @@ use crate::scopes::{Members, NamedTarget, PlacedElement, ScopeContent, ScopeInde
 use base::math::{LARGEST_LENGTH, Vec3};
 use base::text_file::cards::{Data, name_in};
 
+/// The most numbers that one line adds to a set.
+const LONGEST_RANGE: u64 = 10_000_000;
+
 /// `*NODE`.
 pub fn nodes(im: &mut Importer, block: &KeywordBlock) {
     if let Some(system) = block.keyword.value("SYSTEM")
@@ -120,7 +123,7 @@ fn sets(im: &mut Importer, block: &KeywordBlock, of: Members) {
     }
     for data in &block.data {
         match block.keyword.has("GENERATE") {
-            true => generate(im, data, (scope, of), &mut ids),
+            true => generate(im, data, scope, &mut ids),
             false => members(im, data, (scope, of), &mut ids),
         }
     }
@@ -151,8 +154,8 @@ fn nodes_of_cells(im: &mut Importer, target: &NamedTarget) -> Vec<u64> {
     }
 }
 
-/// Adds first to last by a step. Numbers between that do not exist are passed over at the end.
-fn generate(im: &mut Importer, data: &Data, (scope, of): (ScopeIndex, Members), ids: &mut Vec<u64>) {
+/// Adds first to last by a step. Numbers may exist later in the file; those that never do are passed over at the end.
+fn generate(im: &mut Importer, data: &Data, scope: ScopeIndex, ids: &mut Vec<u64>) {
     let (Some(first), Some(last)) = (im.id(data, 0), im.id(data, 1)) else { return };
     let step = if data.filled() > 2 { im.id(data, 2).unwrap_or(1) } else { 1 };
     if step == 0 || last < first {
@@ -166,23 +169,10 @@ fn generate(im: &mut Importer, data: &Data, (scope, of): (ScopeIndex, Members), 
         ScopeIndex::Outer => im.scopes.outer_offset,
         ScopeIndex::Part(_) => 0,
     };
-    let contents: Vec<(&ScopeContent, u64)> = match scope {
-        ScopeIndex::Instance(instance) => {
-            let at = &im.scopes.instances[instance];
-            vec![(&at.own, 0), (&im.scopes.parts[at.part], at.offset)]
-        }
-        scope => vec![(im.scopes.content(scope), 0)],
-    };
-    let exists: std::collections::HashSet<u64> = contents
-        .iter()
-        .flat_map(|(content, add)| -> Vec<u64> {
-            match of {
-                Members::Nodes => content.nodes.iter().map(|node| node.0 + add).collect(),
-                Members::Cells => content.cells.iter().map(|cell| cell.id + add).collect(),
-            }
-        })
-        .collect();
-    ids.extend((first..=last).step_by(step as usize).map(|id| id + offset).filter(|id| exists.contains(id)));
+    if last.saturating_sub(first) / step > LONGEST_RANGE {
+        return im.refuse(data.line, "this range is too long");
+    }
+    ids.extend((first..=last).step_by(step as usize).map(|id| id + offset));
 }
 
 /// Adds numbers and sets by their names.

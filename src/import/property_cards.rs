@@ -3,12 +3,17 @@
 use crate::file_content::{PropertyCard, PropertyOf};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use crate::scopes::ScopeIndex;
+use base::math::Vec3;
 
 fn property(im: &mut Importer, block: &KeywordBlock, of: PropertyOf) {
     let line = block.keyword.line;
     let Some(set) = block.keyword.value("ELSET") else {
         return im.refuse(line, &format!("*{} needs ELSET=", block.keyword.name));
     };
+    if block.keyword.has("ALPHA") {
+        im.refuse(line, "ALPHA of single masses is not translated: rdsolve damps the whole model by [damping]");
+    }
     let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
     let has_degrees = block.data.first().is_some_and(|data| {
         let words = &data.words[..data.filled()];
@@ -58,8 +63,9 @@ pub fn orientation(im: &mut Importer, block: &KeywordBlock) {
     let values = block.data.first().map(|data| im.numbers(data)).unwrap_or_default();
     let is_rectangular = "RECTANGULAR".starts_with(&system)
         && block.keyword.value("DEFINITION").is_none_or(|by| by.eq_ignore_ascii_case("COORDINATES"));
-    let axes = (is_rectangular && values.len() >= 6)
-        .then(|| [0, 3].map(|at| base::math::Vec3::new(values[at], values[at + 1], values[at + 2])));
+    let point = |at: usize| Vec3::from_fn(|i, _| values.get(at + i).copied().unwrap_or(0.0));
+    // Points a and b, seen from c.
+    let axes = (is_rectangular && values.len() >= 6).then(|| [point(0) - point(6), point(3) - point(6)]);
     if axes.is_none() {
         im.refuse(line, "of systems of axes those with SYSTEM=RECTANGULAR and two points are read");
     }
@@ -68,5 +74,19 @@ pub fn orientation(im: &mut Importer, block: &KeywordBlock) {
     {
         im.refuse(line, "a further rotation of the axes is not read; give the turned axes by their points");
     }
-    im.axes.insert(name, axes);
+    if let ScopeIndex::Part(part) = im.scopes.at {
+        im.axes_of_parts.push((line, part));
+    }
+    if im.axes.insert(name, axes).is_some_and(|known| known != axes) {
+        im.refuse(line, "another system of axes has this name: give each a name of its own");
+    }
+}
+
+/// Refuses systems of axes of parts whose instances are turned, for the axes would turn with them.
+pub fn refuse_turned_axes(im: &mut Importer) {
+    let is_turned = |part: usize| im.scopes.instances.iter().any(|at| at.part == part && at.turn.is_some());
+    let lines: Vec<usize> = im.axes_of_parts.iter().filter(|of| is_turned(of.1)).map(|of| of.0).collect();
+    for line in lines {
+        im.refuse(line, "the axes of a part do not turn with its instance: write the part as it stands");
+    }
 }

@@ -6,6 +6,7 @@ use crate::file_content::{SectionCard, SectionOf, SectionValue};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use base::math::Vec3;
+use base::text_file::Word;
 
 /// Elements and material of a section; refuses what lacks them.
 fn section(im: &mut Importer, block: &KeywordBlock) -> Option<SectionCard> {
@@ -101,7 +102,11 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     let own = rows.get(2).filter(|_| is_general && card.material.is_empty());
     if let Some([modulus, shear, ..]) = own.map(Vec::as_slice) {
         card.material = format!("{}_material", card.target.name);
-        let density = block.keyword.value("DENSITY").and_then(|text| text.parse().ok());
+        let text = block.keyword.value("DENSITY");
+        let density = text.and_then(|text| Word { bytes: text.as_bytes(), column: 0, line }.fortran_number());
+        if text.is_some() && density.is_none() {
+            im.refuse(line, "DENSITY must be a number");
+        }
         let elastic = Some([*modulus, modulus / (2.0 * shear) - 1.0]);
         let name = card.material.clone();
         im.materials.list.push(MaterialCard { name, line, elastic, density, ..MaterialCard::default() });

@@ -10,6 +10,11 @@ pub fn stages(build: &mut Build) {
         if step.procedure.is_none() {
             build.im.refuse(step.line, "this step computes nothing that rdsolve has");
         }
+        let is_static = matches!(step.procedure, Some((StepProcedure::Static { .. }, _)));
+        if is_static && step.is_perturbation && build.im.steps.list.len() > 1 {
+            let why = "loads of a perturbation step act in it alone: give each step a file, or [[load_cases]]";
+            build.im.refuse(step.line, why);
+        }
     }
     if build.im.steps.list.is_empty() {
         build.im.refuse(1, "the file has no *STEP; a mesh alone goes into a deck by `[mesh] file`");

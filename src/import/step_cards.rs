@@ -5,6 +5,9 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use base::text_file::cards::{Data, name_in};
 
+/// Why a line that acts in a step is refused outside of all steps.
+const NO_STEP: &str = "no *STEP is open at this line";
+
 /// `*STEP`.
 pub fn step(im: &mut Importer, block: &KeywordBlock) {
     let (keyword, line) = (&block.keyword, block.keyword.line);
@@ -31,7 +34,7 @@ pub fn end_step(im: &mut Importer, _: &KeywordBlock) {
 /// Sets what the step at hand computes.
 fn set(im: &mut Importer, line: usize, procedure: StepProcedure) {
     if !im.steps.is_open {
-        return im.refuse(line, "no *STEP is open at this line");
+        return im.refuse(line, NO_STEP);
     }
     im.steps.at_hand().procedure = Some((procedure, line));
 }
@@ -51,8 +54,27 @@ pub fn statics(im: &mut Importer, block: &KeywordBlock) {
         im.change(line, "nothing is stabilized by dampers; rdsolve halves load steps that do not converge");
     }
     let is_riks = block.keyword.has("RIKS");
+    if is_riks {
+        end_of_riks(im, block);
+    }
     let step = step.unwrap_or(duration).min(duration);
     set(im, line, StepProcedure::Static { step, duration, is_riks });
+}
+
+/// Says where a run of the arc-length method ends in rdsolve; refuses another end.
+fn end_of_riks(im: &mut Importer, block: &KeywordBlock) {
+    let data = block.data.first();
+    let mut read = |at: usize| data.and_then(|data| im.number_at(data, at));
+    let [factor, node] = [read(4), read(5)];
+    let line = data.map_or(block.keyword.line, |data| data.line);
+    match (factor, node) {
+        (_, Some(_)) => im.refuse(line, "an end at a displacement is not translated: give the deck `stop`"),
+        (Some(1.0), None) => {}
+        (Some(_), None) => {
+            im.refuse(line, "the run ends where the loads have their values: multiply them by this factor, and give 1")
+        }
+        (None, None) => im.change(line, "the run ends where the loads have their values"),
+    }
 }
 
 /// `*DYNAMIC`.
@@ -121,7 +143,7 @@ pub fn buckle(im: &mut Importer, block: &KeywordBlock) {
     set(im, block.keyword.line, StepProcedure::Buckle { count });
 }
 
-/// True where earlier entries end.
+/// True where entries of earlier steps end; those of one step add up.
 fn is_new(block: &KeywordBlock) -> bool {
     block.keyword.value("OP").is_some_and(|op| op.eq_ignore_ascii_case("NEW"))
 }
@@ -150,8 +172,7 @@ pub fn boundary(im: &mut Importer, block: &KeywordBlock) {
         Some(_) => return im.refuse(line, "TYPE is DISPLACEMENT, VELOCITY or ACCELERATION"),
     };
     if is_new(block) {
-        let step = im.steps.at_hand();
-        (step.new_supports, step.supports) = (true, Vec::new());
+        im.steps.at_hand().new_supports = true;
     }
     let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
     for data in block.data.iter().filter(|data| data.filled() > 0) {
@@ -194,9 +215,11 @@ pub fn forces(im: &mut Importer, block: &KeywordBlock) {
     if keyword.value("LOADCASE").is_some_and(|case| case != "1") {
         return im.refuse(keyword.line, "a load with a phase is not translated");
     }
+    if !im.steps.is_open {
+        return im.refuse(keyword.line, NO_STEP);
+    }
     if is_new(block) {
-        let step = im.steps.at_hand();
-        (step.new_forces, step.forces) = (true, Vec::new());
+        im.steps.at_hand().new_forces = true;
     }
     let amplitude = keyword.value("AMPLITUDE").map(str::to_owned);
     for data in block.data.iter().filter(|data| data.filled() > 0) {
@@ -224,9 +247,11 @@ pub fn surface_loads(im: &mut Importer, block: &KeywordBlock) {
 }
 
 fn spread(im: &mut Importer, block: &KeywordBlock, is_surface: bool) {
+    if !im.steps.is_open {
+        return im.refuse(block.keyword.line, NO_STEP);
+    }
     if is_new(block) {
-        let step = im.steps.at_hand();
-        (step.new_spread, step.spread) = (true, Vec::new());
+        im.steps.at_hand().new_spread = true;
     }
     let amplitude = block.keyword.value("AMPLITUDE").map(str::to_owned);
     for data in block.data.iter().filter(|data| data.filled() > 0) {

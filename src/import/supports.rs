@@ -123,8 +123,12 @@ fn held(build: &mut Build, mut history: Vec<InStep>, lines: &HashMap<usize, Supp
         );
         return None;
     }
+    let end = history.iter().rposition(|state| *state != InStep::Absent).unwrap_or(first);
+    if history[first..=end].contains(&InStep::Absent) {
+        build.im.refuse(start.line, "a support that ends and comes again is not translated");
+        return None;
+    }
     if is_zero {
-        let end = history.iter().rposition(|state| *state != InStep::Absent).unwrap_or(first);
         let stages = match (first, end + 1 == history.len()) {
             (0, true) => None,
             (_, true) => build.timeline.from(first),
@@ -136,13 +140,30 @@ fn held(build: &mut Build, mut history: Vec<InStep>, lines: &HashMap<usize, Supp
         return Some((HeldAs::Fixed, stages));
     }
     let kind = lines.get(&start.line).map_or("displacement", |line| line.history);
+    moved(build, &history, (first, &start), kind)
+}
+
+/// The motion of a degree of freedom from a step on; refuses one that no deck says.
+fn moved(
+    build: &mut Build,
+    history: &[InStep],
+    (first, start): (usize, &GivenValue),
+    kind: &'static str,
+) -> Option<Held> {
     let stage = &build.timeline.stages[build.timeline.general[first]];
-    if stage.is_dynamic && kind == "displacement" && start.amplitude.is_none() {
-        build.im.refuse(start.line, "a displacement that jumps at the start of a dynamic step needs an AMPLITUDE");
-        return None;
-    }
-    let law = build.law(&history, true);
-    Some((HeldAs::Moved(law.scale, law.amplitude, kind), law.stages))
+    let is_still = |at: &usize| !build.timeline.stages[*at].is_dynamic;
+    let why = if history.last() == Some(&InStep::Absent) {
+        "a moved support that is freed later is not translated"
+    } else if kind != "displacement" && build.timeline.general[first..].iter().any(is_still) {
+        "a velocity or an acceleration in a static step is not translated: give the displacement"
+    } else if stage.is_dynamic && kind == "displacement" && start.amplitude.is_none() {
+        "a displacement that jumps at the start of a dynamic step needs an AMPLITUDE"
+    } else {
+        let law = build.law(history, true);
+        return Some((HeldAs::Moved(law.scale, law.amplitude, kind), law.stages));
+    };
+    build.im.refuse(start.line, why);
+    None
 }
 
 /// Holds what nothing resists: rotations of nodes that bushings alone join, and motion out of the plane of plane elements.

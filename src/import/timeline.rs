@@ -73,7 +73,6 @@ impl Timeline {
         let names = names(&im.steps.list);
         for step in 0..im.steps.list.len() {
             let (card, name) = (&im.steps.list[step], names[step].clone());
-            let before = step.checked_sub(1).map(|before| &im.steps.list[before]);
             let stage = |duration: f64, is_dynamic: bool| StageOfStep { name, step, start, duration, is_dynamic };
             match &card.procedure {
                 Some((StepProcedure::Static { duration, .. }, _)) => {
@@ -85,12 +84,12 @@ impl Timeline {
                     start += duration;
                 }
                 Some((StepProcedure::Frequency { .. } | StepProcedure::Buckle { .. }, _)) => {
-                    let in_abaqus = before.is_some_and(|before| before.is_nonlinear);
+                    let in_abaqus = im.steps.list[..step].iter().any(StepCard::is_large);
                     let counts = match im.dialect {
                         Some(Dialect::Calculix) => card.is_perturbation,
                         _ => in_abaqus,
                     };
-                    if im.dialect.is_none() && before.is_some() && in_abaqus != card.is_perturbation {
+                    if im.dialect.is_none() && step > 0 && in_abaqus != card.is_perturbation {
                         unsure.push(card.line);
                     }
                     let place = if counts { &mut rest } else { &mut first };

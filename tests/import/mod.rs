@@ -5,6 +5,7 @@ mod dresses;
 mod keywords;
 mod round_trip;
 mod rows;
+mod silent;
 mod values;
 
 use import::{Dialect, ImportOptions, Imported, KeywordVerdict};

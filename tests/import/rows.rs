@@ -4,15 +4,15 @@ use super::{imported, imported_from, reasons, refusals, tables};
 use import::{Dialect, KeywordVerdict};
 
 /// A cantilever of one beam; `edits` replace parts of it.
-const BEAM: &str = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0.5, 0., 0.\n9, 0., 0., 1.\n*ELEMENT, TYPE=B31, ELSET=rod\n1, 1, 2\n*NSET, NSET=tip\n2\n\
+pub const BEAM: &str = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0.5, 0., 0.\n9, 0., 0., 1.\n*ELEMENT, TYPE=B31, ELSET=rod\n1, 1, 2\n*NSET, NSET=tip\n2\n\
                     *MATERIAL, NAME=m\n*ELASTIC\n1e9, 0.3\n*DENSITY\n7.\n*BEAM SECTION, ELSET=rod, MATERIAL=m, SECTION=RECT\n0.1, 0.2\n0., 1., 0.\n\
                     *BOUNDARY\n1, 1, 6\n*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n2, 3, 5.\n*END STEP\n";
 /// A square of shell.
-const SHELL: &str = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n*ELEMENT, TYPE=S4, ELSET=skin\n1, 1, 2, 3, 4\n\
+pub const SHELL: &str = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n*ELEMENT, TYPE=S4, ELSET=skin\n1, 1, 2, 3, 4\n\
                      *MATERIAL, NAME=m\n*ELASTIC\n1e9, 0.3\n*DENSITY\n7.\n*SHELL SECTION, ELSET=skin, MATERIAL=m\n0.01\n\
                      *BOUNDARY\n1, 1, 6\n*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*CLOAD\n3, 3, 5.\n*END STEP\n";
 
-fn edited(text: &str, edits: &[(&str, &str)]) -> String {
+pub fn edited(text: &str, edits: &[(&str, &str)]) -> String {
     edits.iter().fold(text.to_owned(), |text, (old, new)| {
         assert!(text.contains(old), "`{old}` must stand in the file");
         text.replace(old, new)
@@ -20,14 +20,14 @@ fn edited(text: &str, edits: &[(&str, &str)]) -> String {
 }
 
 /// The deck has these lines one after the other, and nothing is refused.
-fn has(text: &str, edits: &[(&str, &str)], dialect: Option<Dialect>, wanted: &str) {
+pub fn has(text: &str, edits: &[(&str, &str)], dialect: Option<Dialect>, wanted: &str) {
     let made = imported_from(&edited(text, edits), dialect);
     assert_eq!(refusals(&made), [""; 0], "{edits:?}");
     assert!(tables(&made.deck).contains(wanted), "{wanted} is not in\n{}", made.deck);
 }
 
 /// A reason for which it is refused.
-fn refuses(text: &str, edits: &[(&str, &str)], wanted: &str) {
+pub fn refuses(text: &str, edits: &[(&str, &str)], wanted: &str) {
     let said = refusals(&imported(&edited(text, edits)));
     assert!(said.iter().any(|said| said.contains(wanted)), "{wanted} is not in {said:?}");
 }
