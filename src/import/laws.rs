@@ -56,7 +56,7 @@ impl Build<'_, '_, '_> {
     /// Times and values over all general steps.
     fn points(&mut self, history: &[InStep]) -> Vec<[f64; 2]> {
         let (mut points, mut value) = (vec![[0.0, 0.0]], 0.0);
-        let (mut refused, steps) = (Vec::new(), self.timeline.general.len());
+        let (mut refused, mut drawn, steps) = (Vec::new(), Vec::new(), self.timeline.general.len());
         let mut add = |t: f64, value: f64| match points.last_mut() {
             Some(last) if t <= last[0] => last[1] = value,
             _ => points.push([t, value]),
@@ -75,6 +75,7 @@ impl Build<'_, '_, '_> {
                         Some(card) => refused.extend(unsaid(card, stage, steps).map(|why| (*line, why.to_owned()))),
                     }
                     let Some(card) = card else { continue };
+                    drawn.extend(card.sine.map(|_| *line));
                     for t in card.corners(stage.duration) {
                         value = to * card.at(t);
                         add(if t == 0.0 { soon } else { start + t }, value);
@@ -94,6 +95,7 @@ impl Build<'_, '_, '_> {
             add(end, value);
         }
         refused.into_iter().for_each(|(line, why)| self.im.refuse(line, &why));
+        drawn.into_iter().for_each(|line| self.im.change(line, "a periodic amplitude is a table of 200 points a step"));
         points
     }
 

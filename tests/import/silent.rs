@@ -88,6 +88,9 @@ fn amplitudes() {
     has(&sine, &[], None, "force = [0.0, 0.0, 10.0]\n");
     let second = step("*CLOAD\n2, 2, 7.\n");
     refuses(&sine, &[("*END STEP\n", &second)], "too many periods");
+    let slow = imported(&edited(&sine, &[("314.1592653589793", "3.14"), ("*END STEP\n", &second)]));
+    assert_eq!(refusals(&slow), [""; 0]);
+    assert!(reasons(&slow, KeywordVerdict::Changed)[0].contains("a table of 200 points a step"));
     refuses(&with(", VALUE=ABSOLUTE\n0., 0., 1., 2."), &[], "VALUE=ABSOLUTE is not translated");
     has(&with(", VALUE=RELATIVE, TIME=STEP TIME\n0., 0., 1., 2."), &[], None, "points = [[0.0, 0.0], [1.0, 2.0]]\n");
     let total = with(", TIME=TOTAL TIME\n0., 0., 1., 2.");
