@@ -36,6 +36,9 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         turned: HashMap::new(),
         body_of: HashMap::new(),
         rotating: BTreeSet::new(),
+        parts_of_bodies: BTreeSet::new(),
+        weighed: BTreeSet::new(),
+        turning: BTreeSet::new(),
         bushed: BTreeSet::new(),
         has_gravity: false,
         amplitudes: HashMap::new(),
@@ -44,6 +47,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     build.groups_of_file();
     build.deck.add(DeckTable::new("mesh", 0).text("file", mesh_file));
     stage_text::stages(&mut build);
+    refuse_modes_alone(&mut build);
     parts::parts(&mut build);
     bodies::bodies(&mut build);
     links::masses(&mut build);
@@ -57,4 +61,15 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     output::output(&mut build);
     let mesh = mesh_text::mesh(&build);
     BuiltDeck { deck: build.deck, mesh }
+}
+
+/// Refuses several steps of modes without one in which time passes, which could lead to their states.
+fn refuse_modes_alone(build: &mut Build) {
+    let stages = &build.timeline.stages;
+    if let [_, second, ..] = &stages[..]
+        && stages.iter().all(|stage| stage.duration == 0.0)
+    {
+        let line = build.im.steps.list[second.step].line;
+        build.im.refuse(line, "modes in several steps need a step of statics before them: give each step a file");
+    }
 }

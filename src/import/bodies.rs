@@ -87,6 +87,9 @@ fn nodes_of(build: &mut Build, card: &RigidCard) -> BodyNodes {
         of_parts.extend(piece.elements.iter().flat_map(|element| element.2.iter().copied()));
         parts.extend(piece.names.iter().cloned());
     }
+    if !parts.iter().all(|part| build.parts_of_bodies.insert(part.clone())) {
+        build.im.refuse(card.line, "some of these elements are in another rigid body");
+    }
     let mut tied = tied;
     for &at in &cells {
         let cell = &build.mesh.cells[at];
@@ -149,9 +152,13 @@ fn inertia(
     (masses, reference): (&BTreeMap<u64, PointMass>, u64),
 ) -> DeckTable {
     let free = |node: &&u64| !build.body_of.contains_key(*node) && !card.is_coupling;
-    let points: Vec<(Vec3, PointMass)> =
-        nodes.iter().filter(free).filter_map(|node| Some((build.mesh.x(*node), *masses.get(node)?))).collect();
+    let heavy: Vec<(u64, PointMass)> =
+        nodes.iter().filter(free).filter_map(|node| Some((*node, *masses.get(node)?))).collect();
+    let points: Vec<(Vec3, PointMass)> = heavy.iter().map(|(node, point)| (build.mesh.x(*node), *point)).collect();
     let mass: f64 = points.iter().map(|(_, point)| point.mass).sum();
+    if mass > 0.0 {
+        build.weighed.extend(heavy.iter().map(|(node, _)| *node));
+    }
     let size = build.mesh.size();
     if mass <= 0.0 {
         let x = build.mesh.x(reference);

@@ -28,6 +28,12 @@ pub struct Build<'b, 'a, 't> {
     pub body_of: HashMap<u64, String>,
     /// Nodes whose rotations something holds: nodes of beams, shells, bodies.
     pub rotating: BTreeSet<u64>,
+    /// Names of parts that form bodies.
+    pub parts_of_bodies: BTreeSet<String>,
+    /// Nodes whose masses a body has.
+    pub weighed: BTreeSet<u64>,
+    /// Nodes and their rotations, from 3 to 5, that have springs, dampers or inertia.
+    pub turning: BTreeSet<(u64, usize)>,
     /// Nodes that bushings join.
     pub bushed: BTreeSet<u64>,
     /// True where the deck has gravity.

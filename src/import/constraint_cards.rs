@@ -4,7 +4,8 @@ use crate::file_content::{EquationCard, OpenCoupling, PointsCard, RigidCard};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::{Members, NamedTarget};
-use base::text_file::cards::name_in;
+use base::text_file::cards::{Data, name_in};
+use std::collections::BTreeMap;
 
 /// `*RIGID BODY`.
 pub fn rigid_body(im: &mut Importer, block: &KeywordBlock) {
@@ -32,10 +33,12 @@ pub fn rigid_body(im: &mut Importer, block: &KeywordBlock) {
 /// Sets of nodes that a surface covers; refuses what is none.
 fn surface(im: &mut Importer, name: &str, line: usize) -> Option<Vec<NamedTarget>> {
     let target = im.set_target(name, line);
-    let found = im.scopes.surface(&target).map(|lines| lines.iter().map(|(set, _)| set.clone()).collect::<Vec<_>>());
+    let found = im.scopes.surface(&target);
     let of_nodes = |set: &NamedTarget| im.scopes.members(set, Members::Nodes).is_some();
     match found {
-        Some(sets) if sets.iter().all(of_nodes) => Some(sets),
+        Some(lines) if lines.iter().all(|(set, side)| side == "NODE" && of_nodes(set)) => {
+            Some(lines.into_iter().map(|(set, _)| set).collect())
+        }
         Some(_) => {
             im.refuse(line, "the surface of a coupling is a set of nodes here: give *SURFACE, TYPE=NODE");
             None
@@ -90,9 +93,25 @@ pub fn kinematic_coupling(im: &mut Importer, block: &KeywordBlock) {
         return im.refuse(line, "*KINEMATIC COUPLING needs REF NODE=");
     };
     let reference = NamedTarget { is_set: false, ..im.set_target(reference, line) };
-    let tied: Vec<NamedTarget> =
-        block.data.iter().filter_map(|data| data.words.first()).map(|word| im.target(word)).collect();
-    let degrees = degrees(im, block, 1);
+    let lines = || block.data.iter().filter(|data| data.filled() > 0);
+    let tied: Vec<NamedTarget> = lines().map(|data| im.target(&data.words[0])).collect();
+    let mut of_sets: BTreeMap<String, Vec<usize>> = BTreeMap::new();
+    for (data, set) in lines().zip(&tied) {
+        let here = degrees_of(im, data, 1);
+        of_sets.entry(set.name.to_lowercase()).or_default().extend(if here.is_empty() {
+            (0..6).collect()
+        } else {
+            here
+        });
+    }
+    let mut of_sets = of_sets.into_values().map(sorted);
+    let degrees = of_sets.next().unwrap_or_default();
+    if of_sets.any(|other| other != degrees) {
+        im.refuse(
+            line,
+            "the nodes of a coupling go with it along the same degrees of freedom here: give all sets the same",
+        );
+    }
     let name = format!("coupling_{}", reference.name);
     let (pinned, cells) = (Vec::new(), Vec::new());
     im.constraints.rigid.push(RigidCard {
@@ -110,12 +129,21 @@ pub fn kinematic_coupling(im: &mut Importer, block: &KeywordBlock) {
 
 /// First and last degree of freedom on each line, from a field on; none is all.
 fn degrees(im: &mut Importer, block: &KeywordBlock, from: usize) -> Vec<usize> {
-    let mut degrees: Vec<usize> = Vec::new();
-    for data in block.data.iter().filter(|data| data.filled() > from) {
-        let first = im.id(data, from).unwrap_or(1) as usize;
-        let last = if data.filled() > from + 1 { im.id(data, from + 1).unwrap_or(1) as usize } else { first };
-        degrees.extend((first..=last).filter(|dof| (1..=6).contains(dof)).map(|dof| dof - 1));
+    sorted(block.data.iter().flat_map(|data| degrees_of(im, data, from)).collect())
+}
+
+/// First and last degree of freedom on a line, from a field on; none where it has no such field.
+fn degrees_of(im: &mut Importer, data: &Data, from: usize) -> Vec<usize> {
+    if data.filled() <= from {
+        return Vec::new();
     }
+    let first = im.id(data, from).unwrap_or(1) as usize;
+    let last = if data.filled() > from + 1 { im.id(data, from + 1).unwrap_or(1) as usize } else { first };
+    (first..=last.min(6)).filter(|dof| *dof > 0).map(|dof| dof - 1).collect()
+}
+
+/// Each degree of freedom once; none stands for all.
+fn sorted(mut degrees: Vec<usize>) -> Vec<usize> {
     degrees.sort_unstable();
     degrees.dedup();
     if degrees.len() == 6 { Vec::new() } else { degrees }
@@ -123,7 +151,7 @@ fn degrees(im: &mut Importer, block: &KeywordBlock, from: usize) -> Vec<usize> {
 
 /// `*MPC`.
 pub fn points(im: &mut Importer, block: &KeywordBlock) {
-    for data in &block.data {
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
         let Some(kind) = data.words.first().map(name_in) else { continue };
         let nodes = data.words[1..data.filled()].iter().map(|word| im.target(word)).collect();
         im.constraints.points.push(PointsCard { line: data.line, kind: kind.to_ascii_uppercase(), nodes });

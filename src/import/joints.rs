@@ -5,6 +5,7 @@ use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::element_types::ElementUse;
 use crate::file_content::{ConnectorBehavior, ConnectorSection};
 use base::math::Vec3;
+use std::collections::BTreeSet;
 
 /// A joint of the deck for a connection: its kind, whether the second node is `from`, the components that are its coordinate.
 struct JointOf {
@@ -57,9 +58,21 @@ pub fn connectors(build: &mut Build) {
             }
         }
     }
+    refuse_bare_drives(build);
     let lines: Vec<usize> = build.im.connectors.drives.iter().map(|drive| drive.line).collect();
     if build.timeline.general.len() > 1 {
         lines.iter().for_each(|line| build.im.change(*line, "what drives a connector acts from the start of the run"));
+    }
+}
+
+/// Refuses loads and motions of elements that no section makes connectors.
+fn refuse_bare_drives(build: &mut Build) {
+    let sections = build.im.connectors.sections.clone();
+    let of_sections: BTreeSet<usize> = sections.iter().flat_map(|section| build.cells(&section.target)).collect();
+    for drive in build.im.connectors.drives.clone() {
+        if !build.cells(&drive.target).iter().any(|at| of_sections.contains(at)) {
+            build.im.refuse(drive.line, &format!("`{}` is no connector with a section", drive.target.name));
+        }
     }
 }
 
@@ -170,6 +183,10 @@ fn drives(
 /// A spring and damper along the line between two nodes.
 fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
     let behavior = behavior(build, section);
+    refuse_rest(build, section, &behavior);
+    if behavior.stiffness[1..].iter().chain(&behavior.damping[1..]).any(Option::is_some) {
+        build.im.refuse(section.line, "AXIAL acts along component 1 alone");
+    }
     let table = DeckTable::new("links", section.line)
         .text("name", name)
         .value("from", build.end(a, b))
@@ -179,10 +196,28 @@ fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64
     build.deck.add(table);
 }
 
+/// Refuses what a link or a bushing of the deck does not have: stops, loads and motions.
+fn refuse_rest(build: &mut Build, section: &ConnectorSection, behavior: &ConnectorBehavior) {
+    if behavior.stops.iter().any(Option::is_some) {
+        build.im.refuse(section.line, "stops of springs between two nodes are not translated");
+    }
+    let of_section = build.cells(&section.target);
+    for drive in build.im.connectors.drives.clone() {
+        if build.cells(&drive.target).iter().any(|at| of_section.contains(at)) {
+            build.im.refuse(drive.line, "loads and motions of a connection that is a spring are not translated");
+        }
+    }
+}
+
 /// Springs and dampers along and about three axes.
 fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
     let behavior = behavior(build, section);
+    refuse_rest(build, section, &behavior);
     let axes = axes(build, section);
+    let acts = |dof: usize| behavior.stiffness[dof].is_some() || behavior.damping[dof].is_some();
+    let is_global = axes == [Vec3::x(), Vec3::y()];
+    let turns: Vec<usize> = (3..6).filter(|&dof| if is_global { acts(dof) } else { (3..6).any(acts) }).collect();
+    build.turning.extend([a, b].iter().flat_map(|node| turns.iter().map(|dof| (*node, *dof))));
     build.bushed.extend([a, b].iter().filter(|node| **node != 0));
     let six = |of: &[Option<f64>; 6]| of.map(Option::unwrap_or_default);
     let table = DeckTable::new("links", section.line)

@@ -13,8 +13,7 @@ const BEYOND: f64 = 1e3;
 /// Adds masses at nodes of no body.
 pub fn masses(build: &mut Build) {
     for (node, point) in point_masses(build) {
-        let of_parts = build.pieces.iter().any(|piece| piece.is_rigid);
-        if build.body_of.contains_key(&node) && !of_parts {
+        if build.weighed.contains(&node) {
             continue;
         }
         let has_inertia = point.inertia.iter().any(|x| *x != 0.0);
@@ -24,6 +23,11 @@ pub fn masses(build: &mut Build) {
             }
             continue;
         }
+        if has_inertia && point.inertia[..3].iter().filter(|x| **x > 0.0).count() < 2 {
+            build.im.refuse(point.line, "moments of inertia about two axes or more are needed in rdsolve");
+        }
+        let turns = (0..3).filter(|at| point.inertia[*at] != 0.0);
+        build.turning.extend(turns.map(|at| (node, 3 + at)));
         build.mesh.used.insert(node);
         let table = DeckTable::new("masses", point.line).text("at", &format!("mesh.{node}")).number("mass", point.mass);
         let kept = if point.inertia[3..].iter().all(|x| *x == 0.0) { &point.inertia[..3] } else { &point.inertia[..] };
@@ -127,6 +131,10 @@ fn directed(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTa
         None => (build.end(0, a), build.end(a, a)),
     };
     build.bushed.extend(nodes);
+    if degrees[0] > 2 {
+        let about = if card.orientation.is_some() { 3..6 } else { degrees[0]..degrees[0] + 1 };
+        build.turning.extend(nodes.iter().flat_map(|node| about.clone().map(|dof| (*node, dof))));
+    }
     let mut table = table.value("from", from).value("to", to);
     table = match card.of {
         PropertyOf::Damper => table.numbers("bushing", &[0.0; 6]).numbers("bushing_damping", &six),

@@ -194,9 +194,11 @@ pub fn surfaces(im: &mut Importer, block: &KeywordBlock) {
         im.refuse(block.keyword.line, "*SURFACE needs NAME=");
         return;
     };
+    let of_nodes = block.keyword.value("TYPE").is_some_and(|of| of.eq_ignore_ascii_case("NODE"));
     let mut lines = Vec::new();
     for data in block.data.iter().filter(|data| data.filled() > 0) {
-        let side = data.words.get(1).map(name_in).unwrap_or_default().to_ascii_uppercase();
+        let side = data.words.get(1).filter(|_| !of_nodes).map(name_in).unwrap_or_default().to_ascii_uppercase();
+        let side = if of_nodes { "NODE".to_owned() } else { side };
         lines.push((im.target(&data.words[0]), side));
     }
     im.scopes.here().surfaces.insert(name.to_lowercase(), lines);

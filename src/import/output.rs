@@ -3,12 +3,29 @@
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, quoted};
 use crate::dialect::Dialect;
+use crate::file_content::PropertyOf;
+
+/// Says where damping of a material acts beyond its elements.
+fn say_what_is_damped(build: &mut Build, line: usize, [alpha, beta]: [f64; 2]) {
+    let has = |of: &[PropertyOf]| build.im.properties.iter().any(|card| of.contains(&card.of));
+    let mut behaviors = build.im.connectors.behaviors.iter();
+    let springs = has(&[PropertyOf::Spring, PropertyOf::Gap])
+        || behaviors.any(|behavior| behavior.stiffness.iter().any(Option::is_some));
+    let masses = has(&[PropertyOf::Mass, PropertyOf::Inertia]);
+    if beta != 0.0 && springs {
+        build.im.change(line, "BETA of a material damps its elements; here it damps springs too");
+    }
+    if alpha != 0.0 && masses {
+        build.im.change(line, "ALPHA of a material damps its elements; here it damps masses at nodes too");
+    }
+}
 
 /// Adds `[damping]` and `[output]`.
 pub fn output(build: &mut Build) {
     match build.im.materials.damping() {
         Ok(Some([alpha, beta])) => {
             let line = build.im.materials.list.iter().find(|material| material.damping.is_some()).map_or(0, |m| m.line);
+            say_what_is_damped(build, line, [alpha, beta]);
             build
                 .deck
                 .add(DeckTable::new("damping", line).number("mass_factor", alpha).number("stiffness_factor", beta));

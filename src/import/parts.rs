@@ -111,7 +111,7 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     let mut targets: Vec<NamedTarget> = Vec::new();
     for line in steps.flat_map(|step| &step.spread).filter(|line| !line.target.name.is_empty()) {
         match build.im.scopes.surface(&line.target) {
-            Some(lines) if line.is_surface => targets.extend(lines.iter().map(|(set, _)| set.clone())),
+            Some(lines) if line.is_surface => targets.extend(lines.into_iter().map(|(set, _)| set)),
             _ => targets.push(line.target.clone()),
         }
     }
@@ -297,8 +297,12 @@ fn beam(
             "offsets of beam sections are not translated yet; put the nodes on the axis of the beam",
         );
     }
+    let taken: Vec<String> = sections.values().map(|name| name.to_lowercase()).collect();
     let name = sections.entry(key.section).or_insert_with(|| {
-        let name = card.target.name.clone();
+        let wanted = &card.target.name;
+        let numbered = (2..).map(|next| format!("{wanted}_{next}"));
+        let mut names = std::iter::once(wanted.clone()).chain(numbered);
+        let name = names.find(|name| !taken.contains(&name.to_lowercase())).unwrap_or_default();
         let mut table = DeckTable::named("sections", &name, card.line);
         for (key, value) in keys {
             table = match value {
@@ -323,7 +327,7 @@ fn beam(
         .text("material", material)
         .value("order", if key.shape == 1 { "2" } else { "1" })
         .value("orientation", &*key.axis);
-    build.deck.add(rigid(table, piece));
+    build.deck.add(table);
 }
 
 /// The area of a section, for its mass.
@@ -341,11 +345,6 @@ fn area(keys: &[(&'static str, SectionValue)]) -> f64 {
         }
         _ => get("area"),
     }
-}
-
-/// Marks a part of a rigid body.
-fn rigid(table: DeckTable, piece: &PartPiece) -> DeckTable {
-    if piece.is_rigid { table.value("rigid", "true") } else { table }
 }
 
 /// Adds a shell.
@@ -378,7 +377,7 @@ fn shell(
             None => build.im.refuse(card.line, &format!("no orientation is named `{name}`")),
         }
     }
-    build.deck.add(rigid(table, piece));
+    build.deck.add(table);
 }
 
 /// Adds a bar for each element.
@@ -392,6 +391,6 @@ fn bars(build: &mut Build, card: &SectionCard, piece: &mut PartPiece, material: 
             .text("material", material)
             .number("area", piece.size);
         piece.names.push(name);
-        build.deck.add(rigid(table, piece));
+        build.deck.add(table);
     }
 }

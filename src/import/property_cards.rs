@@ -5,6 +5,7 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::ScopeIndex;
 use base::math::Vec3;
+use base::text_file::cards::Data;
 
 fn property(im: &mut Importer, block: &KeywordBlock, of: PropertyOf) {
     let line = block.keyword.line;
@@ -14,11 +15,15 @@ fn property(im: &mut Importer, block: &KeywordBlock, of: PropertyOf) {
     if block.keyword.has("ALPHA") {
         im.refuse(line, "ALPHA of single masses is not translated: rdsolve damps the whole model by [damping]");
     }
-    let rows: Vec<Vec<f64>> = block.data.iter().map(|data| im.numbers(data)).collect();
-    let has_degrees = block.data.first().is_some_and(|data| {
+    let lines: Vec<&Data> = block.data.iter().filter(|data| data.filled() > 0).collect();
+    if lines.is_empty() {
+        return im.refuse(line, &format!("*{} needs values on the line below", block.keyword.name));
+    }
+    let rows: Vec<Vec<f64>> = lines.iter().map(|data| im.numbers(data)).collect();
+    let has_degrees = lines.first().is_some_and(|data| {
         let words = &data.words[..data.filled()];
         words.len() <= 2 && words.iter().all(|word| word.whole().is_some_and(|dof| (1..=6).contains(&dof)))
-    }) && block.data.len() > 1;
+    }) && lines.len() > 1;
     im.properties.push(PropertyCard {
         of,
         line,

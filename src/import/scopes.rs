@@ -248,12 +248,16 @@ impl Scopes {
     }
 
     /// The lines of a surface.
-    pub fn surface(&self, at: &NamedTarget) -> Option<&[(NamedTarget, String)]> {
+    pub fn surface(&self, at: &NamedTarget) -> Option<Vec<(NamedTarget, String)>> {
         let key = at.name.to_lowercase();
-        let find = |scope: ScopeIndex| self.content(scope).surfaces.get(&key).map(|lines| &lines[..]);
+        let find = |scope: ScopeIndex| self.content(scope).surfaces.get(&key).cloned();
         let dotted = || {
             let (instance, inner) = key.split_once('.')?;
-            self.parts[self.instances[self.instance(instance)?].part].surfaces.get(inner).map(|lines| &lines[..])
+            let at = self.instance(instance)?;
+            let own = self.instances[at].own.surfaces.get(inner);
+            let lines = own.or_else(|| self.parts[self.instances[at].part].surfaces.get(inner))?;
+            let placed = |set: &NamedTarget| NamedTarget { scope: ScopeIndex::Instance(at), ..set.clone() };
+            Some(lines.iter().map(|(set, side)| (placed(set), side.clone())).collect())
         };
         find(at.scope).or_else(|| find(ScopeIndex::Outer)).or_else(dotted)
     }

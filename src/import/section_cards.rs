@@ -101,7 +101,9 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     };
     let own = rows.get(2).filter(|_| is_general && card.material.is_empty());
     if let Some([modulus, shear, ..]) = own.map(Vec::as_slice) {
-        card.material = format!("{}_material", card.target.name);
+        let first = format!("{}_material", card.target.name);
+        let mut names = std::iter::once(first.clone()).chain((2..).map(|next| format!("{first}_{next}")));
+        card.material = names.find(|name| im.materials.find(name).is_none()).unwrap_or(first);
         let text = block.keyword.value("DENSITY");
         let density = text.and_then(|text| Word { bytes: text.as_bytes(), column: 0, line }.fortran_number());
         if text.is_some() && density.is_none() {

@@ -3,6 +3,7 @@
 use crate::build::Build;
 use crate::deck_text::DeckTable;
 use crate::dialect::Dialect;
+use crate::element_types::ElementUse;
 use crate::file_content::{SpreadLine, StepProcedure};
 use crate::loads::{in_time, lines_of, refuse_two_laws};
 use crate::part_piece::PartPiece;
@@ -15,7 +16,7 @@ use std::collections::{BTreeMap, BTreeSet};
 type SpreadKey = (bool, NamedTarget, String, String);
 
 fn key(line: &SpreadLine) -> SpreadKey {
-    let target = NamedTarget { line: 0, ..line.target.clone() };
+    let target = NamedTarget { line: 0, name: line.target.name.to_lowercase(), ..line.target.clone() };
     (line.is_surface, target, line.kind.clone(), format!("{:?}", line.values.get(1..).unwrap_or_default()))
 }
 
@@ -30,6 +31,7 @@ pub fn spread_loads(build: &mut Build) {
         let all = step.spread.iter().map(|line| (format!("{:?}", key(line)), value_of(line)));
         refuse_two_laws(build, all);
     }
+    refuse_overlaps(build);
     let given = |lines: &[SpreadLine]| -> Vec<(SpreadKey, GivenValue)> {
         let mut sum: BTreeMap<SpreadKey, GivenValue> = BTreeMap::new();
         for line in lines {
@@ -60,6 +62,31 @@ pub fn spread_loads(build: &mut Build) {
         if let Some(line) = lines.iter().find(|line| key(line) == of).cloned() {
             one(build, &line, &law, (&[given.line], &[]));
         }
+    }
+}
+
+/// Refuses a load on elements that had one of its kind under another name in an earlier step: whether they add up is not sure.
+fn refuse_overlaps(build: &mut Build) {
+    let mut known: Vec<(SpreadKey, BTreeSet<usize>)> = Vec::new();
+    for step in build.im.steps.list.clone() {
+        if step.new_spread {
+            known.clear();
+        }
+        let of_elements = step.spread.iter().filter(|line| !line.is_surface && line.kind != "GRAV");
+        let here: Vec<(usize, SpreadKey, BTreeSet<usize>)> =
+            of_elements.map(|line| (line.line, key(line), build.cells(&line.target).into_iter().collect())).collect();
+        for (line, (_, target, kind, rest), cells) in &here {
+            let overlaps = |((_, other, of, more), others): &(SpreadKey, BTreeSet<usize>)| {
+                of == kind && more == rest && other != target && !others.is_disjoint(cells)
+            };
+            if known.iter().any(overlaps) {
+                build.im.refuse(
+                    *line,
+                    "an earlier step has this load on some of these elements: name the same set in both",
+                );
+            }
+        }
+        known.extend(here.into_iter().map(|(_, key, cells)| (key, cells)));
     }
 }
 
@@ -157,7 +184,7 @@ fn pieces(build: &mut Build, target: &NamedTarget, line: usize) -> Vec<PartPiece
 
 /// A load on a surface.
 fn surface(build: &mut Build, line: &SpreadLine, law: &TimeLaw, lines: &[usize]) {
-    let found = build.im.scopes.surface(&line.target).map(<[(NamedTarget, String)]>::to_vec);
+    let found = build.im.scopes.surface(&line.target);
     let Some(found) = found else {
         return build.im.refuse(line.line, &format!("no surface is named `{}`", line.target.name));
     };
@@ -187,8 +214,10 @@ fn gravity(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history)
     };
     if !line.target.name.is_empty() {
         let cells: BTreeSet<usize> = build.cells(&line.target).into_iter().collect();
-        let heavy = build.pieces.iter().filter(|piece| piece.density > 0.0);
-        if heavy.clone().any(|piece| !piece.cells.is_subset(&cells)) {
+        let is_mass = |at: &usize| build.im.scopes.types[build.mesh.cells[*at].kind].becomes == ElementUse::PointMass;
+        let is_beside = (0..build.mesh.cells.len()).filter(is_mass).any(|at| !cells.contains(&at));
+        let mut heavy = build.pieces.iter().filter(|piece| piece.density > 0.0);
+        if is_beside || heavy.any(|piece| !piece.cells.is_subset(&cells)) {
             return build.im.refuse(
                 line.line,
                 "gravity acts on everything in rdsolve, and this set does not hold all that has mass",

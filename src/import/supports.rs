@@ -175,7 +175,8 @@ fn add_rotations(build: &mut Build, of_node: &mut BTreeMap<u64, Alike>) {
         }
     };
     for node in build.bushed.iter().filter(|node| !build.rotating.contains(node) && !build.body_of.contains_key(node)) {
-        add(*node, &[3, 4, 5]);
+        let still: Vec<usize> = (3..6).filter(|dof| !build.turning.contains(&(*node, *dof))).collect();
+        add(*node, &still);
     }
     let is_plane = |name: &str| ["B2", "T2", "PIPE2", "R2D", "RB2"].iter().any(|begin| name.starts_with(begin));
     for cell in build.mesh.cells.iter().filter(|cell| is_plane(&build.im.scopes.types[cell.kind].name)) {

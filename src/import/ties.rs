@@ -113,7 +113,17 @@ fn hold(build: &mut Build, target: &NamedTarget, dof: usize, line: usize) {
         history: "displacement",
         is_fixed: false,
     };
-    build.im.steps.before.supports.push(support);
+    let steps = &mut build.im.steps;
+    if steps.before.supports.iter().any(|known| known.line == line) {
+        return;
+    }
+    // An equation holds in all steps, whatever supports end there.
+    for step in build.timeline.general.iter().map(|&at| build.timeline.stages[at].step) {
+        if steps.list[step].new_supports {
+            steps.list[step].supports.push(support.clone());
+        }
+    }
+    steps.before.supports.push(support);
 }
 
 /// Adds joints between points.

@@ -6,6 +6,7 @@ mod keywords;
 mod round_trip;
 mod rows;
 mod silent;
+mod translations;
 mod values;
 
 use import::{Dialect, ImportOptions, Imported, KeywordVerdict};
