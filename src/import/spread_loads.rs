@@ -67,26 +67,28 @@ pub fn spread_loads(build: &mut Build) {
 
 /// Refuses a load on elements that had one of its kind under another name in an earlier step: whether they add up is not sure.
 fn refuse_overlaps(build: &mut Build) {
-    let mut known: Vec<(SpreadKey, BTreeSet<usize>)> = Vec::new();
+    let (mut keys, mut known) = (BTreeSet::new(), BTreeSet::new());
     for step in build.im.steps.list.clone() {
         if step.new_spread {
-            known.clear();
+            (keys, known) = (BTreeSet::new(), BTreeSet::new());
         }
-        let of_elements = step.spread.iter().filter(|line| !line.is_surface && line.kind != "GRAV");
-        let here: Vec<(usize, SpreadKey, BTreeSet<usize>)> =
-            of_elements.map(|line| (line.line, key(line), build.cells(&line.target).into_iter().collect())).collect();
-        for (line, (_, target, kind, rest), cells) in &here {
-            let overlaps = |((_, other, of, more), others): &(SpreadKey, BTreeSet<usize>)| {
-                of == kind && more == rest && other != target && !others.is_disjoint(cells)
-            };
-            if known.iter().any(overlaps) {
+        let mut here = Vec::new();
+        for line in step.spread.iter().filter(|line| !line.is_surface && line.kind != "GRAV") {
+            let key = key(line);
+            let of_cell = |cell: usize| (key.2.clone(), key.3.clone(), cell);
+            let cells: Vec<_> = build.cells(&line.target).into_iter().map(of_cell).collect();
+            if !keys.contains(&key) && cells.iter().any(|cell| known.contains(cell)) {
                 build.im.refuse(
-                    *line,
+                    line.line,
                     "an earlier step has this load on some of these elements: name the same set in both",
                 );
             }
+            here.push((key, cells));
         }
-        known.extend(here.into_iter().map(|(_, key, cells)| (key, cells)));
+        for (key, cells) in here {
+            keys.insert(key);
+            known.extend(cells);
+        }
     }
 }
 

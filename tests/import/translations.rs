@@ -135,6 +135,8 @@ fn spread_loads_named_again() {
     let deck = taken(&two("*DLOAD\nrod, PZ, 5.", "*DLOAD\nROD, PZ, 10."));
     assert_eq!(deck.matches("[[loads]]").count(), 1, "{deck}");
     refuses(&two("*DLOAD\nrod, PZ, 5.", "*DLOAD\n2, PZ, 10."), "name the same set in both");
+    taken(&two("*DLOAD\nrod, PZ, 5.\n2, PZ, 1.", "*DLOAD\n2, PZ, 10."));
+    taken(&two("*DLOAD\nrod, PZ, 5.", "*DLOAD, OP=NEW\n2, PZ, 10."));
 }
 
 #[test]
