@@ -8,7 +8,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("linear", 4250),
     ("mechanics", 28_300),
     ("deck", 4600),
-    ("import", 6150),
+    ("import", 6450),
     ("model", 22_400),
     ("solve", 32_350),
     ("results", 10_450),
