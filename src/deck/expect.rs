@@ -17,11 +17,11 @@ pub struct Expect {
     pub mode: Maybe<u64>,
     /// Instead of `at`: number of a critical speed, the lowest 1; the quantity is then a column of critical_speeds.csv.
     pub critical_speed: Maybe<u64>,
-    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv, drifts.csv or energy.csv. For a joint "fx" to "mz" act on its first part
-    /// (`from`). For a supported point or body they are the reaction, the force of its supports on the structure. "force" of a contact is
-    /// its magnitude. "N", "Vy", "Vz", "T", "My", "Mz" of a beam, "N" of a bar, and "N11" to "Q2", "von_mises_bottom" and "von_mises_top"
-    /// of a shell are the values of largest magnitude in the part, with sign. "sigma_max", "tau_max" and "von_mises" of a beam, "von_mises" of a
-    /// shell and "plastic_strain" of a beam, bar or shell are the largest values in the part, "sigma_min" of a beam is the smallest.
+    /// A column of nodes.csv, bodies.csv, links.csv, contacts.csv, joints.csv, drifts.csv or energy.csv. For a joint, "fx" to "mz" act on its
+    /// first part (`from`). For a supported point or body they are the reaction of its supports on the structure. For a contact, "force" is the
+    /// magnitude. Section forces of a beam ("N" to "Mz"), a bar ("N") or a shell ("N11" to "Q2") are those of largest magnitude in the part, with
+    /// sign; so are "von_mises_bottom" and "von_mises_top". "sigma_max", "tau_max", "von_mises" and "plastic_strain" are the largest in the part.
+    /// "sigma_min" is the smallest.
     #[schemars(required)]
     pub quantity: Maybe<String>,
     /// In a linear analysis with `[[load_cases]]`, instead of `time`: name of a load case or combination. With `peak` the extreme is taken

@@ -80,8 +80,8 @@ impl Profile {
         fibres
     }
 
-    /// The points of `section`, which is that of the profile, at which stresses may be extreme: on both faces of each wall, at the ends of its
-    /// plate and of its middle line, in its middle, and where a flow turns back.
+    /// The points with the extreme stresses; `section` is that of the profile. They lie on both faces of each wall: at the ends of its plate and
+    /// of its middle line, in its middle, and at the extremes of the shear flow.
     pub fn outline(&self, section: &Section) -> SectionOutline {
         let (_, center, _) = rectangles(&self.plates);
         let shear = shear(&self.points, &self.walls, self.cell);

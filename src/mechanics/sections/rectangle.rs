@@ -129,11 +129,11 @@ fn rectangle_points(width: f64, height: f64, nu: f64, section: &Section) -> Vec<
     points
 }
 
-/// Shear stress times area over the shear force in a rectangle, at the centre and at the middle of the sides along the force, which are `depth`
-/// long and `width` apart.
+/// Shear stress times area over the shear force in a rectangle, at two places: the centre, and the middle of the sides along the force. These
+/// sides are `depth` long and `width` apart.
 ///
-/// τ = (a² − x²)/2I + ∂φ/∂y with ∇²φ = ν/(1 + ν) y/I and φ = 0 at the edge (Timoshenko & Goodier, art. 122), as a sine series along y, of which
-/// the part without cosh x is summed.
+/// τ = (a² − x²)/2I + ∂φ/∂y, with ∇²φ = ν/(1 + ν) y/I and φ = 0 at the edge (Timoshenko & Goodier, art. 122). φ is a sine series along y; its
+/// part without cosh x has a closed sum.
 pub(super) fn flexure(depth: f64, width: f64, nu: f64) -> [f64; 2] {
     let (a, b) = (0.5 * depth, 0.5 * width);
     let decay = PI * a / b;

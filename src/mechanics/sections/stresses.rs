@@ -7,8 +7,8 @@ use super::section::Section;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::{PI, TAU};
 
-/// Points of a circle at which stresses are compared, from the direction of bending and from that of the shear force on: the largest of a
-/// smooth function lies half a step away at most, where a cosine has lost 0.1 %.
+/// Number of points of a circle at which stresses are compared, from the direction of bending on, and from that of the shear force on. The
+/// largest value lies half a step away at most, so a cosine loses 0.1 % at most.
 const AROUND: usize = 72;
 
 /// What stresses of a section follow from.

@@ -52,8 +52,8 @@ pub fn check_record_units(deck: &Deck, records: &[Option<Record>], report: &mut 
     }
 }
 
-/// The factor from the unit that the header of a record names to the units of the deck, where the deck leaves the conversion to the program:
-/// `units` are given, and no scale stands with the amplitude or where it moves anything.
+/// The factor from the unit in the header of a record to the units of the deck. `None` if the deck has no `units`, or converts by a scale of its
+/// own at the amplitude or at the motion.
 pub fn conversion(deck: &Deck, index: usize, record: &Record) -> Option<f64> {
     let (name, words) = &deck.amplitudes.0[index];
     let (quantity, si) = record.unit.as_ref()?.known?;

@@ -1,8 +1,8 @@
 //! Axes of bodies with next to no inertia, about which nothing exerts a moment: rods that are free, on springs, or on ball joints.
 //!
 //! Rounding and the error of the iteration, divided by such an inertia, would become spin. Without a moment the spin depends on ratios of inertias
-//! alone, J₁ Ω̇₁ = (J₂ − J₃) Ω₂ Ω₃. The inertia is therefore raised to [`LEAST`] of the largest, and the difference of the two others in proportion:
-//! the spin stays, and the motion across changes by that part times the ratio of the spin to the other angular velocity.
+//! alone: J₁ Ω̇₁ = (J₂ − J₃) Ω₂ Ω₃. So the inertia is raised to [`LEAST`] of the largest, and the difference of the two others in proportion.
+//! The spin stays. The motion across changes by that part times the ratio of the spin to the other angular velocity.
 
 use super::inertia::{ConsistentMass, Inertia};
 use super::turning_body::carriers;
