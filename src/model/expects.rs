@@ -422,10 +422,13 @@ impl<'d> Expects<'_, 'd> {
                 }
             }
             if !self.is_arc_length {
-                let hint = "give `time`, or `control = \"arc-length\"` in `[analysis]`";
+                let hint = match &self.scene.stage {
+                    Some(_) if expect.stage.is_none() => "give `stage`: one of displacement or arc-length control",
+                    _ => "give `time`, or `control = \"displacement\"`",
+                };
                 return self.report.error_with(
                     &when.span,
-                    "`when` needs arc-length control: time steps do not end at given displacements",
+                    "`when` needs arc-length or displacement control: time steps do not end at given displacements",
                     hint,
                 );
             }
