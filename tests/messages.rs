@@ -543,6 +543,36 @@ fn links_that_fail() {
     assert_eq!(portal_and(&link("normal = 3e3", "stiffness = 1e5")).trim(), "");
 }
 
+/// Links by full matrices.
+#[test]
+fn matrices_of_links() {
+    let link = |name: &str, text: &str| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [3.0, 0.0, 2.0] }}\n{text}\n"
+        )
+    };
+    let two = "stiffness = [[1e6, 2e5], [-2e5, 1e6]]";
+    assert_eq!(portal_and(&link("film", &format!("matrices = [{{ {two} }}]"))).trim(), "");
+    let six = "[0.0, 0.0, 0.0, 0.0, 0.0, 0.0]";
+    let about = format!("stiffness = [{six}, {six}, {six}, [0.0, 0.0, 0.0, 1.0, 0.0, 0.0], {six}, {six}]");
+    let tables = [
+        String::new(),
+        "{ damping = [[1.0, 0.0], [0.0, 1.0]] }".to_owned(),
+        format!("{{ {two} }}, {{ {two} }}"),
+        format!("{{ speed = 2.0, {two} }}, {{ speed = 2.0, {two} }}"),
+        format!("{{ speed = -1.0, {two} }}"),
+        "{ stiffness = [[1e6]] }".to_owned(),
+        "{ stiffness = [[1e6, 0.0], [0.0, 1e6, 0.0]] }".to_owned(),
+        format!("{{ {about} }}"),
+    ];
+    let mut links: Vec<String> =
+        tables.iter().enumerate().map(|(i, of)| link(&format!("l{i}"), &format!("matrices = [{of}]"))).collect();
+    let others =
+        "bushing = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3]\nstiffness = 1.0\nfailure = { normal = 1.0 }\npretension = 1.0";
+    links.push(link("others", &format!("matrices = [{{ {two} }}]\n{others}")));
+    assert_snapshot!("matrices_of_links", portal_and(&links.join("\n")));
+}
+
 /// Mass scaling, and what it does not go with.
 #[test]
 fn mass_scaling() {
@@ -550,6 +580,11 @@ fn mass_scaling() {
     let scaled = |step: &str| scheme(&format!("scheme = \"central-difference\"\nmass_scaling_step = {step}"));
     assert_eq!(portal_and(&scaled("1e-4")).trim(), "");
     assert_snapshot!("mass_scaling_step", portal_and(&scaled("0.0")));
+    assert_snapshot!("mass_scaling_off", portal_and(&scaled("1e-4\nmass_scaling = \"off\"")));
+    assert_snapshot!(
+        "mass_scaling_word",
+        portal_and(&scheme("scheme = \"central-difference\"\nmass_scaling = \"mass\""))
+    );
     assert_snapshot!("mass_scaling_implicit", portal_and(&scheme("scheme = \"newmark\"\nmass_scaling_step = 1e-4")));
     assert_snapshot!(
         "mass_scaling_runge_kutta",

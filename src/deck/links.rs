@@ -47,6 +47,9 @@ pub struct Link {
     pub bushing: Maybe<Numbers<6>>,
     /// Six damping values of the bushing, force per velocity and moment per angular velocity. Default: 0.
     pub bushing_damping: Maybe<Numbers<6>>,
+    /// Full matrices of a bearing or mount, instead of a law or a bushing. One table, or several by rising `speed`. The first of `axes` is that
+    /// of the shaft, which may turn without limit.
+    pub matrices: Maybe<Vec<At<Table<LinkMatrices>>>>,
     /// Failure forces of the link, after which it carries nothing. Default: it does not.
     pub failure: Maybe<Table<Failure>>,
     /// Names of the stages in which it acts. Default: all.
@@ -76,6 +79,20 @@ pub struct Failure {
     pub shear: Maybe<f64>,
     /// The exponents [a, b], above 0. Default: [2.0, 2.0].
     pub exponents: Maybe<Numbers<2>>,
+}
+
+/// The matrices of a link: force on the second end by its motion relative to the first, with the sign of a spring. Two rows stand for y and
+/// z, across the first axis; three for x, y and z; six for x, y, z and rotations about them. They need not be symmetric.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LinkMatrices {
+    /// Angular velocity of the second end relative to the first about the first axis, 0 or more, of either sign. Between two speeds matrices are
+    /// interpolated, beyond the ends they stay. Required with several tables.
+    pub speed: Maybe<f64>,
+    /// Rows of the stiffness, force per length, and per radian; moments likewise. Row and column of the rotation about the first axis are 0.
+    pub stiffness: Maybe<Vec<At<Vec<f64>>>>,
+    /// Rows of the damping, force per velocity and per angular velocity; moments likewise. Default: 0.
+    pub damping: Maybe<Vec<At<Vec<f64>>>>,
 }
 
 /// `{ node = "name" }`, `{ body = "name", point = [x, y, z] }` or `{ ground = [x, y, z] }`.

@@ -3,6 +3,7 @@
 mod anderson;
 mod arc_length;
 mod auto_step;
+mod bearings;
 mod breakage;
 mod central_difference;
 mod chains;

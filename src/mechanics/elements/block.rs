@@ -96,6 +96,10 @@ pub trait Mechanics: Elements {
     fn is_linear(&self) -> bool {
         false
     }
+    /// True where elastic forces have a potential, so that their tangent is symmetric.
+    fn has_potential(&self) -> bool {
+        true
+    }
     /// True where forces depend on velocities.
     fn is_damped(&self) -> bool {
         false

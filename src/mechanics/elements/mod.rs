@@ -3,6 +3,7 @@
 
 pub mod bar;
 pub mod beam;
+pub mod bearing;
 mod block;
 pub mod bushing;
 pub mod contact;

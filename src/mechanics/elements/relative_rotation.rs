@@ -149,20 +149,22 @@ impl RotationalSpring {
 }
 
 /// The axis n and where it has gone.
-struct Swing {
+pub(super) struct Swing {
     n: Vec3,
     b: Vec3,
     /// n·b
     c: f64,
-    theta: f64,
+    /// The angle of the swing.
+    pub theta: f64,
     /// g, dg/dc, d²g/dc².
     g: [f64; 3],
     /// The swing as a rotation vector, across n.
-    s: Vec3,
+    pub s: Vec3,
 }
 
 impl Swing {
-    fn of(Q: &Quaternion<f64>, axis: usize) -> Swing {
+    /// The swing of an axis of the bushing, 0 to 2, in a relative rotation.
+    pub fn of(Q: &Quaternion<f64>, axis: usize) -> Swing {
         let n = Vec3::ith(axis, 1.0);
         let b: Vec3 = rotation::matrix(Q).column(axis).into();
         let across = n.cross(&b);
@@ -173,18 +175,18 @@ impl Swing {
     }
 
     /// ∂s/∂θ.
-    fn H(&self) -> Mat3 {
+    pub fn H(&self) -> Mat3 {
         let across = self.n.cross(&self.b);
         -self.g[0] * skew(&self.n) * skew(&self.b) - self.g[1] * across * across.transpose()
     }
 
     /// Hᵀp.
-    fn moment(&self, p: &Vec3) -> Vec3 {
+    pub fn moment(&self, p: &Vec3) -> Vec3 {
         self.H().tr_mul(p)
     }
 
     /// ∂(Hᵀp)/∂θ with p held.
-    fn geometric(&self, p: &Vec3) -> Mat3 {
+    pub fn geometric(&self, p: &Vec3) -> Mat3 {
         let Swing { n, b, g: [g, g1, g2], .. } = self;
         let across = n.cross(b);
         let db = -skew(b);

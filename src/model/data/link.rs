@@ -5,6 +5,7 @@ use super::part_answers::{Drawing, LinearSpring, NodalAction, PartAnswers};
 use base::math::{Mat3, Vec3};
 use base::quantities::{Column, LINK};
 use mechanics::constraints::joint::ConstraintEquation;
+use mechanics::elements::bearing::BearingMatrices;
 use mechanics::elements::coordinate_law::CoordinateLaw;
 use mechanics::elements::link::LinkLaw;
 use mechanics::elements::link_failure::LinkFailure;
@@ -47,6 +48,13 @@ pub enum LinkKind {
         stiffness: [f64; 6],
         /// The force per velocity along each axis, then the moment per angular velocity about each.
         damping: [f64; 6],
+        /// The axes (columns, global at t = 0).
+        axes: Mat3,
+    },
+    /// All components by full matrices, in a frame that is fixed to the first end.
+    Bearing {
+        /// The matrices by rising speed of the second end about the first axis.
+        matrices: Vec<BearingMatrices>,
         /// The axes (columns, global at t = 0).
         axes: Mat3,
     },
@@ -97,6 +105,8 @@ impl PartAnswers for Link {
             LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, .. } => *stiffness > 0.0,
             LinkKind::Line { .. } => true,
             LinkKind::Bushing { stiffness, .. } => stiffness.iter().any(|k| *k > 0.0),
+            // Its matrices of damping are all that damps it.
+            LinkKind::Bearing { .. } => false,
             LinkKind::Joint { law, .. } => law.stiffness > 0.0 || law.hysteresis.is_some(),
         }
     }
@@ -109,6 +119,7 @@ impl PartAnswers for Link {
         match &self.kind {
             LinkKind::Line { law, .. } => !matches!(law, LinkLaw::Linear { .. }),
             LinkKind::Bushing { .. } => false,
+            LinkKind::Bearing { matrices, .. } => matrices.len() > 1,
             LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some(),
         }
     }
@@ -117,7 +128,7 @@ impl PartAnswers for Link {
         match &self.kind {
             LinkKind::Joint { law, .. } if *law == CoordinateLaw::FREE => NodalAction::Nothing,
             LinkKind::Line { .. } => NodalAction::Forces,
-            LinkKind::Bushing { .. } | LinkKind::Joint { .. } => NodalAction::Moments,
+            LinkKind::Bushing { .. } | LinkKind::Bearing { .. } | LinkKind::Joint { .. } => NodalAction::Moments,
         }
     }
 
@@ -135,7 +146,9 @@ impl PartAnswers for Link {
             LinkKind::Joint { law, .. } if law == CoordinateLaw::FREE => {
                 Some(LinearSpring { ends: self.ends, stiffness: 0.0, damping: 0.0 })
             }
-            LinkKind::Line { .. } | LinkKind::Bushing { .. } | LinkKind::Joint { .. } => None,
+            LinkKind::Line { .. } | LinkKind::Bushing { .. } | LinkKind::Bearing { .. } | LinkKind::Joint { .. } => {
+                None
+            }
         }
     }
 

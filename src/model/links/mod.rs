@@ -1,10 +1,12 @@
 //! `[[links]]`: their ends and laws.
 
 pub mod foundation;
+pub mod matrices;
 pub mod pretension;
 
 use crate::data::{Link, LinkKind, Load, OwnDamping};
 use crate::links::foundation::foundations;
+use crate::links::matrices::bearing;
 use crate::links::pretension::pretension;
 use crate::own_damping::of_spring;
 use crate::places::axes::axes;
@@ -51,7 +53,7 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
     let mut links = ModelLinks::default();
     for (index, link) in scene.deck.links.iter().enumerate() {
         let (name, owner) = report.named(("link", "links", index), link.name.as_ref(), &link.span);
-        let rotations = link.bushing.is_some();
+        let rotations = link.bushing.is_some() || link.matrices.is_some();
         let mut end = |key, end| {
             let end = EndTable { owner: &owner, key, end, label: format!("{name}.{key}"), rotations, default: None };
             end.node(scene, nodes, report)
@@ -59,9 +61,10 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
         let (from, to) = (end("from", &link.from), end("to", &link.to));
         let ends = from.zip(to).map(|(from, to)| [from, to]);
         let (damping, own_damping) = of_spring("a link", &link.damping, report);
-        let kind = match link.bushing {
-            Some(_) => bushing(link, report),
-            None => line(&owner, link, (ends, damping), nodes, report),
+        let kind = match (&link.bushing, &link.matrices) {
+            (_, Some(list)) => bearing(&owner, link, list, report),
+            (Some(_), None) => bushing(link, report),
+            (None, None) => line(&owner, link, (ends, damping), nodes, report),
         };
         if let Some([from, to]) = ends
             && from == to
@@ -155,8 +158,9 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
     }
 }
 
-fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKind> {
-    let unused = [
+/// The keys of a law along a line.
+fn of_lines(link: &words::Link) -> [(&'static str, Option<&Span>); 8] {
+    [
         ("law", span(&link.law)),
         ("stiffness", span(&link.stiffness)),
         ("damping", dashpot(link)),
@@ -165,8 +169,11 @@ fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKin
         ("free_length", span(&link.free_length)),
         ("direction", span(&link.direction)),
         ("points", span(&link.points)),
-    ];
-    report.reject_unused("a bushing", &unused);
+    ]
+}
+
+fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKind> {
+    report.reject_unused("a bushing", &of_lines(link));
     let stiffness = six("bushing", &link.bushing, report);
     let damping = six("bushing_damping", &link.bushing_damping, report);
     let axes = match &link.axes {

@@ -59,7 +59,7 @@ pub fn pretension<'d>(
         Some(LinkKind::Line { law: LinkLaw::Linear { stiffness: 0.0, .. }, .. }) => {
             wrong("a link without stiffness cannot be pretensioned", "give it `stiffness`");
         }
-        Some(LinkKind::Bushing { .. }) => {
+        Some(LinkKind::Bushing { .. } | LinkKind::Bearing { .. }) => {
             wrong("a bushing cannot be pretensioned", "put a link with `pretension` beside it");
         }
         _ if force.value == 0.0 => {

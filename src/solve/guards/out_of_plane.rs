@@ -43,7 +43,7 @@ impl OutOfPlane {
         let sideways = Sideways::new(cx.model, cx.system, cx.plan)?;
         Ok(sideways.map(|Sideways { system, dofs, solver, assembly }| OutOfPlane {
             forces: Forces::new(&system, cx.model.nodes.len()),
-            criterion: match system.loads_have_potential(None) {
+            criterion: match system.has_potential(None) {
                 true => Criterion::Eigenvalues,
                 false => Criterion::Determinant,
             },

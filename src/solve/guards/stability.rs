@@ -97,7 +97,7 @@ impl Stability {
     pub fn new(cx: &Context) -> Result<Stability, TooLarge> {
         let on_path = cx.model.analysis.step_length.is_arc_length();
         let criterion = match cx.plan.kind {
-            _ if cx.system.loads_have_potential(cx.system.plane) => Criterion::Eigenvalues,
+            _ if cx.system.has_potential(cx.system.plane) => Criterion::Eigenvalues,
             Factorization::BlockLu => Criterion::Determinant,
             Factorization::Cholesky => Criterion::SymmetricPart,
         };

@@ -132,9 +132,9 @@ fn warnings_of(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)
             found.len()
         ));
     }
-    if !at.loads_have_potential() {
+    if !at.has_potential() {
         warnings.push(
-            "follower loads, and moments about axes fixed in space, have no potential: factors use the symmetric part of their stiffness. They miss \
+            "follower loads, moments about axes fixed in space, and links with unsymmetric matrices have no potential: factors use the symmetric part of their stiffness. They miss \
              flutter; look for it with `kind = \"modal\"` and `damped = true` under these loads"
                 .to_owned(),
         );

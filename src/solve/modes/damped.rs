@@ -86,12 +86,12 @@ pub fn damped_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Re
         let shift = square.sqrt();
         let rounding = if free { Shapes::new(&pencil).rounding(&pencil).sqrt() } else { 0.0 };
         let near = Near { shift, zero: (ZERO * shift).max(SPLIT * rounding) };
-        let has_potential = at.loads_have_potential();
+        let has_potential = at.has_potential();
         let free = if free && has_potential { Some(free_modes(&mut pencil, near)?) } else { None };
         (near, free, pencil.factorizations)
     };
     let mut own = None;
-    if gyroscopic.acts() || !at.loads_have_potential() {
+    if gyroscopic.acts() || !at.has_potential() {
         let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
         let assembly = Assembly::new(at.system, &at.plan.dofs, &solver, at.plan.threads);
         own = Some((solver, assembly));

@@ -52,12 +52,12 @@ impl Linearized<'_> {
         self.stop.load(Ordering::Relaxed)
     }
 
-    /// True if the active loads have a potential, as in [`System::loads_have_potential`].
-    pub fn loads_have_potential(&self) -> bool {
+    /// True if links and the active loads have a potential, as in [`System::has_potential`].
+    pub fn has_potential(&self) -> bool {
         let factors = self.loading.factors.iter().zip(&self.factored.factors);
         let acts = factors.map(|(loading, factored)| *loading != 0.0 || *factored != 0.0);
         let mut acting = self.model.loading.nodal.iter().zip(acts).filter(|(_, acts)| *acts);
-        acting.all(|(load, _)| load.has_potential(self.system.plane))
+        self.system.links_have_potential() && acting.all(|(load, _)| load.has_potential(self.system.plane))
     }
 
     /// True for an angular velocity above rounding: it turns by more than that over the analysis.

@@ -134,9 +134,9 @@ pub(super) fn far_apart(list: &[EigenMode]) -> Vec<String> {
 /// Terms neglected by modes without damping, in words.
 pub(super) fn left_out(at: &Linearized) -> Vec<String> {
     let mut warnings = Vec::new();
-    if !at.loads_have_potential() {
+    if !at.has_potential() {
         warnings.push(
-            "follower loads, and moments about axes fixed in space, have no potential: modes use the symmetric part of their stiffness. Give \
+            "follower loads, moments about axes fixed in space, and links with unsymmetric matrices have no potential: modes use the symmetric part of their stiffness. Give \
              `damped = true`, which uses all of it and finds flutter"
                 .to_owned(),
         );

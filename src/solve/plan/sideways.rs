@@ -39,7 +39,7 @@ impl Sideways {
         }
         let structure = super::structure(&system, &dofs);
         // Without a potential the tangent is unsymmetric, and its determinant decides stability.
-        let kind = match system.loads_have_potential(None) {
+        let kind = match system.has_potential(None) {
             true => Factorization::choose(&structure),
             false => Factorization::BlockLu,
         };

@@ -435,10 +435,15 @@ impl System {
         sums
     }
 
-    /// True if the loads have a potential (see [`Load::has_potential`](model::Load::has_potential)), so that the tangent is symmetric and
+    /// True if loads and links have a potential (see [`Load::has_potential`](model::Load::has_potential)), so that the tangent is symmetric and
     /// its eigenvalues decide about stability. Pressure counts as if all edges were restrained.
-    pub fn loads_have_potential(&self, normal: Option<usize>) -> bool {
-        self.loads.iter().all(|load| load.has_potential(normal))
+    pub fn has_potential(&self, normal: Option<usize>) -> bool {
+        self.links_have_potential() && self.loads.iter().all(|load| load.has_potential(normal))
+    }
+
+    /// True if all elements have a potential.
+    pub fn links_have_potential(&self) -> bool {
+        self.groups.iter().all(|group| group.block.has_potential())
     }
 
     /// Energy that elements store.

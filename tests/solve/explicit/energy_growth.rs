@@ -91,7 +91,8 @@ fn blows_neither_make_energy_nor_keep_steps_short() {
 fn thrown(mass: &str, speed: f64, more: &str) -> String {
     let head = dynamic("0.5", AUTO, "central-difference");
     format!(
-        r#"{head}[materials.steel]
+        r#"{head}mass_scaling = "off"
+[materials.steel]
 model = "elastic"
 youngs_modulus = 1e6
 poisson_ratio = 0.0

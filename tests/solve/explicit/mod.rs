@@ -16,7 +16,8 @@ use rdsolve::model::Model;
 use rdsolve::solve::Frame;
 use rdsolve::system::energy::Balance;
 
-const CENTRAL: &str = "integrator={scheme=\"central-difference\"}";
+/// With the masses that other schemes have.
+const CENTRAL: &str = "integrator={scheme=\"central-difference\",mass_scaling=\"off\"}";
 const EIGHT: &str = "integrator={scheme=\"runge-kutta\"}";
 const FIVE: &str = "integrator={scheme=\"runge-kutta\",order=5}";
 const WILSON: &str = "integrator={scheme=\"wilson-theta\"}";

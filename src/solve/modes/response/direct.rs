@@ -42,7 +42,7 @@ pub fn response(
     };
     let all = frequencies(asked, &natural);
     let gyroscopic = Gyroscopic::of(at);
-    let unsymmetric = gyroscopic.acts() || !at.loads_have_potential();
+    let unsymmetric = gyroscopic.acts() || !at.has_potential();
     let mut own = None;
     if unsymmetric {
         let solver = Solver::new(&at.plan.structure, Factorization::BlockLu, at.plan.threads)?;
@@ -94,8 +94,8 @@ fn is_unstable(pencil: &mut Pencil, shift: f64) -> bool {
 
 /// Properties that cannot be judged for loads without a potential, in words.
 fn unjudged(at: &Linearized) -> Option<String> {
-    (!at.loads_have_potential()).then(|| {
-        "follower loads, and moments about axes fixed in space, have no potential: the steady motion does not last if they cause flutter. Check \
+    (!at.has_potential()).then(|| {
+        "follower loads, moments about axes fixed in space, and links with unsymmetric matrices have no potential: the steady motion does not last if they cause flutter. Check \
          the stability of the state with `kind = \"modal\"` and `damped = true`"
             .to_owned()
     })

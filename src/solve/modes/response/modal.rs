@@ -86,7 +86,7 @@ pub fn response(
     let mut warnings = gyroscopic.warnings;
     warnings.extend(resonances_in_words(&progress.so_far.resonances));
     warnings.extend(truncated);
-    warnings.extend(left_out(at).into_iter().filter(|_| !at.loads_have_potential()));
+    warnings.extend(left_out(at).into_iter().filter(|_| !at.has_potential()));
     let unstable = list.iter().filter(|mode| mode.root[0] > 0.0).count();
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let (kind, masses, response) = (ModeKind::Natural, shapes.masses, Some(response));

@@ -5,6 +5,7 @@ use super::coordinate_springs::{CoordinateSpring, CoordinateSprings};
 use crate::system::group::Group;
 use crate::system::plane::MotionPlane;
 use base::math::{Mat3, Vec3, angular, linear};
+use mechanics::elements::bearing::{Bearing, Bearings};
 use mechanics::elements::bushing::{Bushing, Bushings};
 use mechanics::elements::coordinate_law::CoordinateLaw;
 use mechanics::elements::link::{self, Links};
@@ -37,6 +38,8 @@ pub enum LinkElement {
     Line(link::Link),
     /// A bushing.
     Bushing(Bushing),
+    /// A bearing.
+    Bearing(Bearing),
     /// The laws along the coordinate of a joint.
     Joint(CoordinateSpring),
 }
@@ -48,11 +51,13 @@ impl Assembled for Link {
             return Vec::new();
         }
         let (mut lines, mut taken_up, mut bushings, mut joints) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let mut bearings = Vec::new();
         for element in elements(setting.model, setting.x) {
             match element {
                 LinkElement::Line(line) if line.is_taken_up() => taken_up.push(line),
                 LinkElement::Line(line) => lines.push(line),
                 LinkElement::Bushing(bushing) => bushings.push(bushing),
+                LinkElement::Bearing(bearing) => bearings.push(bearing),
                 LinkElement::Joint(spring) => joints.push(spring),
             }
         }
@@ -62,6 +67,7 @@ impl Assembled for Link {
             (Box::new(Links::new(taken_up)), 0),
             (Box::new(Bushings::new(bushings)), 0),
             (Box::new(CoordinateSprings::new(joints)), 0),
+            (Box::new(Bearings(bearings)), 0),
         ]
     }
 
@@ -72,6 +78,8 @@ impl Assembled for Link {
                 let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
                 plane.decouples(&turn(&k[..3])) && plane.decouples(&turn(&k[3..]))
             }),
+            // Across the shaft, or not at all.
+            LinkKind::Bearing { .. } => false,
             LinkKind::Joint { lock, law } => {
                 *law == CoordinateLaw::FREE || lock.in_plane(plane.normal, &Vec3::zeros()) == Some(true)
             }
@@ -102,6 +110,12 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
             failure: part.failure,
         }),
+        LinkKind::Bearing { matrices, axes } => LinkElement::Bearing(Bearing {
+            nodes: part.ends,
+            axes: *axes,
+            offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
+            matrices: matrices.clone(),
+        }),
         LinkKind::Joint { lock, law } => {
             let law = law.damped_by(beta(part));
             LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law, drive: drive(index) })
@@ -113,8 +127,11 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
 /// The bushing, by its place among the links, whose ends have turned over against each other between `start` and `end`:
 /// its moments are no longer defined there.
 pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Option<usize> {
-    let turned =
-        |link: &LinkElement| matches!(link, LinkElement::Bushing(bushing) if bushing.is_turned_over(start, end));
+    let turned = |link: &LinkElement| match link {
+        LinkElement::Bushing(bushing) => bushing.is_turned_over(start, end),
+        LinkElement::Bearing(bearing) => bearing.is_turned_over(end),
+        LinkElement::Line(_) | LinkElement::Joint(_) => false,
+    };
     links.iter().position(turned)
 }
 
@@ -163,6 +180,7 @@ impl LinkElement {
         match self {
             LinkElement::Line(line) => line.memory(),
             LinkElement::Bushing(bushing) => bushing.memory(),
+            LinkElement::Bearing(_) => 0,
             LinkElement::Joint(spring) => spring.law.memory(),
         }
     }
@@ -173,16 +191,17 @@ impl LinkElement {
             LinkElement::Line(line) => usize::from(line.is_taken_up()),
             LinkElement::Bushing(_) => 2,
             LinkElement::Joint(_) => 3,
+            LinkElement::Bearing(_) => 4,
         }
     }
 }
 
-/// The next history variables of each kind of link, among all links: first lines, then pretensioned lines, then bushings, then joints.
-struct Slots([usize; 4]);
+/// The next history variables of each kind of link, among all links: first lines, then pretensioned lines, then bushings, joints and bearings.
+struct Slots([usize; 5]);
 
 impl Slots {
     fn before_kinds(links: &[LinkElement]) -> Slots {
-        let mut slots = [0; 4];
+        let mut slots = [0; 5];
         for link in links {
             slots[link.kind() + 1..].iter_mut().for_each(|slot| *slot += link.memory());
         }
@@ -207,6 +226,21 @@ pub fn history_of(links: &[LinkElement], groups: &[Group], link: usize) -> std::
     first + found.start..first + found.end
 }
 
+/// The state of a link by the displacement along its axes, its rate along the first, and force and moment at its second end along them.
+fn in_axes(
+    nodes: &[Node],
+    (ends, axes): (&[usize; 2], &Mat3),
+    (d, rate, f, m): (Vec3, f64, Vec3, Vec3),
+    failed: bool,
+) -> LinkState {
+    let [first, second] = ends.map(|n| &nodes[n]);
+    let B = first.R() * axes;
+    let f_global = B * f;
+    // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on the first.
+    let m = B * m + (second.x - first.x).cross(&f_global);
+    LinkState { elongation: d.x, rate, force: f.x, f: f_global, m, failed }
+}
+
 /// Writes the states of all links into `out`, in deck order. `groups` are those of the whole system.
 pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration, out: &mut Vec<LinkState>) {
     out.clear();
@@ -222,16 +256,10 @@ pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration,
             LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros(), failed }
         }
         LinkElement::Bushing(bushing) => {
-            let (d, rate, f, m) = bushing.state(nodes, memory);
-            let [first, second] = bushing.nodes.map(|n| &nodes[n]);
-            let B = first.R() * bushing.axes;
-            // Force and moment act at the second end; the force, across the distance of the ends, adds a moment on
-            // the first.
-            let f_global = B * f;
-            let m = B * m + (second.x - first.x).cross(&f_global);
             let failed = bushing.has_failed(memory);
-            LinkState { elongation: d.x, rate, force: f.x, f: f_global, m, failed }
+            in_axes(nodes, (&bushing.nodes, &bushing.axes), bushing.state(nodes, memory), failed)
         }
+        LinkElement::Bearing(bearing) => in_axes(nodes, (&bearing.nodes, &bearing.axes), bearing.state(nodes), false),
         LinkElement::Joint(spring) => {
             let at = spring.state(nodes, memory, 0.0);
             let [G, _] = spring.lock.gradient(&nodes[spring.nodes[0]], &nodes[spring.nodes[1]]);
