@@ -23,12 +23,27 @@ pub struct Link {
     pub to: Maybe<Table<End>>,
     /// Force against elongation. Default: "linear".
     pub law: Maybe<LinkLaw>,
-    /// Force per elongation, above 0; of a linear link also 0. (linear, compression-only, tension-only)
+    /// Force per elongation, above 0; of a linear link also 0. (linear, compression-only, tension-only, yielding, bouc-wen)
     pub stiffness: Maybe<f64>,
     /// Force per rate of elongation, 0 or more, or `{ beta, viscous }`. Default: 0, and beta of `[damping]`.
     pub damping: Maybe<NumberOrTable<Table<SpringDamping>>>,
     /// Free play before the link acts, a length of 0 or more. Default: 0. (compression-only, tension-only)
     pub gap: Maybe<f64>,
+    /// Force at first yield, above 0. (yielding, bouc-wen)
+    pub yield_force: Maybe<f64>,
+    /// Slope beyond yielding, 0 or more, below `stiffness`. Default: 0. (yielding, bouc-wen)
+    pub post_yield_stiffness: Maybe<f64>,
+    /// [[elongation, force], ...], up to 6, from first yield on, instead of `stiffness` and the yield keys. The curve of first loading is
+    /// symmetric, each line less steep than the one before, and constant after the last. Unloading follows it twice as large. (yielding)
+    pub backbone: Maybe<Vec<At<Numbers<2>>>>,
+    /// How sharp the knee at yielding is, 1 or more. Default: 2. (bouc-wen)
+    pub exponent: Maybe<f64>,
+    /// Share of the unloading term, 0.5 to 1: 0.5 unloads along the first slope, more bulges. Default: 0.5. (bouc-wen)
+    pub unloading: Maybe<f64>,
+    /// Loss of strength by the energy of hysteresis, in units of yield force times yield elongation, 0 or more. Default: 0. (bouc-wen)
+    pub strength_loss: Maybe<f64>,
+    /// Loss of stiffness, likewise. Default: 0. (bouc-wen)
+    pub stiffness_loss: Maybe<f64>,
     /// Force at zero elongation, tension positive. Default: 0. (linear)
     pub preload: Maybe<f64>,
     /// Force of tightening, not 0, tension positive. The link is tightened in its first stage, which is static, or in a static analysis.
@@ -121,4 +136,8 @@ pub enum LinkLaw {
     CompressionOnly,
     /// Linear when lengthened by more than the gap, otherwise without force: a rope.
     TensionOnly,
+    /// Straight lines with kinematic hardening: a yielding damper, an isolator, a moment connection.
+    Yielding,
+    /// The smooth hysteresis of Bouc and Wen, with loss of strength and stiffness: an isolator, a wire rope, a wall.
+    BoucWen,
 }

@@ -9,7 +9,10 @@ use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
 use rdsolve::elements::beam::{BeamGeometry, FibreModel, IntegrationRule, elastic_beams};
 use rdsolve::elements::bearing::{Bearing, BearingMatrices, Bearings};
+use rdsolve::elements::bouc_wen::BoucWen;
 use rdsolve::elements::bushing::{Bushing, Bushings};
+use rdsolve::elements::hysteresis::Hysteresis;
+use rdsolve::elements::hysteretic_link::{HystereticLink, HystereticLinks, PathLaw};
 use rdsolve::elements::link::{Link, LinkLaw, Links};
 use rdsolve::elements::relative_rotation::RotationalSpring;
 use rdsolve::elements::shell::{self, Plate, Quadrilaterals, Triangles};
@@ -184,8 +187,34 @@ fn materials(rng: &mut StdRng, firmness: f64) -> [(&'static str, Material); 2] {
     ]
 }
 
+/// Links along a line, and along a direction, that yield at elongations of some hundredths.
+fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
+    let backbone = Hysteresis::new(&[[0.04 * firmness, firmness], [0.1 * firmness, 1.8 * firmness]], 4.0).unwrap();
+    let smooth = BoucWen {
+        stiffness: 25.0,
+        post_yield_stiffness: 4.0,
+        yield_force: firmness,
+        exponent: 2.0,
+        bulge: 0.6,
+        losses: [0.02, 0.01],
+    };
+    for (name, law) in [("yielding link", PathLaw::Backbone(backbone)), ("smooth link", PathLaw::BoucWen(smooth))] {
+        for direction in [None, Some(vector(rng, 1.0).normalize())] {
+            let frame = rotation::matrix(&turn(rng));
+            let x = nodes_of(2, &frame, vector(rng, 2.0));
+            let none = LinkLaw::Linear { stiffness: 0.0, preload: 0.0 };
+            let length = direction.map_or(1.3, |d| d.dot(&(x[1] - x[0])));
+            let link = Link::new([0, 1], none, 0.7, direction, length, [x[0], x[1]]);
+            let block = Box::new(HystereticLinks::new(vec![HystereticLink { link, law }]));
+            let past = vec![0.0; block.history()];
+            kinds.push(Kind { name: name.to_owned(), block, x, past });
+        }
+    }
+}
+
 fn yielding(rng: &mut StdRng, firmness: f64) -> Vec<Kind> {
     let mut kinds = Vec::new();
+    hysteretic_links(rng, firmness, &mut kinds);
     for (name, law) in materials(rng, firmness) {
         for damping in [0.0, 0.3] {
             let damped = if damping > 0.0 { "damped " } else { "" };

@@ -361,9 +361,10 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
     t.each_mut::<Shell>().flat_map(|s| &mut s.elements).for_each(|e| e.normals = e.normals.map(|n| R * n));
     for link in t.each_mut::<Link>() {
         match &mut link.kind {
-            LinkKind::Line { direction: Some(d), .. } => *d = R * *d,
-            LinkKind::Line { .. } => {}
-            LinkKind::Bushing { axes, .. } => *axes = R * *axes,
+            LinkKind::Line { direction, .. } | LinkKind::Hysteretic { direction, .. } => {
+                *direction = direction.map(|d| R * d)
+            }
+            LinkKind::Bushing { axes, .. } | LinkKind::Bearing { axes, .. } => *axes = R * *axes,
             LinkKind::Joint { .. } => unreachable!("the scene has no coordinates of joints"),
         }
     }

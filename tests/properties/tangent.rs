@@ -229,7 +229,10 @@ fn damp(m: &mut Model) {
     m.damping.nodal = nodal.map(|(node, translation, rotation)| NodalDamping { node, translation, rotation }).into();
     for link in m.each_mut::<Link>() {
         match &mut link.kind {
-            rdsolve::model::LinkKind::Line { damping, .. } => *damping = 0.7,
+            rdsolve::model::LinkKind::Bearing { .. } => {}
+            rdsolve::model::LinkKind::Line { damping, .. } | rdsolve::model::LinkKind::Hysteretic { damping, .. } => {
+                *damping = 0.7
+            }
             rdsolve::model::LinkKind::Bushing { damping, .. } => *damping = [0.5, 0.3, 0.4, 0.2, 0.3, 0.1],
             rdsolve::model::LinkKind::Joint { law, .. } => law.damping = 0.6,
         }

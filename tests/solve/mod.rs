@@ -18,6 +18,7 @@ mod explicit;
 mod failure;
 mod global_error;
 mod handover;
+mod hysteretic_links;
 mod inside_steps;
 mod iterations;
 mod joint_forces;

@@ -289,7 +289,7 @@ fn dead_loads_along_edges_have_a_potential() {
     let has_potential = |load: &str| {
         let model = read_deck(&deck(load));
         assert!(model.loading.nodal.iter().any(|load| load.moment.norm() > 0.0), "{load}");
-        System::new(&model).expect("a system").loads_have_potential(None)
+        System::new(&model).expect("a system").has_potential(None)
     };
     let dead = "at = \"p.edge3\"\nforce_per_length = [0.0, -1.0, -0.3]";
     assert!(has_potential(dead));

@@ -111,7 +111,7 @@ impl LinkLaw {
 }
 
 /// Writes the matrix of two nodes between which `k` acts.
-fn set_pair(k: &base::math::Mat3, K: &mut [f64]) {
+pub(super) fn set_pair(k: &base::math::Mat3, K: &mut [f64]) {
     for i in 0..3 {
         for j in 0..3 {
             K[6 * i + j] = k[(i, j)];
@@ -179,16 +179,17 @@ pub struct Link {
 }
 
 /// The line of a link and its elongation.
-struct LinkAxis {
+pub(super) struct LinkAxis {
     /// Unit vector from the first node to the second, or the fixed direction.
-    e: Vec3,
-    length: f64,
+    pub e: Vec3,
+    /// Distance of the nodes along it.
+    pub length: f64,
     /// δ.
-    delta: f64,
+    pub delta: f64,
     /// δ̇.
-    rate: f64,
+    pub rate: f64,
     /// Velocity of the second node less that of the first.
-    dv: Vec3,
+    pub dv: Vec3,
 }
 
 impl Link {
@@ -238,7 +239,7 @@ impl Link {
     }
 
     #[inline]
-    fn line(&self, nodes: &[Node]) -> LinkAxis {
+    pub(super) fn line(&self, nodes: &[Node]) -> LinkAxis {
         let [a, b] = self.nodes.map(|n| &nodes[n]);
         let (dx, dv) = (b.relative_position(a), b.v - a.v);
         // Displacements have more digits than positions, so the elongation is computed from them.

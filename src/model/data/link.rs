@@ -7,6 +7,7 @@ use base::quantities::{Column, LINK};
 use mechanics::constraints::joint::ConstraintEquation;
 use mechanics::elements::bearing::BearingMatrices;
 use mechanics::elements::coordinate_law::CoordinateLaw;
+use mechanics::elements::hysteretic_link::PathLaw;
 use mechanics::elements::link::LinkLaw;
 use mechanics::elements::link_failure::LinkFailure;
 
@@ -40,6 +41,17 @@ pub enum LinkKind {
         /// The fixed direction; `None` where the force acts along the line of the ends.
         direction: Option<Vec3>,
         /// Length (along the line) without elongation; along `direction` the initial projection, unless a free length is given.
+        free_length: f64,
+    },
+    /// Force along the line of the ends, or along a fixed global unit vector, that depends on its past.
+    Hysteretic {
+        /// The force over the elongation and its past.
+        law: PathLaw,
+        /// The force per rate of the elongation.
+        damping: f64,
+        /// The fixed direction; `None` where the force acts along the line of the ends.
+        direction: Option<Vec3>,
+        /// As for [`LinkKind::Line`].
         free_length: f64,
     },
     /// Six components in a frame that is fixed to the first end: three of the relative position, three of the relative rotation.
@@ -103,7 +115,7 @@ impl PartAnswers for Link {
     fn has_damped_stiffness(&self) -> bool {
         match &self.kind {
             LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, .. } => *stiffness > 0.0,
-            LinkKind::Line { .. } => true,
+            LinkKind::Line { .. } | LinkKind::Hysteretic { .. } => true,
             LinkKind::Bushing { stiffness, .. } => stiffness.iter().any(|k| *k > 0.0),
             // Its matrices of damping are all that damps it.
             LinkKind::Bearing { .. } => false,
@@ -119,6 +131,7 @@ impl PartAnswers for Link {
         match &self.kind {
             LinkKind::Line { law, .. } => !matches!(law, LinkLaw::Linear { .. }),
             LinkKind::Bushing { .. } => false,
+            LinkKind::Hysteretic { .. } => true,
             LinkKind::Bearing { matrices, .. } => matrices.len() > 1,
             LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some(),
         }
@@ -127,7 +140,7 @@ impl PartAnswers for Link {
     fn action(&self) -> NodalAction {
         match &self.kind {
             LinkKind::Joint { law, .. } if *law == CoordinateLaw::FREE => NodalAction::Nothing,
-            LinkKind::Line { .. } => NodalAction::Forces,
+            LinkKind::Line { .. } | LinkKind::Hysteretic { .. } => NodalAction::Forces,
             LinkKind::Bushing { .. } | LinkKind::Bearing { .. } | LinkKind::Joint { .. } => NodalAction::Moments,
         }
     }
@@ -146,9 +159,11 @@ impl PartAnswers for Link {
             LinkKind::Joint { law, .. } if law == CoordinateLaw::FREE => {
                 Some(LinearSpring { ends: self.ends, stiffness: 0.0, damping: 0.0 })
             }
-            LinkKind::Line { .. } | LinkKind::Bushing { .. } | LinkKind::Bearing { .. } | LinkKind::Joint { .. } => {
-                None
-            }
+            LinkKind::Line { .. }
+            | LinkKind::Hysteretic { .. }
+            | LinkKind::Bushing { .. }
+            | LinkKind::Bearing { .. }
+            | LinkKind::Joint { .. } => None,
         }
     }
 

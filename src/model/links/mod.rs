@@ -1,6 +1,7 @@
 //! `[[links]]`: their ends and laws.
 
 pub mod foundation;
+pub mod hysteretic;
 pub mod matrices;
 pub mod pretension;
 
@@ -99,7 +100,11 @@ fn line<'d>(
 ) -> Option<LinkKind> {
     let unused = keys!(link; bushing_damping, axes);
     report.reject_unused("a link without `bushing`", &unused);
-    let law = law(owner, link, report);
+    let path = hysteretic::law(owner, link, report);
+    let law = match path {
+        hysteretic::Found::None => law(owner, link, report),
+        _ => None,
+    };
     let free_length = link.free_length.as_ref().map(|length| length.value);
     let direction = match &link.direction {
         Some(direction) => Some(report.unit("direction", direction)?),
@@ -118,8 +123,11 @@ fn line<'d>(
         }
         None => arm.norm(),
     };
-    let law = law?;
-    Some(LinkKind::Line { law, damping, direction, free_length: free_length.unwrap_or(initial) })
+    let free_length = free_length.unwrap_or(initial);
+    if let hysteretic::Found::Law(law) = path {
+        return Some(LinkKind::Hysteretic { law, damping, direction, free_length });
+    }
+    Some(LinkKind::Line { law: law?, damping, direction, free_length })
 }
 
 fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkLaw> {
@@ -144,6 +152,8 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
             let points = report.require(owner, "points", &link.points)?;
             report.rising("points", "elongation", points).map(|points| LinkLaw::Table { points })
         }
+        // Read before.
+        words::LinkLaw::Yielding | words::LinkLaw::BoucWen => None,
         words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {
             let one_sided = "a law that acts one way only";
             report.reject_unused(one_sided, &[preload, points]);
@@ -159,8 +169,9 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
 }
 
 /// The keys of a law along a line.
-fn of_lines(link: &words::Link) -> [(&'static str, Option<&Span>); 8] {
-    [
+fn of_lines(link: &words::Link) -> Vec<(&'static str, Option<&Span>)> {
+    let of_paths = hysteretic::keys(link);
+    let others = [
         ("law", span(&link.law)),
         ("stiffness", span(&link.stiffness)),
         ("damping", dashpot(link)),
@@ -169,7 +180,8 @@ fn of_lines(link: &words::Link) -> [(&'static str, Option<&Span>); 8] {
         ("free_length", span(&link.free_length)),
         ("direction", span(&link.direction)),
         ("points", span(&link.points)),
-    ]
+    ];
+    others.into_iter().chain(of_paths).collect()
 }
 
 fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKind> {

@@ -59,6 +59,9 @@ pub fn pretension<'d>(
         Some(LinkKind::Line { law: LinkLaw::Linear { stiffness: 0.0, .. }, .. }) => {
             wrong("a link without stiffness cannot be pretensioned", "give it `stiffness`");
         }
+        Some(LinkKind::Hysteretic { .. }) => {
+            wrong("a link that remembers cannot be pretensioned", "put a link with `pretension` beside it");
+        }
         Some(LinkKind::Bushing { .. } | LinkKind::Bearing { .. }) => {
             wrong("a bushing cannot be pretensioned", "put a link with `pretension` beside it");
         }

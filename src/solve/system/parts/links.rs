@@ -8,6 +8,7 @@ use base::math::{Mat3, Vec3, angular, linear};
 use mechanics::elements::bearing::{Bearing, Bearings};
 use mechanics::elements::bushing::{Bushing, Bushings};
 use mechanics::elements::coordinate_law::CoordinateLaw;
+use mechanics::elements::hysteretic_link::{HystereticLink, HystereticLinks};
 use mechanics::elements::link::{self, Links};
 use mechanics::elements::link_failure;
 use mechanics::elements::relative_rotation::RotationalSpring;
@@ -36,6 +37,8 @@ pub struct LinkState {
 pub enum LinkElement {
     /// A spring or damper along a line.
     Line(link::Link),
+    /// A spring along a line that remembers.
+    Hysteretic(HystereticLink),
     /// A bushing.
     Bushing(Bushing),
     /// A bearing.
@@ -51,13 +54,14 @@ impl Assembled for Link {
             return Vec::new();
         }
         let (mut lines, mut taken_up, mut bushings, mut joints) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let mut bearings = Vec::new();
+        let (mut bearings, mut hysteretic) = (Vec::new(), Vec::new());
         for element in elements(setting.model, setting.x) {
             match element {
                 LinkElement::Line(line) if line.is_taken_up() => taken_up.push(line),
                 LinkElement::Line(line) => lines.push(line),
                 LinkElement::Bushing(bushing) => bushings.push(bushing),
                 LinkElement::Bearing(bearing) => bearings.push(bearing),
+                LinkElement::Hysteretic(link) => hysteretic.push(link),
                 LinkElement::Joint(spring) => joints.push(spring),
             }
         }
@@ -68,12 +72,15 @@ impl Assembled for Link {
             (Box::new(Bushings::new(bushings)), 0),
             (Box::new(CoordinateSprings::new(joints)), 0),
             (Box::new(Bearings(bearings)), 0),
+            (Box::new(HystereticLinks::new(hysteretic)), 0),
         ]
     }
 
     fn stays_in(&self, plane: &MotionPlane, _: &[Stiffness]) -> bool {
         match &self.kind {
-            LinkKind::Line { direction, .. } => direction.is_none_or(|d| plane.contains(&d)),
+            LinkKind::Line { direction, .. } | LinkKind::Hysteretic { direction, .. } => {
+                direction.is_none_or(|d| plane.contains(&d))
+            }
             LinkKind::Bushing { stiffness, damping, axes } => [stiffness, damping].into_iter().all(|k| {
                 let turn = |k: &[f64]| axes * Mat3::from_diagonal(&Vec3::new(k[0], k[1], k[2])) * axes.transpose();
                 plane.decouples(&turn(&k[..3])) && plane.decouples(&turn(&k[3..]))
@@ -100,6 +107,13 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
             let start = part.ends.map(|node| x[node]);
             let line = link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start);
             LinkElement::Line(line.damped_by(beta(part)).failing(part.failure).taken_up(part.take_up))
+        }
+        LinkKind::Hysteretic { law, damping, direction, free_length } => {
+            let start = part.ends.map(|node| x[node]);
+            let none = link::LinkLaw::Linear { stiffness: 0.0, preload: 0.0 };
+            let damping = damping + beta(part) * law.stiffness();
+            let link = link::Link::new(part.ends, none, damping, *direction, *free_length, start);
+            LinkElement::Hysteretic(HystereticLink { link, law: *law })
         }
         LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
             nodes: part.ends,
@@ -130,7 +144,7 @@ pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Optio
     let turned = |link: &LinkElement| match link {
         LinkElement::Bushing(bushing) => bushing.is_turned_over(start, end),
         LinkElement::Bearing(bearing) => bearing.is_turned_over(end),
-        LinkElement::Line(_) | LinkElement::Joint(_) => false,
+        LinkElement::Line(_) | LinkElement::Hysteretic(_) | LinkElement::Joint(_) => false,
     };
     links.iter().position(turned)
 }
@@ -181,6 +195,7 @@ impl LinkElement {
             LinkElement::Line(line) => line.memory(),
             LinkElement::Bushing(bushing) => bushing.memory(),
             LinkElement::Bearing(_) => 0,
+            LinkElement::Hysteretic(of) => of.law.memory(),
             LinkElement::Joint(spring) => spring.law.memory(),
         }
     }
@@ -192,16 +207,18 @@ impl LinkElement {
             LinkElement::Bushing(_) => 2,
             LinkElement::Joint(_) => 3,
             LinkElement::Bearing(_) => 4,
+            LinkElement::Hysteretic(_) => 5,
         }
     }
 }
 
-/// The next history variables of each kind of link, among all links: first lines, then pretensioned lines, then bushings, joints and bearings.
-struct Slots([usize; 5]);
+/// The next history variables of each kind of link, among all links: first lines, then pretensioned lines, then bushings, joints,
+/// bearings and lines that remember.
+struct Slots([usize; 6]);
 
 impl Slots {
     fn before_kinds(links: &[LinkElement]) -> Slots {
-        let mut slots = [0; 5];
+        let mut slots = [0; 6];
         for link in links {
             slots[link.kind() + 1..].iter_mut().for_each(|slot| *slot += link.memory());
         }
@@ -254,6 +271,10 @@ pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration,
             let (elongation, rate, force) = link.state(nodes, memory);
             let failed = link_failure::has_failed(memory);
             LinkState { elongation, rate, force, f: force * link.axis(nodes), m: Vec3::zeros(), failed }
+        }
+        LinkElement::Hysteretic(of) => {
+            let (elongation, rate, force) = of.state(nodes, memory);
+            LinkState { elongation, rate, force, f: force * of.link.axis(nodes), m: Vec3::zeros(), failed: false }
         }
         LinkElement::Bushing(bushing) => {
             let failed = bushing.has_failed(memory);

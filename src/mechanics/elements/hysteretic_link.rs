@@ -1,0 +1,205 @@
+//! Springs along a line whose force depends on their past: backbones with kinematic hardening, and the law of Bouc and Wen.
+
+use super::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
+use super::bouc_wen::{self, BoucWen, BoucWenState};
+use super::hysteresis::Hysteresis;
+use super::link::{Link, set_pair};
+use super::memories::places;
+use super::slider::CoordinateState;
+use crate::materials::Dissipation;
+use crate::state::{Configuration, Node};
+use base::math::Mat3;
+use std::ops::Range;
+
+/// The force over the elongation and its past.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathLaw {
+    /// Springs that slip side by side: straight lines, unloading by twice the backbone.
+    Backbone(Hysteresis),
+    /// Bouc and Wen.
+    BoucWen(BoucWen),
+}
+
+/// Force, slope and stored energy at an elongation.
+struct PathForce {
+    force: f64,
+    slope: f64,
+    energy: f64,
+}
+
+impl PathLaw {
+    /// Force per elongation before anything yields.
+    pub fn stiffness(&self) -> f64 {
+        match self {
+            PathLaw::Backbone(backbone) => backbone.stiffness(),
+            PathLaw::BoucWen(law) => law.stiffness,
+        }
+    }
+
+    /// The number of history variables.
+    pub fn memory(&self) -> usize {
+        match self {
+            PathLaw::Backbone(backbone) => backbone.memory(),
+            PathLaw::BoucWen(_) => bouc_wen::MEMORY,
+        }
+    }
+
+    fn at(&self, x: f64, memory: &[f64]) -> PathForce {
+        match self {
+            PathLaw::Backbone(backbone) => {
+                let mut state = CoordinateState {
+                    q: x,
+                    rate: 0.0,
+                    effort: 0.0,
+                    by_q: 0.0,
+                    by_rate: 0.0,
+                    energy: 0.0,
+                    slip: 0.0,
+                    impact_power: 0.0,
+                    impact_speed: 0.0,
+                };
+                backbone.add(memory, &mut state);
+                PathForce { force: state.effort, slope: state.by_q, energy: state.energy }
+            }
+            PathLaw::BoucWen(law) => {
+                let from = BoucWenState::of(memory);
+                let [force, slope] = law.force(&from, x);
+                PathForce { force, slope, energy: law.energy(&law.moved(&from, x)) }
+            }
+        }
+    }
+
+    /// Moves what is remembered `part` of the way to the elongation `x`; returns what is dissipated on it.
+    fn follow(&self, x: f64, part: f64, memory: &mut [f64]) -> f64 {
+        match self {
+            PathLaw::Backbone(backbone) => backbone.follow(x, part, memory),
+            PathLaw::BoucWen(law) => {
+                let from = BoucWenState::of(memory);
+                let to = law.moved(&from, from.x + part * (x - from.x));
+                memory.copy_from_slice(&[to.x, to.z, to.area]);
+                law.dissipated(&from, &to)
+            }
+        }
+    }
+}
+
+/// One such link: its line is that of a link without a force of its own but for its damper.
+#[derive(Debug, Clone)]
+pub struct HystereticLink {
+    /// Ends, line and damper.
+    pub link: Link,
+    /// The force.
+    pub law: PathLaw,
+}
+
+impl HystereticLink {
+    /// Elongation, its rate, and the force with damper; tension is positive. `memory`: its history variables.
+    pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (f64, f64, f64) {
+        let line = self.link.line(nodes);
+        (line.delta, line.rate, self.law.at(line.delta, memory).force + self.link.damping * line.rate)
+    }
+}
+
+/// A group of such links.
+pub struct HystereticLinks {
+    links: Vec<HystereticLink>,
+    memories: Vec<Range<usize>>,
+}
+
+impl HystereticLinks {
+    /// A group of these links.
+    pub fn new(links: Vec<HystereticLink>) -> HystereticLinks {
+        let memories = places(links.iter().map(|link| link.law.memory()));
+        HystereticLinks { links, memories }
+    }
+
+    fn with_memory<'a>(&'a self, history: &'a [f64]) -> impl Iterator<Item = (&'a HystereticLink, &'a [f64])> {
+        self.links.iter().zip(&self.memories).map(|(link, memory)| (link, remembered(memory, history)))
+    }
+}
+
+/// The history variables of a link; none before the first step.
+fn remembered<'a>(memory: &Range<usize>, history: &'a [f64]) -> &'a [f64] {
+    history.get(memory.clone()).unwrap_or(&[])
+}
+
+impl Elements for HystereticLinks {
+    fn len(&self) -> usize {
+        self.links.len()
+    }
+
+    fn nodes(&self, e: usize) -> &[usize] {
+        &self.links[e].link.nodes
+    }
+
+    fn dofs(&self) -> usize {
+        3
+    }
+
+    fn fixed_direction(&self, e: usize) -> Option<base::math::Vec3> {
+        self.links[e].link.direction
+    }
+}
+
+impl Mechanics for HystereticLinks {
+    fn history(&self) -> usize {
+        self.memories.last().map_or(0, |last| last.end)
+    }
+
+    fn is_damped(&self) -> bool {
+        self.links.iter().any(|of| of.link.damping > 0.0)
+    }
+
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        for (of, memory) in self.with_memory(now.history) {
+            let line = of.link.line(now.nodes);
+            let f = (of.law.at(line.delta, memory).force + of.link.damping * line.rate) * line.e;
+            subtract(&mut F[of.link.nodes[0]], 0, &-f);
+            subtract(&mut F[of.link.nodes[1]], 0, &f);
+        }
+    }
+
+    fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
+        let of = &self.links[e];
+        let line = of.link.line(now.nodes);
+        let at = of.law.at(line.delta, remembered(&self.memories[e], now.history));
+        let slope = if moduli == Moduli::Elastic { of.law.stiffness() } else { at.slope };
+        let c = of.link.damping;
+        let along = line.e * line.e.transpose();
+        let mut k = (slope + rate_weight * c) * along;
+        if of.link.direction.is_none() && line.length > 0.0 {
+            let across = (Mat3::identity() - along) / line.length;
+            k += (at.force + c * line.rate) * across + c * line.e * (across * line.dv).transpose();
+        }
+        set_pair(&k, K);
+    }
+
+    fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
+        new.copy_from_slice(now.history);
+        let mut lost = Dissipation::default();
+        for (of, memory) in self.links.iter().zip(&self.memories) {
+            lost.plastic += of.law.follow(of.link.line(now.nodes).delta, part, &mut new[memory.clone()]);
+        }
+        lost
+    }
+}
+
+impl Results for HystereticLinks {
+    fn axial_force(&self, e: usize, now: &Configuration) -> Option<f64> {
+        Some(self.links[e].state(now.nodes, remembered(&self.memories[e], now.history)).2)
+    }
+
+    fn energy(&self, now: &Configuration) -> f64 {
+        self.with_memory(now.history).map(|(of, memory)| of.law.at(of.link.line(now.nodes).delta, memory).energy).sum()
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        self.links.iter().map(|of| of.link.damping * of.link.line(now.nodes).rate.powi(2)).sum()
+    }
+}
+
+impl Branches for HystereticLinks {
+    fn has_kinks(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,102 @@
+//! Laws of links whose force depends on their past.
+
+use crate::report::{Owner, Report};
+use crate::values::keys;
+use base::diagnostic::Span;
+use deck::links as words;
+use mechanics::elements::bouc_wen::BoucWen;
+use mechanics::elements::hysteresis::Hysteresis;
+use mechanics::elements::hysteretic_link::PathLaw;
+
+/// What the deck gives.
+#[derive(Clone, Copy)]
+pub enum Found {
+    /// Another law, or none.
+    None,
+    /// A law with errors, which are reported.
+    Wrong,
+    /// A law.
+    Law(PathLaw),
+}
+
+/// The keys of these laws alone.
+pub fn keys(link: &words::Link) -> Vec<(&'static str, Option<&Span>)> {
+    let yielding =
+        keys!(link; yield_force, post_yield_stiffness, backbone, exponent, unloading, strength_loss, stiffness_loss);
+    yielding.into_iter().collect()
+}
+
+/// The law of a link that yields; other laws have none of its keys.
+pub fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Found {
+    let found = match link.law.as_ref().map(|law| law.value) {
+        Some(words::LinkLaw::Yielding) => yielding(owner, link, report),
+        Some(words::LinkLaw::BoucWen) => bouc_wen(owner, link, report),
+        _ => {
+            report.reject_unused("a link whose law is not \"yielding\" or \"bouc-wen\"", &keys(link));
+            return Found::None;
+        }
+    };
+    found.map_or(Found::Wrong, Found::Law)
+}
+
+/// Stiffness, the slope beyond yielding and the yield force.
+fn elastic_and_yield<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<[f64; 3]> {
+    let stiffness = report.require_positive(owner, "stiffness", &link.stiffness);
+    let force = report.require_positive(owner, "yield_force", &link.yield_force);
+    let after = report.not_negative("post_yield_stiffness", &link.post_yield_stiffness, 0.0);
+    let (stiffness, force) = (stiffness?, force?);
+    if let (Some(given), false) = (&link.post_yield_stiffness, after < stiffness) {
+        let hint = "give a part of it, such as a tenth";
+        return report.error_with(&given.span, "`post_yield_stiffness` must be below `stiffness`", hint);
+    }
+    Some([stiffness, after, force])
+}
+
+fn yielding<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<PathLaw> {
+    let others = keys!(link; gap, preload, points, failure, exponent, unloading, strength_loss, stiffness_loss);
+    report.reject_unused("the law \"yielding\"", &others);
+    let (points, after, place) = match &link.backbone {
+        Some(backbone) => {
+            report
+                .reject_unused("a link with a `backbone`", &keys!(link; stiffness, yield_force, post_yield_stiffness));
+            (backbone.value.iter().map(|point| point.value.0).collect(), 0.0, &backbone.span)
+        }
+        None => {
+            let [stiffness, after, force] = elastic_and_yield(owner, link, report)?;
+            (vec![[force / stiffness, force]], after, owner.span)
+        }
+    };
+    match Hysteresis::new(&points, after) {
+        Ok(law) => Some(PathLaw::Backbone(law)),
+        Err(reason) => {
+            let hint = "give points such as [[0.01, 1e4], [0.05, 1.2e4]]";
+            report.error_with(place, format!("the backbone of {}: {reason}", owner.what), hint)
+        }
+    }
+}
+
+fn bouc_wen<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<PathLaw> {
+    report.reject_unused("the law \"bouc-wen\"", &keys!(link; gap, preload, points, failure, backbone));
+    let given = elastic_and_yield(owner, link, report);
+    let mut within = |key: &str, value: &deck::words::Maybe<f64>, [low, high]: [f64; 2], default: f64| match value {
+        Some(given) if !(low..=high).contains(&given.value) => {
+            let hint = format!("from {low} to {high}");
+            report.error_with::<f64>(&given.span, format!("`{key}` lies out of its range"), hint)
+        }
+        given => Some(given.as_ref().map_or(default, |given| given.value)),
+    };
+    let exponent = within("exponent", &link.exponent, [1.0, 100.0], 2.0);
+    let bulge = within("unloading", &link.unloading, [0.5, 1.0], 0.5);
+    let losses = [("strength_loss", &link.strength_loss), ("stiffness_loss", &link.stiffness_loss)]
+        .map(|(key, loss)| within(key, loss, [0.0, 1e3], 0.0));
+    let [stiffness, post_yield_stiffness, yield_force] = given?;
+    let losses = [losses[0]?, losses[1]?];
+    Some(PathLaw::BoucWen(BoucWen {
+        stiffness,
+        post_yield_stiffness,
+        yield_force,
+        exponent: exponent?,
+        bulge: bulge?,
+        losses,
+    }))
+}
