@@ -1,6 +1,7 @@
 //! Elements, materials and constraints.
 
 mod beams_side_by_side;
+mod coupled_sections;
 mod elements;
 mod joint_coordinates;
 mod joints;

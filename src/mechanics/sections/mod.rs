@@ -47,15 +47,6 @@ mod tests {
         assert!((value - expected).abs() <= relative * expected.abs(), "{value} for {expected}");
     }
 
-    fn whole(s: &Stiffness) -> Mat6 {
-        let mut K = Mat6::zeros();
-        K.fixed_view_mut::<3, 3>(0, 0).copy_from(&s.N);
-        K.fixed_view_mut::<3, 3>(3, 3).copy_from(&s.M);
-        K.fixed_view_mut::<3, 3>(0, 3).copy_from(&s.NM);
-        K.fixed_view_mut::<3, 3>(3, 0).copy_from(&s.NM.transpose());
-        K
-    }
-
     /// Scenes C1 and C2 list their constants with seven digits.
     #[test]
     fn constants_of_the_scenes() {
@@ -102,7 +93,7 @@ mod tests {
         for section in random_sections() {
             let stiffness = section.stiffness(210e9, 0.3, 7850.0);
             // Cholesky alone decides; it is applied to K scaled to a unit diagonal, as N and N·m² differ by much.
-            let K = whole(&stiffness);
+            let K = stiffness.matrix();
             let scale = K.diagonal().map(|d| 1.0 / d.sqrt());
             let scaled = Mat6::from_fn(|i, j| K[(i, j)] * scale[i] * scale[j]);
             assert!(scaled.cholesky().is_some(), "{section:?}");
@@ -126,7 +117,7 @@ mod tests {
                 + 0.5 * G * section.torsion * kappa.x * kappa.x
                 + 0.5 * E * (section.Iy * kappa.y * kappa.y + section.Iz * kappa.z * kappa.z)
                 - E * section.Iyz * kappa.y * kappa.z;
-            let K = whole(&section.stiffness(E, 0.3, 1.0));
+            let K = section.stiffness(E, 0.3, 1.0).matrix();
             close(0.5 * strain.dot(&(K * strain)), energy, 1e-13);
         }
     }
@@ -135,7 +126,7 @@ mod tests {
     #[test]
     fn force_at_the_shear_center_does_not_twist() {
         for section in random_sections() {
-            let K = whole(&section.stiffness(2.6, 0.3, 1.0));
+            let K = section.stiffness(2.6, 0.3, 1.0).matrix();
             let [ys, zs] = section.shear_center;
             let (Qy, Qz) = (0.7, -1.3);
             let force = nalgebra::Vector6::new(0.0, Qy, Qz, ys * Qz - zs * Qy, 0.0, 0.0);

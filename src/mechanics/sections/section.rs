@@ -1,6 +1,6 @@
 //! The properties of a cross section, and its stiffness and inertia for beams.
 
-use base::math::Mat3;
+use base::math::{Mat3, Mat6, Vec6};
 use std::ops::AddAssign;
 
 /// Geometry of a cross section, axes parallel to the section's y and z through the centroid.
@@ -73,6 +73,12 @@ const RIGID_IN_SHEAR: f64 = 1e4;
 impl Stiffness {
     /// The stiffness of a section that hardly deforms in shear, about its shear centre.
     pub fn without_shear(&self) -> Stiffness {
+        if self.is_coupled() {
+            // The flexibility of shear, and what couples with it, is next to nothing.
+            let less =
+                Mat6::from_diagonal(&Vec6::new(1.0, RIGID_IN_SHEAR, RIGID_IN_SHEAR, 1.0, 1.0, 1.0).map(|by| by.sqrt()));
+            return self.with_matrix(&(less * self.matrix() * less));
+        }
         let mut out = self.clone();
         let more = RIGID_IN_SHEAR - 1.0;
         let (shear, forces) = (self.N.fixed_view::<2, 2>(1, 1), self.NM.fixed_view::<2, 1>(1, 0));
@@ -82,6 +88,31 @@ impl Stiffness {
         let arm = shear.try_inverse().map(|flexibility| flexibility * forces);
         out.M[(0, 0)] += arm.map_or(0.0, |arm| more * arm.dot(&forces));
         out
+    }
+
+    /// The matrix of forces and moments against strains and curvatures.
+    pub fn matrix(&self) -> Mat6 {
+        let mut K = Mat6::zeros();
+        K.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.N);
+        K.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.M);
+        K.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.NM);
+        K.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.NM.transpose());
+        K
+    }
+
+    /// The section with another matrix.
+    pub fn with_matrix(&self, K: &Mat6) -> Stiffness {
+        let block = |i: usize, j: usize| K.fixed_view::<3, 3>(i, j).into_owned();
+        Stiffness { N: block(0, 0), M: block(3, 3), NM: block(0, 3), ..self.clone() }
+    }
+
+    /// True where more is coupled than by a shear centre off the centroid and by axes that are not principal.
+    pub fn is_coupled(&self) -> bool {
+        let axial = (1..3).any(|i| self.N[(0, i)] != 0.0);
+        let twist = (1..3).any(|i| self.M[(0, i)] != 0.0);
+        let mixed =
+            (0..3).any(|i| self.NM[(0, i)] != 0.0 || i > 0 && (self.NM[(1, i)] != 0.0 || self.NM[(2, i)] != 0.0));
+        axial || twist || mixed
     }
 
     /// Stiffnesses and inertias given as such: shear and bending about y and z, inertia about x, y, z.

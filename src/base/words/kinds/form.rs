@@ -25,6 +25,8 @@ pub enum Form {
     Vectors,
     /// A list of pairs.
     Pairs,
+    /// Six lists of six numbers: the rows of a matrix.
+    SixRows,
 }
 
 impl Form {
@@ -60,6 +62,10 @@ impl Form {
                 let At { value, span } = map.next_value::<At<Vec<At<Numbers<2>>>>>()?;
                 (value.iter().flat_map(|pair| pair.0).collect(), span)
             }
+            Form::SixRows => {
+                let At { value, span } = map.next_value::<At<[At<Numbers<6>>; 6]>>()?;
+                (value.iter().flat_map(|row| row.value.0).collect(), span)
+            }
             Form::Vectors => {
                 let At { value, span } = map.next_value::<At<Vec<Vector>>>()?;
                 (value.iter().flat_map(|vector| vector.0).collect(), span)
@@ -83,6 +89,9 @@ impl Form {
             Form::Counts => list("integer", None),
             Form::Pairs => json!({ "type": "array", "items": list("number", Some(2)) }),
             Form::Vectors => json!({ "type": "array", "items": list("number", Some(3)) }),
+            Form::SixRows => {
+                json!({ "type": "array", "items": list("number", Some(6)), "minItems": 6, "maxItems": 6 })
+            }
         }
     }
 }

@@ -121,6 +121,9 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 /// The stiffness of a section with the bending flexibility of an element of the given length added to its shear flexibility,
 /// 1/GA + h²/12EI (MacNeal, J. Struct. Mech. 6, 1978). The shear centre stays where it is.
 fn with_bending_flexibility(section: &Stiffness, length: f64) -> Stiffness {
+    if section.is_coupled() {
+        return with_coupled_flexibility(section, length);
+    }
     let mut out = section.clone();
     let shear = section.N.fixed_view::<2, 2>(1, 1).into_owned();
     let bending = section.M.fixed_view::<2, 2>(1, 1).into_owned();
@@ -134,4 +137,15 @@ fn with_bending_flexibility(section: &Stiffness, length: f64) -> Stiffness {
     out.M[(0, 0)] += (arm.tr_mul(&(reduced - shear)) * arm)[(0, 0)];
     out.NM.fixed_view_mut::<2, 1>(1, 0).copy_from(&coupling);
     out
+}
+
+/// The same for a section whose forces and moments are all coupled: the flexibility of bending adds to that of shear in the inverse of the whole.
+fn with_coupled_flexibility(section: &Stiffness, length: f64) -> Stiffness {
+    let Some(mut flexibility) = section.matrix().try_inverse() else { return section.clone() };
+    let more = length * length / 12.0;
+    // Q_y bends about z, Q_z about −y.
+    for (i, j, k, l, sign) in [(1, 1, 5, 5, 1.0), (1, 2, 5, 4, -1.0), (2, 1, 4, 5, -1.0), (2, 2, 4, 4, 1.0)] {
+        flexibility[(i, j)] += sign * more * flexibility[(k, l)];
+    }
+    flexibility.try_inverse().map_or_else(|| section.clone(), |K| section.with_matrix(&K))
 }
