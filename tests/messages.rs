@@ -580,10 +580,6 @@ fn mass_scaling() {
     let scaled = |step: &str| scheme(&format!("scheme = \"central-difference\"\nmass_scaling_step = {step}"));
     assert_eq!(portal_and(&scaled("1e-4")).trim(), "");
     assert_snapshot!("mass_scaling_step", portal_and(&scaled("0.0")));
-    assert_snapshot!(
-        "mass_scaling_word",
-        portal_and(&scheme("scheme = \"central-difference\"\nmass_scaling = \"mass\""))
-    );
     assert_snapshot!("mass_scaling_implicit", portal_and(&scheme("scheme = \"newmark\"\nmass_scaling_step = 1e-4")));
     assert_snapshot!(
         "mass_scaling_runge_kutta",
