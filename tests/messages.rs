@@ -543,6 +543,49 @@ fn links_that_fail() {
     assert_eq!(portal_and(&link("normal = 3e3", "stiffness = 1e5")).trim(), "");
 }
 
+/// Links that remember.
+#[test]
+fn links_that_yield() {
+    let link = |name: &str, text: &str| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [3.0, 0.0, 2.0] }}\n{text}\n"
+        )
+    };
+    let good = "stiffness = 1e6\nyield_force = 1e3\npost_yield_stiffness = 1e5";
+    for law in ["yielding", "bouc-wen"] {
+        assert_eq!(portal_and(&link(law, &format!("law = \"{law}\"\n{good}"))).trim(), "");
+    }
+    let links = [
+        "law = \"yielding\"\nstiffness = 1e6".to_owned(),
+        "law = \"yielding\"\nstiffness = 1e5\nyield_force = 1e3\npost_yield_stiffness = 1e5".to_owned(),
+        "law = \"yielding\"\nbackbone = [[0.01, 1e3], [0.02, 9e3]]".to_owned(),
+        format!(
+            "law = \"yielding\"\n{good}\nexponent = 2.0\ngap = 0.1\nfailure = {{ normal = 1e3 }}\npretension = 5.0"
+        ),
+        format!("law = \"bouc-wen\"\n{good}\nexponent = 0.5\nunloading = 0.2\nstrength_loss = -1.0"),
+        format!("law = \"bouc-wen\"\n{good}\nbackbone = [[0.01, 1e3]]\npreload = 2.0"),
+        "stiffness = 1e6\nyield_force = 1e3".to_owned(),
+    ];
+    let links: Vec<String> = links.iter().enumerate().map(|(i, text)| link(&format!("l{i}"), text)).collect();
+    assert_snapshot!("links_that_yield", portal_and(&links.join("\n")));
+}
+
+/// A section by its matrix.
+#[test]
+fn matrices_of_sections() {
+    let section =
+        |text: &str| portal(&[("[points]", &format!("[sections.blade]\nshape = \"general\"\n{text}\n[points]"))]);
+    let rows = |change: &str| {
+        let row = |i: usize| (0..6).map(|j| if i == j { "1e6" } else { "0.0" }).collect::<Vec<_>>().join(", ");
+        let rows: Vec<String> = (0..6).map(|i| format!("[{}]", row(i))).collect();
+        format!("stiffness = [{}]", rows.join(", ")).replacen("1e6, 0.0", change, 1)
+    };
+    assert_snapshot!("section_matrix_unsymmetric", section(&rows("1e6, 5e4")));
+    assert_snapshot!("section_matrix_indefinite", section(&rows("-1e6, 0.0")));
+    assert_snapshot!("section_matrix_and_more", section(&(rows("1e6, 0.0") + "\naxial_stiffness = 1e6\narea = 1.0")));
+    assert_snapshot!("section_matrix_short", section("stiffness = [[1e6, 0.0], [0.0, 1e6]]"));
+}
+
 /// Links by full matrices.
 #[test]
 fn matrices_of_links() {
