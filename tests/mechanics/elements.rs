@@ -195,7 +195,7 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
         post_yield_stiffness: 4.0,
         yield_force: firmness,
         exponent: 2.0,
-        bulge: 0.6,
+        bulge: 0.5,
         losses: [0.02, 0.01],
     };
     for (name, law) in [("yielding link", PathLaw::Backbone(backbone)), ("smooth link", PathLaw::BoucWen(smooth))] {
@@ -207,7 +207,8 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
             let link = Link::new([0, 1], none, 0.7, direction, length, [x[0], x[1]]);
             let block = Box::new(HystereticLinks::new(vec![HystereticLink { link, law }]));
             let past = vec![0.0; block.history()];
-            kinds.push(Kind { name: name.to_owned(), block, x, past });
+            let along = if direction.is_some() { " along a direction" } else { "" };
+            kinds.push(Kind { name: format!("{name}{along}"), block, x, past });
         }
     }
 }
@@ -550,7 +551,8 @@ fn damping_takes_power() {
         let taut = F.iter().flatten().any(|f| *f != 0.0);
         // Rounding of ~100 terms.
         assert!(!taut || (power - taken).abs() < 1e-11 * (1.0 + taken), "{name}: {power} {taken}");
-        assert!(taken >= 0.0 && (taken > 0.0) == (taut && kind.block.is_damped()), "{name}: {taken}");
+        // A rope that goes slack by its damper loses the energy that it stores.
+        assert!(taken >= 0.0 && (!taut || (taken > 0.0) == kind.block.is_damped()), "{name}: {taken}");
     }
 }
 
