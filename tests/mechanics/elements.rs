@@ -124,7 +124,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     }
     let offset = frame.tr_mul(&(ends[1] - ends[0]));
     let bearing = Bearing { nodes: [0, 1], axes: frame, offset, matrices: bearing_matrices(rng) };
-    add("bearing", Box::new(Bearings(vec![bearing])), &ends);
+    add("bearing", Box::new(Bearings::new(vec![bearing])), &ends);
     for (name, block, x) in shells() {
         add(name, block, &x);
     }

@@ -11,6 +11,7 @@ use super::relative_rotation::Swing;
 use crate::state::{Configuration, Node};
 use base::math::{Mat3, Mat6, Vec3, Vec6, angular, linear, skew, stack};
 use nalgebra::{Quaternion, SMatrix};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The matrices at a speed, along the axes of the bearing, displacements before rotations.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,15 +114,45 @@ fn elastic_moment(elastic: &Vec6, swing: &Swing) -> Vec6 {
 }
 
 /// A group of bearings.
-pub struct Bearings(pub Vec<Bearing>);
+pub struct Bearings {
+    list: Vec<Bearing>,
+    /// The speeds of a linearized state, whose nodes have no velocities, as bits; not a number where the speed is that of the nodes.
+    held: Vec<AtomicU64>,
+}
+
+impl Bearings {
+    /// A group of these bearings.
+    pub fn new(list: Vec<Bearing>) -> Bearings {
+        let held = list.iter().map(|_| AtomicU64::new(f64::NAN.to_bits())).collect();
+        Bearings { list, held }
+    }
+
+    /// The matrices of a bearing in a motion.
+    fn at(&self, e: usize, motion: &Motion) -> AtSpeed {
+        let held = f64::from_bits(self.held[e].load(Ordering::Relaxed));
+        if held.is_nan() {
+            return self.list[e].at(motion.rate[3]);
+        }
+        AtSpeed { dK: Mat6::zeros(), dC: Mat6::zeros(), ..self.list[e].at(held) }
+    }
+
+    /// Each bearing with its motion and its matrices.
+    fn each<'a>(&'a self, nodes: &'a [Node]) -> impl Iterator<Item = (&'a Bearing, Motion, AtSpeed)> {
+        self.list.iter().enumerate().map(|(e, bearing)| {
+            let motion = bearing.motion(nodes);
+            let at = self.at(e, &motion);
+            (bearing, motion, at)
+        })
+    }
+}
 
 impl Elements for Bearings {
     fn len(&self) -> usize {
-        self.0.len()
+        self.list.len()
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.0[e].nodes
+        &self.list[e].nodes
     }
 
     fn dofs(&self) -> usize {
@@ -134,15 +165,20 @@ impl Mechanics for Bearings {
         true
     }
 
+    fn hold_speeds(&self, nodes: &[Node]) {
+        for (bearing, held) in self.list.iter().zip(&self.held) {
+            held.store(bearing.motion(nodes).rate[3].to_bits(), Ordering::Relaxed);
+        }
+    }
+
     fn has_potential(&self) -> bool {
         let is_symmetric = |of: &BearingMatrices| of.stiffness == of.stiffness.transpose();
-        self.0.iter().all(|bearing| bearing.matrices.iter().all(is_symmetric))
+        self.list.iter().all(|bearing| bearing.matrices.iter().all(is_symmetric))
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        for bearing in &self.0 {
-            let motion = bearing.motion(now.nodes);
-            let forces = Bearing::forces(&motion, &bearing.at(motion.rate[3]));
+        for (bearing, motion, at) in self.each(now.nodes) {
+            let forces = Bearing::forces(&motion, &at);
             let [f, m] = [motion.B * linear(&forces), motion.B * angular(&forces)];
             let [a, b] = bearing.nodes;
             subtract(&mut F[a], 0, &-f);
@@ -153,9 +189,9 @@ impl Mechanics for Bearings {
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
-        let bearing = &self.0[e];
+        let bearing = &self.list[e];
         let motion = bearing.motion(now.nodes);
-        let at = bearing.at(motion.rate[3]);
+        let at = self.at(e, &motion);
         let forces = Bearing::forces(&motion, &at);
         let motions = motions(&motion, &now.nodes[bearing.nodes[0]].omega, rate_weight);
         let by_motion = derivative(&motion, &at) * motions;
@@ -222,17 +258,11 @@ fn derivative(motion: &Motion, at: &AtSpeed) -> SMatrix<f64, 6, 12> {
 
 impl Results for Bearings {
     fn energy(&self, now: &Configuration) -> f64 {
-        let energy = |bearing: &Bearing| {
-            let motion = bearing.motion(now.nodes);
-            0.5 * motion.strain.dot(&(bearing.at(motion.rate[3]).K * motion.strain))
-        };
-        self.0.iter().map(energy).sum()
+        self.each(now.nodes).map(|(_, motion, at)| 0.5 * motion.strain.dot(&(at.K * motion.strain))).sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
-        let power = |bearing: &Bearing| {
-            let motion = bearing.motion(now.nodes);
-            let at = bearing.at(motion.rate[3]);
+        let power = |(bearing, motion, at): (&Bearing, Motion, AtSpeed)| {
             let strain_rate = stack(&linear(&motion.rate), &(motion.swing.H() * angular(&motion.rate)));
             let skew_part = 0.5 * (at.K - at.K.transpose()) * motion.strain;
             let [a, b] = bearing.nodes.map(|node| &now.nodes[node]);
@@ -241,12 +271,12 @@ impl Results for Bearings {
             let stiffened = 0.5 * spun_up * motion.strain.dot(&(at.dK * motion.strain));
             skew_part.dot(&strain_rate) + (at.C * motion.rate).dot(&motion.rate) - stiffened
         };
-        self.0.iter().map(power).sum()
+        self.each(now.nodes).map(power).sum()
     }
 }
 
 impl Branches for Bearings {
     fn is_turned_over(&self, e: usize, _: &[Node], now: &[Node]) -> bool {
-        self.0[e].is_turned_over(now)
+        self.list[e].is_turned_over(now)
     }
 }

@@ -96,6 +96,8 @@ pub trait Mechanics: Elements {
     fn is_linear(&self) -> bool {
         false
     }
+    /// Holds what depends on the speed of shafts at the speeds of these nodes, for a linearization whose nodes are at rest.
+    fn hold_speeds(&self, _nodes: &[Node]) {}
     /// True where elastic forces have a potential, so that their tangent is symmetric.
     fn has_potential(&self) -> bool {
         true

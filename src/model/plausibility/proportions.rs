@@ -51,7 +51,8 @@ fn check_line(part: &DeckPart, of: &[Part], depths: [f64; 2], (extent, nodes): (
     // A bending stiffness far from its area may stand for anything: the depth of a rectangle is the word for it.
     let (deep, long) = match depths {
         [_, larger] if larger > extent.length => (larger, extent.length),
-        [smaller, _] if smaller > FAR * length => (smaller, length),
+        // A short piece of a long line may be as deep as it is wide.
+        [smaller, _] if smaller > FAR * length && 2.0 * smaller > extent.length => (smaller, length),
         _ => return,
     };
     let (title, deep, long) = (part.title(), short(deep), short(long));

@@ -48,6 +48,7 @@ impl<'a> Pencil<'a> {
     /// The matrices of a state, not factorised yet.
     pub fn new(at: Linearized<'a>, (solver, assembly): (&'a mut Solver, &'a mut Assembly)) -> Pencil<'a> {
         let nodes = at.nodes_at_rest();
+        at.system.groups.iter().for_each(|group| group.block.hold_speeds(&at.state.nodes));
         let unknowns = at.unknowns();
         let mut forces = Forces::new(at.system, nodes.len());
         forces.multipliers.values.copy_from_slice(&at.state.multipliers);

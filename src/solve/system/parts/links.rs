@@ -71,7 +71,7 @@ impl Assembled for Link {
             (Box::new(Links::new(taken_up)), 0),
             (Box::new(Bushings::new(bushings)), 0),
             (Box::new(CoordinateSprings::new(joints)), 0),
-            (Box::new(Bearings(bearings)), 0),
+            (Box::new(Bearings::new(bearings)), 0),
             (Box::new(HystereticLinks::new(hysteretic)), 0),
         ]
     }
