@@ -76,7 +76,7 @@ pub fn check_linear(deck: &Deck, report: &mut Report) {
                 "its stiffness depends on its force: use `law = \"linear\"`, or leave out `geometry = \"linear\"`";
             refuse(&law.span, format!("link `{}` is not linear", name_of(&link.name)), hint);
         }
-        for (key, place) in present(&keys!(link; preload, pretension, free_length, failure)) {
+        for (key, place) in present(&keys!(link; preload, pretension, free_length, failure, matrices)) {
             refuse(place, format!("`{key}` of link `{}` does not apply", name_of(&link.name)), finite);
         }
     }
