@@ -178,6 +178,8 @@ pub enum Plane {
 pub struct Integrator {
     /// How rotations follow from their increments in a step. Default: "exponential", which is exact. Not with runge-kutta.
     pub rotation_update: Maybe<RotationUpdate>,
+    /// With central-difference: the rotary inertia of thin shells and slender beams. Default: "rotary".
+    pub mass_scaling: Maybe<RotaryInertia>,
 }
 
 impl Kinds for Integrator {
@@ -245,6 +247,17 @@ pub enum Gyroscopic {
     Left,
     /// In the residual alone: the matrix may be symmetric.
     Right,
+}
+
+/// The rotary inertia of thin shells and slender beams in steps of central differences.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum RotaryInertia {
+    /// Raised without added mass, so that thickness does not limit the time step.
+    #[default]
+    Rotary,
+    /// That of the sections: thickness limits the time step.
+    Off,
 }
 
 /// When the matrix is formed and factorised anew.

@@ -49,7 +49,7 @@ use super::plausibility::{check_content, check_static, check_use};
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
 use super::procedure::linear::{check_linear, make_elastic};
-use super::procedure::mass_scaling::check_mass_scaling;
+use super::procedure::mass_scaling::{check_mass_scaling, rotary_inertia};
 use super::procedure::modes::{check_modal, hold_at_start};
 use super::procedure::response::{add_expected, check_harmonic};
 use super::procedure::stops::{self, NamedActors};
@@ -241,7 +241,12 @@ fn model<'d>(
     let model = Model {
         title: deck.title.as_ref().map(|title| title.value.clone()).unwrap_or_default(),
         analysis,
-        solution: Solution { scheme: procedure.scheme, scheme_is_chosen: false, iteration },
+        solution: Solution {
+            scheme: procedure.scheme,
+            scheme_is_chosen: false,
+            rotary_inertia: rotary_inertia(deck, stage),
+            iteration,
+        },
         nodes,
         bodies: scene.bodies,
         masses,

@@ -188,7 +188,7 @@ pub struct ReportedStepError {
 /// The mass that mass scaling adds to the scene, in its first stage with time.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReportedMasses {
-    /// `mass_scaling_step` of the deck.
+    /// `mass_scaling_step` of the deck, or the step that rotary inertia alone gives to the elements.
     pub critical_step: f64,
     /// Mass of the scene without the added mass.
     pub mass: f64,
@@ -219,14 +219,16 @@ pub struct ReportedPartMass {
     pub share: f64,
     /// Largest factor on the mass of an element.
     pub factor: f64,
+    /// Largest factor on the rotary inertia of an element at a node.
+    pub rotary_factor: f64,
 }
 
 impl From<&MassScaling> for ReportedMasses {
     fn from(scaling: &MassScaling) -> ReportedMasses {
         let part = |told: &ScaledPart| {
-            let ScaledPart { elements, heavier, rotary, mass, added, factor, .. } = *told;
+            let ScaledPart { elements, heavier, rotary, mass, added, factor, rotary_factor, .. } = *told;
             let (part, share) = (told.name.clone(), told.share());
-            ReportedPartMass { part, heavier, rotary, elements, mass, added, share, factor }
+            ReportedPartMass { part, heavier, rotary, elements, mass, added, share, factor, rotary_factor }
         };
         ReportedMasses {
             critical_step: scaling.critical_step,

@@ -266,6 +266,8 @@ pub mod contacts {
     pub const SEEN: f64 = 0.05;
     /// Limit for a stiffness in the deck, which may describe a soft tyre or buffer: beyond its centre a body has no side left.
     pub const MEANT: f64 = 0.5;
+    /// Number of steps for an impact where steps are not cut, as in the choice of stiffnesses.
+    pub const STEPS_OF_IMPACT: f64 = 10.0;
     /// Limit for faces and for balls among each other: their size is the penetration between touching centres.
     pub const TO_THE_MIDDLE: f64 = 0.5;
     /// Penetration at the beginning, as a part of the size of the touching body: the value used to choose stiffnesses.
@@ -880,6 +882,8 @@ pub mod element_stability {
     pub const NONE: f64 = 1e-12;
     /// Number of bisections for the part of the largest squared radii: the excess is 2⁻¹⁶ of them.
     pub const BISECTIONS: usize = 16;
+    /// Relative distance of the step that elements are given from the longest that rotary inertia alone can give: rounding of eigenvalues.
+    pub const BORDER: f64 = 1e-6;
     /// Least relative reduction of the largest squared frequency by rotary inertia. Below it only mass is added, because rotary inertia
     /// would slow bending without benefit.
     pub const OF_USE: f64 = 0.02;

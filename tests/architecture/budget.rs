@@ -9,12 +9,12 @@ const BUDGET: [(&str, usize); 11] = [
     ("mechanics", 28_300),
     ("deck", 4600),
     ("import", 6450),
-    ("model", 22_400),
-    ("solve", 32_350),
+    ("model", 22_560),
+    ("solve", 32_450),
     ("results", 10_450),
     ("study", 4000),
     ("sweep", 1500),
-    ("program", 5150),
+    ("program", 5240),
 ];
 
 #[test]

@@ -67,6 +67,7 @@ pub fn model() -> Model {
         },
         solution: Solution {
             scheme_is_chosen: false,
+            rotary_inertia: rdsolve::model::RotaryInertia::Off,
             scheme: Arc::new(WilsonTheta { theta: 1.4, rotation: RotationUpdate::Exponential }),
             iteration: Iteration {
                 method: Method::TangentStiffness,

@@ -1,7 +1,7 @@
 //! The step that an element bears, and the mass that it is given for a longer one.
 
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::solve::inner::{ElementScaling, LumpedElement, NodalShare, scaling};
+use rdsolve::solve::inner::{ElementScaling, LumpedElement, NodalShare, Spacing, scaling};
 
 /// A bar of two nodes along x: κ = 4 E/ρ L².
 #[test]
@@ -11,8 +11,8 @@ fn a_bar_is_given_the_square_of_the_ratio_of_steps() {
     for (i, j, k) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
         K[6 * i + j] = k * stiffness;
     }
-    let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0: Mat3::zeros() });
-    let element = (&LumpedElement(shares.into()), &Mat3::identity());
+    let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0: Mat3::zeros(), turns: true });
+    let element = (&LumpedElement(shares.into()), &Spacing { bending: Mat3::identity(), drilling: Mat3::zeros() });
     let fastest = 4.0 * stiffness / mass;
     assert_eq!(scaling(&K, element, 1.001 * fastest), ElementScaling::KEPT);
     let given = scaling(&K, element, fastest / 6.25);
@@ -31,9 +31,10 @@ fn rotary_inertia_is_raised_before_mass() {
     [0, 1].into_iter().for_each(|a| (strain[6 * a + 2], strain[6 * a + 4]) = row(a));
     let K: Vec<f64> = (0..144).map(|i| stiffness * length * strain[i / 12] * strain[i % 12]).collect();
     let J0 = 0.5 * mass * radius * radius * Mat3::identity();
-    let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0 });
+    let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0, turns: true });
     let element = LumpedElement(shares.into());
-    let spacing = length * length * Mat3::from_diagonal(&Vec3::new(0.0, 1.0, 1.0));
+    let bending = length * length * Mat3::from_diagonal(&Vec3::new(0.0, 1.0, 1.0));
+    let spacing = Spacing { bending, drilling: Mat3::zeros() };
     let fastest = |r: f64| stiffness * length / mass * (4.0 / (length * length) + 1.0 / (r * r));
     let given = scaling(&K, (&element, &spacing), fastest(0.2));
     // What bisection leaves.
@@ -55,8 +56,9 @@ fn tensors_keep_what_is_large() {
     let turn = nalgebra::Rotation3::from_euler_angles(0.3, -0.2, 0.9).into_inner();
     let tensor = |moments: [f64; 3]| turn * Mat3::from_diagonal(&Vec3::from(moments)) * turn.transpose();
     let half = &(0.5 * Mat3::identity());
-    let raised =
-        |J0: Mat3| ElementScaling { factor: 1.0, gyration: *half }.of(&NodalShare { node: 0, mass: 1.0, J0 }).1;
+    let raised = |J0: Mat3| {
+        ElementScaling { factor: 1.0, gyration: *half }.of(&NodalShare { node: 0, mass: 1.0, J0, turns: true }).1
+    };
     let off = raised(tensor([3.0, 0.1, 0.0])) - tensor([3.0, 0.5, 0.0]);
     assert!(off.amax() < 1e-14, "{off}");
     assert_eq!(raised(tensor([3.0, 1.0, 0.7])), tensor([3.0, 1.0, 0.7]));

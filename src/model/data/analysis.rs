@@ -4,7 +4,7 @@ use super::modes::{ModeExtent, ModesAsked};
 use super::response::{ResponseAsked, ResponseMethod};
 use super::stage::RunStage;
 use super::step_length::{FIRST_STEP, StepLength};
-use deck::analysis::{Gyroscopic, Method, Update};
+use deck::analysis::{Gyroscopic, Method, RotaryInertia, Update};
 use mechanics::integrators::Scheme;
 use std::sync::Arc;
 
@@ -156,6 +156,8 @@ pub struct Solution {
     pub scheme: Arc<dyn Scheme>,
     /// True where the deck names none and its automatic steps leave the choice.
     pub scheme_is_chosen: bool,
+    /// The rotary inertia of shells and beams with central differences; other schemes keep that of the sections.
+    pub rotary_inertia: RotaryInertia,
     /// The equilibrium iteration.
     pub iteration: Iteration,
 }

@@ -35,7 +35,7 @@ pub use constraints::{
     PrescribedMotion, Restraint,
 };
 pub use contact::{CarriedSurface, Contact, FacetSurface, TouchedSurface};
-pub use deck::analysis::{Gyroscopic, Method, Update};
+pub use deck::analysis::{Gyroscopic, Method, RotaryInertia, Update};
 pub use deck::output::{ContactRows, SectionPlaces};
 pub use deck::part_table::MassKind;
 pub use deck::parts::{PartIndex, PartKind};

@@ -3,17 +3,48 @@
 use crate::data::{FEWEST_STEPS, MassKind, SAFE, SAFE_WHERE_STRUCK, StepLength};
 use crate::report::Report;
 use crate::scene::Scene;
+use crate::stages::CurrentStage;
 use crate::values::span;
+use base::diagnostic::At;
 use base::diagnostic::Span;
 use base::names::short;
+use base::words::kinds::OneOf;
 use deck::Deck;
+use deck::analysis::{Integrator, RotaryInertia};
 use mechanics::integrators::Scheme;
 
 /// The key of mass scaling in the table of the scheme.
 pub const KEY: &str = "mass_scaling_step";
+/// The word of the scheme whose step mass scaling raises.
+pub const CENTRAL_DIFFERENCE: &str = mechanics::integrators::central_difference::KIND.word;
+
+/// The masses that a scheme gives to elements: the critical time step of mass scaling, and whether rotary inertia is raised. Where dynamic
+/// stages have different schemes, rotary inertia is raised only if the deck asks for it, because a motion goes on with the masses it has.
+pub fn masses(integrator: Option<&At<OneOf<Integrator>>>, all_central: bool) -> (Option<f64>, RotaryInertia) {
+    let Some(table) = integrator.filter(|table| is_central(table)) else { return (None, RotaryInertia::Off) };
+    let step = table.values.numbers(KEY).first().copied();
+    match &table.mass_scaling {
+        Some(word) => (step, word.value),
+        None if all_central => (step, RotaryInertia::default()),
+        None => (step, RotaryInertia::Off),
+    }
+}
+
+/// True for central differences.
+pub fn is_central(integrator: &At<OneOf<Integrator>>) -> bool {
+    integrator.kind.as_ref().is_some_and(|kind| kind.value.word == CENTRAL_DIFFERENCE)
+}
+
+/// The rotary inertia of shells and beams in a deck, or in one of its stages.
+pub fn rotary_inertia(deck: &Deck, stage: Option<CurrentStage>) -> RotaryInertia {
+    let all_central = stage.is_none_or(|stage| stage.sequence.moves_by_central_differences());
+    masses(deck.integrator.as_ref(), all_central).1
+}
+
 /// Reports conflicts of mass scaling, once all parts are known.
 pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Report) {
     let (deck, parts) = (scene.deck, &scene.parts.list);
+    check_word(deck, scheme, report);
     let place = deck.integrator.as_ref().and_then(|integrator| integrator.values.place(KEY));
     let (Some(step), Some(place)) = (scheme.mass_scaling_step(), place) else { return };
     let kinds = || parts.iter().filter_map(|part| Some((part, part.mass_kind()?)));
@@ -41,6 +72,15 @@ pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Repor
         report.error_with::<()>(&alpha.span, message, format!("below {} one does", short(1.0 / step)));
     }
     check_length(scene, (step, place), report);
+}
+
+/// Reports a step of mass scaling where masses are to be kept.
+fn check_word(deck: &Deck, scheme: &dyn Scheme, report: &mut Report) {
+    let word = deck.integrator.as_ref().and_then(|integrator| integrator.mass_scaling.as_ref());
+    if let Some(word) = word.filter(|word| word.value == RotaryInertia::Off && scheme.mass_scaling_step().is_some()) {
+        let message = format!("`mass_scaling = \"off\"` contradicts `{KEY}`, which raises rotary inertia and mass");
+        report.error_with::<()>(&word.span, message, "remove one of them");
+    }
 }
 
 /// Reports a step longer than the motion or than the time steps.

@@ -14,6 +14,7 @@ pub mod study;
 use crate::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use crate::data::{ERROR_TOLERANCE, FIRST_STEP};
 use crate::procedure::linear::linear;
+use crate::procedure::mass_scaling::CENTRAL_DIFFERENCE;
 use crate::procedure::modes::modes;
 use crate::report::{Owner, Report};
 use crate::stages::CurrentStage;
@@ -199,6 +200,9 @@ pub fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Rep
     let owner = Owner::new(format!("the scheme \"{}\"", kind.word), &integrator.span);
     if !kind.make.rotation_update {
         report.reject_unused(&owner.what, &keys!(integrator; rotation_update));
+    }
+    if kind.word != CENTRAL_DIFFERENCE {
+        report.reject_unused(&owner.what, &keys!(integrator; mass_scaling));
     }
     let rotation = chosen(&integrator.rotation_update);
     report.read(&owner, &owner.what, &integrator.values, kind, |given| (kind.make.scheme)(given, rotation))

@@ -7,6 +7,7 @@ pub use crate::procedure::choose_scheme::choose_scheme;
 use crate::procedure::{can_be_kept, check_yielding, scheme as read_scheme};
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
+use crate::values::keys;
 use ::deck::analysis as deck;
 use ::deck::study::Study as Written;
 use ::deck::words::kinds::OneOf;
@@ -286,6 +287,7 @@ impl<'d> Reader<'_, 'd> {
             let mut scheme = read_scheme(at, self.report);
             self.report.forget_warnings_since(mark);
             let word = scheme.word();
+            self.report.reject_unused("a scheme of a study", &keys!(at; mass_scaling));
             let mut entries = entries(at);
             let rotation = own.and_then(|own| own.rotation_update.as_ref()).map(|update| update.value.word());
             let takes_own = word == self.scheme.word() && entries.is_empty();

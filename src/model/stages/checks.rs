@@ -2,7 +2,7 @@
 
 use super::current::CurrentStage;
 use super::sequence::{StageSequence, buckles, name_of, responds};
-use crate::procedure::mass_scaling::KEY;
+use crate::procedure::mass_scaling::{KEY, masses};
 use crate::procedure::response::names_harmonic;
 use crate::report::Report;
 use crate::values::keys;
@@ -70,14 +70,13 @@ fn check_modes<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
 /// Reports a motion that would go on with other masses than it has begun with.
 fn check_masses<'d>(sequence: &StageSequence<'d>, report: &mut Report<'d>) {
     let moves = sequence.stages.iter().filter(|stage| stage.kind == StageKind::Dynamic);
-    let mut first = None;
+    let (mut first, all_central) = (None, sequence.moves_by_central_differences());
     for stage in moves {
-        let integrator = stage.table.integrator.as_ref().or(sequence.whole.integrator.as_ref());
-        let step = integrator.and_then(|integrator| integrator.values.numbers(KEY).first().copied());
-        if *first.get_or_insert(step) != step {
+        let given = masses(sequence.integrator(stage), all_central);
+        if *first.get_or_insert(given) != given {
             let place = stage.table.integrator.as_ref().map_or(&stage.table.span, |own| &own.span);
             let message = format!("stage `{}` would go on with other masses than the stage before", stage.name);
-            let hint = format!("the same scheme and the same `{KEY}` in all dynamic stages, or in none");
+            let hint = format!("the same scheme, `mass_scaling` and `{KEY}` in all dynamic stages, or in none");
             report.error_with::<()>(place, message, hint);
         }
     }

@@ -1,11 +1,14 @@
 //! The stages of a deck in order: their times, and the tables active in each.
 
+use crate::procedure::mass_scaling::is_central;
 use crate::report::{Owner, Report};
 use crate::shells::edges::Bulges;
 use crate::values::keys;
 use base::diagnostic::{At, Span};
 use base::names::short;
+use base::words::kinds::OneOf;
 use deck::Deck;
+use deck::analysis::Integrator;
 use deck::expect::Expect;
 use deck::stages::{Stage, StageKind};
 use deck::words::{Maybe, Names, Table};
@@ -147,6 +150,17 @@ impl<'d> StageSequence<'d> {
 
     pub fn first_dynamic(&self) -> Option<usize> {
         self.stages.iter().position(|stage| stage.kind == StageKind::Dynamic)
+    }
+
+    /// The integrator of a stage.
+    pub fn integrator(&self, stage: &PlannedStage<'d>) -> Option<&'d At<OneOf<Integrator>>> {
+        stage.table.integrator.as_ref().or(self.whole.integrator.as_ref())
+    }
+
+    /// True where all dynamic stages have central differences.
+    pub fn moves_by_central_differences(&self) -> bool {
+        let mut moves = self.stages.iter().filter(|stage| stage.kind == StageKind::Dynamic);
+        moves.all(|stage| self.integrator(stage).is_some_and(is_central))
     }
 
     pub fn position(&self, name: &str) -> Option<usize> {

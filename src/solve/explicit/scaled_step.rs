@@ -19,6 +19,9 @@ pub fn check_scaled_step(
     (longest, mode): (f64, &[Vec6]),
 ) {
     let Some(scaling) = cx.system.mass_scaling() else { return };
+    if scaling.of_sections.is_some() {
+        return;
+    }
     let wanted = scaling.critical_step;
     if longest >= (1.0 - ROUNDING) * wanted || ws.warnings.knows(|known| matches!(known, Warning::ScaledStep { .. })) {
         return;

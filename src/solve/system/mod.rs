@@ -48,7 +48,7 @@ mod turning_body;
 pub mod inner {
     pub use super::dependents::{Arms, Followers};
     pub use super::element_stability::{ElementScaling, scaling};
-    pub use super::parts::{LumpedElement, NodalShare};
+    pub use super::parts::{LumpedElement, NodalShare, Spacing};
     pub use super::schur_factor::{SchurFactor, SparseFactor};
 }
 
@@ -61,7 +61,7 @@ pub use group::Group;
 pub use inertia::{ConsistentMass, Inertia};
 pub use joints::JointState;
 pub use loads::Loading;
-pub use mass_scaling::{MassScaling, ScaledPart};
+pub use mass_scaling::{GoverningElement, MassScaling, ScaledPart, added_at, governing};
 pub use mechanics::amplitude::Side;
 pub use multipliers::Multipliers;
 pub use parts::beam_sections::{SectionPlace, SectionPoint, elastic_stresses, renew_stresses};

@@ -57,7 +57,6 @@ fn explicit_motion() {
         let done = support::run_to_the_end(&model, &mut |frame| vec![frame.state.nodes[c].x.z]);
         (done.counts.steps, done.rows.last().unwrap()[0])
     };
-    // The masses of both runs are the same.
     let explicit = "time_step = \"auto\"\n[integrator]\nscheme = \"central-difference\"\nmass_scaling = \"off\"\n";
     for kind in ["quadrilateral", "triangle"] {
         let (of_one, _) = run(kind, 1, 16, explicit);

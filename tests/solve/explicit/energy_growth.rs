@@ -89,10 +89,9 @@ fn blows_neither_make_energy_nor_keep_steps_short() {
 
 /// A cantilever of eight elements whose tip is thrown.
 fn thrown(mass: &str, speed: f64, more: &str) -> String {
-    let head = dynamic("0.5", AUTO, "central-difference");
+    let head = dynamic("0.5", AUTO, "central-difference") + "mass_scaling = \"off\"\n";
     format!(
-        r#"{head}mass_scaling = "off"
-[materials.steel]
+        r#"{head}[materials.steel]
 model = "elastic"
 youngs_modulus = 1e6
 poisson_ratio = 0.0

@@ -25,7 +25,7 @@ const MODULUS: f64 = 200e9;
 
 /// The head of a deck with mass scaling, or without.
 fn head(end_time: f64, time_step: impl std::fmt::Display, scaled: Option<f64>) -> String {
-    let key = scaled.map_or_else(String::new, |step| format!("mass_scaling_step = {step}\n"));
+    let key = scaled.map_or("mass_scaling = \"off\"\n".to_owned(), |step| format!("mass_scaling_step = {step}\n"));
     dynamic(end_time, time_step, "central-difference") + &key + STEEL + "[output]\nevery = 1\n"
 }
 
@@ -77,7 +77,7 @@ fn parts(model: &Model) -> Vec<ScaledPart> {
 }
 
 /// All squares of frequencies of a scene with the masses that its explicit scheme has, ascending.
-fn spectrum(model: &Model) -> Vec<f64> {
+pub(super) fn spectrum(model: &Model) -> Vec<f64> {
     let system = System::new(model).unwrap();
     let implicit = Model { solution: Solution { scheme: default_scheme(), ..model.solution.clone() }, ..model.clone() };
     let plan = Plan::new(&implicit, &system, 1);

@@ -16,8 +16,7 @@ use rdsolve::model::Model;
 use rdsolve::solve::Frame;
 use rdsolve::system::energy::Balance;
 
-/// With the masses that other schemes have.
-const CENTRAL: &str = "integrator={scheme=\"central-difference\",mass_scaling=\"off\"}";
+const CENTRAL: &str = "integrator={scheme=\"central-difference\"}";
 const EIGHT: &str = "integrator={scheme=\"runge-kutta\"}";
 const FIVE: &str = "integrator={scheme=\"runge-kutta\",order=5}";
 const WILSON: &str = "integrator={scheme=\"wilson-theta\"}";

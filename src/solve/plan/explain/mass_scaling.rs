@@ -22,7 +22,7 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
                     .into(),
             );
     }
-    if heavier + rotary > 0 && bound_by_others(model) {
+    if heavier + rotary > 0 && scaling.of_sections.is_none() && bound_by_others(model) {
         text.notes.push(
             "mass scaling raises the step of elements: links, contacts and joints may ask for shorter ones".into(),
         );
@@ -33,6 +33,9 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
 pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
     let [elements, heavier, rotary] = counts(scaling);
     let step = short(scaling.critical_step);
+    if let Some(own) = scaling.of_sections {
+        return rotary_in_words(scaling, own);
+    }
     if heavier + rotary == 0 {
         let what = format!(
             "none: each of the {elements} elements has a critical time step of {step} or more, those that are slack or have no mass aside"
@@ -52,6 +55,28 @@ pub fn mass_added(scaling: &MassScaling) -> Vec<(&'static str, String)> {
         lines.push(("rotary", what));
     }
     lines
+}
+
+/// The parts whose rotary inertia alone is raised, and by how much.
+fn rotary_in_words(scaling: &MassScaling, own: f64) -> Vec<(&'static str, String)> {
+    let mut raised: Vec<&ScaledPart> = scaling.parts.iter().filter(|part| part.rotary > 0).collect();
+    raised.sort_by(|a, b| b.rotary_factor.total_cmp(&a.rotary_factor));
+    let of_part = |part: &&ScaledPart| {
+        let (name, factor) = (&part.name, to_digits(part.rotary_factor, 3));
+        format!("`{name}` in {} of {} elements, up to {factor} times", part.rotary, part.elements)
+    };
+    let mut listed: Vec<String> = raised.iter().take(LISTED).map(of_part).collect();
+    if raised.len() > LISTED {
+        listed.push(format!("and {} more parts by less", raised.len() - LISTED));
+    }
+    let what = format!(
+        "inertia is raised without added mass: {}. Elements then have a critical time step of {}, with that of their sections {}; \
+         `mass_scaling = \"off\"` keeps that",
+        listed.join("; "),
+        to_digits(scaling.critical_step, 3),
+        to_digits(own, 3)
+    );
+    vec![("rotary", what)]
 }
 
 /// Numbers of elements in total, with added mass, and with added rotary inertia.

@@ -26,6 +26,21 @@ pub type NumberedBlock = (Box<dyn ElementBlock>, usize);
 /// A block of pairs, and the number of its first element within its part.
 pub type NumberedPairs = (Box<dyn PairBlock>, usize);
 
+/// Squared distances of neighbouring nodes of an element as tensors, global components.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Spacing {
+    /// For turns that bend the element.
+    pub bending: Mat3,
+    /// For turns about the normal of a shell, which waves of bending do not have.
+    pub drilling: Mat3,
+}
+
+impl Default for Spacing {
+    fn default() -> Spacing {
+        Spacing { bending: Mat3::zeros(), drilling: Mat3::zeros() }
+    }
+}
+
 /// The contributions of a part while a system is built.
 pub trait Assembled {
     /// Adds the mass of the part at its nodes or over its elements; a part may have none.
@@ -36,10 +51,10 @@ pub trait Assembled {
         None
     }
 
-    /// The squared distances of neighbouring nodes of a deformable element at t = 0, as a tensor S, global components. `aᵀ S a` belongs to
+    /// The squared distances of neighbouring nodes of a deformable element at t = 0, as tensors S. `aᵀ S a` belongs to
     /// waves that turn the element about the unit vector a, and is zero if there are none.
-    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> Mat3 {
-        Mat3::zeros()
+    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> Spacing {
+        Spacing::default()
     }
 
     /// The blocks of elements of the part; some may be empty.

@@ -46,7 +46,12 @@ fn mass(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> f64 {
 fn lumped(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> LumpedElement {
     let mass = mass(part, nodes, masses);
     let own = |node: usize| if masses.has_mass(part.mass, node) { 0.5 * mass } else { 0.0 };
-    LumpedElement(nodes.iter().map(|&node| NodalShare { node, mass: own(node), J0: Mat3::zeros() }).collect())
+    LumpedElement(
+        nodes
+            .iter()
+            .map(|&node| NodalShare { node, mass: own(node), J0: Mat3::zeros(), turns: masses.turns(node) })
+            .collect(),
+    )
 }
 
 fn block(part: &Bar, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {

@@ -1,6 +1,6 @@
 //! Beams in the equation of motion: their masses and blocks, and the resultants in their sections.
 
-use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::assembled::{Assembled, NumberedBlock, Setting, Spacing, pieces};
 use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
@@ -32,10 +32,11 @@ impl Assembled for Beam {
     }
 
     /// The rotary inertia of torsion is not raised.
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> Spacing {
         let nodes = &self.elements[element].nodes;
         let along = (masses.x[nodes[self.order]] - masses.x[nodes[0]]) / self.order as f64;
-        along.norm_squared() * Mat3::identity() - along * along.transpose()
+        let bending = along.norm_squared() * Mat3::identity() - along * along.transpose();
+        Spacing { bending, drilling: Mat3::zeros() }
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
@@ -102,7 +103,7 @@ pub(super) fn lumped(beam: &Beam, element: usize, stiffnesses: &[Stiffness], mas
         let share = 0.5 * weight * length;
         let mass = if masses.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
         let keep = beam.rotary_inertia && masses.has_rotary_inertia(beam.mass, node);
-        NodalShare { node, mass, J0: if keep { rotary * share } else { Mat3::zeros() } }
+        NodalShare { node, mass, J0: if keep { rotary * share } else { Mat3::zeros() }, turns: masses.turns(node) }
     };
     LumpedElement(element.nodes[..=beam.order].iter().zip(weights).map(share).collect())
 }

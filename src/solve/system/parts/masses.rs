@@ -15,6 +15,8 @@ pub struct NodalShare {
     pub mass: f64,
     /// Inertia tensor about the node, global components at t = 0; zero likewise.
     pub J0: Mat3,
+    /// False where the node turns with a body: mass scaling leaves the rotary inertia there.
+    pub turns: bool,
 }
 
 /// The masses of a scene while they are summed.
@@ -23,6 +25,8 @@ pub struct NodalMasses<'s> {
     pub x: &'s [Vec3],
     /// True for each node that depends on a body.
     attached: Vec<bool>,
+    /// True for each node that turns with a body about all axes.
+    turned: Vec<bool>,
     /// Lumped masses and inertias of the nodes.
     pub lumped: Lumped,
     /// Consistent mass matrices of elements.
@@ -32,11 +36,15 @@ pub struct NodalMasses<'s> {
 impl<'s> NodalMasses<'s> {
     /// No mass yet.
     pub fn new(model: &Model, x: &'s [Vec3]) -> NodalMasses<'s> {
-        let (mut is_body, mut attached) = (vec![false; x.len()], vec![false; x.len()]);
+        let none = vec![false; x.len()];
+        let [mut is_body, mut attached, mut turned] = [none.clone(), none.clone(), none];
         model.bodies.iter().for_each(|body| is_body[body.node] = true);
         let dependents = model.constraints.dependents.iter();
-        dependents.filter(|of| is_body[of.master]).for_each(|of| attached[of.node] = true);
-        NodalMasses { x, attached, lumped: Lumped::new(x.len()), consistent: Vec::new() }
+        for of in dependents.filter(|of| is_body[of.master]) {
+            attached[of.node] = true;
+            turned[of.node] = of.dofs[3..].iter().all(|&dof| dof);
+        }
+        NodalMasses { x, attached, turned, lumped: Lumped::new(x.len()), consistent: Vec::new() }
     }
 
     /// Adds the lumped mass of an element.
@@ -51,6 +59,11 @@ impl<'s> NodalMasses<'s> {
             MassKind::FreeNodes => !self.attached[node],
             MassKind::Consistent | MassKind::None => false,
         }
+    }
+
+    /// False for a node that turns with a body about all axes.
+    pub fn turns(&self, node: usize) -> bool {
+        !self.turned[node]
     }
 
     /// True if a deformable part adds rotary inertia at this node.

@@ -1,6 +1,6 @@
 //! Shells in the equation of motion: their masses and blocks, and the resultants of their elements.
 
-use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
+use super::assembled::{Assembled, NumberedBlock, Setting, Spacing, pieces};
 use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
@@ -63,7 +63,7 @@ impl Assembled for Shell {
 
     /// Half the sum of the squares of its sides: of rectangles and of triangles with a right angle the sides themselves, of triangles with
     /// equal ones their heights. Elements of order 2 have a node on each side.
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> Mat3 {
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> Spacing {
         let (corners, parts) = match self.size() {
             size @ (3 | 4) => (size, 1.0),
             6 => (3, 2.0),
@@ -77,7 +77,10 @@ impl Assembled for Shell {
         let normal = across.eigenvectors.column(across.eigenvalues.imin()).into_owned();
         let long = across.eigenvalues.max();
         let short = across.eigenvalues.sum() - long - across.eigenvalues.min();
-        (long + short) * Mat3::identity() - squares - short * normal * normal.transpose()
+        let about_normal = normal * normal.transpose();
+        let bending = (long + short) * (Mat3::identity() - about_normal) - squares
+            + normal.dot(&(squares * normal)) * about_normal;
+        Spacing { bending, drilling: long * about_normal }
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
@@ -100,7 +103,7 @@ fn lumped(part: &Shell, element: usize, masses: &NodalMasses) -> LumpedElement {
         // The inertia about the normal, which a director does not have, gets the same value, so every direction has inertia.
         let rotary =
             if masses.has_rotary_inertia(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
-        NodalShare { node, mass, J0: rotary * Mat3::identity() }
+        NodalShare { node, mass, J0: rotary * Mat3::identity(), turns: masses.turns(node) }
     };
     LumpedElement(nodes.iter().zip(areas).map(share).collect())
 }
