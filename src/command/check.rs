@@ -4,6 +4,7 @@ use super::arguments::CheckArgs;
 use super::console::{complain, print, show};
 use super::estimate::{effort, first_period};
 use super::exit::Exit;
+use super::explicit_steps::{limit_of_steps, offers};
 use super::load::{load, plan, too_large};
 use super::memory::Forecast;
 use super::signals::EndAtOnce;
@@ -59,7 +60,9 @@ pub fn check(args: &CheckArgs) -> Result<(), Exit> {
     let stages = [(&loaded.model, &system, &plan)].into_iter();
     let stages = stages.chain(loaded.later.iter().zip(&later).map(|(model, (system, plan))| (model, system, plan)));
     for (text, (model, system, plan)) in texts.iter_mut().zip(stages) {
+        text.computed.extend(limit_of_steps(model, system));
         text.computed.extend(effort(model, system, plan).map(|line| ("effort", line)));
+        text.computed.extend(offers(model, system));
     }
     if args.first_period {
         texts[0].computed.push(("first mode", first_period(&loaded.model)));

@@ -7,6 +7,7 @@ mod compare;
 mod console;
 mod estimate;
 mod exit;
+mod explicit_steps;
 mod folder;
 mod hint;
 mod import;
