@@ -41,8 +41,9 @@ pub enum Warning {
         depth: f64,
         /// The smallest dimension of the touching and the touched bodies.
         size: f64,
-        /// The stiffness of the contact, and one that keeps the penetration small.
-        stiffness: [f64; 2],
+        /// The stiffness of the contact, one that keeps the penetration small, and the fixed step that this needs; 0 where the present
+        /// one will do.
+        stiffness: [f64; 3],
     },
     /// Load control has passed a load beyond which the equilibrium is unstable.
     Unstable(Instability),
@@ -256,10 +257,14 @@ fn corrected(change: f64) -> String {
 }
 
 /// The message of a contact with a visible penetration.
-fn deep_contact(contact: &str, depth: f64, size: f64, [now, enough]: [f64; 2]) -> String {
+fn deep_contact(contact: &str, depth: f64, size: f64, [now, enough, step]: [f64; 3]) -> String {
+    let step = match step > 0.0 {
+        true => format!(", with a `time_step` of {} or less", to_digits(step, 2)),
+        false => String::new(),
+    };
     format!(
         "contact `{contact}`: the penetration of {} is {} % of the smallest dimension of the touching bodies. The time and the place of touch \
-         have errors of this size. Give `stiffness` = {} (now {}), with a shorter step for explicit schemes",
+         have errors of this size. Give `stiffness` = {} (now {}){step}",
         short(depth),
         to_digits(100.0 * depth / size, 2),
         to_digits(enough, 2),
@@ -418,7 +423,7 @@ impl Warnings {
     }
 
     /// Adds the penetration of a contact of this size and with these stiffnesses, or keeps it if it is relatively deeper than the known one.
-    pub fn deepen(&mut self, contact: &str, (depth, size): (f64, f64), stiffness: [f64; 2]) {
+    pub fn deepen(&mut self, contact: &str, (depth, size): (f64, f64), stiffness: [f64; 3]) {
         let known = self.warnings.iter_mut().find(|known| matches!(known, Warning::DeepContact { .. }));
         let found = || Warning::DeepContact { name: contact.to_owned(), depth, size, stiffness };
         match known {

@@ -26,7 +26,7 @@ fn warnings() -> Vec<Warning> {
         Warning::StepError { asked: 1e-3, estimate: None },
         Warning::RunsPart { asked: 1e-3, difference: 0.3 },
         Warning::Unbalanced { residual: 2e-5 },
-        Warning::DeepContact { name: name(), depth: 0.06, size: 0.1, stiffness: [9e3, 5.2e4] },
+        Warning::DeepContact { name: name(), depth: 0.06, size: 0.1, stiffness: [9e3, 5.2e4, 2e-5] },
         Warning::Unstable(instability(false, true)),
         Warning::Unstable(instability(true, false)),
         Warning::UnstableOutOfPlane(instability(false, true)),

@@ -1,5 +1,5 @@
-//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. It does not depend on the time
-//! step, so that results converge with it.
+//! The penalty stiffness chosen by the program: by material and size of the bodies, by weight and by speed. Steps of an explicit scheme
+//! lower it to what they follow; shorter ones do not, so that results converge with the step.
 
 use crate::contacts::opposite::Opposite;
 use crate::places::nodes::Topology;
@@ -13,6 +13,8 @@ use std::collections::HashSet;
 
 /// Depth under weight on one point, relative to the size of the bodies: invisible.
 const SUNK: f64 = 1e-3;
+/// Depth under weight, relative to the size of the bodies, that is seen.
+const SEEN: f64 = 0.05;
 /// The part of the size that an impact presses in: it is over before anything has turned, and steps can follow it.
 const STRUCK: f64 = 1e-2;
 
@@ -20,10 +22,34 @@ const STRUCK: f64 = 1e-2;
 pub struct ChosenStiffness {
     /// The force of a point per depth.
     pub stiffness: f64,
+    /// The stiffness that the bodies call for, which a fixed step may not bear.
+    pub called_for: f64,
+    /// The stiffness with which weight presses in by a twentieth of the size, where it begins to be seen.
+    least: f64,
     /// The reason for the choice, in words.
     pub reason: String,
     /// True if only the duration of the run was available for the choice.
     pub rests_on_time: bool,
+}
+
+impl ChosenStiffness {
+    fn new(stiffness: f64, reason: String, rests_on_time: bool) -> ChosenStiffness {
+        ChosenStiffness { stiffness, called_for: stiffness, least: 0.0, reason, rests_on_time }
+    }
+
+    /// The same, lowered to the largest stiffness that steps of an explicit scheme bear, but not below the one with which weight is seen.
+    pub fn within(self, bearable: f64) -> ChosenStiffness {
+        let bearable = bearable.max(self.least);
+        if self.stiffness <= bearable {
+            return self;
+        }
+        let reason = format!(
+            "an impact of the lightest node lasts five explicit steps; {} calls for {}",
+            self.reason,
+            short(self.stiffness)
+        );
+        ChosenStiffness { stiffness: bearable, reason, ..self }
+    }
 }
 
 /// The things that meet in a contact.
@@ -59,6 +85,9 @@ impl Meets<'_, '_> {
             let depth = format!("a weight of {} presses {} in", short(mass * self.gravity), short(SUNK * size));
             choices.push((mass * self.gravity / (SUNK * size), depth));
         }
+        if choices.is_empty() {
+            choices.extend(self.under_loads(mass));
+        }
         let rests_on_time = choices.is_empty();
         if rests_on_time {
             let pace = self.extent() / self.duration();
@@ -71,21 +100,27 @@ impl Meets<'_, '_> {
         }
         let largest = choices.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
         let (stiffness, reason) = largest.unwrap_or_default();
-        ChosenStiffness { stiffness, reason, rests_on_time }
+        let least = mass * self.gravity / (SEEN * size);
+        ChosenStiffness { least, ..ChosenStiffness::new(stiffness, reason, rests_on_time) }
     }
 
-    /// The initial stiffness of load steps with multipliers, which does not affect the result: by material, or by weight and loads on the
-    /// effective mass. `None` where the deck says nothing of these.
+    /// The stiffness of load steps: by material, or by weight and loads on the effective mass. With multipliers it does not affect the
+    /// result. `None` where the deck says nothing of these.
     pub fn stiffness_under_loads(&self, mass: f64) -> Option<ChosenStiffness> {
         if let Some((stiffness, part)) = self.softest_part() {
             let reason = format!("E A over the length of an element of `{part}`");
-            return Some(ChosenStiffness { stiffness, reason, rests_on_time: false });
+            return Some(ChosenStiffness::new(stiffness, reason, false));
         }
+        self.under_loads(mass).map(|(stiffness, reason)| ChosenStiffness::new(stiffness, reason, false))
+    }
+
+    /// The stiffness with which the weight of a mass and all loads press in by a thousandth of the size.
+    fn under_loads(&self, mass: f64) -> Option<(f64, String)> {
         let forces = self.whole_deck().loads.iter().filter_map(|load| load.force.as_ref());
         let force = mass * self.gravity + forces.map(|at| vec3(at).norm()).sum::<f64>();
         let depth = SUNK * self.size();
         let reason = format!("weight and loads of {} press {} in", short(force), short(depth));
-        (force > 0.0).then(|| ChosenStiffness { stiffness: force / depth, reason, rests_on_time: false })
+        (force > 0.0).then(|| (force / depth, reason))
     }
 
     /// The least stiffness over the deformable parts in contact, each by its stiffest touching element, with the name of the part. The

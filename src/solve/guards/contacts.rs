@@ -4,12 +4,13 @@ use crate::context::Context;
 use crate::failure::Failure;
 use crate::guards::guard::{Guard, Taken};
 use crate::step::trial::Step;
-use crate::tolerances::contacts::{BEGINS_CLOSED, MEANT, SEEN, SUNK, TO_THE_MIDDLE};
+use crate::tolerances::contacts::{BEGINS_CLOSED, MEANT, SEEN, STEPS_OF_IMPACT, SUNK, TO_THE_MIDDLE};
 use crate::warning::{Warning, Warnings};
 use crate::workspace::Workspace;
+use mechanics::elements::contact::ContactLaw;
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node, State};
-use model::{Contact, Model, PartType};
+use model::{Contact, Model, PartType, StepLength};
 use std::ops::Range;
 
 /// Refuses steps too long for their contacts, and records penetrations.
@@ -93,9 +94,18 @@ fn note_depth(cx: &Context, warnings: &mut Warnings, state: &State) {
             let now = contact.law.as_ref().map_or(0.0, |law| law.stiffness);
             // The penetration of an impact falls with the root of the stiffness.
             let enough = now * (2.0 * gap / (limit * contact.size)).powi(2);
-            warnings.deepen(&contact.name, (-gap, contact.size), [now, enough]);
+            let step = contact.law.as_ref().map_or(0.0, |law| step_for(law, enough, &cx.model.analysis.step_length));
+            warnings.deepen(&contact.name, (-gap, contact.size), [now, enough, step]);
         }
     }
+}
+
+/// The fixed step that resolves an impact with another stiffness; 0 where steps are cut, are automatic, or are short enough.
+fn step_for(law: &ContactLaw, stiffness: f64, step_length: &StepLength) -> f64 {
+    let StepLength::Fixed { step } = *step_length else { return 0.0 };
+    // Half of the longest duration, which goes with the root of the stiffness.
+    let needed = 0.5 * law.duration * (law.stiffness / stiffness).sqrt() / STEPS_OF_IMPACT;
+    if law.resolution.is_finite() || !(needed < step) { 0.0 } else { needed }
 }
 
 /// Warns if a new contact of a dynamic stage begins with a penetration, which throws the body out with unphysical energy. `fresh` are the
