@@ -2,7 +2,8 @@
 //! without their places in the matrix. Least of many repeats, one thread. `cargo bench --bench beams`
 
 use rdsolve::elements::Moduli;
-use rdsolve::elements::beam::{BeamGeometry, elastic_beams};
+use rdsolve::elements::beam::{BeamGeometry, BeamSetting, elastic_beams};
+use rdsolve::elements::heat::Heat;
 use rdsolve::math::{Mat3, Vec3, rotation};
 use rdsolve::sections::Stiffness;
 use rdsolve::state::{Configuration, Node};
@@ -28,7 +29,8 @@ fn beams<const N: usize>() {
     let stiffness = Stiffness::general(2e6, [8e5, 8e5], 1e5, [2e5, 1e5], 1.0, [1.0; 3]);
     let frame = Mat3::identity();
     let elements = lists.iter().map(|nodes| BeamGeometry { nodes, frame: &frame, stiffness: &stiffness });
-    let block = elastic_beams(N - 1, &elements.collect::<Vec<_>>(), &x, 0.0);
+    let block =
+        elastic_beams(N - 1, &elements.collect::<Vec<_>>(), BeamSetting { x: &x, damping: 0.0, heat: &Heat::NONE });
     let moved = |(i, x): (usize, &Vec3)| Node {
         rotation: rotation::exp(&Vec3::new(0.01 * (i as f64).cos(), 0.2, 0.03)),
         ..Node::at_rest(x + Vec3::new(1e-3 * (i as f64).sin(), 2e-3 * (0.7 * i as f64).cos(), 0.0))

@@ -1434,6 +1434,24 @@ fn releases_and_shares() {
 }
 
 #[test]
+fn loads_of_temperature() {
+    let expands = ("density = 7850.0", "density = 7850.0\nexpansion = 1.2e-5");
+    let load = |keys: &str| portal(&[expands, ("[[loads]]", &format!("[[loads]]\n{keys}\n[[loads]]"))]);
+    assert_eq!(load("part = \"portal\"\ntemperature = 40.0\ntemperature_gradient = [1.0, 2.0]"), "");
+    assert_snapshot!("heat_without_expansion", portal_and("[[loads]]\npart = \"portal\"\ntemperature = 40.0"));
+    assert_snapshot!(
+        "heat_of_a_body",
+        load("part = [\"block\", \"feet\"]\ntemperature = 40.0\nforce = [1.0, 0.0, 0.0]")
+    );
+    assert_snapshot!("gradient_of_a_beam", load("part = \"portal\"\ntemperature_gradient = 40.0"));
+    let twice = "part = \"portal\"\ntemperature = 1.0\n[[loads]]\npart = \"portal\"\ntemperature = 2.0";
+    assert_snapshot!("heated_twice", load(twice));
+    let buckling = ("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", "kind = \"buckling\"");
+    let heat = ("[[loads]]", "[[loads]]\npart = \"portal\"\ntemperature = 1.0\n[[loads]]");
+    assert_snapshot!("heat_that_buckles", portal(&[expands, buckling, heat]));
+}
+
+#[test]
 fn loads_on_beams() {
     let load = |keys: &str| portal_and(&format!("[[loads]]\npart = \"portal\"\n{keys}\n"));
     assert_eq!(load("distance = 1.0\nforce = [0.0, 0.0, -1.0]"), "");

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Numbers, Vector};
+use super::words::{Maybe, Names, Numbers, OneOrMany, Vector};
 use base::diagnostic::At;
 
 /// A force or moment on points or bodies, or spread over shells.
@@ -12,7 +12,7 @@ use base::diagnostic::At;
 pub struct Load {
     /// Names of points, bodies, shells, edges or sets; each node gets the whole load, unless it is one per length or area.
     pub at: Maybe<Names>,
-    /// Instead of `at`, for loads per length or area: names of beams, bars, shells, groups of the mesh or sets of them.
+    /// Instead of `at`, for temperatures and for loads per length or area: names of beams, bars, shells, groups of the mesh or sets of them; for temperatures, of whole parts.
     pub part: Maybe<Names>,
     /// Force, global components.
     pub force: Maybe<Vector>,
@@ -39,6 +39,12 @@ pub struct Load {
     /// Pressure on shells, against their normals, which see the corners go round counter-clockwise; `at` names the same as for
     /// `force_per_area`. Area and normals are those of t = 0, with `follower` the current ones.
     pub pressure: Maybe<f64>,
+    /// Change of temperature from the state without stress, uniform over the beams, bars and shells of `part`; their materials need
+    /// `expansion`.
+    pub temperature: Maybe<f64>,
+    /// Change of temperature per length across the parts of `part`, zero on the axis or reference surface: of shells one number, along the
+    /// normal; of beams [along y, along z] of the section.
+    pub temperature_gradient: Maybe<OneOrMany<f64>>,
     /// A force or moment turns with its node, a load per length with the sections of its beam, a pressure follows the surface. Default:
     /// false.
     pub follower: Maybe<bool>,

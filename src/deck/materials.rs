@@ -19,6 +19,8 @@ pub struct Material {
     pub poisson_ratio: Maybe<f64>,
     /// Mass per volume, above 0. Needed by everything that has mass. Alias: `rho`.
     pub density: Maybe<f64>,
+    /// Coefficient of thermal expansion, strain per unit of temperature. Needed where a load heats a part. Default: none.
+    pub expansion: Maybe<f64>,
     /// How the overstress grows with the rate of plastic strain. (elastic-viscoplastic)
     pub viscosity: Maybe<OneOf<Viscosity>>,
 }

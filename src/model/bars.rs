@@ -7,6 +7,7 @@ use super::part_context::PartContext;
 use super::report::Owner;
 use super::values::{chosen, flag, keys};
 use deck::bars as words;
+use mechanics::elements::heat::Heat;
 
 /// Reads `[[bars]]`: makes the nodes of each path and the elements between them.
 pub(super) fn bars(cx: &mut PartContext) {
@@ -56,7 +57,18 @@ fn read_bar<'d>(
     cx.parts.entry_mut(at).nodes = nodes;
     let tension_only = flag(&bar.tension_only, false);
     let yielding = cx.materials.yielding_of(&bar.material)?;
-    Some(Bar { name, axial_stiffness, mass_per_length, mass, damping, tension_only, free, yielding, elements })
+    Some(Bar {
+        name,
+        axial_stiffness,
+        mass_per_length,
+        mass,
+        damping,
+        tension_only,
+        free,
+        yielding,
+        heat: Heat::NONE,
+        elements,
+    })
 }
 
 /// E A and mass per length.

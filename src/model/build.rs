@@ -23,6 +23,7 @@ use super::initial::initial;
 use super::joints::coordinate::Joints;
 use super::joints::{check_joints, joints, released};
 use super::links::{ModelLinks, links};
+use super::loads::temperature::temperatures;
 use super::loads::{Loads, loads};
 use super::masses::masses;
 use super::materials::materials;
@@ -312,6 +313,7 @@ fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, 
     let fields = environment(scene.deck, scene.stage, report);
     scene.analysis.plane &= !equations(scene, (topology, joints), report);
     let (mut actors, turned) = supports(scene, amplitudes, (topology, joints), report);
+    temperatures(scene, amplitudes, topology, &mut actors, report);
     set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
     let contacts = contacts(scene, masses, joints, fields.gravity, topology, report);
     let loads = loads(scene, [&efforts[..], &links.pulls[..]].concat(), topology, &mut actors, report);

@@ -102,9 +102,11 @@ fn by_default<'d>(scene: &Scene<'d>, nodes: Vec<usize>, units: Option<String>, r
 
 /// Lists all nodes of a model but bodies, for output.
 pub(super) fn write_all_nodes(model: &mut Model) {
-    let mut is_body = vec![false; model.nodes.len()];
-    model.bodies.iter().for_each(|body| is_body[body.node] = true);
-    model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_body[node]).collect();
+    let mut is_other = vec![false; model.nodes.len()];
+    model.bodies.iter().for_each(|body| is_other[body.node] = true);
+    let heats = model.parts.iter().filter_map(|part| part.heat());
+    heats.flat_map(|heat| heat.numbers).flatten().for_each(|node| is_other[node] = true);
+    model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_other[node]).collect();
 }
 
 fn is_body(scene: &Scene, node: usize) -> bool {

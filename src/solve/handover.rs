@@ -77,6 +77,7 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         system = System::new(model)?;
     }
     let (mut next, fresh) = from.state((cx, state), nodes, (model, &system))?;
+    warm(model, &system, &mut next);
     let is_static = !model.analysis.is_dynamic();
     if is_static {
         rest(&mut next);
@@ -97,6 +98,22 @@ pub(super) fn hand_over(before: &EndedStage, model: &mut Model) -> Result<(Syste
         load_steps: (is_static && !cx.is_dynamic()).then(|| before.load_steps.clone()),
     };
     Ok((system, handover))
+}
+
+/// Gives parts the temperatures of the stage's beginning, with the work of the change: a load may come with its full value.
+fn warm(model: &mut Model, system: &System, state: &mut State) {
+    let heats = model.parts.iter_mut().filter_map(|part| part.heat_mut());
+    let numbers: Vec<usize> = heats.flat_map(|heat| heat.numbers).flatten().collect();
+    if numbers.is_empty() {
+        return;
+    }
+    let before = system.stored_energy(&state.configuration(), 1);
+    for held in model.constraints.restraints.iter().filter(|held| numbers.contains(&held.node)) {
+        let Some(motion) = &held.motion else { continue };
+        let u = motion.scale * model.loading.amplitudes[motion.amplitude].value(model.analysis.begin);
+        state.nodes[held.node].place(&model.nodes[held.node].x, &Vec3::zeros(), &Vec3::new(u, 0.0, 0.0));
+    }
+    state.work.external += system.stored_energy(&state.configuration(), 1) - before;
 }
 
 /// Gives motions that end at a place the way that is left to it.

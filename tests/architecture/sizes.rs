@@ -23,7 +23,7 @@ const WIDE: Known = &[
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 17),
     ("deck/lib.rs: Deck", 35),
-    ("deck/loads.rs: Load", 16),
+    ("deck/loads.rs: Load", 18),
     ("deck/shells.rs: Shell", 17),
     ("deck/stages.rs: Stage", 20),
     ("model/data/model.rs: Model", 17),

@@ -3,7 +3,8 @@
 use crate::support::random::{turn, vector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
-use rdsolve::elements::beam::{BeamGeometry, FibreModel, IntegrationRule, elastic_beams};
+use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreModel, IntegrationRule, elastic_beams};
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::{ElementBlock, Moduli};
 use rdsolve::materials::{FailureCriterion, Hardening, MaterialLaw};
 use rdsolve::math::{Mat3, Vec3, quadrature, rotation};
@@ -57,9 +58,10 @@ impl<const N: usize> Chain<N> {
             stiffness: &self.sections[if yielding.is_some() { 0 } else { e }],
         });
         let elements: Vec<BeamGeometry> = elements.collect();
+        let setting = BeamSetting { x: &self.x, damping, heat: &Heat::NONE };
         match yielding {
-            None => elastic_beams(N - 1, &elements, &self.x, damping),
-            Some(model) => model.beams(N - 1, &elements, &self.x, damping),
+            None => elastic_beams(N - 1, &elements, setting),
+            Some(model) => model.beams(N - 1, &elements, setting),
         }
     }
 

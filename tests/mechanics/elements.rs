@@ -7,10 +7,11 @@ use nalgebra::{DMatrix, Vector3};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
 use rdsolve::elements::bar::YieldingBars;
-use rdsolve::elements::beam::{BeamGeometry, FibreModel, IntegrationRule, elastic_beams};
+use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreModel, IntegrationRule, elastic_beams};
 use rdsolve::elements::bearing::{Bearing, BearingMatrices, Bearings};
 use rdsolve::elements::bouc_wen::BoucWen;
 use rdsolve::elements::bushing::{Bushing, Bushings};
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::hysteresis::Hysteresis;
 use rdsolve::elements::hysteretic_link::{HystereticLink, HystereticLinks, PathLaw};
 use rdsolve::elements::link::{Link, LinkLaw, Links};
@@ -96,6 +97,34 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("beam of 5 nodes", beam::<5>(&frame, start, 0.0), &nodes_of(5, &frame, start));
     add("damped beam of 2 nodes", beam::<2>(&frame, start, 0.3), &nodes_of(2, &frame, start));
     add("damped beam of 4 nodes", beam::<4>(&frame, start, 0.3), &nodes_of(4, &frame, start));
+    // The last nodes are the numbers of temperature: places of 5 are strains of 0.05.
+    let heated = |own: &[Vec3], numbers: usize| {
+        let node = |k: usize| (k < numbers).then_some(own.len() + k);
+        let x: Vec<Vec3> = own.iter().copied().chain((0..numbers).map(|_| start)).collect();
+        (x, Heat { numbers: std::array::from_fn(node), length: 100.0 })
+    };
+    let (warm, heat) = heated(&nodes_of(3, &frame, start), 3);
+    let one = [BeamGeometry { nodes: &[0, 1, 2], frame: &frame, stiffness: &section() }];
+    add("heated beam", elastic_beams(2, &one, BeamSetting { x: &warm, damping: 0.3, heat: &heat }), &warm);
+    let (warm, heat) = heated(&nodes_of(2, &frame, start), 1);
+    let bar = rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, (1.0, &heat), &warm, 0.2);
+    add("heated bar", Box::new(bar), &warm);
+    for (name, size) in [("heated triangle", 3), ("heated quadrilateral", 4)] {
+        let corner = |k: usize| {
+            start + frame * [[0.0, 0.0, 0.0], [1.2, 0.1, 0.0], [1.0, 0.9, 0.1], [-0.1, 1.1, 0.0]].map(Vec3::from)[k]
+        };
+        let own: Vec<Vec3> = (0..size).map(corner).collect();
+        let (warm, heat) = heated(&own, 2);
+        let nodes: Vec<usize> = (0..size).collect();
+        let normals = vec![frame.column(2).into_owned(); size];
+        let all = || std::iter::once(shell::ShellGeometry::new(&nodes, &normals));
+        let plate = Plate { thickness: 0.1, E: 100.0, nu: 0.3, drilling: shell::DRILLING };
+        let block: Box<dyn ElementBlock> = match size {
+            3 => Box::new(Triangles::new(all(), &warm, &plate, 0.2).heated(&heat, &warm)),
+            _ => Box::new(Quadrilaterals::new(all(), &warm, &plate, 0.2).heated(&heat, &warm)),
+        };
+        add(name, block, &warm);
+    }
     let ends = nodes_of(2, &frame, start);
     let link = |law, direction| Link::new([0, 1], law, 0.7, direction, 1.2, [ends[0], ends[1]]);
     let linear = LinkLaw::Linear { stiffness: 20.0, preload: 1.0 };
@@ -104,7 +133,11 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("link along a direction", Box::new(Links::new(vec![link(linear, Some(d))])), &ends);
     let table = LinkLaw::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
     add("table link", Box::new(Links::new(vec![link(table, None)])), &ends);
-    add("bar", Box::new(rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, 1.0, &ends, 0.2)), &ends);
+    add(
+        "bar",
+        Box::new(rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, (1.0, &Heat::NONE), &ends, 0.2)),
+        &ends,
+    );
     let moments = [
         ("bushing", Vec3::new(4.0, 5.0, 6.0)),
         ("bushing with a free axis", Vec3::new(0.0, 5.0, 6.0)),
@@ -171,7 +204,7 @@ fn nodes_of(n: usize, frame: &Mat3, start: Vec3) -> Vec<Vec3> {
 fn beam<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn ElementBlock> {
     let nodes: Vec<usize> = (0..N).collect();
     let one = [BeamGeometry { nodes: &nodes, frame, stiffness: &section() }];
-    elastic_beams(N - 1, &one, &nodes_of(N, frame, start), damping)
+    elastic_beams(N - 1, &one, BeamSetting { x: &nodes_of(N, frame, start), damping, heat: &Heat::NONE })
 }
 
 /// E = 20; hardening of both kinds, linear or by a table.
@@ -226,7 +259,7 @@ fn yielding(rng: &mut StdRng, firmness: f64) -> Vec<Kind> {
             for (rope, what) in [(false, "bar"), (true, "rope")] {
                 let frame = rotation::matrix(&turn(rng));
                 let x = nodes_of(2, &frame, vector(rng, 2.0));
-                let block = Box::new(YieldingBars::new(&[[0, 1]], 40.0, &law, rope, 1.0, &x, damping));
+                let block = Box::new(YieldingBars::new(&[[0, 1]], (40.0, &law), rope, (1.0, &Heat::NONE), &x, damping));
                 let past = vec![0.0; block.history()];
                 kinds.push(Kind { name: format!("{damped}{name} {what}"), block, x, past });
             }
@@ -248,7 +281,7 @@ fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, 
             let x = nodes_of(N, &frame, vector(rng, 2.0));
             let nodes: Vec<usize> = (0..N).collect();
             let one = [BeamGeometry { nodes: &nodes, frame: &frame, stiffness: &section() }];
-            let block = yielding.beams(N - 1, &one, &x, damping);
+            let block = yielding.beams(N - 1, &one, BeamSetting { x: &x, damping, heat: &Heat::NONE });
             let past = vec![0.0; block.history()];
             let with = if shear { "with" } else { "without" };
             let name = format!("{name} beam of {N} nodes, {rule:?} {points}, {with} shear");
@@ -362,7 +395,7 @@ fn rigid_motion_gives_no_force() {
     for _ in 0..20 {
         for kind in kinds(&mut rng, 1.0) {
             let name = &kind.name;
-            if name.contains("link") {
+            if name.contains("link") || name.contains("heated") {
                 continue; // preload and free length: stressed by intention
             }
             let mut nodes = moved(&mut rng, &kind.x, 0.0);
@@ -597,7 +630,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let (length, C) = (1.7, section());
     let frame = Mat3::identity();
     let one = [BeamGeometry { nodes: &[0, 1], frame: &frame, stiffness: &C }];
-    let beam = elastic_beams(1, &one, &x, 0.0);
+    let beam = elastic_beams(1, &one, BeamSetting { x: &x, damping: 0.0, heat: &Heat::NONE });
     let nodes = x.map(Node::at_rest);
     let mut K = [0.0; 144];
     beam.tangent(0, &Configuration::of(&nodes), 0.0, Moduli::Algorithmic, &mut K);

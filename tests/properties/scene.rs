@@ -4,6 +4,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
 use rdsolve::elements::beam::{FibreModel, IntegrationRule};
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::elements::pressure::Face;
 use rdsolve::elements::shell::{self, DRILLING, Plate};
@@ -164,6 +165,7 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
         mass,
         rotary_inertia: true,
         damping: OwnDamping::default(),
+        heat: Heat::NONE,
         yielding: None,
         graded: false,
         elements: made,
@@ -190,6 +192,7 @@ pub fn bar(m: &mut Model, ends: [usize; 2], axial_stiffness: f64, mass_per_lengt
         mass_per_length,
         mass,
         damping: OwnDamping::default(),
+        heat: Heat::NONE,
         tension_only: false,
         free: 1.0,
         yielding: None,
@@ -227,6 +230,7 @@ pub fn shell(
         density: 3.0,
         mass,
         damping: OwnDamping::default(),
+        heat: Heat::NONE,
         yielding: None,
         axis: Vec3::x(),
         corners,

@@ -3,6 +3,7 @@
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use rdsolve::elements::IntegrationPoint;
 use rdsolve::elements::contact::{self, Surface};
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
 use rdsolve::math::{Mat3, Vec3};
@@ -39,6 +40,7 @@ pub fn model() -> Model {
         mass: MassKind::Consistent,
         rotary_inertia: true,
         damping: OwnDamping::default(),
+        heat: Heat::NONE,
         graded: false,
         yielding: None,
         elements,
@@ -92,6 +94,7 @@ pub fn model() -> Model {
                 mass_per_length: 0.0,
                 mass: MassKind::None,
                 damping: OwnDamping::default(),
+                heat: Heat::NONE,
                 tension_only: false,
                 free: 1.0,
                 yielding: None,

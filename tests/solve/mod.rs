@@ -45,6 +45,7 @@ mod stages;
 pub mod statics;
 mod sudden_loads;
 mod support_axes;
+mod temperature;
 mod thin_rods;
 mod thin_rods_in_loops;
 mod warning;

@@ -2,18 +2,20 @@
 //! force.
 
 use super::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
+use super::heat::{Heat, HeatNodes};
 use super::link::{Link, LinkLaw, Links};
 use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, PointResponse, Uniaxial};
 use crate::state::{Configuration, Node, elongation, stretch};
 use base::math::{Mat3, Vec3};
 
-/// Elastic bars as springs of stiffness EA/L along the line of their nodes. L is `free` times the length at t = 0. `x`: positions of all
+/// Elastic bars as springs of stiffness EA/L along the line of their nodes. L is `free` times the length at t = 0, and
+/// grows by `heat`. `x`: positions of all
 /// nodes at t = 0; `damping`: factor of stiffness-proportional damping (time).
 pub fn elastic_bars(
     elements: &[[usize; 2]],
     axial_stiffness: f64,
     tension_only: bool,
-    free: f64,
+    (free, heat): (f64, &Heat),
     x: &[Vec3],
     damping: f64,
 ) -> Links {
@@ -25,7 +27,11 @@ pub fn elastic_bars(
             true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
             false => LinkLaw::Linear { stiffness, preload: 0.0 },
         };
-        Link::new(nodes, law, damping * stiffness, None, length, start)
+        let link = Link::new(nodes, law, damping * stiffness, None, length, start);
+        match heat.numbers[0] {
+            Some(node) => link.heated(node, x[node], length / heat.length),
+            None => link,
+        }
     };
     Links::new(elements.iter().map(link).collect())
 }
@@ -41,6 +47,8 @@ pub struct YieldingBars {
     damping: f64,
     /// The number of history variables of a bar.
     variables: usize,
+    /// Temperatures; `None` where nothing heats the bars.
+    heat: Option<HeatNodes>,
 }
 
 /// One bar.
@@ -64,14 +72,13 @@ struct BarStrain {
 }
 
 impl YieldingBars {
-    /// `x`: positions of all nodes at t = 0. `free`: length without force over that at t = 0. `damping`: factor of stiffness-proportional
+    /// `x`: positions of all nodes at t = 0. `free`: length without force over that at t = 0, which `heat` changes. `damping`: factor of stiffness-proportional
     /// damping (time).
     pub fn new(
         elements: &[[usize; 2]],
-        axial_stiffness: f64,
-        law: &MaterialLaw,
+        (axial_stiffness, law): (f64, &MaterialLaw),
         tension_only: bool,
-        free: f64,
+        (free, heat): (f64, &Heat),
         x: &[Vec3],
         damping: f64,
     ) -> Self {
@@ -86,6 +93,7 @@ impl YieldingBars {
             tension_only,
             damping,
             variables: law.history(Uniaxial),
+            heat: HeatNodes::new(heat, elements.iter().map(|nodes| &nodes[..]), x),
         }
     }
 
@@ -97,7 +105,22 @@ impl YieldingBars {
         let more = elongation(&before, before.norm(), &stretch(a, b, start), length);
         // Coincident points define no direction: there is no force until they separate.
         let e = if length > 0.0 { dx / length } else { Vec3::zeros() };
-        BarStrain { e, length, strain: ((before.norm() - free) + more) / free, strain_rate: e.dot(&dv) / free, dv }
+        let grown = self.heat.as_ref().map_or(0.0, |heat| heat.strain(nodes)[0]);
+        let strain = ((before.norm() - free) + more) / free - grown;
+        BarStrain { e, length, strain, strain_rate: e.dot(&dv) / free, dv }
+    }
+
+    /// Widens the matrix of a bar by the rows and columns of its temperature.
+    fn widen(&self, e: usize, now: &Configuration, K: &mut [f64]) {
+        let Some(heat) = &self.heat else { return };
+        let at = self.strain(e, now.nodes);
+        let modulus = self.tension(&at, now.dt, &now.history[self.history_range(e)], Moduli::Elastic).modulus;
+        let force = self.area * modulus * at.e;
+        heat.widen(3, K, |_, column| {
+            column[..3].copy_from_slice(force.as_slice());
+            column[3..].copy_from_slice((-force).as_slice());
+            [-self.area * modulus * self.elements[e].free, 0.0, 0.0]
+        });
     }
 
     /// The range of the history of the group that bar `e` has.
@@ -152,7 +175,7 @@ impl Elements for YieldingBars {
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.elements[e].nodes
+        self.heat.as_ref().map_or(&self.elements[e].nodes, |heat| heat.nodes(e))
     }
 
     fn dofs(&self) -> usize {
@@ -176,6 +199,9 @@ impl Mechanics for YieldingBars {
             let f = (tension.material + tension.damping) * at.e;
             subtract(&mut F[*a], 0, &-f);
             subtract(&mut F[*b], 0, &f);
+            if let Some(heat) = &self.heat {
+                heat.subtract_forces(&[tension.material * self.elements[e].free, 0.0, 0.0], F);
+            }
         }
     }
 
@@ -198,6 +224,7 @@ impl Mechanics for YieldingBars {
                 K[6 * (3 + i) + 3 + j] = k[(i, j)];
             }
         }
+        self.widen(e, now, K);
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
@@ -218,6 +245,7 @@ impl Mechanics for YieldingBars {
                 K[6 * (3 + i) + 3 + j] = k[(i, j)];
             }
         }
+        self.widen(e, now, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {

@@ -122,9 +122,9 @@ pub(super) fn set_pair(k: &base::math::Mat3, K: &mut [f64]) {
     }
 }
 
-/// Writes the matrix of two nodes with the stiffness `k` between them, and of a third node whose displacement along x adds to the
-/// elongation. The force has the derivative `axial` by that, and `by_end` by the position of the second node; it acts along `e`.
-fn set_taken_up(k: &base::math::Mat3, axial: f64, (e, by_end): (&Vec3, &Vec3), K: &mut [f64]) {
+/// Writes the matrix of two nodes with the stiffness `k` between them, and of a third node whose displacement along x adds `taken` times
+/// itself to the elongation. The force has the derivative `axial` by that, and `by_end` by the position of the second node; it acts along `e`.
+fn set_taken_up(k: &base::math::Mat3, (axial, taken): (f64, f64), (e, by_end): (&Vec3, &Vec3), K: &mut [f64]) {
     K.fill(0.0);
     for i in 0..3 {
         for j in 0..3 {
@@ -133,11 +133,11 @@ fn set_taken_up(k: &base::math::Mat3, axial: f64, (e, by_end): (&Vec3, &Vec3), K
             }
         }
         for (row, sign) in [(0, -1.0), (3, 1.0)] {
-            K[9 * (row + i) + 6] = sign * axial * e[i];
-            K[9 * 6 + row + i] = sign * by_end[i];
+            K[9 * (row + i) + 6] = sign * (taken * axial) * e[i];
+            K[9 * 6 + row + i] = sign * taken * by_end[i];
         }
     }
-    K[9 * 6 + 6] = axial;
+    K[9 * 6 + 6] = taken * (taken * axial);
 }
 
 /// The force of a link and its derivatives.
@@ -166,8 +166,11 @@ pub struct Link {
     pub direction: Option<Vec3>,
     /// Failure force; `None` without failure.
     failure: Option<LinkFailure>,
-    /// With pretension: its nodes, and the node whose displacement along x is the length taken up.
+    /// With pretension or a temperature: its nodes, with the node whose displacement along x is taken up.
     take_up: Option<[usize; 3]>,
+    /// Length taken up per displacement of that node, and its position at t = 0.
+    taken: f64,
+    number: Vec3,
     /// Positions of its nodes at t = 0.
     start: [Vec3; 2],
     /// The vector from the first to the second then.
@@ -213,8 +216,22 @@ impl Link {
         };
         let rounding = 1e-12 * initial_length.abs().max(free_length.abs());
         let initial_elongation = touching.filter(|at| (elongation - at).abs() <= rounding).unwrap_or(elongation);
-        let (beta, failure, take_up) = (0.0, None, None);
-        Link { nodes, law, damping, beta, direction, failure, take_up, start, span, initial_length, initial_elongation }
+        let (beta, failure, take_up, taken) = (0.0, None, None, 1.0);
+        Link {
+            nodes,
+            law,
+            damping,
+            beta,
+            direction,
+            failure,
+            take_up,
+            taken,
+            number: start[0],
+            start,
+            span,
+            initial_length,
+            initial_elongation,
+        }
     }
 
     /// Returns the link with a factor on its stiffness, a time, for damping beside its damper.
@@ -231,6 +248,12 @@ impl Link {
     pub fn taken_up(self, node: Option<usize>) -> Link {
         let [a, b] = self.nodes;
         Link { take_up: node.map(|node| [a, b, node]), ..self }
+    }
+
+    /// Returns the link with the number of its temperature, see [`super::heat`]: a node, which lay at `number`, whose displacement adds
+    /// `growth` times itself to the length without force.
+    pub fn heated(self, node: usize, number: Vec3, growth: f64) -> Link {
+        Link { taken: -growth, number, ..self.taken_up(Some(node)) }
     }
 
     /// True for a link with take-up by a node.
@@ -255,8 +278,8 @@ impl Link {
         };
         let (mut delta, mut rate) = (self.initial_elongation + more, e.dot(&dv));
         if let Some([.., node]) = self.take_up {
-            delta += nodes[node].moved(&self.start[0]).x;
-            rate += nodes[node].v.x;
+            delta += self.taken * nodes[node].moved(&self.number).x;
+            rate += self.taken * nodes[node].v.x;
         }
         LinkAxis { e, length, delta, rate, dv }
     }
@@ -361,7 +384,7 @@ impl Mechanics for Links {
             subtract(&mut F[link.nodes[0]], 0, &-f);
             subtract(&mut F[link.nodes[1]], 0, &f);
             if let Some([.., node]) = link.take_up {
-                F[node][0] -= force;
+                F[node][0] -= link.taken * force;
             }
         }
     }
@@ -380,7 +403,7 @@ impl Mechanics for Links {
             by_end += r.damping * across * line.dv;
         }
         match link.is_taken_up() {
-            true => set_taken_up(&k, axial, (&line.e, &by_end), K),
+            true => set_taken_up(&k, (axial, link.taken), (&line.e, &by_end), K),
             false => set_pair(&k, K),
         }
     }
@@ -398,7 +421,7 @@ impl Mechanics for Links {
             k += link.law.force(link.line(stressed).delta).0 * across;
         }
         match link.is_taken_up() {
-            true => set_taken_up(&k, axial, (&line.e, &(axial * line.e)), K),
+            true => set_taken_up(&k, (axial, link.taken), (&line.e, &(axial * line.e)), K),
             false => set_pair(&k, K),
         }
     }

@@ -21,6 +21,7 @@ use deck::beams as words;
 use deck::words::Directions;
 use deck::words::Vector;
 use mechanics::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
+use mechanics::elements::heat::Heat;
 use std::collections::HashSet;
 
 /// Sine of the angle between orientation and axis below which they count as parallel.
@@ -84,7 +85,7 @@ fn read_beam<'d>(
     elements.iter_mut().for_each(|element| element.section = section);
     let graded = beam.grading.as_ref().is_some_and(|grading| grading.values.iter().any(|part| part.value < 1.0));
     let rotary_inertia = flag(&beam.rotary_inertia, true);
-    Some(Beam { name, order, mass, rotary_inertia, damping, yielding, graded, elements })
+    Some(Beam { name, order, mass, rotary_inertia, damping, yielding, graded, heat: Heat::NONE, elements })
 }
 
 /// A beam whose nodes and elements are to be made.

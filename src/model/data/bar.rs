@@ -8,6 +8,7 @@ use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
 use base::math::{Mat3, Vec3};
 use base::quantities::{AXIAL_FORCE, Column, PLASTIC_STRAIN};
 use deck::part_table::MassKind;
+use mechanics::elements::heat::Heat;
 use mechanics::materials::MaterialLaw;
 use mechanics::sections::Stiffness;
 
@@ -30,6 +31,8 @@ pub struct Bar {
     pub free: f64,
     /// The law of the material; `None` where it is elastic.
     pub yielding: Option<MaterialLaw>,
+    /// Temperatures.
+    pub heat: Heat,
     /// The two nodes of each element.
     pub elements: Vec<[usize; 2]>,
 }
@@ -58,7 +61,15 @@ impl PartAnswers for Bar {
     }
 
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
-        self.elements.iter_mut().flatten().for_each(visit);
+        self.elements.iter_mut().flatten().chain(self.heat.nodes_mut()).for_each(visit);
+    }
+
+    fn heat(&self) -> Option<&Heat> {
+        Some(&self.heat)
+    }
+
+    fn heat_mut(&mut self) -> Option<&mut Heat> {
+        Some(&mut self.heat)
     }
 
     fn yields(&self) -> bool {

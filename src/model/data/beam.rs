@@ -10,6 +10,7 @@ use base::math::{Mat3, Vec3};
 use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES, SECTION_STRESSES};
 use deck::part_table::MassKind;
 use mechanics::elements::beam::FibreModel;
+use mechanics::elements::heat::Heat;
 use mechanics::sections::Stiffness;
 
 /// A line of nodes, cut into elements with one or more inner nodes.
@@ -29,6 +30,8 @@ pub struct Beam {
     pub yielding: Option<FibreModel>,
     /// True where the elements of a segment differ in length.
     pub graded: bool,
+    /// Temperatures.
+    pub heat: Heat,
     /// The elements along the line.
     pub elements: Vec<BeamElement>,
 }
@@ -72,7 +75,15 @@ impl PartAnswers for Beam {
 
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         let order = self.order;
-        self.elements.iter_mut().flat_map(|e| &mut e.nodes[..=order]).for_each(visit);
+        self.elements.iter_mut().flat_map(|e| &mut e.nodes[..=order]).chain(self.heat.nodes_mut()).for_each(visit);
+    }
+
+    fn heat(&self) -> Option<&Heat> {
+        Some(&self.heat)
+    }
+
+    fn heat_mut(&mut self) -> Option<&mut Heat> {
+        Some(&mut self.heat)
     }
 
     fn yields(&self) -> bool {

@@ -6,6 +6,7 @@ use super::loading::OwnDamping;
 use super::node::Node;
 use base::math::{Mat3, Vec3};
 use deck::part_table::MassKind;
+use mechanics::elements::heat::Heat;
 use mechanics::sections::Stiffness;
 
 /// How an element is drawn.
@@ -68,6 +69,16 @@ pub trait PartAnswers {
 
     /// Lets material that yields stay elastic; returns where it would have yielded.
     fn make_elastic(&mut self) -> Option<YieldLimit> {
+        None
+    }
+
+    /// The temperatures of the part; `None` where it does not expand.
+    fn heat(&self) -> Option<&Heat> {
+        None
+    }
+
+    /// [`PartAnswers::heat`], to be changed.
+    fn heat_mut(&mut self) -> Option<&mut Heat> {
         None
     }
 

@@ -9,6 +9,7 @@ use super::part_answers::{Drawing, NodeWeights, PartAnswers};
 use base::math::{Mat3, Vec3};
 use base::quantities::{Column, PLASTIC_STRAIN, SHELL_RESULTANTS, VON_MISES};
 use deck::part_table::MassKind;
+use mechanics::elements::heat::Heat;
 use mechanics::elements::shell::{self, LayerModel, MOST_NODES, Plate};
 use mechanics::sections::Stiffness;
 
@@ -27,6 +28,8 @@ pub struct Shell {
     pub damping: OwnDamping,
     /// The layers and their law; `None` where the material is elastic.
     pub yielding: Option<LayerModel>,
+    /// Temperatures.
+    pub heat: Heat,
     /// Axis 1 of results, projected onto the surface element by element.
     pub axis: Vec3,
     /// Corners of each element: 3 or 4.
@@ -126,7 +129,15 @@ impl PartAnswers for Shell {
     }
 
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
-        self.elements.iter_mut().flat_map(|e| &mut e.nodes).for_each(visit);
+        self.elements.iter_mut().flat_map(|e| &mut e.nodes).chain(self.heat.nodes_mut()).for_each(visit);
+    }
+
+    fn heat(&self) -> Option<&Heat> {
+        Some(&self.heat)
+    }
+
+    fn heat_mut(&mut self) -> Option<&mut Heat> {
+        Some(&mut self.heat)
     }
 
     fn yields(&self) -> bool {

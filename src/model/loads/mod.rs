@@ -3,10 +3,12 @@
 pub mod per_length;
 pub mod placed;
 pub mod spread;
+pub mod temperature;
 
 use crate::data::{Actors, Load, Pressure};
 use crate::loads::placed::placed_load;
 use crate::loads::spread::spread_load;
+use crate::loads::temperature::is_temperature;
 use crate::places::nodes::Topology;
 use crate::procedure::stops::NamedActors;
 use crate::report::{Owner, Report};
@@ -35,7 +37,7 @@ pub fn loads<'d>(
     report: &mut Report<'d>,
 ) -> Loads {
     let mut loads = Loads::default();
-    for load in &scene.deck.loads {
+    for load in scene.deck.loads.iter().filter(|load| !is_temperature(load)) {
         let first = [loads.nodal.len(), loads.pressures.len()];
         let amplitude = amplitude(scene, load, report);
         if load.distance.is_some() {
@@ -80,14 +82,24 @@ fn nodal_load<'d>(
     let given = if load.total_force.is_some() { &load.total_force } else { &load.force };
     let share = if load.total_force.is_some() { 1.0 / spots.len().max(1) as f64 } else { 1.0 };
     let (force, moment) = (vec3_or_zero(given) * share, vec3_or_zero(&load.moment));
-    let keys = ["force", "total_force", "moment", "force_per_length", "local", "force_per_area", "pressure"];
+    let keys = [
+        "force",
+        "total_force",
+        "moment",
+        "force_per_length",
+        "local",
+        "force_per_area",
+        "pressure",
+        "temperature",
+        "temperature_gradient",
+    ];
     let unused = keys!(load; part, projected, profile);
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
     if given.is_none() && load.moment.is_none() && !unread {
         report.error_with::<()>(
             owner.span,
             "this load is empty",
-            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`",
+            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`; or `temperature`",
         );
     } else if !unread {
         report.reject_unused("a load at nodes", &unused);

@@ -18,6 +18,7 @@ use base::diagnostic::At;
 use base::math::{Vec3, curved_faces};
 use deck::shells as words;
 use deck::words::OneOrMany;
+use mechanics::elements::heat::Heat;
 use mechanics::elements::shell::{DRILLING, LayerModel, MOST_LAYERS, MOST_NODES, Plate};
 use std::collections::{HashMap, HashSet};
 
@@ -171,6 +172,7 @@ fn empty<'d>(
     let (elements, numbers, thicknesses) = (Vec::new(), Vec::new(), Vec::new());
     let name = name.to_owned();
     Some(Shell {
+        heat: Heat::NONE,
         name,
         plate,
         density,

@@ -79,6 +79,16 @@ impl<'d> CurrentStage<'d> {
         held.is_sorted_by(|before, after| before >= after) && !self.comes_later(stages)
     }
 
+    /// True where a table with these `stages`, once there, is in all later ones.
+    pub fn stays(&self, stages: &Maybe<Names>) -> bool {
+        self.sequence.in_time().map(|index| self.sequence.holds(index, stages)).is_sorted()
+    }
+
+    /// True for a stage that seeks factors of loads.
+    pub fn buckles(&self) -> bool {
+        buckles(self.table())
+    }
+
     /// True where no time has passed before the stage.
     pub fn is_first(&self) -> bool {
         self.sequence.before(self.index).is_none()

@@ -87,14 +87,23 @@ impl Derivatives {
     }
 }
 
-/// The factor on the motion with which nothing turns or stretches by more than [`TURN`].
+/// The factor on the motion with which nothing turns or stretches or heats by more than [`TURN`].
 fn step(cx: &Context, nodes: &[Node], motions: &[Vec6]) -> f64 {
     let turn = motions.iter().map(|motion| motion.fixed_rows::<3>(3).amax()).fold(0.0, f64::max);
     let mut largest = turn;
     for group in &cx.system.groups {
+        if let Some(heat) = cx.model.parts[group.part].heat() {
+            // Strain by temperature, and the turn over the length of the part.
+            for (of, number) in heat.numbers.iter().enumerate().filter_map(|(of, number)| Some((of, (*number)?))) {
+                let size = if of == 0 { heat.length } else { 1.0 };
+                largest = largest.max(motions[number].x.abs() / size);
+            }
+        }
         for e in 0..group.block.len() {
             let of = group.block.nodes(e);
-            for pair in of.windows(2) {
+            // Numbers are no places.
+            let places = of.iter().take_while(|node| !cx.model.nodes[**node].is_number).count();
+            for pair in of[..places].windows(2) {
                 let apart = (nodes[pair[1]].x - nodes[pair[0]].x).norm();
                 let moved = (motions[pair[1]] - motions[pair[0]]).fixed_rows::<3>(0).norm();
                 if apart > 0.0 {

@@ -61,24 +61,24 @@ fn slenderness(cx: &Context, branches: &[Branch]) -> f64 {
         let line = nodes[of[of.len() - 1]].x - nodes[of[0]].x;
         length += line.norm();
         let [group, e] = branch.element;
-        largest = largest.max(stretching_to_bending(&cx.system.groups[group], e, &now, &line));
+        largest = largest.max(stretching_to_bending(&cx.system.groups[group], (e, of), &now, &line));
     }
     largest * length * length
 }
 
-/// EA/EI of a beam at rest, the larger of both directions, from its matrix along `line` from end to end.
-fn stretching_to_bending(group: &Group, e: usize, now: &Configuration, line: &Vec3) -> f64 {
-    let of = group.block.nodes(e);
+/// EA/EI of a beam at rest, the larger of both directions, from its matrix along `line` from end to end. `of`: its nodes.
+fn stretching_to_bending(group: &Group, (e, of): (usize, &[usize]), now: &Configuration, line: &Vec3) -> f64 {
+    let width = 6 * group.block.nodes(e).len();
     let along = line.normalize();
     let frame = frame_along(&along);
     let half = 0.5 * line.norm();
-    let mut K = vec![0.0; (6 * of.len()).pow(2)];
+    let mut K = vec![0.0; width * width];
     group.block.tangent(e, &group.configuration(now), 0.0, Moduli::Elastic, &mut K);
     let energy = |motion: &dyn Fn(f64) -> [Vec3; 2]| {
         let place = |node: &Node| 2.0 * (node.x - now.nodes[of[0]].x).dot(line) / line.norm_squared() - 1.0;
         let x: Vec<f64> =
             of.iter().flat_map(|&node| motion(place(&now.nodes[node]))).flat_map(|v| [v.x, v.y, v.z]).collect();
-        let rows = K.chunks(x.len()).zip(&x);
+        let rows = K.chunks(width).zip(&x);
         rows.map(|(row, x_i)| x_i * row.iter().zip(&x).map(|(k, x_j)| k * x_j).sum::<f64>()).sum::<f64>()
     };
     let stretching = energy(&|s| [half * s * along, Vec3::zeros()]);
@@ -152,7 +152,9 @@ impl Graph {
             let block = &group.block;
             let is_beam = group.kind.is_deformable() && !group.kind.is_surface() && block.dofs() == 6;
             for e in 0..block.len() {
-                let nodes = block.nodes(e);
+                let is_place = |node: &usize| !cx.model.nodes[*node].is_number;
+                let own = block.nodes(e).iter().take_while(|node| is_place(node)).count();
+                let nodes = &block.nodes(e)[..own];
                 if is_beam {
                     branches.push(Branch::new(nodes, None, [number, e]));
                 } else {

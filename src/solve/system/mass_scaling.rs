@@ -239,13 +239,18 @@ impl<'m> Elements<'m> {
         let block = &group.block;
         let history = vec![0.0; group.history.len()];
         let now = Configuration { history: &history, ..Configuration::of(&self.nodes) };
-        let length = (block.dofs() * block.nodes(0).len()).pow(2);
+        let part = &self.model.parts[group.part];
+        let (width, own) = (block.dofs() * block.nodes(0).len(), block.dofs() * part.nodes(0).len());
+        let length = width.pow(2);
         let mut K = vec![0.0; CHUNK * length];
-        let part = assembled(&self.model.parts[group.part]);
+        let part = assembled(part);
         for first in (0..block.len()).step_by(CHUNK) {
             let K = &mut K[..length * CHUNK.min(block.len() - first)];
             block.tangents(first, &now, 0.0, Moduli::Elastic, K);
-            for (K, e) in K.chunks(length).zip(group.first + first..) {
+            for (K, e) in K.chunks_mut(length).zip(group.first + first..) {
+                // Temperatures have no mass.
+                (0..own).for_each(|row| K.copy_within(row * width..row * width + own, row * own));
+                let K = &K[..own * own];
                 let element = part.lumped(e, &self.model.stiffnesses, &self.masses);
                 let spacing = part.spacing(e, &self.masses);
                 each(e, K, element.as_ref().map(|element| (element, &spacing)));

@@ -5,6 +5,7 @@ use crate::support::random::{turn, vector};
 use nalgebra::{DMatrix, DVector};
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::shell::{
     CurvedQuadrilaterals, CurvedTriangles, DRILLING, LayerModel, NineNodes, Plate, ShellGeometry, SixNodes,
 };
@@ -40,8 +41,8 @@ impl Mesh {
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
         let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry::new(nodes, normals));
         match self.elements[0].len() {
-            6 => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(all, &self.x, plate, 0.0),
-            _ => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(all, &self.x, plate, 0.0),
+            6 => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(all, &self.x, (plate, &Heat::NONE), 0.0),
+            _ => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(all, &self.x, (plate, &Heat::NONE), 0.0),
         }
     }
 

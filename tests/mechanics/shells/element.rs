@@ -5,6 +5,7 @@ use crate::support::random::{turn, vector};
 use nalgebra::{DMatrix, DVector};
 use rand::SeedableRng;
 use rand::rngs::StdRng;
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::shell::{
     DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
@@ -42,8 +43,8 @@ impl Mesh {
             self.elements.iter().map(|e| e.iter().map(|&n| self.normals[n]).collect()).collect();
         let all = self.elements.iter().zip(&normals).map(|(nodes, normals)| ShellGeometry::new(nodes, normals));
         match self.elements[0].len() {
-            3 => yielding.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, plate, 0.0),
-            _ => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, plate, 0.0),
+            3 => yielding.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, (plate, &Heat::NONE), 0.0),
+            _ => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, (plate, &Heat::NONE), 0.0),
         }
     }
 

@@ -4,6 +4,7 @@ use super::benchmarks::read;
 use crate::support;
 use rand::rngs::StdRng;
 use rand::{RngExt, SeedableRng};
+use rdsolve::elements::heat::Heat;
 use rdsolve::elements::shell::{
     DRILLING, LayerModel, Plate, Quadrilateral, Quadrilaterals, ShellGeometry, Triangle, Triangles,
 };
@@ -39,8 +40,8 @@ impl Patch {
         match (yielding, self.elements[0].len()) {
             (None, 3) => Box::new(Triangles::new(all, &self.x, &plate, 0.0)),
             (None, _) => Box::new(Quadrilaterals::new(all, &self.x, &plate, 0.0)),
-            (Some(law), 3) => law.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, &plate, 0.0),
-            (Some(law), _) => law.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, &plate, 0.0),
+            (Some(law), 3) => law.shells::<Triangle, 3, 2, 3, 7>(all, &self.x, (&plate, &Heat::NONE), 0.0),
+            (Some(law), _) => law.shells::<Quadrilateral, 4, 3, 6, 11>(all, &self.x, (&plate, &Heat::NONE), 0.0),
         }
     }
 

@@ -1,5 +1,6 @@
 //! Forces, energies and results of beams.
 
+use super::heated::less;
 use super::kinematics::{Beam, BeamMotion, Beams, GaussPoint, Pack};
 use super::lane_section::SectionStiffness;
 use super::quaternion::{left, right, times_conjugate};
@@ -12,6 +13,7 @@ use crate::state::{Configuration, Node};
 use base::math::lanes::{LANES, Lanes};
 use base::math::number::{LaneVec3, Number};
 use base::math::{Mat3, Vec3};
+use std::array::from_fn;
 
 /// Least number of elements for computing eight side by side; the results are bitwise the same.
 const WORTH_A_PACK: usize = 6;
@@ -91,16 +93,30 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         acts.then(|| Damping { factor: self.damping, elastic: BeamStiffness::side_by_side(|_| section.elastic()) })
     }
 
-    /// Internal forces and moments on the nodes of an element.
+    /// Internal forces and moments on the nodes of an element, and the integrals of n and m over its length where something heats it.
     #[inline(never)]
-    fn nodal_forces(&self, e: usize, now: &Configuration) -> [Force; N] {
+    fn nodal_forces(&self, e: usize, now: &Configuration) -> ([Force; N], [Vec3; 2]) {
         let (pack, motion) = self.one(e, now.nodes);
         let section = &self.elements[e].section;
-        let damping = self.damping_of(e, now);
-        forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
-            let (gamma, kappa) = point.strains();
-            single(section.stress(g, &gamma, &kappa, now))
-        })
+        let (damping, free) = (self.damping_of(e, now), self.free_strain(e, now.nodes));
+        let mut sums = [Vec3::zeros(); 2];
+        let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
+            let (gamma, kappa) = less(point.strains(), free.as_ref());
+            let (n, m) = section.stress(g, &gamma, &kappa, now);
+            self.sum(e, g, (&n, &m), free.as_ref(), &mut sums);
+            single((n, m))
+        });
+        (forces, sums)
+    }
+
+    /// Adds the stress at point `g` to the integrals over the length, where something heats the element.
+    #[inline]
+    fn sum(&self, e: usize, g: usize, (n, m): (&Vec3, &Vec3), free: Option<&[Vec3; 2]>, sums: &mut [Vec3; 2]) {
+        if free.is_some() {
+            let weight = self.shape.weight[g] * self.elements[e].jacobian;
+            sums[0] += weight * n;
+            sums[1] += weight * m;
+        }
     }
 
     /// Internal forces and moments on the nodes of some elements that stay elastic, side by side.
@@ -116,18 +132,26 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 
     /// Subtracts forces on the nodes of element `e` from `F`.
     #[inline(always)]
-    fn subtract_from_nodes(&self, e: usize, f: &[Force; N], F: &mut [Force]) {
+    fn subtract_from_nodes(&self, e: usize, (f, sums): (&[Force; N], &[Vec3; 2]), F: &mut [Force]) {
         for a in 0..N {
             let F = &mut F[self.elements[e].nodes[a]];
             (0..6).for_each(|i| F[i] -= f[a][i]);
         }
+        if let Some(heat) = &self.heat {
+            heat.nodes.subtract_forces(&heat.work(e, &self.elements[e].tangent, sums), F);
+        }
+    }
+
+    /// The part of the memory of a matrix for the nodes of the element itself.
+    fn own_matrix<'k>(&self, K: &'k mut [f64]) -> &'k mut [f64] {
+        if self.heat.is_some() { &mut K[..36 * N * N] } else { K }
     }
 
     /// Tangents of elements into `K`, one after the other, see [`Mechanics::tangent`]: as many as `T` has lanes, or fewer. The stresses are
-    /// those at the nodes `previous`, where there are such.
+    /// those at the nodes `previous`, where there are such. A single element may have strains `free` of stress.
     fn tangents_of<T: Number>(
         &self,
-        elements: &[Beam<N, S>],
+        (elements, free): (&[Beam<N, S>], Option<[Vec3; 2]>),
         (now, previous): (&Configuration, Option<&[Node]>),
         rate_weight: Option<f64>,
         moduli: Moduli,
@@ -138,7 +162,13 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
         let elastic = BeamStiffness::side_by_side(|lane| section(lane).elastic());
         let sections = PackSections {
             points: self.integration_points(),
-            linearise: &|g, strain| S::linearise(section, g, strain, (now, moduli), &elastic),
+            linearise: &|g, strain| {
+                let strain = match &free {
+                    None => *strain,
+                    Some(free) => from_fn(|k| strain[k] - LaneVec3::gather(|_| free[k])),
+                };
+                S::linearise(section, g, &strain, (now, moduli), &elastic)
+            },
             viscous: elastic.scaled(T::splat(self.damping)),
             has_failed: self.damping > 0.0 && section(0).has_failed(now.history),
         };
@@ -147,12 +177,42 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
 }
 
 impl<const N: usize, S: BeamSection> Beams<N, S> {
+    /// Γ and κ that an element has without stress; `None` where nothing heats it.
+    #[inline]
+    fn free_strain(&self, e: usize, nodes: &[Node]) -> Option<[Vec3; 2]> {
+        let heat = self.heat.as_ref()?;
+        Some(heat.strain(e, &self.elements[e].tangent, nodes))
+    }
+
+    /// Widens the matrix of an element by the rows and columns of its temperatures, with its stiffness before it yields.
+    fn widen(&self, e: usize, now: &Configuration, K: &mut [f64]) {
+        let Some(heat) = &self.heat else { return };
+        let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
+        let points = self.integration_points();
+        let length: f64 = (0..points).map(|g| self.shape.weight[g] * element.jacobian).sum();
+        heat.nodes.widen(6, K, |of, column| {
+            if element.section.has_failed(now.history) {
+                column.fill(0.0);
+                return [0.0; 3];
+            }
+            let [gamma, kappa] = heat.unit(e, &element.tangent, of);
+            let (n, m) = element.section.elastic().stress(&-gamma, &-kappa);
+            let stress = single((n, m));
+            let forces = forces_of(&pack, points, (&motion, now.nodes), None, &mut |_, _| stress);
+            column.copy_from_slice(forces.as_flattened());
+            heat.work(e, &element.tangent, &[length * n, length * m])
+        });
+    }
+}
+
+impl<const N: usize, S: BeamSection> Beams<N, S> {
     /// The energy in the intact fibres of a failing element, removed with it.
     fn lost_with(&self, e: usize, now: &Configuration) -> Dissipation {
         let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
+        let free = self.free_strain(e, now.nodes);
         let mut sum = Dissipation::default();
         for g in 0..self.integration_points() {
-            let (gamma, kappa) = pack.point(g, &motion).strains();
+            let (gamma, kappa) = less(pack.point(g, &motion).strains(), free.as_ref());
             sum += element.section.lost(g, (&gamma, &kappa), now) * (self.shape.weight[g] * element.jacobian);
         }
         sum
@@ -165,11 +225,15 @@ impl<const N: usize, S: BeamSection> Elements for Beams<N, S> {
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.elements[e].nodes
+        self.heat.as_ref().map_or(&self.elements[e].nodes, |heat| heat.nodes.nodes(e))
     }
 
     fn dofs(&self) -> usize {
         6
+    }
+
+    fn is_rotational(&self, _: usize, node: usize) -> bool {
+        node < N
     }
 }
 
@@ -183,7 +247,7 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
-        if S::IS_ELASTIC && self.len() >= WORTH_A_PACK {
+        if S::IS_ELASTIC && self.heat.is_none() && self.len() >= WORTH_A_PACK {
             for elements in self.elements.chunks(LANES) {
                 let f = self.forces_side_by_side(elements, now);
                 // A node gets the forces of its elements in their order.
@@ -197,7 +261,8 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
             return;
         }
         for e in 0..self.len() {
-            self.subtract_from_nodes(e, &self.nodal_forces(e, now), F);
+            let (forces, sums) = self.nodal_forces(e, now);
+            self.subtract_from_nodes(e, (&forces, &sums), F);
         }
     }
 
@@ -205,14 +270,16 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
         let mut sum = Dissipation::default();
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
-            let damping = self.damping_of(e, now);
+            let (damping, free) = (self.damping_of(e, now), self.free_strain(e, now.nodes));
+            let mut sums = [Vec3::zeros(); 2];
             let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
-                let (gamma, kappa) = point.strains();
+                let (gamma, kappa) = less(point.strains(), free.as_ref());
                 let (n, m, spent) = element.section.advance(g, (&gamma, &kappa), now, new);
                 sum += spent * (self.shape.weight[g] * element.jacobian);
+                self.sum(e, g, (&n, &m), free.as_ref(), &mut sums);
                 single((n, m))
             });
-            self.subtract_from_nodes(e, &forces, F);
+            self.subtract_from_nodes(e, (&forces, &sums), F);
             if element.section.has_failed(new) && !element.section.has_failed(now.history) {
                 sum += self.lost_with(e, &Configuration { history: new, ..*now });
             }
@@ -223,36 +290,45 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         // In yielding material the current state matters more than the stretching by a correction.
         let previous = now.previous.filter(|_| S::IS_ELASTIC);
-        self.tangents_of::<f64>(&self.elements[e..=e], (now, previous), Some(rate_weight), moduli, K);
+        let of = (&self.elements[e..=e], self.free_strain(e, previous.unwrap_or(now.nodes)));
+        self.tangents_of::<f64>(of, (now, previous), Some(rate_weight), moduli, self.own_matrix(K));
+        self.widen(e, now, K);
     }
 
     fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         let length = 36 * N * N;
+        if let Some(heat) = &self.heat {
+            let each = K.chunks_mut(heat.nodes.width(6).pow(2)).enumerate();
+            return each.for_each(|(k, K)| self.tangent(first + k, now, rate_weight, moduli, K));
+        }
         let elements = &self.elements[first..first + K.len() / length];
         let previous = now.previous.filter(|_| S::IS_ELASTIC);
         for (elements, K) in elements.chunks(LANES).zip(K.chunks_mut(LANES * length)) {
             // Damping ends where an element fails.
             let fails = self.damping > 0.0 && elements.iter().any(|e| e.section.has_failed(now.history));
             if !fails && elements.len() >= WORTH_A_PACK {
-                self.tangents_of::<Lanes>(elements, (now, previous), Some(rate_weight), moduli, K);
+                self.tangents_of::<Lanes>((elements, None), (now, previous), Some(rate_weight), moduli, K);
                 continue;
             }
             for (one, K) in elements.chunks(1).zip(K.chunks_mut(length)) {
-                self.tangents_of::<f64>(one, (now, previous), Some(rate_weight), moduli, K);
+                self.tangents_of::<f64>((one, None), (now, previous), Some(rate_weight), moduli, K);
             }
         }
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        self.tangents_of::<f64>(&self.elements[e..=e], (now, Some(stressed)), None, Moduli::Elastic, K);
+        let of = (&self.elements[e..=e], self.free_strain(e, stressed));
+        self.tangents_of::<f64>(of, (now, Some(stressed)), None, Moduli::Elastic, self.own_matrix(K));
+        self.widen(e, now, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut sum = Dissipation::default();
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
+            let free = self.free_strain(e, now.nodes);
             for g in 0..self.integration_points() {
-                let (gamma, kappa) = pack.point(g, &motion).strains();
+                let (gamma, kappa) = less(pack.point(g, &motion).strains(), free.as_ref());
                 let dissipation = element.section.update_history(g, (&gamma, &kappa), now, part, new);
                 sum += dissipation * (self.shape.weight[g] * element.jacobian);
             }
@@ -266,7 +342,7 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
 
 impl<const N: usize, S: BeamSection> Results for Beams<N, S> {
     fn end_forces(&self, e: usize, now: &Configuration) -> Option<[Force; 2]> {
-        let forces = self.nodal_forces(e, now);
+        let (forces, _) = self.nodal_forces(e, now);
         Some([forces[0], forces[N - 1]])
     }
 
@@ -274,8 +350,9 @@ impl<const N: usize, S: BeamSection> Results for Beams<N, S> {
         let mut sum = 0.0;
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
+            let free = self.free_strain(e, now.nodes);
             for g in 0..self.integration_points() {
-                let (gamma, kappa) = pack.point(g, &motion).strains();
+                let (gamma, kappa) = less(pack.point(g, &motion).strains(), free.as_ref());
                 let energy = element.section.energy(g, &gamma, &kappa, now);
                 sum += self.shape.weight[g] * element.jacobian * energy;
             }
@@ -290,7 +367,8 @@ impl<const N: usize, S: BeamSection> Results for Beams<N, S> {
 
     fn point(&self, e: usize, g: usize, frame: &Mat3, now: &Configuration) -> Option<IntegrationPoint> {
         let (element, (pack, motion)) = (&self.elements[e], self.one(e, now.nodes));
-        let (gamma, kappa) = pack.point(g, &motion).strains();
+        let free = self.free_strain(e, now.nodes);
+        let (gamma, kappa) = less(pack.point(g, &motion).strains(), free.as_ref());
         let (n, m) = element.section.stress(g, &gamma, &kappa, now);
         let (n, m) = (frame.tr_mul(&n), frame.tr_mul(&m));
         Some(IntegrationPoint {

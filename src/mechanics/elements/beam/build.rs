@@ -1,10 +1,11 @@
 //! Beams as the model describes them, and the quantities computed once from the undeformed geometry.
 
 use super::fibres::{FibreProfile, FibreSection};
-use super::kinematics::{Beam, Beams};
+use super::kinematics::{Beam, BeamHeat, Beams};
 use super::section::{BeamSection, BeamStiffness};
 use super::shape::{IntegrationRule, ShapeFunctions};
 use crate::elements::block::ElementBlock;
+use crate::elements::heat::{Heat, HeatNodes};
 use crate::materials::{FibreStress, MaterialLaw, StressState, Uniaxial};
 use crate::sections::{Fibre, Stiffness};
 use base::math::{Mat3, Vec3};
@@ -20,24 +21,34 @@ pub struct BeamGeometry<'a> {
     pub stiffness: &'a Stiffness,
 }
 
-/// Elastic beams of a polynomial order, 1 to 4. `x`: positions of all nodes at t = 0; `damping`: factor of stiffness-proportional damping
-/// (time). All kinds of beams are made here, so that no other crate compiles them again.
-pub fn elastic_beams(order: usize, elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Box<dyn ElementBlock> {
+/// What all elements of a beam have in common.
+#[derive(Clone, Copy)]
+pub struct BeamSetting<'a> {
+    /// Positions of all nodes at t = 0.
+    pub x: &'a [Vec3],
+    /// Factor of stiffness-proportional damping (time).
+    pub damping: f64,
+    /// Temperatures.
+    pub heat: &'a Heat,
+}
+
+/// Elastic beams of a polynomial order, 1 to 4. All kinds of beams are made here, so that no other crate compiles them again.
+pub fn elastic_beams(order: usize, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
     match order {
-        1 => Box::new(Beams::<2>::new(elements, x, damping)),
-        2 => Box::new(Beams::<3>::new(elements, x, damping)),
-        3 => Box::new(Beams::<4>::new(elements, x, damping)),
-        _ => Box::new(Beams::<5>::new(elements, x, damping)),
+        1 => Box::new(Beams::<2>::new(elements, setting)),
+        2 => Box::new(Beams::<3>::new(elements, setting)),
+        3 => Box::new(Beams::<4>::new(elements, setting)),
+        _ => Box::new(Beams::<5>::new(elements, setting)),
     }
 }
 
 impl<const N: usize> Beams<N> {
-    fn new(elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Self {
+    fn new(elements: &[BeamGeometry], setting: BeamSetting) -> Self {
         let section = |e: &BeamGeometry, length: f64| match N {
             2 => BeamStiffness::new(&with_bending_flexibility(e.stiffness, length), e.frame),
             _ => BeamStiffness::new(e.stiffness, e.frame),
         };
-        Beams::build(elements, x, damping, IntegrationRule::Gauss.points(N - 1), section)
+        Beams::build(elements, setting, IntegrationRule::Gauss.points(N - 1), section)
     }
 }
 
@@ -59,19 +70,19 @@ pub struct FibreModel {
 impl FibreModel {
     /// Beams of a polynomial order, 1 to 4, all of one section. The shear stiffness of two-node elements is not corrected, because the
     /// correction is that of an elastic beam.
-    pub fn beams(&self, order: usize, elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Box<dyn ElementBlock> {
+    pub fn beams(&self, order: usize, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
         match order {
-            1 => self.of_nodes::<2>(elements, x, damping),
-            2 => self.of_nodes::<3>(elements, x, damping),
-            3 => self.of_nodes::<4>(elements, x, damping),
-            _ => self.of_nodes::<5>(elements, x, damping),
+            1 => self.of_nodes::<2>(elements, setting),
+            2 => self.of_nodes::<3>(elements, setting),
+            3 => self.of_nodes::<4>(elements, setting),
+            _ => self.of_nodes::<5>(elements, setting),
         }
     }
 
-    fn of_nodes<const N: usize>(&self, elements: &[BeamGeometry], x: &[Vec3], damping: f64) -> Box<dyn ElementBlock> {
+    fn of_nodes<const N: usize>(&self, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
         match self.shear {
-            true => self.in_state::<N, _, 3>(FibreStress, elements, x, damping),
-            false => self.in_state::<N, _, 1>(Uniaxial, elements, x, damping),
+            true => self.in_state::<N, _, 3>(FibreStress, elements, setting),
+            false => self.in_state::<N, _, 1>(Uniaxial, elements, setting),
         }
     }
 
@@ -80,8 +91,7 @@ impl FibreModel {
         &self,
         state: S,
         elements: &[BeamGeometry],
-        x: &[Vec3],
-        damping: f64,
+        setting: BeamSetting,
     ) -> Box<dyn ElementBlock> {
         let (mut profile, mut first) = (None, 0);
         let section = |e: &BeamGeometry, _| {
@@ -90,7 +100,7 @@ impl FibreModel {
             first += section.history();
             section
         };
-        Box::new(Beams::<N, FibreSection<S, C>>::build(elements, x, damping, self.rule.points(self.points), section))
+        Box::new(Beams::<N, FibreSection<S, C>>::build(elements, setting, self.rule.points(self.points), section))
     }
 }
 
@@ -98,11 +108,13 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     /// Beams integrated by `rule`; `section` makes the sections of an element of given length.
     fn build(
         elements: &[BeamGeometry],
-        x: &[Vec3],
-        damping: f64,
+        BeamSetting { x, damping, heat }: BeamSetting,
         rule: (&'static [f64], &[f64]),
         mut section: impl FnMut(&BeamGeometry, f64) -> S,
     ) -> Self {
+        let nodes = HeatNodes::new(heat, elements.iter().map(|e| &e.nodes[..N]), x);
+        let axes = |e: &BeamGeometry| [1, 2].map(|k| e.frame.column(k).into_owned());
+        let heat = nodes.map(|nodes| BeamHeat { nodes, axes: elements.iter().map(axes).collect() });
         let elements = elements
             .iter()
             .map(|e| {
@@ -114,7 +126,7 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
                 Beam { nodes, start, jacobian: 0.5 * length, tangent: axis / length, section: section(e, length) }
             })
             .collect();
-        Beams { shape: ShapeFunctions::new(rule), elements, damping }
+        Beams { shape: ShapeFunctions::new(rule), elements, damping, heat }
     }
 }
 

@@ -3,6 +3,7 @@
 use super::quaternion::{Quat, dot, left, right_unit, rotation, vector};
 use super::section::{BeamSection, BeamStiffness};
 use super::shape::ShapeFunctions;
+use crate::elements::heat::HeatNodes;
 use crate::state::Node;
 use base::math::Vec3;
 use base::math::lanes::LANES;
@@ -16,6 +17,16 @@ pub(super) struct Beams<const N: usize, S = BeamStiffness> {
     pub(super) elements: Vec<Beam<N, S>>,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
+    /// Temperatures; `None` where nothing heats the beams.
+    pub(super) heat: Option<BeamHeat>,
+}
+
+/// The temperatures of beams.
+pub(super) struct BeamHeat {
+    /// The numbers.
+    pub nodes: HeatNodes,
+    /// The axes y and z of the section of each element, at t = 0.
+    pub axes: Vec<[Vec3; 2]>,
 }
 
 /// One element.

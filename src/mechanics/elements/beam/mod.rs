@@ -16,6 +16,7 @@ mod build;
 mod fibre_lanes;
 mod fibre_sum;
 mod fibres;
+mod heated;
 mod hessian;
 mod kinematics;
 mod lane_section;
@@ -24,7 +25,7 @@ mod section;
 mod shape;
 mod tangent;
 
-pub use build::{BeamGeometry, FibreModel, elastic_beams};
+pub use build::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
 pub use section::BeamStiffness;
 pub use shape::{IntegrationRule, MOST_POINTS, cubic_deflection};
 

@@ -1,5 +1,6 @@
 //! Forces, energies and results of shells.
 
+use super::in_plane::InPlane;
 use super::interpolation::Interpolation;
 use super::pack::{ShellPack, Shells, Strains};
 use super::results;
@@ -72,6 +73,54 @@ where
         }
     }
 
+    /// The part of the memory of a matrix for the nodes of the element itself.
+    fn own_matrix<'k>(&self, K: &'k mut [f64]) -> &'k mut [f64] {
+        if self.heat.is_some() { &mut K[..36 * N * N] } else { K }
+    }
+
+    /// Widens the matrix of an element by the rows and columns of its temperatures, with its stiffness before it yields.
+    fn widen(&self, e: usize, now: &Configuration, K: &mut [f64]) {
+        let (pack, lane) = self.place(e);
+        let (Some(nodes), Some(heat)) = (&self.heat, &pack.heat) else { return };
+        let units = [0, 1].map(|of| heat.derivative(of, now.nodes));
+        let failed = pack.sections.has_failed(lane, now.history);
+        nodes.widen(6, K, |of, column| {
+            if failed {
+                column.fill(0.0);
+                return [0.0; 3];
+            }
+            let stress = pack.elastic_stress(&units[of.min(1)]).less(&Strains::ZERO, -1.0);
+            let forces = pack.forces_of::<K>(now.nodes, stress);
+            let all = forces.as_flattened();
+            column.iter_mut().zip(all).for_each(|(k, force)| *k = force.as_array()[lane]);
+            let mut work = [stress.dot(&units[0], lane), stress.dot(&units[1], lane), 0.0];
+            if of == 0 {
+                work[0] += heat.second(&pack.elastic_stress(&pack.strains_at::<K>(now.nodes)), lane);
+            }
+            work
+        });
+    }
+
+    /// Subtracts the forces of the temperatures of a pack whose stress in the plane is given.
+    fn subtract_heat(
+        &self,
+        pack: &ShellPack<N, V, P, E, S>,
+        plane: &InPlane<P, E, Lanes>,
+        now: &Configuration,
+        F: &mut [Force],
+    ) {
+        let (Some(nodes), Some(heat)) = (&self.heat, &pack.heat) else { return };
+        let shear = pack.shear_stress(&pack.strains_at::<K>(now.nodes).shear);
+        let stress = Strains { plane: *plane, shear };
+        let units = [0, 1].map(|of| heat.derivative(of, now.nodes));
+        let mut work = [0.0; 3];
+        for lane in (0..pack.count).filter(|lane| !pack.sections.has_failed(*lane, now.history)) {
+            work[0] += stress.dot(&units[0], lane);
+            work[1] += stress.dot(&units[1], lane);
+        }
+        nodes.subtract_forces(&work, F);
+    }
+
     /// Adds the dissipation of the layers of a pack, and the remaining energy of elements that fail as a whole; the layers have counted
     /// their own.
     fn dissipated(
@@ -124,12 +173,19 @@ where
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
+        if let Some(heat) = &self.heat {
+            return heat.nodes(e);
+        }
         let (pack, lane) = self.place(e);
         &pack.nodes[lane]
     }
 
     fn dofs(&self) -> usize {
         6
+    }
+
+    fn is_rotational(&self, _: usize, node: usize) -> bool {
+        node < N
     }
 }
 
@@ -148,8 +204,13 @@ where
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for pack in &self.packs {
-            let stress = |sections: &S, strain: &_| sections.stress(strain, now);
+            let mut plane = InPlane::ZERO;
+            let stress = |sections: &S, strain: &_| {
+                plane = sections.stress(strain, now);
+                plane
+            };
             subtract(pack, pack.forces::<K>(now.nodes, self.damping, stress), now.history, F);
+            self.subtract_heat(pack, &plane, now, F);
         }
     }
 
@@ -158,18 +219,28 @@ where
         for pack in &self.packs {
             let mut spent = Spent::ZERO;
             let to = NewHistory { part: 1.0, new: &mut *new, spent: &mut spent };
-            let f = pack.forces::<K>(now.nodes, self.damping, |sections, strain| sections.advance(strain, now, to));
+            let mut plane = InPlane::ZERO;
+            let f = pack.forces::<K>(now.nodes, self.damping, |sections, strain| {
+                plane = sections.advance(strain, now, to);
+                plane
+            });
             subtract(pack, f, now.history, F);
+            self.subtract_heat(pack, &plane, now, F);
             self.dissipated(pack, &spent, now, new, &mut sum);
         }
         sum
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
-        self.own_tangents(self.place(e), now, moduli, rate_weight, K);
+        self.own_tangents(self.place(e), now, moduli, rate_weight, self.own_matrix(K));
+        self.widen(e, now, K);
     }
 
     fn tangents(&self, first: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, out: &mut [f64]) {
+        if let Some(heat) = &self.heat {
+            let each = out.chunks_mut(heat.width(6).pow(2)).enumerate();
+            return each.for_each(|(k, K)| self.tangent(first + k, now, rate_weight, moduli, K));
+        }
         let (length, mut e, mut rest) = (36 * N * N, first, out);
         while !rest.is_empty() {
             let (pack, lane) = self.place(e);
@@ -181,7 +252,8 @@ where
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        self.tangents_of(self.place(e), (now, Some(stressed)), Moduli::Elastic, None, K);
+        self.tangents_of(self.place(e), (now, Some(stressed)), Moduli::Elastic, None, self.own_matrix(K));
+        self.widen(e, now, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {

@@ -11,6 +11,7 @@ use super::plane_strains::PlaneStrains;
 use super::section::{Drilling, InPlaneSection, ShellStiffness, StiffnessPack};
 use super::surface::ElementSurface;
 use crate::elements::block::ElementBlock;
+use crate::elements::heat::Heat;
 use base::math::Vec3;
 use base::math::lanes::{LANES, Lanes};
 use nalgebra::{Matrix3, SMatrix};
@@ -111,7 +112,7 @@ impl LayerModel {
         &self,
         elements: impl Iterator<Item = ShellGeometry<'a>>,
         x: &[Vec3],
-        plate: &Plate,
+        (plate, heat): (&Plate, &Heat),
         damping: f64,
     ) -> Box<dyn ElementBlock>
     where
@@ -129,7 +130,7 @@ impl LayerModel {
         };
         let mut shells: Shells<K, N, V, P, E, LayerPack<P, E, Lanes>> = build(elements, x, plate, damping, section);
         shells.history = history;
-        Box::new(shells)
+        Box::new(shells.heated(heat, x))
     }
 }
 
@@ -154,7 +155,7 @@ where
             eight.clear();
         }
     }
-    Shells { packs, history: 0, damping, interpolation: PhantomData }
+    Shells { packs, history: 0, damping, heat: None, interpolation: PhantomData }
 }
 
 /// An undeformed element with its directors and tangents.

@@ -29,6 +29,7 @@ mod edge;
 mod edge_bending;
 mod edge_bubbles;
 mod geometry;
+mod heated;
 mod hybrid;
 mod in_plane;
 mod integrals;

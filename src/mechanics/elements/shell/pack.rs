@@ -5,16 +5,19 @@ use super::arc::Slopes;
 use super::camber::Camber;
 use super::edge::EdgeTangents;
 use super::edge_bending::EdgeBending;
+use super::heated::PackHeat;
 use super::in_plane::{InPlane, product};
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::rolled_edges::RolledEdges;
 use super::section::{InPlaneSection, ShellSections, StiffnessPack};
+use crate::elements::heat::HeatNodes;
 use crate::state::{Configuration, Node};
 use base::math::Vec3;
 use base::math::lanes::{LANES, Lanes, lanes};
 use base::math::number::LaneVec3;
 use std::array::from_fn;
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 /// A group of shells of one interpolation `K`, whose sections are of type `S`.
 pub struct Shells<K, const N: usize, const V: usize, const P: usize, const E: usize, S = StiffnessPack<P, E, Lanes>> {
@@ -24,6 +27,8 @@ pub struct Shells<K, const N: usize, const V: usize, const P: usize, const E: us
     pub(super) history: usize,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
+    /// Temperatures; `None` where nothing heats the shells.
+    pub(super) heat: Option<Arc<HeatNodes>>,
     /// The interpolation, which holds no data.
     pub(super) interpolation: PhantomData<K>,
 }
@@ -78,6 +83,8 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
     pub bent: EdgeBending<Lanes, N>,
     /// Strains at t = 0.
     pub start: Strains<N, P, E>,
+    /// Strains by temperature; `None` where nothing heats the elements.
+    pub heat: Option<Box<PackHeat<N, P, E>>>,
     /// The sections side by side.
     pub sections: S,
 }
@@ -182,6 +189,7 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
             shear: from_fn(|i| from_fn(|j| of(&|e| e.shear[i][j]))),
             bent: EdgeBending(from_fn(|i| from_fn(|j| of(&|e| e.bent.0[i][j])))),
             start: Strains::ZERO,
+            heat: None,
             sections,
         };
         let triads = from_fn(|k| from_fn(|a| axes[a][k]));
@@ -291,10 +299,19 @@ impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPac
         Strains { plane, shear }
     }
 
-    /// Strains from t = 0.
+    /// Strains from t = 0, less those by the temperatures that are among `nodes`.
     #[inline(always)]
-    pub fn strains<K: Interpolation<N, V, P>>(&self, motion: &Motion<N>, slopes: &Slopes<V>) -> Strains<N, P, E> {
-        self.measure::<K>(motion, slopes).less(&self.start, 1.0)
+    pub fn strains<K: Interpolation<N, V, P>>(
+        &self,
+        motion: &Motion<N>,
+        slopes: &Slopes<V>,
+        nodes: &[Node],
+    ) -> Strains<N, P, E> {
+        let strains = self.measure::<K>(motion, slopes).less(&self.start, 1.0);
+        match &self.heat {
+            None => strains,
+            Some(heat) => heat.less(strains, nodes),
+        }
     }
 
     /// Strain rates, bending by chords: half the difference of the strains ahead and behind by a unit of time, which is exact for
@@ -422,7 +439,7 @@ where
     ) -> [[Lanes; 6]; N] {
         let motion = self.gather(nodes);
         let slopes = self.slopes(&motion);
-        let Strains { plane, shear } = self.strains::<K>(&motion, &slopes);
+        let Strains { plane, shear } = self.strains::<K>(&motion, &slopes, nodes);
         let plane = stress(&self.sections, &plane);
         let stress = Strains { shear: self.edge_stress::<K>(&shear, &plane), plane };
         let stress = self.pulled_back::<K>(stress, &motion, &slopes);
@@ -430,13 +447,19 @@ where
         if damping > 0.0 {
             g = g.plus(1.0, &self.viscous_gradient::<K>(damping, &motion, nodes));
         }
-        from_fn(|a| {
-            let mut moment = LaneVec3::ZERO;
-            for k in 0..3 {
-                moment += motion.triads[k][a].cross(&g.triads[k][a]);
-            }
-            from_fn(|i| if i < 3 { g.x[a].0[i] } else { moment.0[i - 3] })
-        })
+        on_nodes(&g, &motion)
+    }
+
+    /// The forces and moments on the nodes by a stress of the elements in the plane and of shear.
+    pub fn forces_of<K: Interpolation<N, V, P>>(&self, nodes: &[Node], stress: Strains<N, P, E>) -> [[Lanes; 6]; N] {
+        let motion = self.gather(nodes);
+        let slopes = self.slopes(&motion);
+        let shear = match K::EDGES_BEND {
+            true => from_fn(|e| stress.shear[e] + self.bent.stress(&stress.plane.bending)[e]),
+            false => stress.shear,
+        };
+        let stress = self.pulled_back::<K>(Strains { shear, ..stress }, &motion, &slopes);
+        on_nodes(&self.gradient::<K>(&stress, &motion, &slopes), &motion)
     }
 
     /// The gradient of the stress of damping.
@@ -463,10 +486,15 @@ where
         Strains { shear: self.edge_stress::<K>(&rates.shear, &plane), plane }.less(&Strains::ZERO, damping)
     }
 
+    /// The stress of elements that have not yielded.
+    pub fn elastic_stress(&self, strains: &Strains<N, P, E>) -> Strains<N, P, E> {
+        Strains { plane: self.sections.elastic().stress(&strains.plane), shear: self.shear_stress(&strains.shear) }
+    }
+
     /// Strains of the elements where their nodes are.
     pub fn strains_at<K: Interpolation<N, V, P>>(&self, nodes: &[Node]) -> Strains<N, P, E> {
         let motion = self.gather(nodes);
-        self.strains::<K>(&motion, &self.slopes(&motion))
+        self.strains::<K>(&motion, &self.slopes(&motion), nodes)
     }
 
     /// Elastic energy of an element at a strain: in the plane, and of transverse shear.
@@ -474,6 +502,18 @@ where
         let shear = Strains { plane: InPlane::ZERO, shear: self.shear_stress(&strains.shear) };
         [self.sections.energy(lane, &strains.plane.lane(lane), now), 0.5 * shear.dot(strains, lane)]
     }
+}
+
+/// The gradient by positions and rotations of the nodes.
+#[inline(always)]
+fn on_nodes<const N: usize>(g: &Motion<N>, motion: &Motion<N>) -> [[Lanes; 6]; N] {
+    from_fn(|a| {
+        let mut moment = LaneVec3::ZERO;
+        for k in 0..3 {
+            moment += motion.triads[k][a].cross(&g.triads[k][a]);
+        }
+        from_fn(|i| if i < 3 { g.x[a].0[i] } else { moment.0[i - 3] })
+    })
 }
 
 /// A stress as symmetric coefficients of pairs of slopes.

@@ -397,7 +397,7 @@ where
         let slopes = self.slopes(&motion);
         let strains = match stressed {
             Some(nodes) => self.strains_at::<K>(nodes),
-            None => self.strains::<K>(&motion, &slopes),
+            None => self.strains::<K>(&motion, &slopes, now.nodes),
         };
         let C = self.sections.linearise(&strains.plane, now, moduli);
         let stress = Strains { shear: self.edge_stress::<K>(&strains.shear, &C.stress), plane: C.stress };

@@ -123,6 +123,12 @@ fn motions(model: &Model, excitation: &Excitation, times: &[f64]) -> Vec<String>
             History::Acceleration => "acceleration",
         };
         let node = &model.nodes[restraint.node];
+        let heats = model.parts.iter().filter_map(|part| part.heat());
+        let mut numbers = heats.flat_map(|heat| heat.numbers.into_iter().enumerate().map(|at| (at, heat.length)));
+        if let Some(((of, _), length)) = numbers.find(|((_, number), _)| *number == Some(restraint.node)) {
+            let what = if of == 0 { "strain without stress" } else { "curvature without stress" };
+            return Some((format!("`{}`", node.label), what, motion.amplitude, motion.scale / length));
+        }
         let place = match node.is_number {
             true => format!("`{}`", node.label),
             false => format!("`{}` {}", node.label, DIRECTIONS[restraint.dof]),

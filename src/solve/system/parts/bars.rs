@@ -58,10 +58,13 @@ fn block(part: &Bar, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -
     let beta = model.damping.beta(&part.damping);
     let elements = &part.elements[piece];
     match &part.yielding {
-        None => Box::new(bar::elastic_bars(elements, part.axial_stiffness, part.tension_only, part.free, x, beta)),
-        Some(law) => {
+        None => {
             let stiffness = part.axial_stiffness;
-            Box::new(YieldingBars::new(elements, stiffness, law, part.tension_only, part.free, x, beta))
+            Box::new(bar::elastic_bars(elements, stiffness, part.tension_only, (part.free, &part.heat), x, beta))
+        }
+        Some(law) => {
+            let stiffness = (part.axial_stiffness, law);
+            Box::new(YieldingBars::new(elements, stiffness, part.tension_only, (part.free, &part.heat), x, beta))
         }
     }
 }

@@ -7,7 +7,7 @@ use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
 use crate::tolerances::plane::SMALL;
 use base::math::{Mat3, Vec3, quadrature};
-use mechanics::elements::beam::{BeamGeometry, FibreModel, elastic_beams};
+use mechanics::elements::beam::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
 use mechanics::elements::{ElementBlock, Force, IntegrationPoint};
 use mechanics::sections::{self, Stiffness};
 use mechanics::state::Configuration;
@@ -57,14 +57,15 @@ fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn Element
         stiffness: &model.stiffnesses[e.section],
     });
     let elements: Vec<BeamGeometry> = elements.collect();
+    let setting = BeamSetting { x, damping: beta, heat: &part.heat };
     match &part.yielding {
-        None => elastic_beams(part.order, &elements, x, beta),
+        None => elastic_beams(part.order, &elements, setting),
         Some(yielding) => {
             let fibres = match in_plane(part, plane) {
                 Some(along_z) => sections::flattened(&yielding.fibres, along_z),
                 None => yielding.fibres.clone(),
             };
-            FibreModel { fibres, ..yielding.clone() }.beams(part.order, &elements, x, beta)
+            FibreModel { fibres, ..yielding.clone() }.beams(part.order, &elements, setting)
         }
     }
 }

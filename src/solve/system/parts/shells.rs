@@ -122,6 +122,7 @@ fn alike(part: &Shell, piece: Range<usize>) -> Vec<Range<usize>> {
 fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting) -> Box<dyn ElementBlock> {
     let beta = model.damping.beta(&part.damping);
     let size = part.size();
+    let heat = &part.heat;
     let plate = &Plate { thickness: part.thickness(piece.start), ..part.plate };
     let elements = piece.map(|index| (&part.elements[index], index)).map(|(e, index)| shell::ShellGeometry {
         thickness: Some(part.thickness(index)),
@@ -130,14 +131,14 @@ fn block(part: &Shell, piece: Range<usize>, &Setting { model, x, .. }: &Setting)
         bulge: e.bulge,
     });
     match (&part.yielding, size) {
-        (None, 6) => Box::new(CurvedTriangles::new(elements, x, plate, beta)),
-        (None, 9) => Box::new(CurvedQuadrilaterals::new(elements, x, plate, beta)),
-        (Some(yielding), 6) => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(elements, x, plate, beta),
-        (Some(yielding), 9) => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(elements, x, plate, beta),
-        (None, 3) => Box::new(Triangles::new(elements, x, plate, beta)),
-        (None, _) => Box::new(Quadrilaterals::new(elements, x, plate, beta)),
-        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, plate, beta),
-        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(elements, x, plate, beta),
+        (None, 6) => Box::new(CurvedTriangles::new(elements, x, plate, beta).heated(heat, x)),
+        (None, 9) => Box::new(CurvedQuadrilaterals::new(elements, x, plate, beta).heated(heat, x)),
+        (Some(yielding), 6) => yielding.curved_shells::<SixNodes, 6, 9, 9, 9>(elements, x, (plate, heat), beta),
+        (Some(yielding), 9) => yielding.curved_shells::<NineNodes, 9, 20, 24, 12>(elements, x, (plate, heat), beta),
+        (None, 3) => Box::new(Triangles::new(elements, x, plate, beta).heated(heat, x)),
+        (None, _) => Box::new(Quadrilaterals::new(elements, x, plate, beta).heated(heat, x)),
+        (Some(yielding), 3) => yielding.shells::<Triangle, 3, 2, 3, 7>(elements, x, (plate, heat), beta),
+        (Some(yielding), _) => yielding.shells::<Quadrilateral, 4, 3, 6, 11>(elements, x, (plate, heat), beta),
     }
 }
 

@@ -49,11 +49,15 @@ where
     }
 
     fn nodes(&self, e: usize) -> &[usize] {
-        &self.elements[e].nodes
+        self.heat.as_ref().map_or(&self.elements[e].nodes, |heat| heat.nodes(e))
     }
 
     fn dofs(&self) -> usize {
         6
+    }
+
+    fn is_rotational(&self, _: usize, node: usize) -> bool {
+        node < N
     }
 }
 
@@ -73,7 +77,10 @@ where
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for element in self.elements.iter().filter(|element| !element.section.has_failed(0, now.history)) {
             let motion = element.gather(now.nodes);
-            let mut stress = stress(element, &element.strains(&motion), now);
+            let mut stress = stress(element, &element.strains(&motion, now.nodes), now);
+            if let Some(heat) = &element.heat {
+                heat.subtract_forces(&stress, now.nodes, F);
+            }
             if self.damping > 0.0 {
                 // The sum: this less minus one times the other.
                 let viscous = element.viscous_stress(-self.damping, &motion, now.nodes);
@@ -93,20 +100,23 @@ where
     }
 
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
-        tangent(self, e, (now, None), (self.damping > 0.0).then_some(rate_weight), moduli, K);
+        let own = self.own_matrix(K);
+        tangent(self, e, (now, None), (self.damping > 0.0).then_some(rate_weight), moduli, own);
         if self.elements[e].section.has_failed(0, now.history) {
-            K.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
+            own.iter_mut().for_each(|k| *k *= FAILED_STIFFNESS);
         }
+        self.widen(e, now, K);
     }
 
     fn stressed_tangent(&self, e: usize, now: &Configuration, stressed: &[Node], K: &mut [f64]) {
-        tangent(self, e, (now, Some(stressed)), None, Moduli::Elastic, K);
+        tangent(self, e, (now, Some(stressed)), None, Moduli::Elastic, self.own_matrix(K));
+        self.widen(e, now, K);
     }
 
     fn update_history(&self, now: &Configuration, part: f64, new: &mut [f64]) -> Dissipation {
         let mut dissipation = Dissipation::default();
         for element in &self.elements {
-            let strains = element.strains(&element.gather(now.nodes));
+            let strains = element.strains(&element.gather(now.nodes), now.nodes);
             let mut spent = Spent::ZERO;
             let to = NewHistory { part, new: &mut *new, spent: &mut spent };
             element.section.advance(&strains.plane, now, to);
@@ -127,7 +137,7 @@ where
 {
     fn energy(&self, now: &Configuration) -> f64 {
         let whole = self.elements.iter().filter(|element| !element.section.has_failed(0, now.history));
-        whole.map(|element| stored(element, &element.strains(&element.gather(now.nodes)), now)).sum()
+        whole.map(|element| stored(element, &element.strains(&element.gather(now.nodes), now.nodes), now)).sum()
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
@@ -147,7 +157,7 @@ where
         let element = &self.elements[e];
         let X: [Vec3; N] = from_fn(|a| start[a] - start[0]);
         let motion = element.gather(now.nodes);
-        let strains = element.strains(&motion);
+        let strains = element.strains(&motion, now.nodes);
         // A failed element has no stress.
         let part = if element.section.has_failed(0, now.history) { 0.0 } else { 1.0 };
         let stress = stress(element, &strains, now);
@@ -169,7 +179,7 @@ where
         // A failed element has no strain to report.
         let whole = self.elements.iter().enumerate().filter(|(_, one)| !one.section.has_failed(0, now.history));
         for (e, element) in whole.filter(|_| self.history > 0) {
-            let strain = element.section.surface_strain(&element.strains(&element.gather(now.nodes)).plane);
+            let strain = element.section.surface_strain(&element.strains(&element.gather(now.nodes), now.nodes).plane);
             if let Some((strain, is_logarithmic)) = strain {
                 of(e, strain, is_logarithmic);
             }

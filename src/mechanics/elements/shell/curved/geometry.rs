@@ -4,6 +4,7 @@ use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
 use super::sampling::CurvedStrains;
 use super::surface::{CurvedSurface, tangents};
 use crate::elements::block::ElementBlock;
+use crate::elements::heat::Heat;
 use crate::elements::shell::geometry::{Plate, SHEAR_FACTOR, ShellGeometry, squared};
 use crate::elements::shell::layers::{LayerModel, LayerPack};
 use crate::elements::shell::nodal_vectors::NodalVectors;
@@ -52,7 +53,7 @@ where
     ) -> CurvedShells<K, N, V, P, Q> {
         let mut section = |of: InPlaneSection<P, P>| StiffnessPack::gather(|_| &of.elastic);
         let elements = elements.map(|e| shell::<K, N, V, P, Q, _>(&e, x, plate, &mut section)).collect();
-        CurvedShells { elements, history: 0, damping, shape: PhantomData }
+        CurvedShells { elements, history: 0, damping, heat: None, shape: PhantomData }
     }
 }
 
@@ -63,7 +64,7 @@ impl LayerModel {
         &self,
         elements: impl Iterator<Item = ShellGeometry<'a>>,
         x: &[Vec3],
-        plate: &Plate,
+        (plate, heat): (&Plate, &Heat),
         damping: f64,
     ) -> Box<dyn ElementBlock>
     where
@@ -77,7 +78,8 @@ impl LayerModel {
             LayerPack::<P, P, f64>::new(&layers, &[(&of, first)])
         };
         let elements = elements.map(|e| shell::<K, N, V, P, Q, _>(&e, x, plate, &mut section)).collect();
-        Box::new(CurvedShells::<K, N, V, P, Q, _> { elements, history, damping, shape: PhantomData })
+        let shells = CurvedShells::<K, N, V, P, Q, _> { elements, history, damping, heat: None, shape: PhantomData };
+        Box::new(shells.heated(heat, x))
     }
 }
 
@@ -108,6 +110,7 @@ where
         start: CurvedStrain::ZERO,
         shear: shear_stiffness::<K, N, V, P, Q>(&surface, plate),
         drilling: [OF_NODES * stiff / N as f64, stiff / (N * N) as f64],
+        heat: None,
         section: section(in_plane),
     };
     shell.start = shell.measure(&NodalVectors { x: surface.X, triads: [D, T.map(|t| t[0]), T.map(|t| t[1])] });

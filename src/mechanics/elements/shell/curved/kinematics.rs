@@ -1,6 +1,8 @@
 //! Kinematics of a curved element: from the motion of its nodes to its strains, their rates and their derivatives.
 
+use super::heated::CurvedHeat;
 use super::sampling::Sampling;
+use crate::elements::heat::HeatNodes;
 use crate::elements::shell::in_plane::InPlane;
 use crate::elements::shell::nodal_vectors::{NodalVectors, sum};
 use crate::elements::shell::section::{ShellSections, StiffnessPack};
@@ -9,6 +11,7 @@ use base::math::Vec3;
 use base::math::curved_faces::{NineNodes, SixNodes};
 use std::array::from_fn;
 use std::marker::PhantomData;
+use std::sync::Arc;
 
 /// One curved element: N nodes, V slopes of the surface, P products of them, Q transverse shears.
 pub(super) struct CurvedShell<const N: usize, const V: usize, const P: usize, const Q: usize, S> {
@@ -28,6 +31,8 @@ pub(super) struct CurvedShell<const N: usize, const V: usize, const P: usize, co
     pub shear: [[f64; Q]; Q],
     /// Stiffness of drilling of a node, and of the mean of all.
     pub drilling: [f64; 2],
+    /// Strains by temperature; `None` where nothing heats the element.
+    pub heat: Option<Box<CurvedHeat<N, P, Q>>>,
     /// The sections at its integration points.
     pub section: S,
 }
@@ -83,6 +88,8 @@ pub struct CurvedShells<K, const N: usize, const V: usize, const P: usize, const
     pub(super) history: usize,
     /// Rayleigh factor on the stiffness (time): stress += factor · C · strain rate.
     pub(super) damping: f64,
+    /// Temperatures; `None` where nothing heats the shells.
+    pub(super) heat: Option<Arc<HeatNodes>>,
     /// The shape, which holds no data.
     pub(super) shape: PhantomData<K>,
 }
@@ -140,10 +147,14 @@ impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedSh
         strains
     }
 
-    /// Strains from t = 0.
+    /// Strains from t = 0, less those by the temperatures that are among `nodes`.
     #[inline(always)]
-    pub fn strains(&self, motion: &NodalVectors<N>) -> CurvedStrain<N, P, Q> {
-        self.measure(motion).less(&self.start, 1.0)
+    pub fn strains(&self, motion: &NodalVectors<N>, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
+        let strains = self.measure(motion).less(&self.start, 1.0);
+        match &self.heat {
+            None => strains,
+            Some(heat) => heat.less(strains, nodes),
+        }
     }
 
     /// Strain rates: half the difference of the strains ahead and behind by a unit of time, which is exact for polynomials of second

@@ -17,6 +17,7 @@
 mod block;
 mod bubble;
 mod geometry;
+mod heated;
 mod kinematics;
 mod quadrilateral;
 mod sampling;

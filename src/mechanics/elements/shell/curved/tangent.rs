@@ -171,8 +171,8 @@ pub(super) fn tangent<
     let element = &shells.elements[e];
     let motion = element.gather(now.nodes);
     let strains = match stressed {
-        Some(nodes) => element.strains(&element.gather(nodes)),
-        None => element.strains(&motion),
+        Some(nodes) => element.strains(&element.gather(nodes), nodes),
+        None => element.strains(&motion, now.nodes),
     };
     let C = element.section.linearise(&strains.plane, now, moduli);
     let stress = CurvedStrain {

@@ -1,0 +1,117 @@
+//! Temperatures of curved elements, see [`crate::elements::shell`]'s other elements: the strains that they have without stress.
+
+use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
+use super::sampling::CurvedStrains;
+use crate::elements::block::Force;
+use crate::elements::heat::{Heat, HeatNodes};
+use crate::elements::shell::heated::bending;
+use crate::elements::shell::nodal_vectors::NodalVectors;
+use crate::elements::shell::section::ShellSections;
+use crate::state::{Configuration, Node};
+use base::math::Vec3;
+use std::array::from_fn;
+use std::sync::Arc;
+
+/// The temperatures of an element.
+pub(super) struct CurvedHeat<const N: usize, const P: usize, const Q: usize> {
+    nodes: Arc<HeatNodes>,
+    /// Derivatives of the strains by the change of size, and by the curvature.
+    unit: [CurvedStrain<N, P, Q>; 2],
+}
+
+impl<const N: usize, const P: usize, const Q: usize> CurvedHeat<N, P, Q> {
+    /// Strains less those without stress. Products of slopes are of second degree in the change of size.
+    pub fn less(&self, strains: CurvedStrain<N, P, Q>, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
+        let [growth, curvature, _] = self.nodes.strain(nodes);
+        let [size, bend] = &self.unit;
+        let mut grown = size.less(&CurvedStrain::ZERO, growth);
+        grown.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + 0.5 * growth);
+        strains.less(&grown, 1.0).less(&bend.less(&CurvedStrain::ZERO, curvature), 1.0)
+    }
+
+    /// The derivative of the strains without stress by one of them.
+    fn derivative(&self, of: usize, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
+        let mut unit = self.unit[of.min(1)];
+        if of == 0 {
+            let growth = self.nodes.strain(nodes)[0];
+            unit.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + growth);
+        }
+        unit
+    }
+
+    /// The work of a stress by each of the strains.
+    fn work(&self, stress: &CurvedStrain<N, P, Q>, nodes: &[Node]) -> [f64; 3] {
+        [stress.dot(&self.derivative(0, nodes)), stress.dot(&self.derivative(1, nodes)), 0.0]
+    }
+
+    /// Subtracts the forces of the temperatures on their nodes from `F`.
+    pub fn subtract_forces(&self, stress: &CurvedStrain<N, P, Q>, nodes: &[Node], F: &mut [Force]) {
+        self.nodes.subtract_forces(&self.work(stress, nodes), F);
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedShell<N, V, P, Q, S> {
+    /// The derivatives of the strains by the change of size, and by the curvature.
+    fn units(&self, x: &[Vec3]) -> [CurvedStrain<N, P, Q>; 2] {
+        let places = self.nodes.map(|node| x[node]);
+        let none = [Vec3::zeros(); N];
+        let at = places.map(|place| place - places[0]);
+        let start = NodalVectors { x: at, triads: [self.D, self.T.map(|t| t[0]), self.T.map(|t| t[1])] };
+        let [sunk, turned] = bending(&places);
+        let sunk = from_fn(|a| sunk[a] - sunk[0]);
+        let ways = [NodalVectors { x: at, triads: [none; 3] }, NodalVectors { x: sunk, triads: [turned, none, none] }];
+        // Strains are of second degree, so differences are exact.
+        ways.map(|way| self.measure(&start.plus(1.0, &way)).less(&self.measure(&start.plus(-1.0, &way)), 0.5))
+    }
+}
+
+impl<K, const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedShells<K, N, V, P, Q, S>
+where
+    K: CurvedStrains<N, V, P, Q>,
+    S: ShellSections<P, P, f64>,
+{
+    /// Returns the shells with their temperatures. `x`: positions of all nodes at t = 0.
+    pub fn heated(mut self, heat: &Heat, x: &[Vec3]) -> Self {
+        let own = self.elements.iter().map(|element| &element.nodes[..]);
+        let Some(nodes) = HeatNodes::new(heat, own, x).map(Arc::new) else { return self };
+        for element in &mut self.elements {
+            element.heat = Some(Box::new(CurvedHeat { nodes: Arc::clone(&nodes), unit: element.units(x) }));
+        }
+        self.heat = Some(nodes);
+        self
+    }
+
+    /// The part of the memory of a matrix for the nodes of the element itself.
+    pub(super) fn own_matrix<'k>(&self, K: &'k mut [f64]) -> &'k mut [f64] {
+        if self.heat.is_some() { &mut K[..36 * N * N] } else { K }
+    }
+
+    /// Widens the matrix of an element by the rows and columns of its temperatures, with its stiffness before it yields.
+    pub(super) fn widen(&self, e: usize, now: &Configuration, K: &mut [f64]) {
+        let element = &self.elements[e];
+        let Some(heat) = &element.heat else { return };
+        let (failed, motion) = (element.section.has_failed(0, now.history), element.gather(now.nodes));
+        heat.nodes.widen(6, K, |of, column| {
+            if failed {
+                column.fill(0.0);
+                return [0.0; 3];
+            }
+            let unit = heat.derivative(of, now.nodes);
+            let stress = element.elastic_stress(&unit).less(&CurvedStrain::ZERO, -1.0);
+            let gradient = element.gradient(&stress, &motion);
+            for a in 0..N {
+                let moment: Vec3 = (0..3).map(|k| motion.triads[k][a].cross(&gradient.triads[k][a])).sum();
+                column[6 * a..6 * a + 3].copy_from_slice(gradient.x[a].as_slice());
+                column[6 * a + 3..6 * a + 6].copy_from_slice(moment.as_slice());
+            }
+            let mut work = heat.work(&stress, now.nodes);
+            if of == 0 {
+                // By the second derivative of the strains by the change of size.
+                let plane = element.elastic_stress(&element.strains(&motion, now.nodes)).plane;
+                let [size, _] = &heat.unit;
+                work[0] += plane.membrane.iter().zip(&size.plane.membrane).map(|(s, unit)| s * unit).sum::<f64>();
+            }
+            work
+        });
+    }
+}

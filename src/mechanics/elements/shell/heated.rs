@@ -1,0 +1,113 @@
+//! Temperatures of shells: the strains that elements have without stress.
+//!
+//! A uniform temperature enlarges an element like a picture of itself, so a surface of any shape that may expand has no stress. A gradient
+//! along the normal bends it to the curvature α dT/dz in both directions.
+
+use super::interpolation::Interpolation;
+use super::pack::{Motion, ShellPack, Shells, Strains};
+use super::section::ShellSections;
+use crate::elements::heat::{Heat, HeatNodes};
+use crate::state::Node;
+use base::math::Vec3;
+use base::math::lanes::Lanes;
+use base::math::number::LaneVec3;
+use std::array::from_fn;
+use std::sync::Arc;
+
+/// The change of size, or of slope across the element, by which strains are differentiated. They are of second degree but for bending by
+/// angles, so the error is the square of this.
+const STEP: f64 = 1e-4;
+
+/// The temperatures of eight elements.
+pub(super) struct PackHeat<const N: usize, const P: usize, const E: usize> {
+    nodes: Arc<HeatNodes>,
+    /// Derivatives of the strains by the change of size, and by the curvature.
+    unit: [Strains<N, P, E>; 2],
+}
+
+impl<const N: usize, const P: usize, const E: usize> PackHeat<N, P, E> {
+    /// Strains less those without stress. Products of slopes are of second degree in the change of size.
+    #[inline]
+    pub fn less(&self, mut strains: Strains<N, P, E>, nodes: &[Node]) -> Strains<N, P, E> {
+        let [growth, curvature, _] = self.nodes.strain(nodes);
+        let [growth, curvature] = [growth, curvature].map(Lanes::splat);
+        let square = growth + Lanes::splat(0.5) * growth * growth;
+        let [size, bend] = &self.unit;
+        for i in 0..E {
+            let growth = if i < P { square } else { growth };
+            strains.plane.membrane[i] -= growth * size.plane.membrane[i] + curvature * bend.plane.membrane[i];
+        }
+        for i in 0..P {
+            strains.plane.bending[i] -= growth * size.plane.bending[i] + curvature * bend.plane.bending[i];
+        }
+        for i in 0..N {
+            strains.shear[i] -= growth * size.shear[i] + curvature * bend.shear[i];
+        }
+        strains
+    }
+
+    /// The work of a stress on the second derivative of the strains by the change of size.
+    pub fn second(&self, stress: &Strains<N, P, E>, lane: usize) -> f64 {
+        let [size, _] = &self.unit;
+        (0..P).map(|i| (stress.plane.membrane[i] * size.plane.membrane[i]).as_array()[lane]).sum()
+    }
+
+    /// The derivative of the strains without stress by one of them.
+    pub fn derivative(&self, of: usize, nodes: &[Node]) -> Strains<N, P, E> {
+        let mut unit = self.unit[of.min(1)];
+        if of == 0 {
+            let square = Lanes::splat(1.0 + self.nodes.strain(nodes)[0]);
+            (0..P).for_each(|i| unit.plane.membrane[i] = square * unit.plane.membrane[i]);
+        }
+        unit
+    }
+}
+
+impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Shells<K, N, V, P, E, S>
+where
+    K: Interpolation<N, V, P>,
+    S: ShellSections<P, E, Lanes>,
+{
+    /// Returns the shells with their temperatures. `x`: positions of all nodes at t = 0.
+    pub fn heated(mut self, heat: &Heat, x: &[Vec3]) -> Self {
+        let own = self.packs.iter().flat_map(|pack| &pack.nodes[..pack.count]).map(|nodes| &nodes[..]);
+        let Some(nodes) = HeatNodes::new(heat, own, x).map(Arc::new) else { return self };
+        for pack in &mut self.packs {
+            pack.heat = Some(Box::new(PackHeat { nodes: Arc::clone(&nodes), unit: pack.units::<K>(x) }));
+        }
+        self.heat = Some(nodes);
+        self
+    }
+}
+
+impl<const N: usize, const V: usize, const P: usize, const E: usize, S> ShellPack<N, V, P, E, S> {
+    fn units<K: Interpolation<N, V, P>>(&self, x: &[Vec3]) -> [Strains<N, P, E>; 2] {
+        let lane = |of: &dyn Fn(&[usize; N]) -> Vec3| LaneVec3::<Lanes>::gather(|lane| of(&self.nodes[lane]));
+        let at = |a: usize| lane(&|nodes| x[nodes[a]] - x[nodes[0]]);
+        let start = Motion { x: from_fn(at), triads: from_fn(|k| from_fn(|a| self.axes[a][k])) };
+        let ways = |nodes: &[usize; N]| bending(&nodes.map(|node| x[node]));
+        let way = |k: usize, a: usize| lane(&|nodes| ways(nodes)[k][a]);
+        let none = [LaneVec3::ZERO; N];
+        let bend = Motion { x: from_fn(|a| way(0, a)), triads: [from_fn(|a| way(1, a)), none, none] };
+        // Curvature by the length of an element has no unit, like the change of size.
+        let size = self.nodes[0].iter().map(|&node| (x[node] - x[self.nodes[0][0]]).norm()).fold(0.0, f64::max);
+        let grow = Motion { x: start.x, triads: [none; 3] };
+        [(grow, STEP), (bend, STEP / size)].map(|(way, step)| {
+            let measure = |s: f64| {
+                let motion = start.plus(s, &way);
+                self.measure::<K>(&motion, &self.slopes(&motion))
+            };
+            measure(step).less(&measure(-step), 0.5 / step)
+        })
+    }
+}
+
+/// The change of the positions and of the directors of an element with these nodes by a curvature of one in both directions.
+pub(super) fn bending<const N: usize>(x: &[Vec3; N]) -> [[Vec3; N]; 2] {
+    let corners = if N > 4 { N.div_ceil(2).min(4) } else { N };
+    let middle = x[..corners].iter().sum::<Vec3>() / corners as f64;
+    let normal: Vec3 = (0..corners).map(|a| (x[a] - middle).cross(&(x[(a + 1) % corners] - middle))).sum();
+    let normal = normal.normalize();
+    let flat = x.map(|x| (x - middle) - normal.dot(&(x - middle)) * normal);
+    [flat.map(|along| -0.5 * along.norm_squared() * normal), flat]
+}
