@@ -118,7 +118,7 @@ impl FrdFile {
         }
         let kind = if frame.model.analysis.is_dynamic() { FrdKind::Time } else { FrdKind::Static };
         let (now, start) = (&frame.state.nodes, &frame.model.nodes);
-        self.displacements((frame, kind, frame.state.time), &|node| match &frame.case {
+        self.displacements((frame, kind, value_of(frame)), &|node| match &frame.case {
             Some(case) => linear(&case.motions[node]),
             None => now[node].moved(&start[node].x),
         });
@@ -176,6 +176,7 @@ impl FrdFile {
     /// A block of displacements.
     fn displacements(&mut self, of: (&Frame, FrdKind, f64), motion: &dyn Fn(usize) -> Vec3) {
         let stage = of.0.model.analysis.stage.as_ref().map_or(1, |stage| stage.index + 1);
+        let stage = of.0.case.and_then(|case| case.name).map_or(stage, |(place, _)| place + 1);
         self.marked.blocks += 1;
         let _ = writeln!(self.text, "    1PSTEP{:14}{:12}{:12}{stage:12}", "", self.marked.blocks, of.0.step.max(1));
         self.begin(of.1, of.2);
@@ -197,7 +198,7 @@ impl FrdFile {
         }
         let [stress, strain] = upper_sides(frame);
         for (name, short, values) in [("STRESS", 'S', stress), ("TOSTRAIN", 'E', strain)] {
-            self.begin(kind, frame.state.time);
+            self.begin(kind, value_of(frame));
             let _ = writeln!(self.text, " -4  {name:<8}    6    1");
             for (place, [a, b]) in
                 [("XX", [1, 1]), ("YY", [2, 2]), ("ZZ", [3, 3]), ("XY", [1, 2]), ("YZ", [2, 3]), ("ZX", [3, 1])]
@@ -223,6 +224,11 @@ impl FrdFile {
         self.text.clear();
         written.map_err(|error| at(&self.path, error))
     }
+}
+
+/// The time of a block; load cases have one time, and follow each other by their numbers.
+fn value_of(frame: &Frame) -> f64 {
+    frame.case.and_then(|case| case.name).map_or(frame.state.time, |(place, _)| place as f64 + 1.0)
 }
 
 /// Bytes of the blocks of one time at most.

@@ -131,6 +131,32 @@ fn stresses_of_shells_come_back() {
     }
 }
 
+/// Load cases follow each other by their numbers, each a step with displacements of its own.
+#[test]
+fn load_cases_come_one_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = "[analysis]\nkind = \"static\"\ngeometry = \"linear\"\nend_time = 1.0\ntime_step = 1.0\n[materials.m]\nmodel = \"elastic\"\n\
+                youngs_modulus = 1e9\npoisson_ratio = 0.0\n[sections.s]\nshape = \"rectangle\"\nwidth = 0.1\nheight = 0.1\n\
+                [points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[[beams]]\nname = \"rod\"\npath = [\"a\", \"b\"]\nelements = 1\n\
+                material = \"m\"\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = \"a\"\nfix = \"all\"\n\
+                [[loads]]\nname = \"pull\"\nat = \"b\"\nforce = [10.0, 0.0, 0.0]\n\
+                [[load_cases]]\nname = \"once\"\nloads = [\"pull\"]\n[[load_cases]]\nname = \"twice\"\nloads = [\"pull\"]\nfactors = [2.0]\n\
+                [[combinations]]\nname = \"both\"\ncases = [\"once\", \"twice\"]\n[output]\nfields = { format = \"frd\" }\n";
+    std::fs::write(folder.path().join("a.toml"), deck).unwrap();
+    let done = Command::cargo_bin("rdsolve").unwrap().current_dir(folder.path()).args(["a.toml", "--quiet"]).output();
+    let done = done.unwrap();
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let file = read(&folder.path().join("a.out/fields.frd"));
+    let found: Vec<f64> = file.blocks.iter().filter(|block| block.name == "DISP").map(|block| block.value).collect();
+    assert_eq!(found, [1.0, 2.0, 3.0]);
+    // F L/(E A) of 1e-6, 2e-6 and their sum.
+    let moved = file.blocks.iter().filter(|block| block.name == "DISP");
+    for (block, wanted) in moved.zip([1e-6, 2e-6, 3e-6]) {
+        let most = block.rows.values().map(|row| row[0]).fold(0.0, f64::max);
+        assert!((most / wanted - 1.0).abs() < 1e-5, "{most:e} for {wanted:e}");
+    }
+}
+
 /// Modes come with their frequencies, each with a shape whose largest displacement or rotation is 1.
 #[test]
 fn modes_come_back() {
