@@ -1,10 +1,19 @@
 //! Arguments that several commands share.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 /// The largest number for `--threads`: more threads gain nothing, and the system refuses to start thousands of them.
 pub const MAX_THREADS: i64 = 64;
+
+/// A program whose files are read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ForeignProgram {
+    /// Abaqus
+    Abaqus,
+    /// CalculiX
+    Calculix,
+}
 
 #[derive(Debug, Args)]
 pub struct DeckArgs {
@@ -41,6 +50,9 @@ pub struct RunArgs {
     /// Folder for the results [default: the deck's name with .out, in the current folder]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// The program that an input file of Abaqus or CalculiX is for [default: by signs in the file]
+    #[arg(long, value_enum)]
+    pub from: Option<ForeignProgram>,
     /// Threads to use, from 1 to 64; results do not depend on it [default: all cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=MAX_THREADS))]
     pub threads: Option<u8>,

@@ -1,6 +1,6 @@
-//! `rdsolve import model.inp`: a deck, its mesh and a report on every keyword of a file of Abaqus or CalculiX.
+//! `rdsolve import model.inp`: a deck, its mesh and a report on every keyword of a file of Abaqus or CalculiX; likewise robots of URDF.
 
-use super::arguments::RunArgs;
+use super::arguments::{ForeignProgram, RunArgs};
 use super::console::{complain, counted, print, say, show};
 use super::exit::Exit;
 use super::folder::{named_after, require_free};
@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Debug, Args)]
 pub struct ImportArgs {
-    /// The input file of Abaqus or CalculiX
+    /// The input file of Abaqus or CalculiX, or a robot of URDF
     pub file: PathBuf,
     /// Folder for the deck, its mesh and the report [default: the current folder]
     #[arg(short, long, value_name = "DIR")]
@@ -39,15 +39,6 @@ pub struct ImportArgs {
     /// Replace files that exist
     #[arg(long)]
     pub force: bool,
-}
-
-/// A program whose files are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ForeignProgram {
-    /// Abaqus
-    Abaqus,
-    /// CalculiX
-    Calculix,
 }
 
 /// Units as a deck calls them.
@@ -80,7 +71,16 @@ impl UnitsOfFile {
 
 /// True for an input file of another program.
 pub fn is_foreign(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"))
+    has_extension(path, "inp") || is_robot(path)
+}
+
+/// True for a robot of URDF.
+fn is_robot(path: &Path) -> bool {
+    has_extension(path, "urdf")
+}
+
+fn has_extension(path: &Path, wanted: &str) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
 }
 
 /// Imports a file and returns the path of its deck.
@@ -93,8 +93,10 @@ pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
     let folder = args.output.clone().unwrap_or_default();
     let names = [format!("{stem}.toml"), format!("{stem}.mesh.inp"), format!("{stem}.import.csv")];
     let paths = names.each_ref().map(|name| folder.join(name));
+    // A robot has no mesh.
+    let written: Vec<&PathBuf> = paths.iter().filter(|path| !is_robot(&args.file) || **path != paths[1]).collect();
     if !args.check && !args.force {
-        require_new(&paths)?;
+        require_new(&written)?;
     }
     let mut imported = read(args, &names[1])?;
     let source = Source::new(args.file.display().to_string(), "", &[]);
@@ -114,9 +116,11 @@ pub fn import(args: &ImportArgs) -> Result<PathBuf, Exit> {
         imported.deck += &comments(&imported.verdicts);
     }
     for (path, text) in paths.iter().zip([&imported.deck, &imported.mesh, &report]) {
-        write(path, text)?;
+        if written.contains(&path) {
+            write(path, text)?;
+        }
     }
-    let written: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+    let written: Vec<String> = written.iter().map(|path| path.display().to_string()).collect();
     if refused {
         print(&format!("{}\nwritten, incomplete: {}\n", summary(args, &imported.verdicts), written.join(", ")))?;
         return Err(Exit::DeckInvalid);
@@ -138,7 +142,7 @@ pub fn import_and_run(args: RunArgs) -> Result<(), Exit> {
     let deck = import(&ImportArgs {
         file: args.deck.clone(),
         output: Some(folder.clone()),
-        from: None,
+        from: args.from,
         strict: false,
         partial: false,
         units: None,
@@ -150,7 +154,7 @@ pub fn import_and_run(args: RunArgs) -> Result<(), Exit> {
 }
 
 /// Makes sure that no file is replaced.
-fn require_new(paths: &[PathBuf]) -> Result<(), Exit> {
+fn require_new(paths: &[&PathBuf]) -> Result<(), Exit> {
     match paths.iter().find(|path| path.exists()) {
         None => Ok(()),
         Some(path) => {
@@ -168,6 +172,11 @@ fn read(args: &ImportArgs, mesh_file: &str) -> Result<Imported, Exit> {
         complain(&format!("cannot read `{path}`: {error}"));
         Exit::InputOutput
     })?;
+    if is_robot(&args.file) {
+        let units = args.units.map(|units| units.word().to_owned());
+        let text = Text::new(&path, &bytes);
+        return Ok(import::import_robot(&text, &ImportOptions { dialect: None, units, mesh_file: String::new() }));
+    }
     let folder = args.file.parent().unwrap_or(Path::new(""));
     let whole = Included::new(&path, bytes, &mut |name: &str| read_regular(folder.join(name))).map_err(|fault| {
         show(&[*fault], &Source::new(&*path, "", &[]));
@@ -187,6 +196,9 @@ fn refused(imported: &Imported, args: &ImportArgs) -> Result<bool, Exit> {
     let count = |verdict| imported.verdicts.count(verdict);
     if count(KeywordVerdict::Refused) > 0 || args.strict && count(KeywordVerdict::Changed) > 0 {
         return Ok(true);
+    }
+    if imported.mesh.is_empty() {
+        return Ok(false);
     }
     let Err(problems) = model::mesh::read("mesh.inp", imported.mesh.as_bytes()) else { return Ok(false) };
     show(&problems, &Source::new("mesh.inp", "", &[]));

@@ -163,6 +163,10 @@ pub fn execute(cli: Cli) -> Exit {
         (Some(Command::Run(args)), _) | (None, Some(args)) if import::is_foreign(&args.deck) => {
             import::import_and_run(args)
         }
+        (Some(Command::Run(args)), _) | (None, Some(args)) if args.from.is_some() => {
+            complain("--from is for input files of Abaqus and CalculiX, and this is a deck\n  help: remove --from");
+            Err(Exit::Usage)
+        }
         (Some(Command::Run(args)), _) | (None, Some(args)) => run::run(&args),
         (Some(Command::Import(args)), _) => import::import(&args).map(drop),
         (Some(Command::Check(args)), _) => check::check(&args),

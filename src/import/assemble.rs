@@ -4,9 +4,11 @@ use crate::build::Build;
 use crate::deck_text::{DeckTable, DeckText};
 use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
+use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
-    bodies, joints, links, loads, mesh_text, output, parts, property_cards, spread_loads, stage_text, supports, ties,
+    bodies, distributing, equations, joints, links, loads, mesh_text, nodal_axes, output, parts, property_cards,
+    spread_loads, stage_text, supports, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -39,10 +41,11 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
         parts_of_bodies: BTreeSet::new(),
         weighed: BTreeSet::new(),
         turning: BTreeSet::new(),
-        bushed: BTreeSet::new(),
+        tied: TiedNodes::default(),
         has_gravity: false,
         amplitudes: HashMap::new(),
     };
+    build.tied.axes = nodal_axes::of_nodes(&mut build);
     ties::merge(&mut build);
     build.groups_of_file();
     build.deck.add(DeckTable::new("mesh", 0).text("file", mesh_file));
@@ -50,10 +53,12 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     refuse_modes_alone(&mut build);
     parts::parts(&mut build);
     bodies::bodies(&mut build);
+    distributing::couplings(&mut build);
     links::masses(&mut build);
     links::links(&mut build);
     joints::connectors(&mut build);
     ties::joints(&mut build);
+    equations::equations(&mut build);
     supports::supports(&mut build);
     loads::loads(&mut build);
     spread_loads::spread_loads(&mut build);

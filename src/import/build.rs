@@ -5,6 +5,7 @@ use crate::flat_mesh::FlatMesh;
 use crate::importer::Importer;
 use crate::part_piece::PartPiece;
 use crate::scopes::{NamedTarget, ScopeContent};
+use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -34,8 +35,8 @@ pub struct Build<'b, 'a, 't> {
     pub weighed: BTreeSet<u64>,
     /// Nodes and their rotations, from 3 to 5, that have springs, dampers or inertia.
     pub turning: BTreeSet<(u64, usize)>,
-    /// Nodes that bushings join.
-    pub bushed: BTreeSet<u64>,
+    /// What constraints say about nodes.
+    pub tied: TiedNodes,
     /// True where the deck has gravity.
     pub has_gravity: bool,
     /// Amplitudes in the deck by their text.
@@ -130,8 +131,11 @@ impl Build<'_, '_, '_> {
         let mut sets: Vec<(String, Vec<u64>)> = Vec::new();
         let mut add = |content: &ScopeContent, offset: u64, scope: &str| {
             for (name, ids) in content.node_sets.list.iter().filter(|(name, _)| !name.starts_with('_')) {
-                let ids: BTreeSet<u64> =
-                    ids.iter().map(|id| self.mesh.kept(id + offset)).filter(|id| self.mesh.has(*id)).collect();
+                let ids: BTreeSet<u64> = ids
+                    .iter()
+                    .map(|id| self.mesh.kept(scopes.shifted(*id, offset)))
+                    .filter(|id| self.mesh.has(*id))
+                    .collect();
                 let name = if scope.is_empty() { name.clone() } else { format!("{scope}.{name}") };
                 sets.push((name, ids.into_iter().collect()));
             }

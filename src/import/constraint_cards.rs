@@ -1,6 +1,6 @@
 //! Constraints: rigid bodies, couplings, constraints of several points, equations.
 
-use crate::file_content::{EquationCard, OpenCoupling, PointsCard, RigidCard};
+use crate::file_content::{DistributingCard, EquationCard, OpenCoupling, PointsCard, RigidCard};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::{Members, NamedTarget};
@@ -84,6 +84,37 @@ pub fn kinematic(im: &mut Importer, block: &KeywordBlock) {
         is_coupling: true,
     };
     im.constraints.rigid.push(card);
+}
+
+/// `*DISTRIBUTING` below a coupling.
+pub fn distributing(im: &mut Importer, block: &KeywordBlock) {
+    let Some(open) = im.constraints.open.take() else { return };
+    let line = block.keyword.line;
+    if block.keyword.value("WEIGHTINGMETHOD").is_some_and(|way| !way.eq_ignore_ascii_case("UNIFORM")) {
+        return im.refuse(line, "the nodes of a distributing coupling have the same weight here");
+    }
+    let degrees = degrees(im, block, 0);
+    let OpenCoupling { line, reference, nodes, .. } = open;
+    let nodes = nodes.into_iter().map(|set| (set, 1.0)).collect();
+    im.constraints.distributing.push(DistributingCard {
+        line,
+        reference: Some(reference),
+        cells: None,
+        nodes,
+        degrees,
+    });
+}
+
+/// `*DISTRIBUTING COUPLING` of older files: a set with one element at the reference node, then nodes and weights.
+pub fn distributing_coupling(im: &mut Importer, block: &KeywordBlock) {
+    let line = block.keyword.line;
+    let Some(set) = block.keyword.value("ELSET") else {
+        return im.refuse(line, "*DISTRIBUTING COUPLING needs ELSET=");
+    };
+    let cells = Some(im.set_target(set, line));
+    let lines = block.data.iter().filter(|data| data.filled() > 0);
+    let nodes = lines.map(|data| (im.target(&data.words[0]), im.number_at(data, 1).unwrap_or(1.0))).collect();
+    im.constraints.distributing.push(DistributingCard { line, reference: None, cells, nodes, degrees: Vec::new() });
 }
 
 /// `*KINEMATIC COUPLING` of older files.

@@ -33,7 +33,7 @@ const ORDER: [&str; 26] = [
     "stages",
 ];
 /// Tables that stand once.
-const SINGLE: [&str; 7] = ["analysis", "integrator", "iteration", "mesh", "environment", "damping", "output"];
+const SINGLE: [&str; 8] = ["analysis", "integrator", "iteration", "points", "mesh", "environment", "damping", "output"];
 /// Tables with a name in their head.
 const NAMED: [&str; 3] = ["materials", "sections", "amplitudes"];
 
@@ -46,7 +46,7 @@ pub struct DeckTable {
     name: String,
     /// Lines of the text that it comes from.
     lines: Vec<usize>,
-    keys: Vec<(&'static str, String)>,
+    keys: Vec<(String, String)>,
 }
 
 impl DeckTable {
@@ -75,28 +75,28 @@ impl DeckTable {
     }
 
     /// Returns the table with a value as TOML has it.
-    pub fn value(mut self, key: &'static str, value: impl Into<String>) -> Self {
-        self.keys.push((key, value.into()));
+    pub fn value(mut self, key: &str, value: impl Into<String>) -> Self {
+        self.keys.push((self::key(key), value.into()));
         self
     }
 
     /// Returns the table with a text.
-    pub fn text(self, key: &'static str, text: &str) -> Self {
+    pub fn text(self, key: &str, text: &str) -> Self {
         self.value(key, quoted(text))
     }
 
     /// Returns the table with a number.
-    pub fn number(self, key: &'static str, x: f64) -> Self {
+    pub fn number(self, key: &str, x: f64) -> Self {
         self.value(key, number(x))
     }
 
     /// Returns the table with a list of numbers.
-    pub fn numbers(self, key: &'static str, xs: &[f64]) -> Self {
+    pub fn numbers(self, key: &str, xs: &[f64]) -> Self {
         self.value(key, list(xs.iter().map(|x| number(*x))))
     }
 
     /// Returns the table with names: one alone, or a list.
-    pub fn names(self, key: &'static str, names: &[String]) -> Self {
+    pub fn names(self, key: &str, names: &[String]) -> Self {
         match names {
             [name] => self.text(key, name),
             _ => self.value(key, list(names.iter().map(|name| quoted(name)))),
@@ -141,6 +141,7 @@ impl DeckText {
     pub fn write(&self, head: &str, source: impl Fn(usize) -> String) -> String {
         let mut text = head.to_owned();
         for kind in ORDER {
+            let mut is_first = true;
             for table in self.tables.iter().filter(|table| table.kind == kind) {
                 text.push('\n');
                 let shown = table.lines.iter().filter(|line| **line > 0).take(4);
@@ -151,6 +152,7 @@ impl DeckText {
                     let _ = writeln!(text, "# … and {} more", table.lines.len() - 4);
                 }
                 let _ = match () {
+                    () if kind == "points" && !std::mem::take(&mut is_first) => Ok(()),
                     () if SINGLE.contains(&kind) || kind == "sets" => writeln!(text, "[{kind}]"),
                     () if NAMED.contains(&kind) => writeln!(text, "[{kind}.{}]", key(&table.name)),
                     () => writeln!(text, "[[{kind}]]"),

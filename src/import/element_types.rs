@@ -35,6 +35,8 @@ pub enum ElementUse {
     JointC,
     /// A connector.
     Connector,
+    /// The reference node of a distributing coupling.
+    Coupling,
     /// Nothing that a deck says.
     Foreign,
 }
@@ -82,7 +84,8 @@ const TYPES: &[(ElementUse, usize, &str, &str)] = &[
     (ElementUse::JointC, 2, "JOINTC", ""),
     (ElementUse::Connector, 2, "CONN3D2 CONN2D2", ""),
     (ElementUse::Foreign, 2, "SAX1 ELBOW31 FRAME3D FRAME2D B31OS B31OSH ITSUNI ITT31", ""),
-    (ElementUse::Foreign, 1, "DCOUP3D DCOUP2D", ""),
+    (ElementUse::Coupling, 1, "DCOUP3D", ""),
+    (ElementUse::Foreign, 1, "DCOUP2D", ""),
     (ElementUse::Foreign, 3, "SAX2 ELBOW32 B32OS B32OSH D", ""),
 ];
 

@@ -1,6 +1,7 @@
 //! What a file says, before sets and instances are resolved.
 
 use crate::scopes::NamedTarget;
+use crate::tied_nodes::NodalAxes;
 use base::math::Vec3;
 use std::f64::consts::TAU;
 
@@ -75,7 +76,7 @@ pub enum SectionOf {
         keys: Vec<(&'static str, SectionValue)>,
         /// The direction of the first axis.
         n1: Vec3,
-        /// How far the axis lies off the nodes, along the first and the second axis.
+        /// How far the axis lies off the nodes, along the first and the second axis of the section.
         offset: [f64; 2],
     },
     /// Of shells.
@@ -84,7 +85,7 @@ pub enum SectionOf {
         thickness: Option<f64>,
         /// Points through the thickness.
         points: Option<u64>,
-        /// How far the middle surface lies off the nodes, along the normal, over the thickness.
+        /// How far the nodes lie off the middle surface, along the normal, over the thickness.
         offset: f64,
     },
     /// Of bars: the area. Solids are refused by their type.
@@ -179,6 +180,21 @@ pub struct EquationCard {
     pub terms: Vec<(NamedTarget, usize, f64)>,
 }
 
+/// A coupling that spreads the forces at a node over others.
+#[derive(Debug, Clone)]
+pub struct DistributingCard {
+    /// Its line.
+    pub line: usize,
+    /// The reference node, ...
+    pub reference: Option<NamedTarget>,
+    /// ... or the set with one element there.
+    pub cells: Option<NamedTarget>,
+    /// Its nodes and their weights.
+    pub nodes: Vec<(NamedTarget, f64)>,
+    /// Degrees of freedom of the reference node, from 0 to 5; all where it is empty.
+    pub degrees: Vec<usize>,
+}
+
 /// A coupling whose kind stands on a later line.
 #[derive(Debug, Clone)]
 pub struct OpenCoupling {
@@ -201,6 +217,10 @@ pub struct ConstraintCards {
     pub points: Vec<PointsCard>,
     /// `*EQUATION`.
     pub equations: Vec<EquationCard>,
+    /// `*TRANSFORM`: nodes, and the axes there.
+    pub transforms: Vec<(NamedTarget, NodalAxes)>,
+    /// Couplings that spread forces.
+    pub distributing: Vec<DistributingCard>,
     /// The coupling at hand.
     pub open: Option<OpenCoupling>,
 }

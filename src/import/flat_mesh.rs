@@ -1,6 +1,6 @@
 //! The mesh with all instances in place, and which nodes the model uses.
 
-use crate::scopes::{Members, NamedTarget, PlacedElement, Scopes};
+use crate::scopes::{Members, NOWHERE, NamedTarget, PlacedElement, Scopes};
 use base::math::Vec3;
 use std::collections::{BTreeSet, HashMap};
 
@@ -37,7 +37,8 @@ impl FlatMesh {
         for cell in cells {
             let lost = cell.nodes.iter().find(|id| **id != 0 && !mesh.node_at.contains_key(id));
             if let Some(id) = lost {
-                faults.push((cell.line, format!("element {} has node {id}, which does not exist", cell.id)));
+                faults
+                    .push((cell.line, format!("element {} has node {}, which does not exist", cell.id, id % NOWHERE)));
                 continue;
             }
             match mesh.cell_at.get(&cell.id) {

@@ -143,6 +143,7 @@ impl Importer<'_, '_> {
     pub fn node_of_instance(&self, word: &Word) -> Option<u64> {
         let name = name_in(word);
         let (instance, id) = name.split_once('.')?;
-        Some(id.parse::<u64>().ok()? + self.scopes.instances[self.scopes.instance(instance)?].offset)
+        let offset = self.scopes.instances[self.scopes.instance(instance)?].offset;
+        Some(self.scopes.shifted(id.parse().ok()?, offset))
     }
 }

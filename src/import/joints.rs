@@ -218,7 +218,7 @@ fn bushing(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u
     let is_global = axes == [Vec3::x(), Vec3::y()];
     let turns: Vec<usize> = (3..6).filter(|&dof| if is_global { acts(dof) } else { (3..6).any(acts) }).collect();
     build.turning.extend([a, b].iter().flat_map(|node| turns.iter().map(|dof| (*node, *dof))));
-    build.bushed.extend([a, b].iter().filter(|node| **node != 0));
+    build.tied.bushed.extend([a, b].iter().filter(|node| **node != 0));
     let six = |of: &[Option<f64>; 6]| of.map(Option::unwrap_or_default);
     let table = DeckTable::new("links", section.line)
         .text("name", name)

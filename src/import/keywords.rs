@@ -3,8 +3,8 @@
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
-    amplitude_cards, connector_cards, constraint_cards, material_cards, mesh_cards, property_cards, section_cards,
-    step_cards,
+    amplitude_cards, connector_cards, constraint_cards, material_cards, mesh_cards, nodal_axes, property_cards,
+    section_cards, step_cards,
 };
 use std::fmt::Write;
 
@@ -104,6 +104,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         property_cards::orientation,
         "axes of joints, bushings and shells",
     ),
+    read("TRANSFORM", "NSET TYPE", nodal_axes::transform, "[[supports]] axes, turned loads and equations"),
     read("MATERIAL", "NAME", material_cards::material, "[materials]"),
     read("ELASTIC", "TYPE MODULI", material_cards::elastic, "[materials] youngs_modulus, poisson_ratio"),
     read("PLASTIC", "HARDENING DATATYPE", material_cards::plastic, "[materials] hardening, kinematic_share"),
@@ -129,9 +130,11 @@ pub const KEYWORDS: &[KeywordRow] = &[
         "a body at the reference node",
     ),
     read("KINEMATIC", "", constraint_cards::kinematic, "[[attachments]] dofs"),
+    read("DISTRIBUTING", "WEIGHTINGMETHOD COUPLING", constraint_cards::distributing, "[[loads]] at its nodes"),
+    read("DISTRIBUTING COUPLING", "ELSET", constraint_cards::distributing_coupling, "[[loads]] at its nodes"),
     read("KINEMATIC COUPLING", "REFNODE", constraint_cards::kinematic_coupling, "a body, [[attachments]] dofs"),
-    read("MPC", "", constraint_cards::points, "nodes that are one, [[joints]] or a body"),
-    read("EQUATION", "", constraint_cards::equations, "nodes that are one, [[joints]] or [[supports]]"),
+    read("MPC", "", constraint_cards::points, "nodes that are one, [[joints]], [[equations]] or a body"),
+    read("EQUATION", "", constraint_cards::equations, "nodes that are one, [[joints]], [[supports]] or [[equations]]"),
     read("CONNECTOR SECTION", "ELSET BEHAVIOR", connector_cards::section, "[[joints]] or [[links]]"),
     read("CONNECTOR BEHAVIOR", "NAME", connector_cards::behavior, "what acts in joints and bushings"),
     read("CONNECTOR ELASTICITY", "COMPONENT", connector_cards::elasticity, "stiffness of joints and bushings"),
@@ -237,10 +240,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("MODAL DAMPING", "frequency responses and modal motions are not translated yet"),
     refuse("BASE MOTION", "frequency responses and modal motions are not translated yet"),
     refuse("JOINT", "springs of JOINTC elements are not translated; use CONN3D2 with CARTESIAN and CARDAN"),
-    refuse("DISTRIBUTING", "rdsolve has no distributing couplings"),
-    refuse("DISTRIBUTING COUPLING", "rdsolve has no distributing couplings"),
     refuse("TIE", "ties of surfaces are not translated; give both the same nodes"),
-    refuse("TRANSFORM", "axes at nodes are the global ones in rdsolve"),
     refuse("SHELL GENERAL SECTION", "rdsolve has no shells by their stiffness"),
     refuse("MEMBRANE SECTION", "rdsolve has no membranes"),
     refuse("SURFACE SECTION", "rdsolve has no surface elements"),

@@ -16,7 +16,9 @@ mod connector_cards;
 mod constraint_cards;
 mod deck_text;
 mod dialect;
+mod distributing;
 mod element_types;
+mod equations;
 mod file_content;
 mod flat_mesh;
 mod importer;
@@ -30,22 +32,29 @@ mod loads;
 mod material_cards;
 mod mesh_cards;
 mod mesh_text;
+mod nodal_axes;
 mod output;
 mod part_piece;
 mod parts;
 mod property_cards;
+mod robot;
+mod robot_deck;
 mod scopes;
 mod section_cards;
 mod spread_loads;
 mod stage_text;
 mod step_cards;
 mod supports;
+mod thin_sections;
+mod tied_nodes;
 mod ties;
 mod timeline;
 mod units_hint;
+mod urdf;
 mod verdicts;
 
 pub use dialect::Dialect;
+pub use urdf::import_robot;
 pub use verdicts::{KeywordVerdict, VerdictRow, Verdicts};
 
 use base::text_file::Text;
@@ -79,7 +88,7 @@ pub struct Imported {
 /// Makes a deck of a file.
 pub fn import(text: &mut Text, options: &ImportOptions) -> Imported {
     let blocks = keyword_block::blocks(text);
-    let keywords = blocks.iter().map(|block| (block.keyword.line, block.keyword.name.clone())).collect();
+    let keywords = blocks.iter().map(|block| (block.keyword.line, format!("*{}", block.keyword.name))).collect();
     let count = blocks.iter().filter(|block| block.keyword.key() == "INSTANCE").count() as u64;
     let largest = largest(&blocks);
     let step =

@@ -130,7 +130,7 @@ fn directed(build: &mut Build, card: &PropertyCard, nodes: &[u64], table: DeckTa
         Some(b) => (build.end(a, b), build.end(b, a)),
         None => (build.end(0, a), build.end(a, a)),
     };
-    build.bushed.extend(nodes);
+    build.tied.bushed.extend(nodes);
     if degrees[0] > 2 {
         let about = if card.orientation.is_some() { 3..6 } else { degrees[0]..degrees[0] + 1 };
         build.turning.extend(nodes.iter().flat_map(|node| about.clone().map(|dof| (*node, dof))));

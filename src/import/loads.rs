@@ -2,10 +2,12 @@
 
 use crate::build::Build;
 use crate::deck_text::DeckTable;
+use crate::distributing;
 use crate::file_content::{ForceLine, StepProcedure};
 use crate::importer::Importer;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
+use base::math::Mat3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Node, degree of freedom, and whether the force turns with the node.
@@ -15,7 +17,7 @@ type ForceKey = (u64, usize, bool);
 type MovingNodes = ([f64; 6], BTreeSet<u64>, BTreeSet<usize>);
 
 /// Forces that act alike at several nodes.
-#[derive(Default)]
+#[derive(Default, Clone)]
 struct AlikeForces {
     six: [f64; 6],
     nodes: BTreeSet<u64>,
@@ -54,7 +56,9 @@ pub fn loads(build: &mut Build) {
     }
     laws.extend(of_buckling(build, &of));
     let mut groups: BTreeMap<String, AlikeForces> = BTreeMap::new();
-    for (node, one) in by_node(laws) {
+    let forces = by_node(laws, &build.tied.axes).into_iter().map(|(node, one)| (node, one.six, one)).collect();
+    for (node, six, one) in distributing::spread(build, forces) {
+        let one = AlikeForces { six, ..one };
         let key = format!("{:?} {:?} {}", one.six, one.law, one.is_follower);
         let group = groups.entry(key).or_default();
         group.nodes.insert(node);
@@ -118,12 +122,14 @@ fn of_buckling(
 }
 
 /// Forces of each node with one law in time.
-fn by_node(laws: Vec<(ForceKey, TimeLaw, Vec<usize>)>) -> Vec<(u64, AlikeForces)> {
+fn by_node(laws: Vec<(ForceKey, TimeLaw, Vec<usize>)>, axes: &HashMap<u64, Mat3>) -> Vec<(u64, AlikeForces)> {
     let mut nodes: BTreeMap<(u64, bool, String), AlikeForces> = BTreeMap::new();
     for ((node, dof, is_follower), law, lines) in laws.into_iter().filter(|(_, law, _)| law.scale != 0.0) {
         let key = (node, is_follower, format!("{:?} {:?}", law.amplitude, law.stages));
         let alike = nodes.entry(key).or_default();
-        alike.six[dof] += law.scale;
+        let axis = axes.get(&node).map_or(Mat3::identity(), |axes| *axes).column(dof % 3) * law.scale;
+        let first = dof - dof % 3;
+        (0..3).filter(|i| axis[*i] != 0.0).for_each(|i| alike.six[first + i] += axis[i]);
         alike.lines.extend(lines);
         alike.is_follower = is_follower;
         alike.law = Some(TimeLaw { scale: 1.0, ..law });
@@ -140,7 +146,7 @@ fn given(build: &mut Build, line: &ForceLine) -> Vec<(ForceKey, GivenValue)> {
             Some(&reference) => (reference, 3),
             None => (node, 0),
         };
-        if !build.mesh.used.contains(&node) {
+        if !build.mesh.used.contains(&node) && !build.tied.distributed.contains_key(&node) {
             if !build.im.is_incomplete() {
                 build.im.refuse(line.line, &format!("node {node} has no element that this force could act on"));
             }

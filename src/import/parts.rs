@@ -1,7 +1,8 @@
 //! Beams, bars and shells: elements with one section, cut where loads or rigid bodies end.
 
 use crate::build::Build;
-use crate::deck_text::{DeckTable, list, number, vector};
+use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
+use crate::dialect::Dialect;
 use crate::element_types::ElementUse;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
 use crate::material_cards;
@@ -57,10 +58,9 @@ pub fn parts(build: &mut Build) {
         let axis = match &card.what {
             SectionOf::Shell { thickness, .. } => match thickness.or_else(|| at_nodes(&thicknesses, &cell)) {
                 Some(thickness) => number(thickness),
+                None if cell.nodes.iter().all(|node| thicknesses.contains_key(node)) => String::new(),
                 None => {
-                    let why =
-                        "the thickness of a shell is the same everywhere in an element; give each thickness a section";
-                    build.im.refuse(card.line, why);
+                    build.im.refuse(card.line, &format!("some nodes of element {} have no thickness", cell.id));
                     continue;
                 }
             },
@@ -72,12 +72,18 @@ pub fn parts(build: &mut Build) {
     if let Some((line, id)) = bare.filter(|_| !build.im.is_incomplete()) {
         build.im.refuse(line, &format!("element {id} has no section"));
     }
-    write(build, pieces);
+    write(build, pieces, &thicknesses);
 }
 
 /// The thickness of shells at nodes.
 fn thicknesses(build: &mut Build) -> HashMap<u64, f64> {
     let mut of_node = HashMap::new();
+    let wants = |card: &SectionCard| matches!(card.what, SectionOf::Shell { thickness: None, .. });
+    if !build.im.sections.iter().any(wants) {
+        let lines: Vec<usize> = build.im.thicknesses.iter().map(|(target, _)| target.line).collect();
+        lines.into_iter().for_each(|line| build.im.ignore(line, "no section asks for it by NODAL THICKNESS"));
+        return of_node;
+    }
     for (target, thickness) in build.im.thicknesses.clone() {
         of_node.extend(build.nodes(&target).into_iter().map(|node| (node, thickness)));
     }
@@ -88,6 +94,12 @@ fn thicknesses(build: &mut Build) -> HashMap<u64, f64> {
 fn at_nodes(thicknesses: &HashMap<u64, f64>, cell: &PlacedElement) -> Option<f64> {
     let first = thicknesses.get(&cell.nodes[0]).copied();
     cell.nodes.iter().all(|node| thicknesses.get(node).copied() == first).then_some(first)?
+}
+
+/// The thickness of each node of a shell.
+fn of_piece(piece: &PartPiece, thicknesses: &HashMap<u64, f64>) -> BTreeMap<u64, f64> {
+    let nodes = piece.elements.iter().flat_map(|element| &element.2);
+    nodes.filter_map(|node| Some((*node, *thicknesses.get(node)?))).collect()
 }
 
 /// A direction without what rotations leave of zeros.
@@ -122,8 +134,8 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     found.map(|cells| cells.into_iter().collect()).collect()
 }
 
-/// The shape of an element, 0 for a beam of two nodes, 1 for a straight one of three, 2 for a curved one, 3 for a bar, 4 for a shell,
-/// and the first axis of its section.
+/// The shape of an element, 0 for a beam of two nodes, 1 for a straight one of three, 2 for a curved one, 3 for a bar, 4 for a shell, 5 for
+/// a beam beside its nodes, and the first axis of its section.
 fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes: ElementUse) -> Option<(u8, Vec3)> {
     let x = |at: usize| build.mesh.x(cell.nodes[at]);
     let count = build.im.scopes.types[cell.kind].nodes;
@@ -141,7 +153,7 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
         );
         return None;
     }
-    let SectionOf::Beam { n1, .. } = &card.what else {
+    let SectionOf::Beam { n1, offset, .. } = &card.what else {
         return Some((if becomes == ElementUse::Face { 4 } else { 3 }, Vec3::zeros()));
     };
     let turned =
@@ -157,6 +169,12 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
         build.im.refuse(card.line, &about);
         return None;
     }
+    if *offset != [0.0; 2] {
+        if becomes == ElementUse::CurvedBeam {
+            build.im.change(card.line, "a beam of three nodes beside its nodes is two straight ones");
+        }
+        return Some((5, axis));
+    }
     if becomes == ElementUse::StraightBeam {
         return Some((0, axis));
     }
@@ -169,7 +187,7 @@ fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes
 }
 
 /// Writes the pieces.
-fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>) {
+fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>, thicknesses: &HashMap<u64, f64>) {
     let (mut materials, mut sections) = (HashMap::new(), HashMap::new());
     let mut names: HashMap<usize, String> = HashMap::new();
     let mut next = build.mesh.last_cell() + 1;
@@ -181,8 +199,8 @@ fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>) {
         let mut piece = PartPiece {
             name: card.target.name.clone(),
             names: Vec::new(),
-            is_beam: key.shape < 3,
-            is_bar: key.shape == 3,
+            is_beam: key.shape < 3 || key.shape == 5,
+            is_bar: key.shape == 3 || key.shape == 5,
             elements: Vec::new(),
             cells: cells.iter().copied().collect(),
             size: 0.0,
@@ -210,10 +228,15 @@ fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>) {
             }
         }
         match &card.what {
+            SectionOf::Beam { .. } if key.shape == 5 => {
+                piece.name = set;
+                beams_beside(build, &card, (&mut piece, &key), &material, &mut sections);
+            }
             SectionOf::Beam { .. } => beam(build, &card, (&mut piece, &key), &material, &mut sections),
             SectionOf::Shell { points, offset, .. } => {
-                piece.size = key.axis.parse().unwrap_or(0.0);
-                shell(build, &card, &piece, (&material, *points, *offset));
+                let varying = if key.axis.is_empty() { of_piece(&piece, thicknesses) } else { BTreeMap::new() };
+                piece.size = key.axis.parse().unwrap_or_else(|_| middle(&varying));
+                shell(build, &card, &piece, (&material, *points, *offset), &varying);
             }
             SectionOf::Bar(area) => {
                 piece.size = *area;
@@ -223,6 +246,12 @@ fn write(build: &mut Build, pieces: BTreeMap<PieceKey, Vec<usize>>) {
         }
         build.pieces.push(piece);
     }
+}
+
+/// The middle between the least and the largest thickness.
+fn middle(varying: &BTreeMap<u64, f64>) -> f64 {
+    let largest = varying.values().copied().fold(0.0, f64::max);
+    0.5 * (largest + varying.values().copied().fold(largest, f64::min))
 }
 
 /// Elements of rigid bodies.
@@ -242,7 +271,8 @@ fn elements(
     match shape {
         0 => list.push(("B31", cell.id, nodes)),
         1 => list.push(("B32", cell.id, nodes)),
-        2 => {
+        5 if count == 2 => list.push(("B31", cell.id, nodes)),
+        2 | 5 => {
             list.push(("B31", cell.id, vec![nodes[0], nodes[1]]));
             list.push(("B31", *next, vec![nodes[1], nodes[2]]));
             *next += 1;
@@ -287,18 +317,79 @@ fn beam(
     material: &str,
     sections: &mut HashMap<usize, String>,
 ) {
+    let SectionOf::Beam { keys, .. } = &card.what else { return };
+    let name = section(build, card, key.section, sections);
+    sizes(piece, keys);
+    let table = DeckTable::new("beams", card.line)
+        .text("group", &piece.name)
+        .text("section", &name)
+        .text("material", material)
+        .value("order", if key.shape == 1 { "2" } else { "1" })
+        .value("orientation", &*key.axis);
+    build.deck.add(table);
+}
+
+/// Adds a beam of two points for each element, with rigid arms from its nodes.
+fn beams_beside(
+    build: &mut Build,
+    card: &SectionCard,
+    (piece, key): (&mut PartPiece, &PieceKey),
+    material: &str,
+    sections: &mut HashMap<usize, String>,
+) {
     let SectionOf::Beam { keys, offset, .. } = &card.what else { return };
+    let section = section(build, card, key.section, sections);
+    sizes(piece, keys);
+    let n1 = axis_of(&key.axis);
+    if build.im.dialect == Some(Dialect::Calculix) {
+        let how = "rigid arms join nodes and axis; CalculiX has arms at bends and at rotations alone";
+        build.im.change(card.line, how);
+    }
+    for (_, id, nodes) in &piece.elements.clone() {
+        let [start, end] = [build.mesh.x(nodes[0]), build.mesh.x(nodes[1])];
+        let along = (end - start).normalize();
+        let first = (n1 - along * n1.dot(&along)).normalize();
+        let arm = settled(first * offset[0] + along.cross(&first) * offset[1]);
+        let name = build.deck.unique(&format!("{}_{id}", piece.name));
+        let table = DeckTable::new("beams", card.line)
+            .text("name", &name)
+            .value("path", list(nodes.iter().map(|node| quoted(&format!("mesh.{node}")))))
+            .value("elements", "1")
+            .text("section", &section)
+            .text("material", material)
+            .value("orientation", &*key.axis)
+            .numbers("offset_start", arm.as_slice())
+            .numbers("offset_end", arm.as_slice());
+        piece.names.push(name);
+        build.deck.add(table);
+    }
+}
+
+/// The vector of a text such as `[0.0, 1.0, 0.0]`.
+fn axis_of(text: &str) -> Vec3 {
+    let mut numbers = text.trim_matches(['[', ']']).split(", ").filter_map(|word| word.parse().ok());
+    Vec3::from_fn(|_, _| numbers.next().unwrap_or(0.0))
+}
+
+/// Area and sides of the section of a part.
+fn sizes(piece: &mut PartPiece, keys: &[(&'static str, SectionValue)]) {
+    piece.size = area(keys);
+    piece.sides = match keys {
+        [(_, SectionValue::Word("rectangle")), (_, SectionValue::Number(a)), (_, SectionValue::Number(b))] => {
+            Some([*a, *b])
+        }
+        _ => None,
+    };
+}
+
+/// The name of the section of a card in the deck, which is added.
+fn section(build: &mut Build, card: &SectionCard, index: usize, sections: &mut HashMap<usize, String>) -> String {
+    let SectionOf::Beam { keys, .. } = &card.what else { return String::new() };
     if card.orientation.is_some() {
         build.im.refuse(card.line, "ORIENTATION of a beam section is not read; give the first axis on the second line");
     }
-    if *offset != [0.0; 2] {
-        build.im.refuse(
-            card.line,
-            "offsets of beam sections are not translated yet; put the nodes on the axis of the beam",
-        );
-    }
     let taken: Vec<String> = sections.values().map(|name| name.to_lowercase()).collect();
-    let name = sections.entry(key.section).or_insert_with(|| {
+    let name = sections.entry(index).or_insert_with(|| {
         let wanted = &card.target.name;
         let numbered = (2..).map(|next| format!("{wanted}_{next}"));
         let mut names = std::iter::once(wanted.clone()).chain(numbered);
@@ -314,20 +405,7 @@ fn beam(
         build.deck.add(table);
         name
     });
-    piece.size = area(keys);
-    piece.sides = match &keys[..] {
-        [(_, SectionValue::Word("rectangle")), (_, SectionValue::Number(a)), (_, SectionValue::Number(b))] => {
-            Some([*a, *b])
-        }
-        _ => None,
-    };
-    let table = DeckTable::new("beams", card.line)
-        .text("group", &piece.name)
-        .text("section", name)
-        .text("material", material)
-        .value("order", if key.shape == 1 { "2" } else { "1" })
-        .value("orientation", &*key.axis);
-    build.deck.add(table);
+    name.clone()
 }
 
 /// The area of a section, for its mass.
@@ -353,14 +431,27 @@ fn shell(
     card: &SectionCard,
     piece: &PartPiece,
     (material, points, offset): (&str, Option<u64>, f64),
+    varying: &BTreeMap<u64, f64>,
 ) {
-    if offset != 0.0 {
-        build.im.refuse(card.line, "rdsolve has the middle surface of a shell at its nodes: OFFSET must be 0");
-    }
     let mut table = DeckTable::new("shells", card.line)
         .text("group", &piece.name)
         .value("thickness", number(piece.size))
         .text("material", material);
+    if offset != 0.0 {
+        if build.im.dialect != Some(Dialect::Abaqus) {
+            let how = "rigid arms join nodes and mid-surface; CalculiX has arms at folds and at rotations alone";
+            build.im.change(card.line, how);
+        }
+        // The file has the place of the nodes over the middle surface, the deck that of the middle surface over the nodes.
+        table = table.number("offset", -offset * piece.size);
+    }
+    if !varying.is_empty() {
+        build.im.change(card.line, "each element has the mean of the thicknesses of its corners");
+        table = table.value("nodal_thickness", at_corners(build, varying));
+        if offset != 0.0 {
+            build.im.refuse(card.line, "an offset of a shell whose thickness varies is not translated");
+        }
+    }
     let yields = build.im.materials.find(&card.material).is_some_and(|material| !material.plastic.is_empty());
     if yields {
         if let Some(points) = points.filter(|points| (2..=10).contains(points)) {
@@ -378,6 +469,23 @@ fn shell(
         }
     }
     build.deck.add(table);
+}
+
+/// The thicknesses by nodes, alike ones together.
+fn at_corners(build: &mut Build, varying: &BTreeMap<u64, f64>) -> String {
+    let mut nodes: Vec<(f64, BTreeSet<u64>)> = Vec::new();
+    for (node, thickness) in varying {
+        match nodes.iter_mut().find(|(known, _)| known == thickness) {
+            Some((_, of)) => drop(of.insert(*node)),
+            None => nodes.push((*thickness, BTreeSet::from([*node]))),
+        }
+    }
+    let mut keys = Vec::new();
+    for (thickness, of) in nodes {
+        keys.extend(build.names(&of, &[], "thick").into_iter().map(|name| (quoted(&name), number(thickness))));
+    }
+    let keys: Vec<(&str, String)> = keys.iter().map(|(name, value)| (&name[..], value.clone())).collect();
+    inline(&keys)
 }
 
 /// Adds a bar for each element.

@@ -4,6 +4,9 @@ use crate::element_types::ElementType;
 use base::math::{Mat3, Vec3, rotation};
 use std::collections::HashMap;
 
+/// What is added to a number that lies beyond those of its instance, so that it is none of the next one.
+pub const NOWHERE: u64 = 1 << 40;
+
 /// A part, an instance, or all that stands outside of them.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ScopeIndex {
@@ -200,6 +203,11 @@ impl Scopes {
         own.or_else(|| self.instances.iter().position(|instance| same(&self.parts[instance.part].name)))
     }
 
+    /// A number of an instance in the flat mesh; one that nothing has where it would be a number of the next instance.
+    pub fn shifted(&self, id: u64, offset: u64) -> u64 {
+        if self.step > 0 && id >= self.step { id + NOWHERE } else { id + offset }
+    }
+
     /// Numbers in the flat mesh of a set of an instance or of its part.
     fn of_instance(&self, instance: usize, of: Members, name: &str) -> Option<Vec<u64>> {
         let placed = &self.instances[instance];
@@ -207,7 +215,7 @@ impl Scopes {
             return Some(own.to_vec());
         }
         let set = self.parts[placed.part].sets(of).find(name)?;
-        Some(set.iter().map(|id| id + placed.offset).collect())
+        Some(set.iter().map(|id| self.shifted(*id, placed.offset)).collect())
     }
 
     /// The numbers that a name or a number stands for. Those of a part are its own as long as it has no instances.
@@ -221,7 +229,9 @@ impl Scopes {
         {
             return match of_part(part).next() {
                 None => Some(local),
-                Some(_) => Some(of_part(part).flat_map(|at| local.iter().map(|id| id + at.offset)).collect()),
+                Some(_) => {
+                    Some(of_part(part).flat_map(|at| local.iter().map(|id| self.shifted(*id, at.offset))).collect())
+                }
             };
         }
         if let Some(id) = number {
@@ -229,7 +239,7 @@ impl Scopes {
                 ScopeIndex::Instance(instance) => self.instances[*instance].offset,
                 _ => self.outer_offset,
             };
-            return Some(vec![id + offset]);
+            return Some(vec![self.shifted(id, offset)]);
         }
         if let ScopeIndex::Instance(instance) = *scope
             && let Some(found) = self.of_instance(instance, of, name)
@@ -242,7 +252,7 @@ impl Scopes {
         let (instance, inner) = name.split_once('.')?;
         let instance = self.instance(instance)?;
         match inner.parse::<u64>() {
-            Ok(id) => Some(vec![id + self.instances[instance].offset]),
+            Ok(id) => Some(vec![self.shifted(id, self.instances[instance].offset)]),
             Err(_) => self.of_instance(instance, of, inner),
         }
     }
@@ -287,7 +297,7 @@ impl Scopes {
             nodes.extend(at.own.nodes.iter().map(|(id, x)| (*id, at.place(x))));
             let placed = |cell: &PlacedElement, offset: u64| PlacedElement {
                 id: cell.id + offset,
-                nodes: cell.nodes.iter().map(|id| id + offset).collect(),
+                nodes: cell.nodes.iter().map(|id| if *id == 0 { 0 } else { self.shifted(*id, offset) }).collect(),
                 instance: Some(index),
                 ..cell.clone()
             };

@@ -5,6 +5,7 @@ use crate::file_content::MaterialCard;
 use crate::file_content::{SectionCard, SectionOf, SectionValue};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use crate::thin_sections::{self, KeysAndCentroid};
 use base::math::Vec3;
 use base::text_file::Word;
 
@@ -86,32 +87,30 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
         .find(|short| word.starts_with(**short))
         .map_or(word.clone(), |short| (*short).to_owned());
     let sizes = rows.first().map(Vec::as_slice).unwrap_or_default();
-    let keys = match shape(&word, sizes, im.dialect) {
-        Ok(keys) => keys,
+    let found = match &word[..] {
+        "HEX" if sizes.len() >= 2 => thin_sections::hexagon(sizes[0], sizes[1]),
+        "ARBITRARY" => thin_sections::arbitrary(&rows),
+        _ => shape(&word, sizes, im.dialect),
+    };
+    let (keys, centroid) = match found {
+        Ok(found) => found,
         Err(why) => return im.refuse(line, &why),
     };
     if word == "GENERAL" && im.dialect != Some(Dialect::Calculix) {
         im.change(line, "the shear areas are the area; Abaqus lowers them for slender elements");
     }
-    let n1 = match rows.get(1).map(Vec::as_slice) {
+    if word == "ARBITRARY" {
+        im.change(line, "the shear centre is the centroid");
+    }
+    let walls = if word == "ARBITRARY" { sizes[0] as usize } else { 1 };
+    let n1 = match rows.get(walls).map(Vec::as_slice) {
         Some([x, rest @ ..]) if [*x].iter().chain(rest).any(|x| *x != 0.0) => {
             Vec3::new(*x, rest.first().copied().unwrap_or(0.0), rest.get(1).copied().unwrap_or(0.0))
         }
         _ => Vec3::new(0.0, 0.0, -1.0),
     };
-    let own = rows.get(2).filter(|_| is_general && card.material.is_empty());
-    if let Some([modulus, shear, ..]) = own.map(Vec::as_slice) {
-        let first = format!("{}_material", card.target.name);
-        let mut names = std::iter::once(first.clone()).chain((2..).map(|next| format!("{first}_{next}")));
-        card.material = names.find(|name| im.materials.find(name).is_none()).unwrap_or(first);
-        let text = block.keyword.value("DENSITY");
-        let density = text.and_then(|text| Word { bytes: text.as_bytes(), column: 0, line }.fortran_number());
-        if text.is_some() && density.is_none() {
-            im.refuse(line, "DENSITY must be a number");
-        }
-        let elastic = Some([*modulus, modulus / (2.0 * shear) - 1.0]);
-        let name = card.material.clone();
-        im.materials.list.push(MaterialCard { name, line, elastic, density, ..MaterialCard::default() });
+    if let Some(row) = rows.get(2).filter(|_| is_general && card.material.is_empty()) {
+        own_material(im, block, &mut card, row);
     }
     let mut read = |name: &str| match block.keyword.value(name) {
         None => 0.0,
@@ -120,20 +119,55 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
             0.0
         }),
     };
-    let offset = [read("OFFSET1"), read("OFFSET2")];
+    let shares = [read("OFFSET1"), read("OFFSET2")];
+    let Some(sides) = sides(&keys).or((shares == [0.0; 2]).then_some([0.0; 2])) else {
+        return im.refuse(line, "OFFSET1 and OFFSET2 are read of rectangles, boxes and tubes alone");
+    };
+    // The file has the place of the nodes over the axis, the deck that of the axis over the nodes.
+    let offset = [0, 1].map(|i| centroid[i] - shares[i] * sides[i]);
     card.what = SectionOf::Beam { keys, n1, offset };
     im.sections.push(card);
 }
 
-/// The keys of a section of beams.
-fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<Vec<(&'static str, SectionValue)>, String> {
+/// Adds the material that a general section has by its own moduli.
+fn own_material(im: &mut Importer, block: &KeywordBlock, card: &mut SectionCard, row: &[f64]) {
+    let ([modulus, shear, ..], line) = (row, block.keyword.line) else { return };
+    let first = format!("{}_material", card.target.name);
+    let mut names = std::iter::once(first.clone()).chain((2..).map(|next| format!("{first}_{next}")));
+    card.material = names.find(|name| im.materials.find(name).is_none()).unwrap_or(first);
+    let text = block.keyword.value("DENSITY");
+    let density = text.and_then(|text| Word { bytes: text.as_bytes(), column: 0, line }.fortran_number());
+    if text.is_some() && density.is_none() {
+        im.refuse(line, "DENSITY must be a number");
+    }
+    let elastic = Some([*modulus, modulus / (2.0 * shear) - 1.0]);
+    let name = card.material.clone();
+    im.materials.list.push(MaterialCard { name, line, elastic, density, ..MaterialCard::default() });
+}
+
+/// The sides of a section along its first and second axis.
+fn sides(keys: &[(&'static str, SectionValue)]) -> Option<[f64; 2]> {
+    match keys {
+        [
+            (_, SectionValue::Word("rectangle" | "box")),
+            (_, SectionValue::Number(a)),
+            (_, SectionValue::Number(b)),
+            ..,
+        ] => Some([*a, *b]),
+        [(_, SectionValue::Word("tube")), (_, SectionValue::Number(radius)), ..] => Some([2.0 * radius; 2]),
+        _ => None,
+    }
+}
+
+/// The keys of a section of beams, and the place of its centroid from the node.
+fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<KeysAndCentroid, String> {
     use SectionValue::{Number, Numbers, Word};
     let needs = |count: usize| match sizes.len() >= count {
         true => Ok(()),
         false => Err(format!("SECTION={word} needs {count} numbers on the line below")),
     };
     let at = |i: usize| Number(sizes[i]);
-    Ok(match word {
+    let keys = match word {
         "RECT" => {
             // CalculiX takes the first side for a second one that is missing.
             needs(if dialect == Some(Dialect::Calculix) { 1 } else { 2 })?;
@@ -149,7 +183,7 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<Vec<(&'s
                 }
                 Some(Dialect::Abaqus) => sizes[0],
                 Some(Dialect::Calculix) if sizes.get(1).is_some_and(|other| *other != sizes[0]) => {
-                    return Ok(ellipse(sizes[0], sizes[1]));
+                    return Ok((ellipse(sizes[0], sizes[1]), [0.0; 2]));
                 }
                 Some(Dialect::Calculix) => 0.5 * sizes[0],
             };
@@ -169,7 +203,7 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<Vec<(&'s
         }
         "I" => {
             needs(7)?;
-            i_section(sizes)?
+            return Ok(i_section(sizes));
         }
         "L" => {
             needs(4)?;
@@ -181,7 +215,8 @@ fn shape(word: &str, sizes: &[f64], dialect: Option<Dialect>) -> Result<Vec<(&'s
             general(sizes, dialect)
         }
         _ => return Err(format!("SECTION={word} is not translated; give its area and moments by SECTION=GENERAL")),
-    })
+    };
+    Ok((keys, [0.0; 2]))
 }
 
 /// An ellipse with these axes, by its integrals.
@@ -199,8 +234,8 @@ fn ellipse(a: f64, b: f64) -> Vec<(&'static str, SectionValue)> {
     ]
 }
 
-/// An I section whose node lies at its centroid.
-fn i_section(sizes: &[f64]) -> Result<Vec<(&'static str, SectionValue)>, String> {
+/// An I section, whose node lies at some height over its lower edge.
+fn i_section(sizes: &[f64]) -> KeysAndCentroid {
     use SectionValue::{Number, Word};
     let [l, height, bottom, top, lower, upper, web] = sizes[..7] else { unreachable!("seven numbers") };
     let middle = height - lower - upper;
@@ -208,12 +243,9 @@ fn i_section(sizes: &[f64]) -> Result<Vec<(&'static str, SectionValue)>, String>
         [(bottom * lower, 0.5 * lower), (top * upper, height - 0.5 * upper), (web * middle, lower + 0.5 * middle)];
     let area: f64 = areas.iter().map(|part| part.0).sum();
     let centroid = areas.iter().map(|(area, z)| area * z).sum::<f64>() / area;
-    if (l - centroid).abs() > 1e-3 * height {
-        return Err(format!(
-            "the node of this I section lies {l} above its lower edge, and rdsolve has it at the centroid, {centroid:.6}"
-        ));
-    }
-    Ok(vec![
+    // Pre-processors round the height of the centroid.
+    let over = if (l - centroid).abs() > 1e-3 * height { centroid - l } else { 0.0 };
+    let keys = vec![
         ("shape", Word("i")),
         ("height", Number(height)),
         ("bottom_width", Number(bottom)),
@@ -221,7 +253,8 @@ fn i_section(sizes: &[f64]) -> Result<Vec<(&'static str, SectionValue)>, String>
         ("bottom_flange_thickness", Number(lower)),
         ("top_flange_thickness", Number(upper)),
         ("web_thickness", Number(web)),
-    ])
+    ];
+    (keys, [0.0, over])
 }
 
 /// Area and moments: area, I11, I12, I22, then the torsion constant of Abaqus or the shear factor of CalculiX.

@@ -2,10 +2,11 @@
 
 use crate::bodies::DEGREES;
 use crate::build::Build;
-use crate::deck_text::{DeckTable, inline, list, number, quoted};
+use crate::deck_text::{DeckTable, inline, list, number, quoted, vector};
 use crate::file_content::SupportLine;
 use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, histories};
+use base::math::Mat3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// What becomes of a degree of freedom.
@@ -24,6 +25,7 @@ type Held = (HeldAs, Option<Vec<String>>);
 #[derive(Default)]
 struct Alike {
     held: [Option<Held>; 6],
+    axes: Option<Mat3>,
     nodes: BTreeSet<u64>,
     lines: BTreeSet<usize>,
 }
@@ -63,8 +65,9 @@ pub fn supports(build: &mut Build) {
     add_rotations(build, &mut of_node);
     let mut groups: BTreeMap<String, Alike> = BTreeMap::new();
     for (node, alike) in of_node {
-        let group = groups.entry(format!("{:?}", alike.held)).or_default();
-        group.held = alike.held;
+        let axes = build.tied.axes.get(&node).copied();
+        let group = groups.entry(format!("{:?} {axes:?}", alike.held)).or_default();
+        (group.held, group.axes) = (alike.held, axes);
         group.nodes.insert(node);
         group.lines.extend(alike.lines);
     }
@@ -174,7 +177,9 @@ fn add_rotations(build: &mut Build, of_node: &mut BTreeMap<u64, Alike>) {
             alike.held[dof].get_or_insert((HeldAs::Fixed, None));
         }
     };
-    for node in build.bushed.iter().filter(|node| !build.rotating.contains(node) && !build.body_of.contains_key(node)) {
+    for node in
+        build.tied.bushed.iter().filter(|node| !build.rotating.contains(node) && !build.body_of.contains_key(node))
+    {
         let still: Vec<usize> = (3..6).filter(|dof| !build.turning.contains(&(*node, *dof))).collect();
         add(*node, &still);
     }
@@ -216,6 +221,14 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
                 _ => None,
             })
             .collect();
+        if let Some(axes) = group.axes.filter(|_| !is_alike_along_any_axes(&fixed, moved.len())) {
+            let [first, second] = [axes.column(0), axes.column(1)].map(|axis| vector(axis.as_slice()));
+            table = table.value("axes", list([first, second].into_iter()));
+            if moved.iter().any(|(dof, _)| dof.starts_with('r')) {
+                let line = group.lines.first().copied().unwrap_or(0);
+                build.im.refuse(line, "rotations along axes of *TRANSFORM are held, not moved: give global ones");
+            }
+        }
         if !moved.is_empty() {
             table = table.value("motion", inline(&moved));
         }
@@ -224,6 +237,11 @@ fn write(build: &mut Build, group: Alike, targets: &[NamedTarget]) {
         }
         build.deck.add(table);
     }
+}
+
+/// True where the axes make no difference: all translations or none are held, and all rotations or none.
+fn is_alike_along_any_axes(fixed: &[usize], moved: usize) -> bool {
+    moved == 0 && matches!(fixed, [] | [0, 1, 2] | [3, 4, 5] | [0, 1, 2, 3, 4, 5])
 }
 
 /// Degrees of freedom as the deck writes them.

@@ -3,8 +3,10 @@
 use crate::build::Build;
 use crate::deck_text::DeckTable;
 use crate::dialect::Dialect;
-use crate::file_content::{RigidCard, SupportLine};
+use crate::equations;
+use crate::file_content::{PointsCard, RigidCard, SupportLine};
 use crate::scopes::NamedTarget;
+use crate::tied_nodes::NodalEquation;
 use std::collections::BTreeMap;
 
 /// How far nodes that are one may lie apart, over the size of the mesh.
@@ -46,11 +48,16 @@ pub fn merge(build: &mut Build) {
                     is_coupling: true,
                 });
             }
-            ("PIN" | "LINK" | "BEAM", [_, _]) => {}
+            ("PIN" | "LINK" | "BEAM", [_, _]) | ("LINEAR", [_, _, _]) => {}
+            ("STRAIGHT", [_, _, _, ..]) | ("PLANE", [_, _, _, _, ..]) if build.timeline.linear_step.is_some() => {}
+            ("STRAIGHT" | "PLANE", [_, _, _, ..]) => {
+                let why = "points stay on a line or in a plane at small displacements alone: this file has other steps than linear statics";
+                build.im.refuse(card.line, why);
+            }
             (kind, _) => build.im.refuse(card.line, &format!("constraints of type {kind} are not translated")),
         }
     }
-    for (pair, of_pair) in pairs(build) {
+    for (pair, of_pair) in pairs(build).0 {
         if of_pair.degrees == [true; 6] || of_pair.degrees == [true, true, true, false, false, false] && !of_pair.turns
         {
             build.mesh.merge(pair.1, pair.0);
@@ -67,20 +74,24 @@ struct PairOf {
     turns: bool,
 }
 
-/// Equations of two terms that say that two coincident nodes move alike, by the nodes; others become supports or are refused.
-fn pairs(build: &mut Build) -> BTreeMap<(u64, u64), PairOf> {
+/// Equations of two terms that say that two coincident nodes move alike, by the nodes, and all others; those of one term become supports.
+fn pairs(build: &mut Build) -> (BTreeMap<(u64, u64), PairOf>, Vec<NodalEquation>) {
     let size = build.mesh.size();
     let mut pairs: BTreeMap<(u64, u64), PairOf> = BTreeMap::new();
+    let mut others = Vec::new();
     for card in build.im.constraints.equations.clone() {
         let nodes: Vec<(Vec<u64>, usize, f64)> =
             card.terms.iter().map(|(target, dof, factor)| (build.nodes(target), *dof, *factor)).collect();
         match &nodes[..] {
             [(_, dof, _)] => hold(build, &card.terms[0].0, *dof, card.line),
-            [(a, p, f), (b, q, g)] if a.len() == 1 && b.len() == 1 && p == q && *f == -*g => {
-                if (build.mesh.x(a[0]) - build.mesh.x(b[0])).norm() > COINCIDENT * size {
-                    build.im.refuse(card.line, "this equation ties nodes that lie apart, which is not translated");
-                    continue;
-                }
+            [(a, p, f), (b, q, g)]
+                if a.len() == 1
+                    && b.len() == 1
+                    && p == q
+                    && *f == -*g
+                    && build.tied.axes.get(&a[0]) == build.tied.axes.get(&b[0])
+                    && (build.mesh.x(a[0]) - build.mesh.x(b[0])).norm() <= COINCIDENT * size =>
+            {
                 let turns = |id: u64| {
                     build.mesh.cells.iter().any(|cell| {
                         cell.nodes.contains(&id)
@@ -96,10 +107,24 @@ fn pairs(build: &mut Build) -> BTreeMap<(u64, u64), PairOf> {
                 });
                 pair.degrees[*p] = true;
             }
-            _ => build.im.refuse(card.line, "equations between several degrees of freedom are not translated"),
+            terms => others.extend(of_sets(build, terms, card.line)),
         }
     }
-    pairs
+    (pairs, others)
+}
+
+/// The equations of nodes, or of sets of as many nodes each.
+fn of_sets(build: &mut Build, terms: &[(Vec<u64>, usize, f64)], line: usize) -> Vec<NodalEquation> {
+    let count = terms.iter().map(|term| term.0.len()).max().unwrap_or(0);
+    if terms.iter().any(|term| term.0.len() != count && term.0.len() != 1) {
+        build.im.refuse(line, "the sets of an equation need as many nodes each");
+        return Vec::new();
+    }
+    let node = |nodes: &[u64], at: usize| if nodes.len() == 1 { nodes[0] } else { nodes[at] };
+    let of = |at: usize| -> Vec<(u64, usize, f64)> {
+        terms.iter().map(|(nodes, dof, factor)| (node(nodes, at), *dof, *factor)).collect()
+    };
+    (0..count).map(|at| equations::along_axes(build, line, &of(at))).collect()
 }
 
 /// Holds a degree of freedom.
@@ -133,6 +158,10 @@ pub fn joints(build: &mut Build) {
         let kind = match &card.kind[..] {
             "PIN" => "spherical",
             "LINK" | "BEAM" if !is_beam => "distance",
+            "LINEAR" | "STRAIGHT" | "PLANE" => {
+                in_line(build, &card);
+                continue;
+            }
             _ => continue,
         };
         let nodes: Vec<u64> = card.nodes.iter().filter_map(|target| build.node(target)).collect();
@@ -140,7 +169,8 @@ pub fn joints(build: &mut Build) {
             add(build, (kind, &card.kind.to_lowercase()), (a, b), card.line, None);
         }
     }
-    let alike = pairs(build);
+    let (alike, others) = pairs(build);
+    build.tied.equations.extend(others);
     for ((a, b), pair) in alike {
         match pair.degrees {
             [true, true, true, true, true, true] => {}
@@ -152,8 +182,24 @@ pub fn joints(build: &mut Build) {
                 let axis = [rx, ry, rz].map(|held| if held { 0.0 } else { 1.0 });
                 add(build, ("revolute", "tie"), (a, b), pair.line, Some(axis));
             }
-            _ => build.im.refuse(pair.line, "equations that tie these degrees of freedom alone are not translated"),
+            held => {
+                let of = (0..6).filter(|dof| held[*dof]);
+                let all: Vec<NodalEquation> =
+                    of.map(|dof| equations::along_axes(build, pair.line, &[(a, dof, 1.0), (b, dof, -1.0)])).collect();
+                build.tied.equations.extend(all);
+            }
         }
+    }
+}
+
+/// Points between others, on their line or in their plane.
+fn in_line(build: &mut Build, card: &PointsCard) {
+    let nodes: Vec<u64> = card.nodes.iter().flat_map(|target| build.nodes(target)).collect();
+    match (&card.kind[..], &nodes[..]) {
+        ("LINEAR", &[point, a, b]) => equations::linear(build, card.line, [point, a, b]),
+        ("STRAIGHT", [_, _, _, ..]) => equations::flat(build, card.line, &nodes, 2),
+        ("PLANE", [_, _, _, _, ..]) => equations::flat(build, card.line, &nodes, 3),
+        _ => {}
     }
 }
 

@@ -41,7 +41,7 @@ pub struct VerdictRow {
     pub file_line: usize,
     /// The line in the text with all included files.
     pub line: usize,
-    /// The keyword that the line belongs to, with its asterisk.
+    /// The keyword that the line belongs to, with its asterisk, or the element of XML.
     pub keyword: String,
     /// The verdict.
     pub verdict: KeywordVerdict,
@@ -54,7 +54,7 @@ pub struct VerdictRow {
 /// The verdicts so far.
 #[derive(Debug, Default)]
 pub struct Verdicts {
-    /// Line and name of every keyword, ascending.
+    /// Line and name of every keyword or element, ascending.
     keywords: Vec<(usize, String)>,
     /// All rows, as they were found.
     pub rows: Vec<VerdictRow>,
@@ -82,7 +82,7 @@ impl Verdicts {
         {
             return;
         }
-        let keyword = of.map_or_else(String::new, |of| format!("*{}", self.keywords[of].1));
+        let keyword = of.map_or_else(String::new, |of| self.keywords[of].1.clone());
         let (file, file_line) = text.origin(line);
         let severe = verdict >= KeywordVerdict::Changed;
         let said = severe.then(|| said.unwrap_or_else(|| text.fault(&*about, line))).map(|mut said| {

@@ -39,6 +39,25 @@ fn files_are_written_once() {
     assert_eq!(rdsolve(folder.path(), &["import", "rod.inp", "--from", "nastran"]).0, 2);
 }
 
+/// A robot has no mesh; `rdsolve arm.urdf` runs it, and --from is for input files.
+#[test]
+fn robots_and_the_program_of_a_file() {
+    let arm = "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"><inertial><origin xyz=\"1 0 0\"/><mass value=\"1\"/>\n\
+               <inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial></link>\n\
+               <joint name=\"j\" type=\"continuous\"><parent link=\"a\"/><child link=\"b\"/><axis xyz=\"0 1 0\"/></joint></robot>\n";
+    let folder = folder(&[("arm.urdf", arm), ("bad.urdf", &arm[..90]), ("rod.inp", &deck("oscillator"))]);
+    let (code, said, _) = rdsolve(folder.path(), &["import", "arm.urdf"]);
+    assert_eq!(code, 0);
+    assert!(said.ends_with("written: arm.toml, arm.import.csv\n"), "{said}");
+    assert_eq!(rdsolve(folder.path(), &["arm.urdf", "--quiet"]).0, 0);
+    assert!(folder.path().join("arm.out/joints.csv").exists());
+    let (code, _, problems) = rdsolve(folder.path(), &["import", "bad.urdf"]);
+    assert!(code == 3 && problems.contains("--> bad.urdf:1"), "{problems}");
+    assert_eq!(rdsolve(folder.path(), &["rod.inp", "--from", "abaqus", "--quiet"]).0, 0);
+    let (code, _, problems) = rdsolve(folder.path(), &["arm.toml", "--from", "abaqus"]);
+    assert!(code == 2 && problems.contains("remove --from"), "{problems}");
+}
+
 #[test]
 fn refusals_come_all_at_once() {
     let folder = folder(&[("disc.inp", &deck("spinning_disc"))]);

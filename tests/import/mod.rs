@@ -1,8 +1,11 @@
 //! Files of Abaqus and CalculiX as decks: values that come out, verdicts, and the command.
 
+mod coming_from;
 mod command;
+mod constraints;
 mod dresses;
 mod keywords;
+mod robots;
 mod round_trip;
 mod rows;
 mod silent;

@@ -49,7 +49,6 @@ fn sections_of_beams() {
     let flanges = "height = 0.2\nbottom_width = 0.1\ntop_width = 0.1\nbottom_flange_thickness = 0.01\ntop_flange_thickness = 0.01\n\
                    web_thickness = 0.005\n";
     has(BEAM, &with("SECTION=I", "0.1, 0.2, 0.1, 0.1, 0.01, 0.01, 0.005"), None, flanges);
-    refuses(BEAM, &with("SECTION=I", "0., 0.2, 0.1, 0.1, 0.01, 0.01, 0.005"), "rdsolve has it at the centroid");
     has(
         BEAM,
         &with("SECTION=L", "0.1, 0.2, 0.01, 0.02"),
@@ -57,7 +56,7 @@ fn sections_of_beams() {
         "shape = \"l\"\nwidth = 0.1\nheight = 0.2\nthickness = [0.02, 0.01]\n",
     );
     refuses(BEAM, &with("SECTION=CIRC", "0.1"), "--from abaqus or --from calculix");
-    refuses(BEAM, &with("SECTION=HEX", "0.1, 0.01"), "SECTION=HEX is not translated");
+    refuses(BEAM, &with("SECTION=TRAPEZOID", "0.1, 0.1, 0.2, 0."), "SECTION=TRAPEZOID is not translated");
     // An ellipse: A = π a b, I = A a²/4, J = π a³ b³/(a² + b²).
     let made = imported_from(&edited(BEAM, &with("SECTION=CIRC", "0.2, 0.4")), calculix);
     let area = std::f64::consts::PI * 0.02;
@@ -135,11 +134,7 @@ fn shells() {
         ("*STEP", "*NSET, NSET=all, GENERATE\n1, 4\n*NODAL THICKNESS\nall, 0.03\n*STEP"),
     ];
     has(SHELL, &nodal, None, "thickness = 0.03\n");
-    refuses(
-        SHELL,
-        &[nodal[0], ("*STEP", "*NODAL THICKNESS\n1, 0.03\n2, 0.04\n*STEP")],
-        "the same everywhere in an element",
-    );
+    refuses(SHELL, &[nodal[0], ("*STEP", "*NODAL THICKNESS\n1, 0.03\n2, 0.04\n*STEP")], "have no thickness");
     let axis = [
         ("MATERIAL=m\n0.01", "MATERIAL=m, ORIENTATION=o\n0.01"),
         ("*STEP", "*ORIENTATION, NAME=O\n0., 1., 0., -1., 0., 0.\n*STEP"),

@@ -6,7 +6,7 @@ use rdsolve::diagnostic::Source;
 use rdsolve::model;
 
 /// Displacement and rotation vector of a node at the end of a deck that has been imported; and the largest displacement along x.
-fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
+pub fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
     let made = imported(text);
     assert_eq!(refusals(&made), [""; 0]);
     let folder = tempfile::tempdir().unwrap();
@@ -22,7 +22,7 @@ fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
     ([last[0], last[1], last[2]], most)
 }
 
-fn near(value: f64, wanted: f64, tolerance: f64) {
+pub fn near(value: f64, wanted: f64, tolerance: f64) {
     assert!((value / wanted - 1.0).abs() < tolerance, "{value} for {wanted}");
 }
 

@@ -1,0 +1,106 @@
+//! Sections of thin walls by their integrals: SECTION=HEX and SECTION=ARBITRARY.
+
+use crate::file_content::SectionValue;
+
+/// Keys of a section of the deck, and the place of its centroid from the node.
+pub type KeysAndCentroid = (Vec<(&'static str, SectionValue)>, [f64; 2]);
+
+/// What a section adds up to.
+struct Integrals {
+    area: f64,
+    /// Second moments about the first and the second axis, and the product moment.
+    moments: [f64; 3],
+    torsion: f64,
+    /// The part of the area that shear acts on.
+    shear: f64,
+}
+
+impl Integrals {
+    fn keys(&self) -> Vec<(&'static str, SectionValue)> {
+        use SectionValue::{Number, Numbers, Word};
+        let [first, second, product] = self.moments;
+        let shear = self.shear * self.area;
+        let mut keys = vec![
+            ("shape", Word("general")),
+            ("area", Number(self.area)),
+            ("moments", Numbers(vec![first, second])),
+            ("torsion_constant", Number(self.torsion)),
+            ("shear_areas", Numbers(vec![shear, shear])),
+        ];
+        if product != 0.0 {
+            keys.push(("product_moment", Number(product)));
+        }
+        keys
+    }
+}
+
+/// A regular hexagon by the radius of its corners and the thickness of its walls; the shear factor is that of Abaqus.
+pub fn hexagon(radius: f64, thickness: f64) -> Result<KeysAndCentroid, String> {
+    let root = 3.0_f64.sqrt();
+    let inner = radius - 2.0 * thickness / root;
+    if !(thickness > 0.0 && inner > 0.0) {
+        return Err("the walls of this hexagon are thicker than its radius allows".to_owned());
+    }
+    let side = radius - thickness / root;
+    let moment = 5.0 * root / 16.0 * (radius.powi(4) - inner.powi(4));
+    let enclosed = 1.5 * root * side * side;
+    let integrals = Integrals {
+        area: 1.5 * root * (radius * radius - inner * inner),
+        moments: [moment, moment, 0.0],
+        torsion: 4.0 * enclosed * enclosed * thickness / (6.0 * side),
+        shear: 0.53,
+    };
+    Ok((integrals.keys(), [0.0; 2]))
+}
+
+/// A line of walls through points; `rows`: the number of walls, the first two points and a thickness, then a point and a thickness each.
+pub fn arbitrary(rows: &[Vec<f64>]) -> Result<KeysAndCentroid, String> {
+    let count = rows.first().and_then(|row| row.first()).map_or(0, |count| *count as usize);
+    let Some([_, a, b, c, d, t]) = rows.first().map(Vec::as_slice) else {
+        return Err(
+            "SECTION=ARBITRARY needs the number of walls, two points and a thickness on the line below".to_owned()
+        );
+    };
+    let (mut points, mut thicknesses) = (vec![[*a, *b], [*c, *d]], vec![*t]);
+    for row in rows.iter().take(count).skip(1) {
+        let [x, y, t] = row[..] else { return Err("a further wall has a point and a thickness".to_owned()) };
+        points.push([x, y]);
+        thicknesses.push(t);
+    }
+    if thicknesses.len() != count {
+        return Err(format!("SECTION=ARBITRARY lacks some of its {count} walls"));
+    }
+    let meets = |k: usize| points[k + 1..].contains(&points[k]);
+    let is_closed = points.first() == points.last();
+    if (0..points.len()).any(|k| meets(k) && !(is_closed && k == 0)) || thicknesses.iter().any(|t| *t <= 0.0) {
+        return Err("the walls of a section form one line, open or closed, and have a thickness".to_owned());
+    }
+    Ok(walls(&points, &thicknesses, is_closed))
+}
+
+fn walls(points: &[[f64; 2]], thicknesses: &[f64], is_closed: bool) -> KeysAndCentroid {
+    let all = || points.windows(2).zip(thicknesses).map(|(ends, t)| (ends[0], ends[1], *t));
+    let length = |p: [f64; 2], q: [f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]);
+    let area: f64 = all().map(|(p, q, t)| length(p, q) * t).sum();
+    let center: [f64; 2] =
+        [0, 1].map(|i| all().map(|(p, q, t)| 0.5 * (p[i] + q[i]) * length(p, q) * t).sum::<f64>() / area);
+    // Moments of a wall: those of its middle line, and of its thickness across.
+    let second = |i: usize, j: usize| -> f64 {
+        all()
+            .map(|(p, q, t)| {
+                let l = length(p, q);
+                let (along, across) = ([(q[0] - p[0]) / l, (q[1] - p[1]) / l], [(p[1] - q[1]) / l, (q[0] - p[0]) / l]);
+                let middle = [0, 1].map(|k| 0.5 * (p[k] + q[k]) - center[k]);
+                let own = l * l / 12.0 * along[i] * along[j] + t * t / 12.0 * across[i] * across[j];
+                l * t * (middle[i] * middle[j] + own)
+            })
+            .sum()
+    };
+    let open: f64 = all().map(|(p, q, t)| length(p, q) * t.powi(3) / 3.0).sum();
+    let enclosed: f64 = 0.5 * all().map(|(p, q, _)| p[0] * q[1] - p[1] * q[0]).sum::<f64>();
+    let flow: f64 = all().map(|(p, q, t)| length(p, q) / t).sum();
+    let closed = if is_closed { 4.0 * enclosed * enclosed / flow } else { 0.0 };
+    let integrals =
+        Integrals { area, moments: [second(1, 1), second(0, 0), second(0, 1)], torsion: open + closed, shear: 1.0 };
+    (integrals.keys(), center)
+}
