@@ -50,9 +50,10 @@ use super::plausibility::{check_content, check_static, check_use};
 use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
 use super::procedure::linear::{check_linear, make_elastic};
-use super::procedure::mass_scaling::{check_mass_scaling, rotary_inertia};
+use super::procedure::mass_scaling::check_mass_scaling;
 use super::procedure::modes::{check_modal, hold_at_start};
 use super::procedure::response::{add_expected, check_harmonic};
+use super::procedure::scaled_masses::rotary_inertia;
 use super::procedure::stops::{self, NamedActors};
 use super::procedure::study::study;
 use super::procedure::{analysis, check_explicit};
@@ -245,7 +246,10 @@ fn model<'d>(
         solution: Solution {
             scheme: procedure.scheme,
             scheme_is_chosen: false,
-            rotary_inertia: rotary_inertia(deck, stage),
+            rotary_inertia: rotary_inertia(
+                deck,
+                stage.is_none_or(|stage| stage.sequence.moves_by_central_differences()),
+            ),
             iteration,
         },
         nodes,

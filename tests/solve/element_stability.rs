@@ -1,7 +1,7 @@
 //! The step that an element bears, and the mass that it is given for a longer one.
 
 use rdsolve::math::{Mat3, Vec3};
-use rdsolve::solve::inner::{ElementScaling, LumpedElement, NodalShare, Spacing, scaling};
+use rdsolve::solve::inner::{ElementScaling, LumpedElement, NodalShare, NodeSpacing, scaling};
 
 /// A bar of two nodes along x: κ = 4 E/ρ L².
 #[test]
@@ -12,7 +12,7 @@ fn a_bar_is_given_the_square_of_the_ratio_of_steps() {
         K[6 * i + j] = k * stiffness;
     }
     let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0: Mat3::zeros(), turns: true });
-    let element = (&LumpedElement(shares.into()), &Spacing { bending: Mat3::identity(), drilling: Mat3::zeros() });
+    let element = (&LumpedElement(shares.into()), &NodeSpacing { bending: Mat3::identity(), drilling: Mat3::zeros() });
     let fastest = 4.0 * stiffness / mass;
     assert_eq!(scaling(&K, element, 1.001 * fastest), ElementScaling::KEPT);
     let given = scaling(&K, element, fastest / 6.25);
@@ -34,7 +34,7 @@ fn rotary_inertia_is_raised_before_mass() {
     let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0, turns: true });
     let element = LumpedElement(shares.into());
     let bending = length * length * Mat3::from_diagonal(&Vec3::new(0.0, 1.0, 1.0));
-    let spacing = Spacing { bending, drilling: Mat3::zeros() };
+    let spacing = NodeSpacing { bending, drilling: Mat3::zeros() };
     let fastest = |r: f64| stiffness * length / mass * (4.0 / (length * length) + 1.0 / (r * r));
     let given = scaling(&K, (&element, &spacing), fastest(0.2));
     // What bisection leaves.

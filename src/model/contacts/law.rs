@@ -5,7 +5,7 @@ use crate::contacts::opposite::Opposite;
 use crate::contacts::stiffness::{ChosenStiffness, Meets};
 use crate::data::{Mass, SAFE_WHERE_STRUCK, StepLength};
 use crate::places::nodes::Topology;
-use crate::procedure::mass_scaling::{KEY, is_central};
+use crate::procedure::scaled_masses::{KEY, is_central};
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
 use base::math::Vec3;

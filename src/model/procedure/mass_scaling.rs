@@ -1,45 +1,15 @@
 //! Conflicts of mass scaling with other input.
 
 use crate::data::{FEWEST_STEPS, MassKind, SAFE, SAFE_WHERE_STRUCK, StepLength};
+use crate::procedure::scaled_masses::KEY;
 use crate::report::Report;
 use crate::scene::Scene;
-use crate::stages::CurrentStage;
 use crate::values::span;
-use base::diagnostic::At;
 use base::diagnostic::Span;
 use base::names::short;
-use base::words::kinds::OneOf;
 use deck::Deck;
-use deck::analysis::{Integrator, RotaryInertia};
+use deck::analysis::RotaryInertia;
 use mechanics::integrators::Scheme;
-
-/// The key of mass scaling in the table of the scheme.
-pub const KEY: &str = "mass_scaling_step";
-/// The word of the scheme whose step mass scaling raises.
-pub const CENTRAL_DIFFERENCE: &str = mechanics::integrators::central_difference::KIND.word;
-
-/// The masses that a scheme gives to elements: the critical time step of mass scaling, and whether rotary inertia is raised. Where dynamic
-/// stages have different schemes, rotary inertia is raised only if the deck asks for it, because a motion goes on with the masses it has.
-pub fn masses(integrator: Option<&At<OneOf<Integrator>>>, all_central: bool) -> (Option<f64>, RotaryInertia) {
-    let Some(table) = integrator.filter(|table| is_central(table)) else { return (None, RotaryInertia::Off) };
-    let step = table.values.numbers(KEY).first().copied();
-    match &table.mass_scaling {
-        Some(word) => (step, word.value),
-        None if all_central => (step, RotaryInertia::default()),
-        None => (step, RotaryInertia::Off),
-    }
-}
-
-/// True for central differences.
-pub fn is_central(integrator: &At<OneOf<Integrator>>) -> bool {
-    integrator.kind.as_ref().is_some_and(|kind| kind.value.word == CENTRAL_DIFFERENCE)
-}
-
-/// The rotary inertia of shells and beams in a deck, or in one of its stages.
-pub fn rotary_inertia(deck: &Deck, stage: Option<CurrentStage>) -> RotaryInertia {
-    let all_central = stage.is_none_or(|stage| stage.sequence.moves_by_central_differences());
-    masses(deck.integrator.as_ref(), all_central).1
-}
 
 /// Reports conflicts of mass scaling, once all parts are known.
 pub fn check_mass_scaling(scene: &Scene, scheme: &dyn Scheme, report: &mut Report) {

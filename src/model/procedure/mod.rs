@@ -8,14 +8,15 @@ pub mod linear;
 pub mod mass_scaling;
 pub mod modes;
 pub mod response;
+pub mod scaled_masses;
 pub mod stops;
 pub mod study;
 
 use crate::data::{Analysis, AnalysisKind, Gyroscopic, Iteration, MassKind, Method, Part, StepLength, Update};
 use crate::data::{ERROR_TOLERANCE, FIRST_STEP};
 use crate::procedure::linear::linear;
-use crate::procedure::mass_scaling::CENTRAL_DIFFERENCE;
 use crate::procedure::modes::modes;
+use crate::procedure::scaled_masses::scales_masses;
 use crate::report::{Owner, Report};
 use crate::stages::CurrentStage;
 use crate::values::{chosen, keys, span};
@@ -201,7 +202,7 @@ pub fn scheme<'d>(integrator: &'d At<OneOf<words::Integrator>>, report: &mut Rep
     if !kind.make.rotation_update {
         report.reject_unused(&owner.what, &keys!(integrator; rotation_update));
     }
-    if kind.word != CENTRAL_DIFFERENCE {
+    if !scales_masses(kind) {
         report.reject_unused(&owner.what, &keys!(integrator; mass_scaling));
     }
     let rotation = chosen(&integrator.rotation_update);

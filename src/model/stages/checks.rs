@@ -2,8 +2,8 @@
 
 use super::current::CurrentStage;
 use super::sequence::{StageSequence, buckles, name_of, responds};
-use crate::procedure::mass_scaling::{KEY, masses};
 use crate::procedure::response::names_harmonic;
+use crate::procedure::scaled_masses::{KEY, masses};
 use crate::report::Report;
 use crate::values::keys;
 use base::diagnostic::At;

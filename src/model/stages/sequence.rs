@@ -1,6 +1,6 @@
 //! The stages of a deck in order: their times, and the tables active in each.
 
-use crate::procedure::mass_scaling::is_central;
+use crate::procedure::scaled_masses::is_central;
 use crate::report::{Owner, Report};
 use crate::shells::edges::Bulges;
 use crate::values::keys;

@@ -7,7 +7,7 @@
 //! turn (T. J. R. Hughes, M. Cohen, M. Haroun, Nucl. Engrg Des. 46 (1978), 203-222). In a wave of length λ along h its error is of the order (h/λ)², like the
 //! error of the mesh. If the element is still too fast, mass and rotary inertia are multiplied by one factor.
 
-use super::parts::{LumpedElement, NodalShare, Spacing};
+use super::parts::{LumpedElement, NodalShare, NodeSpacing};
 use crate::tolerances::element_stability::{BISECTIONS, GYRATION, NONE, OF_USE};
 use base::math::{Mat3, Vec3};
 use nalgebra::{DMatrix, Dyn, linalg::Cholesky};
@@ -66,7 +66,7 @@ fn principal(J0: &Mat3, S: &Mat3) -> (Mat3, Vec3) {
 
 /// The scaling that limits the squared frequencies of an element to `limit`. `K` is its stiffness, row-major; `spacing` are the squares of
 /// the distances of its neighbouring nodes ([`super::parts::Assembled::spacing`]). A direction without mass counts as restrained.
-pub fn scaling(K: &[f64], (element, spacing): (&LumpedElement, &Spacing), limit: f64) -> ElementScaling {
+pub fn scaling(K: &[f64], (element, spacing): (&LumpedElement, &NodeSpacing), limit: f64) -> ElementScaling {
     let modes = ElementModes::new(K, element, spacing);
     let condensed = modes.condensed(limit);
     let are_slow =
@@ -89,12 +89,12 @@ pub fn scaling(K: &[f64], (element, spacing): (&LumpedElement, &Spacing), limit:
 }
 
 /// The least squared radii of gyration: all of the most about the normal of a shell, and this part of the most for turns that bend.
-fn gyration(spacing: &Spacing, part: f64) -> Mat3 {
+fn gyration(spacing: &NodeSpacing, part: f64) -> Mat3 {
     GYRATION * (spacing.drilling + part * spacing.bending)
 }
 
 /// The factor on the mass of an element that [`scaling`] gives it.
-pub fn factor(K: &[f64], (element, spacing): (&LumpedElement, &Spacing), limit: f64) -> f64 {
+pub fn factor(K: &[f64], (element, spacing): (&LumpedElement, &NodeSpacing), limit: f64) -> f64 {
     let modes = ElementModes::new(K, element, spacing);
     if [Some(1.0), None].into_iter().any(|part| modes.is_slow(part, limit)) { 1.0 } else { modes.heaviest(limit).0 }
 }
@@ -102,7 +102,7 @@ pub fn factor(K: &[f64], (element, spacing): (&LumpedElement, &Spacing), limit: 
 /// The largest square of a frequency of an element if it exceeds `limit`, with rotary inertia raised by this part of the most.
 pub fn fastest(
     K: &[f64],
-    (element, spacing): (&LumpedElement, &Spacing),
+    (element, spacing): (&LumpedElement, &NodeSpacing),
     part: Option<f64>,
     limit: f64,
 ) -> Option<f64> {
@@ -119,7 +119,7 @@ struct ElementModes {
 }
 
 impl ElementModes {
-    fn new(K: &[f64], element: &LumpedElement, spacing: &Spacing) -> ElementModes {
+    fn new(K: &[f64], element: &LumpedElement, spacing: &NodeSpacing) -> ElementModes {
         let n = K.len().isqrt();
         let dofs = n / element.0.len();
         let mut axes = DMatrix::zeros(n, n);

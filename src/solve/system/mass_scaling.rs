@@ -5,7 +5,7 @@ use super::element_stability::{ElementScaling, factor, fastest, scaling};
 use super::equations::System;
 use super::group::Group;
 use super::inertia::Inertia;
-use super::parts::{LumpedElement, NodalMasses, Spacing, assembled};
+use super::parts::{LumpedElement, NodalMasses, NodeSpacing, assembled};
 use crate::tolerances::element_stability::{BORDER, OF_USE};
 use base::math::{Mat3, Vec3};
 use mechanics::elements::Moduli;
@@ -235,7 +235,7 @@ impl<'m> Elements<'m> {
 
     /// Hands out each element of a group: its number within the part, its elastic tangent, and its lumped mass with the squared distances
     /// of its nodes, if it has mass.
-    fn each(&self, group: &Group, mut each: impl FnMut(usize, &[f64], Option<(&LumpedElement, &Spacing)>)) {
+    fn each(&self, group: &Group, mut each: impl FnMut(usize, &[f64], Option<(&LumpedElement, &NodeSpacing)>)) {
         let block = &group.block;
         let history = vec![0.0; group.history.len()];
         let now = Configuration { history: &history, ..Configuration::of(&self.nodes) };

@@ -48,7 +48,7 @@ mod turning_body;
 pub mod inner {
     pub use super::dependents::{Arms, Followers};
     pub use super::element_stability::{ElementScaling, scaling};
-    pub use super::parts::{LumpedElement, NodalShare, Spacing};
+    pub use super::parts::{LumpedElement, NodalShare, NodeSpacing};
     pub use super::schur_factor::{SchurFactor, SparseFactor};
 }
 

@@ -28,16 +28,16 @@ pub type NumberedPairs = (Box<dyn PairBlock>, usize);
 
 /// Squared distances of neighbouring nodes of an element as tensors, global components.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Spacing {
+pub struct NodeSpacing {
     /// For turns that bend the element.
     pub bending: Mat3,
     /// For turns about the normal of a shell, which waves of bending do not have.
     pub drilling: Mat3,
 }
 
-impl Default for Spacing {
-    fn default() -> Spacing {
-        Spacing { bending: Mat3::zeros(), drilling: Mat3::zeros() }
+impl Default for NodeSpacing {
+    fn default() -> NodeSpacing {
+        NodeSpacing { bending: Mat3::zeros(), drilling: Mat3::zeros() }
     }
 }
 
@@ -53,8 +53,8 @@ pub trait Assembled {
 
     /// The squared distances of neighbouring nodes of a deformable element at t = 0, as tensors S. `aᵀ S a` belongs to
     /// waves that turn the element about the unit vector a, and is zero if there are none.
-    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> Spacing {
-        Spacing::default()
+    fn spacing(&self, _element: usize, _masses: &NodalMasses) -> NodeSpacing {
+        NodeSpacing::default()
     }
 
     /// The blocks of elements of the part; some may be empty.

@@ -1,6 +1,6 @@
 //! Beams in the equation of motion: their masses and blocks, and the resultants in their sections.
 
-use super::assembled::{Assembled, NumberedBlock, Setting, Spacing, pieces};
+use super::assembled::{Assembled, NodeSpacing, NumberedBlock, Setting, pieces};
 use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
@@ -32,11 +32,11 @@ impl Assembled for Beam {
     }
 
     /// The rotary inertia of torsion is not raised.
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> Spacing {
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> NodeSpacing {
         let nodes = &self.elements[element].nodes;
         let along = (masses.x[nodes[self.order]] - masses.x[nodes[0]]) / self.order as f64;
         let bending = along.norm_squared() * Mat3::identity() - along * along.transpose();
-        Spacing { bending, drilling: Mat3::zeros() }
+        NodeSpacing { bending, drilling: Mat3::zeros() }
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {

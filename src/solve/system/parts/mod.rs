@@ -12,7 +12,7 @@ mod masses;
 pub mod shell_shear;
 pub mod shells;
 
-pub use assembled::{Assembled, Setting, Spacing};
+pub use assembled::{Assembled, NodeSpacing, Setting};
 pub use masses::{LumpedElement, NodalMasses, NodalShare};
 
 use model::{Part, PartKind};

@@ -1,6 +1,6 @@
 //! Shells in the equation of motion: their masses and blocks, and the resultants of their elements.
 
-use super::assembled::{Assembled, NumberedBlock, Setting, Spacing, pieces};
+use super::assembled::{Assembled, NodeSpacing, NumberedBlock, Setting, pieces};
 use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::system::group::Group;
 use crate::system::inertia::ConsistentMass;
@@ -63,7 +63,7 @@ impl Assembled for Shell {
 
     /// Half the sum of the squares of its sides: of rectangles and of triangles with a right angle the sides themselves, of triangles with
     /// equal ones their heights. Elements of order 2 have a node on each side.
-    fn spacing(&self, element: usize, masses: &NodalMasses) -> Spacing {
+    fn spacing(&self, element: usize, masses: &NodalMasses) -> NodeSpacing {
         let (corners, parts) = match self.size() {
             size @ (3 | 4) => (size, 1.0),
             6 => (3, 2.0),
@@ -80,7 +80,7 @@ impl Assembled for Shell {
         let about_normal = normal * normal.transpose();
         let bending = (long + short) * (Mat3::identity() - about_normal) - squares
             + normal.dot(&(squares * normal)) * about_normal;
-        Spacing { bending, drilling: long * about_normal }
+        NodeSpacing { bending, drilling: long * about_normal }
     }
 
     fn blocks(&self, setting: &Setting) -> Vec<NumberedBlock> {
