@@ -18,6 +18,8 @@ pub mod convergence {
     pub const STAGNANT: usize = 3;
     /// Contraction above which the remaining correction may be only rounding.
     pub const SLOW: f64 = 0.5;
+    /// Residual, relative to the largest forces, above which it consists of these forces: its ratios then tell nothing of the contraction.
+    pub const SATURATED: f64 = 0.1;
     /// Ratio to the last residual above which a residual counts as not decreased.
     pub const FALLS: f64 = 0.5;
     /// Safety on the square of the ratio of two corrections, which is the contraction of the residual with an own matrix.

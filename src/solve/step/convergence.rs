@@ -1,6 +1,6 @@
 //! The convergence criterion of the iteration: it rests on the sizes of corrections and residuals alone.
 
-use crate::tolerances::convergence::{FALLS, SECOND_ORDER, SLOW, STAGNANT};
+use crate::tolerances::convergence::{FALLS, SATURATED, SECOND_ORDER, SLOW, STAGNANT};
 
 /// Judges the corrections of a step.
 pub struct Convergence {
@@ -27,14 +27,17 @@ struct Correction {
 pub struct Judgement {
     /// The larger ratio of size or residual to the previous correction; the usual contraction for the first one.
     pub contraction: f64,
+    /// The contraction that tells of the matrix: that of sizes alone while the residual has the size of the forces. Stiff parts keep it there
+    /// until their rotations are right, so its ratio tells nothing.
+    pub of_matrix: f64,
     /// True where there was a correction before.
     pub seen: bool,
     /// True if the correction is larger than the previous one.
     pub grows: bool,
     /// Number of corrections whose residual did not fall.
     stagnant: usize,
-    /// Estimated remaining error or residual, the larger, relative.
-    left: f64,
+    /// Estimated remaining error or residual, the larger, relative; the second one at the contraction of the matrix.
+    left: [f64; 2],
     /// The tolerance of the correction.
     pub tolerance: f64,
 }
@@ -63,6 +66,10 @@ impl Convergence {
             None => self.usual,
             Some(last) => (size / last.size).max(residual / last.residual),
         };
+        let of_matrix = match self.last {
+            Some(last) if last.residual.min(residual) > SATURATED => size / last.size,
+            _ => contraction,
+        };
         let contraction_of_residual = match self.last {
             Some(last) if quadratic => contraction.min(SECOND_ORDER * (size / last.size).powi(2)),
             _ => contraction,
@@ -73,19 +80,22 @@ impl Convergence {
             _ => self.stagnant,
         };
         // The corrections to come are a geometric series; the next residual contracts likewise.
-        let error = contraction / (1.0 - contraction) * size;
         let [tolerance, of_residual] = self.tolerances;
-        let left = error.max(contraction_of_residual * residual * (tolerance / of_residual));
+        let left = |contraction: f64, of_forces: f64| {
+            (contraction / (1.0 - contraction) * size).max(of_forces * residual * (tolerance / of_residual))
+        };
+        let left =
+            [left(contraction, contraction_of_residual), left(of_matrix, of_matrix.min(contraction_of_residual))];
         let grows = self.last.is_some_and(|last| size > last.size);
         let seen = self.last.replace(Correction { size, residual }).is_some();
-        Judgement { grows, contraction, stagnant: self.stagnant, seen, left, tolerance }
+        Judgement { grows, contraction, of_matrix, stagnant: self.stagnant, seen, left, tolerance }
     }
 }
 
 impl Judgement {
     /// True where the remaining error and residual are below the tolerance.
     pub fn converged(&self) -> bool {
-        self.contraction < 1.0 && self.left <= self.tolerance
+        self.contraction < 1.0 && self.left[0] <= self.tolerance
     }
 
     /// True where the iteration contracts slowly or not at all: only rounding may be left.
@@ -99,8 +109,10 @@ impl Judgement {
         self.stagnant >= STAGNANT
     }
 
-    /// Number of iterations still needed at this rate.
-    pub fn remaining(&self) -> f64 {
-        if self.contraction < 1.0 { (self.tolerance / self.left).ln() / self.contraction.ln() } else { f64::INFINITY }
+    /// Number of iterations still needed at this rate, or at the contraction of the matrix.
+    pub fn remaining(&self, of_matrix: bool) -> f64 {
+        let contraction = if of_matrix { self.of_matrix } else { self.contraction };
+        let left = self.left[usize::from(of_matrix)];
+        if contraction < 1.0 { (self.tolerance / left).ln() / contraction.ln() } else { f64::INFINITY }
     }
 }

@@ -258,9 +258,10 @@ impl Newton {
         }
         let judgement = progress.convergence.judge(size, residual, quadratic);
         self.tolerance.note(&judgement);
-        progress.remaining = judgement.remaining();
+        progress.remaining = judgement.remaining(false);
         let refresh = &mut self.matrix.refresh;
-        if self.tolerance.carries {
+        // Where material yields, one contraction says little about the next.
+        if self.tolerance.carries || refresh.learns && cx.system.history == 0 {
             refresh.note(iterations, fresh, size, &judgement);
         }
         if progress.has_converged(cx, ws, correction, (self.tolerance.tolerance, self.regime), &judgement) {

@@ -38,9 +38,9 @@ keep!(IterationMatrix { refresh, rotated, mechanisms, mass_weight } without { un
 impl IterationMatrix {
     /// No matrix yet, with the rule of the deck.
     pub fn new(cx: &Context) -> IterationMatrix {
-        let (method, update) = Refresh::rule(cx);
+        let (_, update) = Refresh::rule(cx);
         IterationMatrix {
-            refresh: Refresh::new(method, update, cx.plan.linear, cx.plan.refresh_cost),
+            refresh: Refresh::new(cx),
             rotated: RotatedMatrix::new(cx).filter(|_| update != Update::Iteration),
             mechanisms: MechanismWatch::new(cx),
             mass_weight: 0.0,

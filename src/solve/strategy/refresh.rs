@@ -14,6 +14,9 @@ pub struct Refresh {
     update: Update,
     /// Cost of a fresh matrix in iterations.
     cost: f64,
+    /// True if corrections tell when a fresh matrix pays. Load steps are few; matrices of bodies alone lack gyroscopic terms, so fresh ones
+    /// contract no faster.
+    pub learns: bool,
     /// Step length of the current matrix; `None` if there is none, or it has proved useless.
     dt: Option<f64>,
     wanted: bool,
@@ -33,7 +36,7 @@ pub struct Refresh {
 
 keep!(Refresh {
     dt, wanted, baseline, excess, eager, next_eager, stale_beyond, first, fresh_matrix_required,
- } without { method, update, cost });
+ } without { method, update, cost, learns });
 
 /// The advice after a correction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,12 +64,15 @@ impl Refresh {
     }
 
     /// The rule of the deck; a linear scene never needs a new matrix.
-    pub fn new(method: Method, update: Update, linear: bool, cost: f64) -> Self {
-        let update = if linear { Update::Never } else { update };
+    pub fn new(cx: &Context) -> Self {
+        let (method, update) = Refresh::rule(cx);
+        let update = if cx.plan.linear { Update::Never } else { update };
+        let is_deformable = || cx.system.groups.iter().any(|group| group.kind.is_deformable());
         Refresh {
             method,
             update,
-            cost,
+            cost: cx.plan.refresh_cost,
+            learns: cx.is_dynamic() && update == Update::Auto && method != Method::InitialLoad && is_deformable(),
             dt: None,
             wanted: false,
             baseline: None,
@@ -126,18 +132,24 @@ impl Refresh {
             self.first = fresh.then_some(size).filter(|_| size <= self.stale_beyond);
             self.wanted |= fresh && size > self.stale_beyond;
         } else if let Some(first) = self.first.take() {
-            if judgement.contraction > USELESS {
+            let contraction = self.contraction(judgement);
+            if contraction > USELESS {
                 self.stale_beyond = self.stale_beyond.min(SHARE * first);
-            } else if judgement.contraction < USEFUL {
+            } else if contraction < USEFUL {
                 self.stale_beyond = self.stale_beyond.max(first);
             }
         }
     }
 
+    /// The contraction by which the matrix is judged.
+    fn contraction(&self, judgement: &Judgement) -> f64 {
+        if self.learns { judgement.of_matrix } else { judgement.contraction }
+    }
+
     /// Judges the matrix after a correction that was compared with another of the same step. `fresh`: the matrix was
     /// formed in this step.
     pub fn advise(&mut self, fresh: bool, judgement: &Judgement) -> Advice {
-        let contraction = judgement.contraction;
+        let contraction = self.contraction(judgement);
         // An elastic matrix contracts slowly where material yields, and a new one would not be faster.
         let patient = self.update == Update::Never || self.method == Method::InitialLoad;
         if patient && (contraction < 1.0 || fresh) {
@@ -149,7 +161,8 @@ impl Refresh {
             self.next_eager = (2 * self.next_eager).min(MOST_EAGER);
             return Advice::Restart;
         }
-        self.wanted = contraction > USED_UP || (self.update == Update::Auto && judgement.remaining() > 1.0 + self.cost);
+        let pays = self.update == Update::Auto && judgement.remaining(self.learns) > 1.0 + self.cost;
+        self.wanted = contraction > USED_UP || pays;
         Advice::GoOn
     }
 
