@@ -1,6 +1,7 @@
 //! The data that the scripts of the page read: numbers, and the moving scene.
 
-use base::names::short;
+use base::names::{short, to_digits};
+use base::quantities::{Unit, UnitSystem};
 use base64::prelude::{BASE64_STANDARD, Engine};
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -35,6 +36,8 @@ pub struct PageScene {
     pub all: usize,
     /// Whether the times are numbers of modes and parts of their periods.
     pub is_modes: bool,
+    /// The frequency or the load factor of each mode, from the first on; empty of other scenes.
+    pub modes: Vec<(Unit, f64)>,
 }
 
 impl PageScene {
@@ -42,6 +45,16 @@ impl PageScene {
     pub fn is_seen(&self) -> bool {
         let lengths = [self.triangles.len(), self.lines.len(), self.labels.len()];
         !self.times.is_empty() && lengths.iter().any(|&length| length > 0)
+    }
+
+    /// The name of a mode, by its number from 1: its frequency, or its load factor.
+    pub fn name_of_mode(&self, number: usize, units: Option<&UnitSystem>) -> String {
+        let of_root = |(unit, value): &(Unit, f64)| match unit {
+            Unit::Frequency => format!(": {} {}", to_digits(*value, 4), unit.text(units)),
+            _ => format!(": load factor {}", to_digits(*value, 4)),
+        };
+        let root = self.modes.get(number.wrapping_sub(1)).filter(|(_, value)| value.is_finite());
+        format!("mode {number}{}", root.map(of_root).unwrap_or_default())
     }
 
     /// The number of the time nearest to one, from 0; without one, the last time, or the first of a mode.

@@ -2,7 +2,7 @@
 
 use super::data::{PageNumbers, PageScene};
 use crate::at;
-use crate::table_reader::{TableReader, fields, text};
+use crate::table_reader::{TableReader, fields, number, text};
 use crate::vtu::APPENDED;
 use base::math::curved_faces::{facets, ring};
 use base::quantities::{SECTION_STRESSES, Unit};
@@ -151,7 +151,24 @@ pub fn modes(folder: &Path) -> io::Result<Option<(PageScene, usize)>> {
         }
     }
     scene.all = scene.times.len();
+    scene.modes = roots(&folder.join("modes.csv"))?;
     Ok(Some((scene, grids.len())))
+}
+
+/// The frequency of each mode, or its load factor; empty where there is no table.
+fn roots(path: &Path) -> io::Result<Vec<(Unit, f64)>> {
+    if !path.is_file() {
+        return Ok(Vec::new());
+    }
+    let mut rows = TableReader::open(path)?;
+    let places = ["frequency", "factor"].map(|name| rows.column(name));
+    let mut roots = Vec::new();
+    while let Some(row) = rows.next_row()? {
+        let [frequency, factor] =
+            places.map(|place| place.and_then(|place| fields(row).nth(place)).map_or(f64::NAN, number));
+        roots.push(if frequency.is_finite() { (Unit::Frequency, frequency) } else { (Unit::One, factor) });
+    }
+    Ok(roots)
 }
 
 /// The times and names of the grids; empty where there is no list.
@@ -356,6 +373,7 @@ impl PageScene {
             "units": { "displacement": shown(Unit::Length), "stress": shown(Unit::Stress) },
             "clock": if self.is_modes { String::new() } else { result.clock() },
             "labels": self.labels,
+            "modes": (1..=self.modes.len()).map(|number| self.name_of_mode(number, result.units())).collect::<Vec<_>>(),
         })
     }
 }

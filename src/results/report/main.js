@@ -151,19 +151,21 @@ function stage(from) {
     waiting = false;
     const frame = +slider.value, field = select.value, shown = field !== "none";
     const [least, most] = shown ? rangeOf(field) : [0, 0];
+    const smooth = shown && field !== "displacement" && byId("smooth").checked;
     const factor = Number.isFinite(magnify.valueAsNumber) ? magnify.valueAsNumber : 1;
     const seen = painter.draw({
       camera, least, most,
       at: scene.place(frame, factor),
       ghost: byId("ghost").checked,
       edges: byId("edges").checked,
-      values: shown ? scene.values(field, frame) : null,
-      byPoint: field === "displacement",
+      values: shown ? (smooth ? scene.smooth(scene.values(field, frame)) : scene.values(field, frame)) : null,
+      byPoint: smooth || field === "displacement",
       ink: rgb(style("--ink")),
       line: rgb(style("--faint")),
       plain: dark() ? [0.5, 0.53, 0.57] : [0.72, 0.74, 0.77],
     });
-    byId("clock").textContent = `t = ${few(scene.times[frame], 5)}${from.clock}`;
+    const mode = from.modes[Math.floor(scene.times[frame]) - 1];
+    byId("clock").textContent = mode ?? `t = ${few(scene.times[frame], 5)}${from.clock}`;
     byId("legend").hidden = !shown;
     byId("legend-name").textContent = wordy(field) + (unit(field) && ` (${unit(field)})`);
     byId("legend-least").textContent = few(least);
@@ -216,7 +218,7 @@ function stage(from) {
     playing.id = requestAnimationFrame(tick);
   });
   slider.addEventListener("input", () => (stop(), later()));
-  for (const id of ["magnify", "field", "edges", "ghost", "names"]) byId(id).addEventListener("input", later);
+  for (const id of ["magnify", "field", "smooth", "edges", "ghost", "names"]) byId(id).addEventListener("input", later);
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => {
       const view = button.dataset.view;

@@ -188,7 +188,7 @@ pub fn draw(scene: &PageScene, result: &Result, title: &str, frame: usize, view:
     if !scene.is_modes {
         out += &legend(&field, size, result.units());
     }
-    out += &sides(&sight, size, &note(scene, frame, view, &result.clock()), &Unit::Length.text(result.units()));
+    out += &sides(&sight, size, &note(scene, frame, view, result), &Unit::Length.text(result.units()));
     out + "</svg>\n"
 }
 
@@ -439,9 +439,12 @@ fn lines(scene: &PageScene, at: &[[i64; 2]], field: &Field) -> String {
 }
 
 /// The time or the mode, and the factor of the displacements where it is not 1.
-fn note(scene: &PageScene, frame: usize, view: &View, clock: &str) -> String {
-    let time = short(f64::from(scene.times[frame])) + clock;
-    let what = if scene.is_modes { format!("mode {}", scene.times[frame].floor()) } else { format!("t = {time}") };
+fn note(scene: &PageScene, frame: usize, view: &View, result: &Result) -> String {
+    let time = short(f64::from(scene.times[frame])) + &result.clock();
+    let what = match scene.is_modes {
+        true => scene.name_of_mode(scene.times[frame] as usize, result.units()),
+        false => format!("t = {time}"),
+    };
     if view.magnify == 1.0 { what } else { format!("{what}, displacements × {}", short(view.magnify)) }
 }
 

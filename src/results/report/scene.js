@@ -89,6 +89,22 @@ class Scene {
     return all.map((x, cell) => (has(this.kinds[cell]) ? x : NaN));
   }
 
+  /** Values of cells as values of points: the mean over the faces round a point, or else over its lines. */
+  smooth(ofCells) {
+    this.around ??= [[this.triangles, this.triangleCells, 3], [this.lines, this.lineCells, 2]].map(([points, cells, size]) => {
+      const pairs = new Map();
+      points.forEach((point, i) => pairs.set(point * this.kinds.length + cells[Math.floor(i / size)], [point, cells[Math.floor(i / size)]]));
+      return [...pairs.values()];
+    });
+    const mean = new Float32Array(this.count).fill(NaN);
+    for (const pairs of this.around) {
+      const [sum, many] = [new Float32Array(this.count), new Uint32Array(this.count)];
+      for (const [point, cell] of pairs) if (Number.isFinite(ofCells[cell])) (sum[point] += ofCells[cell]), many[point]++;
+      many.forEach((count, point) => count && Number.isNaN(mean[point]) && (mean[point] = sum[point] / count));
+    }
+    return mean;
+  }
+
   range(field) {
     let [least, most] = [Infinity, -Infinity];
     for (let frame = 0; frame < this.times.length; frame++) {
