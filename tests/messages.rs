@@ -1414,7 +1414,7 @@ fn profiles() {
     for (name, keys) in [
         ("without_units", "profile = \"IPE 200\""),
         ("unknown", "profile = \"IPE 210\"\nunit = \"m\""),
-        ("other_family", "profile = \"W14x90\"\nunit = \"m\""),
+        ("other_family", "profile = \"S12x35\"\nunit = \"m\""),
         ("with_a_shape", "shape = \"i\"\nprofile = \"IPE 200\"\nunit = \"m\""),
         ("of_a_number", "profile = 200"),
     ] {
@@ -1428,6 +1428,14 @@ fn releases_and_shares() {
     assert_snapshot!("release_of_translations", of("release = { start = [\"ux\", \"ry\"], ends = \"ry\" }"));
     assert_snapshot!("foundation_that_pushes", of("foundation = [0.0, 0.0, -1e7]"));
     assert_snapshot!("foundation_of_a_rigid_beam", of("rigid = true\nfoundation = [0.0, 0.0, 1e7]"));
+    let actuator = |keys: &str| {
+        let ends = "from = { node = \"knee_left\" }\nto = { body = \"block\" }";
+        portal_and(&format!("[[actuators]]\nname = \"ram\"\n{ends}\n{keys}\n"))
+    };
+    assert_eq!(actuator("motion = { velocity = 0.1 }"), "");
+    assert_snapshot!("actuator_without_action", actuator(""));
+    assert_snapshot!("actuator_with_a_kind", actuator("kind = \"revolute\"\nmotion = { velocity = 0.1 }"));
+    assert_snapshot!("actuator_with_an_axis", actuator("axis = [1.0, 0.0, 0.0]\nmotion = { velocty = 0.1 }"));
     assert_snapshot!("hinges_of_others", of("hinges = \"start\"\nreleases = [\"ry\"]"));
     let both = "force = [0.0, 0.0, -100.0]\ntotal_force = [0.0, 0.0, -100.0]";
     assert_snapshot!("force_and_share", portal(&[("force = [0.0, 0.0, -100.0]", both)]));
@@ -1472,6 +1480,16 @@ fn comments_and_signs_of_others() {
     assert_snapshot!("minus_of_mathematics", portal(&[("[0.0, 0.0, -100.0]", "[0.0, 0.0, \u{2212}100.0]")]));
     assert_snapshot!("step_in_quotes", portal(&[("time_step = 1e-4", "time_step = \"1e-4\"")]));
     assert_snapshot!("number_of_steps", portal(&[("time_step = 1e-4", "steps = 300")]));
+    let support = |key: &str| portal(&[("at = \"feet\"\nfix = \"all\"", &format!("at = \"feet\"\n{key}"))]);
+    assert_snapshot!("skew_support", support("fix = \"all\"\nskew = 30.0"));
+    assert_snapshot!("pinned_support", support("pinned = true"));
+    assert_snapshot!("steps_and_equations_of_others", portal_and("[[steps]]\nname = \"a\"\n[[mpc]]\nname = \"b\"\n"));
+    let section = |text: &str| portal_and(&format!("[sections.more]\n{text}\n"));
+    assert_snapshot!("profile_of_no_table", section("profile = \"W14x91\"\nunit = \"m\""));
+    let channel = "shape = \"c\"\nheight = 0.2\nwidth = 0.075\nweb_thickness = 0.0085\nflange_thickness = 0.0115";
+    let square = "shape = \"rectangle\"\nwidth = 0.05\nheight = 0.05";
+    let said = portal(&[(square, &format!("{channel}\nflange_slope = 0.08"))]);
+    assert!(said.contains("applies to rolled channels alone") && said.contains("`root_radius`"), "{said}");
 }
 
 #[test]

@@ -59,7 +59,8 @@ pub struct Beam {
     /// springs to the ground, which links.csv lists. Default: none.
     pub foundation: Maybe<Vector>,
     /// Rotations that the ends release, in the local axes of the beam: `{ start = ["ry", "rz"], end = "ry" }`. A released end is a node of its own, held to
-    /// its point in all other directions. Not with `group`. Default: none.
+    /// its point in all other directions. With `group` both ends of each line of segments are released, its start being where its segments start.
+    /// Default: none.
     pub release: Maybe<Table<Release>>,
     /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
     pub damping: Maybe<Table<PartDamping>>,
@@ -69,9 +70,9 @@ pub struct Beam {
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Release {
-    /// Rotations at the first point of the path. Default: none.
+    /// Rotations at the first point of the path, or the start of each line of the group. Default: none.
     pub start: Maybe<Directions>,
-    /// Rotations at the last point of the path. Default: none.
+    /// Rotations at the last point of the path, or the end of each line of the group. Default: none.
     pub end: Maybe<Directions>,
 }
 

@@ -5,6 +5,7 @@
 
 #![warn(missing_docs)]
 
+pub mod actuators;
 pub mod aliases;
 pub mod amplitudes;
 pub mod analysis;
@@ -31,6 +32,7 @@ pub mod output;
 pub mod part_damping;
 pub mod part_table;
 pub mod parts;
+mod profile_sizes;
 mod profiles;
 pub mod read;
 pub mod sections;
@@ -107,6 +109,9 @@ pub struct Deck {
     /// Joints between bodies or points: spherical, revolute, prismatic and others.
     #[serde(default)]
     pub joints: Vec<At<OneOf<joints::Joint>>>,
+    /// Links whose length is driven. Reading makes joints of the kind "actuator" of them.
+    #[serde(default)]
+    pub actuators: Vec<At<Table<actuators::Actuator>>>,
     /// Springs, dampers, gaps and bushings between two points.
     #[serde(default)]
     pub links: Vec<At<Table<links::Link>>>,

@@ -1,9 +1,12 @@
 //! Steel profiles by their names: `profile = "IPE 200"` of a section stands for its shape and dimensions.
 //!
 //! I and H profiles have the nominal dimensions of EN 10365, angles those of EN 10056-1, with root radii. Hollow sections have the radii that EN 10210-2 calculates with, 1.5 and
-//! 1.0 times the thickness at the outer and the inner corner. Pipes are given by diameter and thickness.
+//! 1.0 times the thickness at the outer and the inner corner. Pipes are given by diameter and thickness. Channels UPN are those of EN 10365.
+//! W sections have the dimensions of ASTM A6. HSS have the wall of 0.93 times the nominal one, and radii of 2.0 and 1.0 times it, as AISC 360
+//! calculates with them.
 
 use super::Spoiled;
+use super::profile_sizes::{UNEQUAL, UPN, W};
 use base::diagnostic::{Diagnostic, Span};
 use std::fmt::Write;
 use toml::Spanned;
@@ -111,8 +114,13 @@ const L: [[f64; 3]; 13] = [
 const FAMILIES: [(&str, &[Rolled]); 3] = [("IPE", &IPE), ("HEA", &HEA), ("HEB", &HEB)];
 /// Millimetres of the units of length of a section.
 const UNITS: [(&str, f64); 5] = [("m", 1e-3), ("cm", 0.1), ("mm", 1.0), ("in", 1.0 / 25.4), ("ft", 1.0 / 304.8)];
-/// Radii of the corners of hollow sections over their thickness, outside and inside.
+/// Radii of the corners of hollow sections over their thickness, outside and inside: EN 10210-2, and AISC.
 const CORNERS: [f64; 2] = [1.5, 1.0];
+const HSS_CORNERS: [f64; 2] = [2.0, 1.0];
+/// The wall that AISC calculates with over the nominal one.
+const HSS_WALL: f64 = 0.93;
+/// Millimetres of an inch.
+const INCH: f64 = 25.4;
 
 /// A section that names a profile.
 pub struct ProfileWords {
@@ -197,27 +205,37 @@ struct Shape {
     sizes: Vec<(&'static str, f64)>,
     /// Radii of the corners, of a hollow section.
     radii: Option<[f64; 2]>,
+    /// Slope of the flanges, of a channel.
+    slope: Option<f64>,
 }
 
 /// The keys of the shape of a profile, with the length of a millimetre in the unit of the deck.
 fn keys_of(text: &str, millimetre: f64) -> Result<String, [String; 2]> {
     let plain: String = text.to_uppercase().replace(['×', '*'], "X").replace(',', ".");
-    let plain: String = plain.chars().filter(|c| c.is_ascii_alphanumeric() || *c == '.').collect();
-    let letters = plain.find(|c: char| c.is_ascii_digit()).unwrap_or(plain.len());
+    let plain: String = plain.chars().filter(|c| c.is_ascii_alphanumeric() || ".-/".contains(*c)).collect();
+    let letters = plain.find(|c: char| c.is_ascii_digit() || c == '.').unwrap_or(plain.len());
     let (family, rest) = plain.split_at(letters);
-    let numbers: Option<Vec<f64>> = rest.split('X').map(|number| number.parse().ok().filter(|x| *x > 0.0)).collect();
+    let family = family.trim_end_matches('-');
+    let numbers: Option<Vec<f64>> = rest.split('X').map(number).collect();
     let numbers = numbers.unwrap_or_default();
     let shape = match family {
         "CHS" | "PIPE" | "TUBE" => pipe(&numbers),
         "SHS" | "RHS" => hollow(&numbers),
         "L" => angle(&numbers),
+        "UPN" | "UNP" => channel(&numbers),
+        "W" => wide_flange(&numbers),
+        "HSS" => structural_tube(&numbers),
         _ => rolled(family, rest),
     };
-    let Shape { word, sizes, radii } = shape.map_err(|hint| [format!("there is no profile `{text}` here"), hint])?;
+    let Shape { word, sizes, radii, slope } =
+        shape.map_err(|hint| [format!("there is no profile `{text}` here"), hint])?;
     let mut keys = format!("shape = \"{word}\"\n");
     for (key, value) in sizes {
         // A String takes every character.
         let _ = writeln!(keys, "{key} = {:?}", value * millimetre);
+    }
+    if let Some(slope) = slope {
+        let _ = writeln!(keys, "flange_slope = {slope:?}");
     }
     if let Some([outer, inner]) = radii.map(|radii| radii.map(|radius| radius * millimetre)) {
         let _ = writeln!(keys, "corner_radii = [{outer:?}, {inner:?}]");
@@ -225,11 +243,22 @@ fn keys_of(text: &str, millimetre: f64) -> Result<String, [String; 2]> {
     Ok(keys)
 }
 
+/// A number, a fraction such as 3/8, or both such as 1-1/4; `None` if it is not above 0.
+fn number(text: &str) -> Option<f64> {
+    let (whole, part) = text.split_once('-').unwrap_or(("0", text));
+    let part = match part.split_once('/') {
+        Some((above, below)) => above.parse::<f64>().ok()? / below.parse::<f64>().ok()?,
+        None if text.contains('-') => return None,
+        None => part.parse().ok()?,
+    };
+    Some(whole.parse::<f64>().ok()? + part).filter(|x| x.is_finite() && *x > 0.0)
+}
+
 fn pipe(numbers: &[f64]) -> Result<Shape, String> {
     let &[diameter, thickness] = numbers else {
         return Err("a pipe is \"CHS 114.3x5\": diameter and thickness in mm".to_owned());
     };
-    Ok(Shape { word: "tube", sizes: vec![("diameter", diameter), ("thickness", thickness)], radii: None })
+    Ok(Shape { word: "tube", sizes: vec![("diameter", diameter), ("thickness", thickness)], radii: None, slope: None })
 }
 
 fn hollow(numbers: &[f64]) -> Result<Shape, String> {
@@ -239,22 +268,66 @@ fn hollow(numbers: &[f64]) -> Result<Shape, String> {
         _ => return Err("a hollow section is \"SHS 100x5\" or \"RHS 200x100x8\": sides and thickness in mm".to_owned()),
     };
     let sizes = vec![("height", a.max(b)), ("width", a.min(b)), ("thickness", thickness)];
-    Ok(Shape { word: "box", sizes, radii: Some(CORNERS.map(|radius| radius * thickness)) })
+    Ok(Shape { word: "box", sizes, radii: Some(CORNERS.map(|radius| radius * thickness)), slope: None })
 }
 
 fn angle(numbers: &[f64]) -> Result<Shape, String> {
     let size = match *numbers {
-        [leg, thickness] => Some([leg, thickness]),
-        [a, b, thickness] if a == b => Some([a, thickness]),
+        [leg, thickness] => Some([leg, leg, thickness]),
+        [a, b, thickness] => Some([a.max(b), a.min(b), thickness]),
         _ => None,
     };
-    let known = size.and_then(|size| L.iter().find(|[leg, thickness, _]| [*leg, *thickness] == size));
-    let Some(&[leg, thickness, radius]) = known else {
-        let known: Vec<String> = L.iter().map(|[leg, thickness, _]| format!("{leg}x{thickness}")).collect();
-        return Err(format!("known are the equal angles {}", known.join(", ")));
+    let equal = L.iter().map(|[leg, thickness, radius]| [*leg, *leg, *thickness, *radius]);
+    let mut all = equal.chain(UNEQUAL);
+    let known = size.and_then(|size| all.find(|[a, b, thickness, _]| [*a, *b, *thickness] == size));
+    let Some([height, width, thickness, radius]) = known else {
+        let equal = L.iter().map(|[leg, thickness, _]| format!("{leg}x{thickness}"));
+        let unequal = UNEQUAL.iter().map(|[a, b, thickness, _]| format!("{a}x{b}x{thickness}"));
+        let known: Vec<String> = equal.chain(unequal).collect();
+        return Err(format!("known are the angles {}", known.join(", ")));
     };
-    let sizes = vec![("height", leg), ("width", leg), ("thickness", thickness), ("root_radius", radius)];
-    Ok(Shape { word: "l", sizes, radii: None })
+    let sizes = vec![("height", height), ("width", width), ("thickness", thickness), ("root_radius", radius)];
+    Ok(Shape { word: "l", sizes, radii: None, slope: None })
+}
+
+/// Slopes of the flanges are 8 %, with the thickness at half the width, and above 300 mm 5 %, with that at half of what stands out.
+fn channel(numbers: &[f64]) -> Result<Shape, String> {
+    let known = UPN.iter().find(|(number, _)| *numbers == [f64::from(*number)]);
+    let Some((_, [height, width, web, flange, radius])) = known.copied() else {
+        let known: Vec<String> = UPN.iter().map(|(number, _)| number.to_string()).collect();
+        return Err(format!("UPN has {}", known.join(", ")));
+    };
+    let (slope, flange) = if height > 300.0 { (0.05, flange + 0.05 * 0.5 * web) } else { (0.08, flange) };
+    let mut sizes = vec![("height", height), ("width", width), ("web_thickness", web), ("flange_thickness", flange)];
+    sizes.push(("root_radius", radius));
+    Ok(Shape { word: "c", sizes, radii: None, slope: Some(slope) })
+}
+
+fn wide_flange(numbers: &[f64]) -> Result<Shape, String> {
+    let known = W.iter().find(|(name, _)| *numbers == name.map(f64::from));
+    let Some((_, size)) = known else {
+        let known: Vec<String> = W.iter().map(|([depth, weight], _)| format!("{depth}x{weight}")).collect();
+        return Err(format!("W, in inches and pounds per foot, has {}", known.join(", ")));
+    };
+    Ok(i_shape(size.map(|inches| inches * INCH)))
+}
+
+fn structural_tube(numbers: &[f64]) -> Result<Shape, String> {
+    // Walls are rounded to 0.001 in, as the tables have them.
+    let wall = |nominal: f64| (nominal * HSS_WALL * 1e3).round() / 1e3 * INCH;
+    match *numbers {
+        [diameter, nominal] => pipe(&[diameter * INCH, wall(nominal)]),
+        [a, b, nominal] => {
+            let shape = hollow(&[a * INCH, b * INCH, wall(nominal)])?;
+            Ok(Shape { radii: Some(HSS_CORNERS.map(|radius| radius * wall(nominal))), ..shape })
+        }
+        _ => Err("in inches, it is \"HSS 8x4x3/8\": sides and nominal thickness; or \"HSS 6.625x0.280\": diameter and nominal thickness".to_owned()),
+    }
+}
+
+fn i_shape(size: [f64; 5]) -> Shape {
+    let keys = ["height", "width", "web_thickness", "flange_thickness", "root_radius"];
+    Shape { word: "i", sizes: keys.into_iter().zip(size).collect(), radii: None, slope: None }
 }
 
 fn rolled(family: &str, rest: &str) -> Result<Shape, String> {
@@ -265,14 +338,14 @@ fn rolled(family: &str, rest: &str) -> Result<Shape, String> {
         _ => (family, rest),
     };
     let Some((_, list)) = FAMILIES.iter().find(|(word, _)| *word == family) else {
-        return Err("known are IPE, HEA, HEB, L, CHS, SHS and RHS; of others give `shape` and dimensions".to_owned());
+        return Err("known are IPE, HEA, HEB, UPN, L, W, HSS, CHS, SHS and RHS; of others give `shape` and dimensions"
+            .to_owned());
     };
     let Some((_, size)) = list.iter().find(|(known, _)| number.parse() == Ok(*known)) else {
         let known: Vec<String> = list.iter().map(|(number, _)| number.to_string()).collect();
         return Err(format!("{family} has {}", known.join(", ")));
     };
-    let keys = ["height", "width", "web_thickness", "flange_thickness", "root_radius"];
-    Ok(Shape { word: "i", sizes: keys.into_iter().zip(*size).collect(), radii: None })
+    Ok(i_shape(*size))
 }
 
 #[cfg(test)]
@@ -305,11 +378,25 @@ mod tests {
         assert_eq!(numbers("RHS 100×200×8")[..2], [("height".to_owned(), 200.0), ("width".to_owned(), 100.0)]);
         assert_eq!(numbers("L 100x10")[3], ("root_radius".to_owned(), 12.0));
         assert_eq!(numbers("L100x100x10"), numbers("L 100x10"));
-        assert!(keys_of("L 100x65x8", 1.0).unwrap_err()[1].contains("equal angles"));
+        assert_eq!(numbers("L 65x100x8")[..2], [("height".to_owned(), 100.0), ("width".to_owned(), 65.0)]);
+        assert!(keys_of("L 100x65x9", 1.0).unwrap_err()[1].contains("100x65x8"));
+        assert_eq!(numbers("UPN 200")[5], ("flange_slope".to_owned(), 0.08));
+        assert_eq!(numbers("W14x90"), numbers("W 14 X 90"));
+        for name in ["HSS 8x4x3/8", "HSS8X4X.375", "HSS 8x4x0.375"] {
+            assert_eq!(numbers(name), numbers("HSS 8x4x0.375"), "{name}");
+        }
+        assert_eq!(numbers("HSS 6.625x0.280")[1], ("thickness".to_owned(), 0.26 * 25.4));
+        assert_eq!(
+            [number("1-1/4"), number("3/8"), number("1-2"), number("1/0")],
+            [Some(1.25), Some(0.375), None, None]
+        );
         assert_eq!(numbers("SHS 100x5")[2], ("thickness".to_owned(), 5.0));
         for (name, hint) in [
             ("IPE 210", "IPE has 80"),
-            ("W14x90", "known are"),
+            ("M14x90", "known are"),
+            ("W360x134", "in inches"),
+            ("UPN 400", "UPN has 80"),
+            ("HSS 6", "nominal"),
             ("SHS 100", "sides"),
             ("CHS", "a pipe is"),
             ("HE 300", "known"),

@@ -8,7 +8,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::value::{Problem, Value, Wanted, Wrong};
-use super::{Deck, Spoiled, aliases, hints, lengths, number_slips, profiles, set, study, tables};
+use super::{Deck, Spoiled, actuators, aliases, hints, lengths, number_slips, profiles, set, study, tables};
 use base::diagnostic::{Diagnostic, Source, Span};
 use base::names::{nearest, quoted};
 
@@ -35,6 +35,7 @@ pub fn read(source: &Source) -> (Option<Deck>, Vec<Diagnostic>) {
     }
     let words = study::words(&root);
     reader.problems.extend(study::expand(&mut root, &words));
+    reader.problems.extend(actuators::move_to_joints(&mut root));
     let profiles = profiles::words(&root);
     let (problems, spoiled) = profiles::expand(&mut root, &profiles);
     reader.problems.extend(problems);

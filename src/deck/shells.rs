@@ -54,6 +54,9 @@ pub struct Shell {
     pub mass: Maybe<MassKind>,
     /// The shell is a rigid body of its name, with the mass and inertia of its elements. Default: false.
     pub rigid: Maybe<bool>,
+    /// Stiffness per area of an elastic foundation, force per length cubed, along global x, y and z, 0 or more. It acts on the nodes as springs
+    /// to the ground, which links.csv lists. Default: none.
+    pub foundation: Maybe<Vector>,
     /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
     pub damping: Maybe<Table<PartDamping>>,
 }

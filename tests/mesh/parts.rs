@@ -456,3 +456,51 @@ fn thickness_by_node_tapers_a_strip() {
     let [coarse, fine] = [8, 16].map(off);
     assert!(fine.abs() < 2e-3 && (3.0..5.0).contains(&(coarse / fine)), "{coarse:e} {fine:e}");
 }
+
+/// Two members of two segments each in one group, every one between two clamps under a force at its middle.
+fn members(lines: &str, release: &str) -> (Folder, String) {
+    let count = lines.lines().count();
+    let mesh = format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 1 \"braces\"\n$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n\
+         4 0 1 0\n5 1 1 0\n6 2 1 0\n$EndNodes\n$Elements\n{count}\n{lines}$EndElements\n"
+    );
+    let deck = format!(
+        "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[sections.s]\nshape = \"general\"\naxial_stiffness = 1e7\n\
+         bending_stiffness = [1000.0, 1000.0]\ntorsional_stiffness = 1000.0\nshear_stiffness = [1e7, 1e7]\n[mesh]\nfile = \"m.msh\"\n\
+         [[beams]]\ngroup = \"braces\"\nshear = false\nsection = \"s\"\norientation = [0.0, 1.0, 0.0]\nrelease = {release}\n\
+         [[supports]]\nat = [\"mesh.1\", \"mesh.3\", \"mesh.4\", \"mesh.6\"]\nfix = \"all\"\n\
+         [[loads]]\nat = [\"mesh.2\", \"mesh.5\"]\nforce = [0.0, 0.01, 0.01]\n"
+    );
+    (Folder::with(&[("m.msh", &mesh)]), deck)
+}
+
+/// Along y one end is a hinge, along z both: 7 F l³/(768 E I) and F l³/(48 E I). The stiffness in shear adds 1e-8.
+#[test]
+fn members_of_a_group_are_released_at_their_ends() {
+    let lines = "1 1 2 1 1 1 2\n2 1 2 1 1 2 3\n3 1 2 1 1 4 5\n4 1 2 1 1 5 6\n";
+    let (folder, deck) = members(lines, "{ start = [\"ry\", \"rz\"], end = \"ry\" }");
+    let moved = displacements(&folder.model(&deck));
+    for name in ["mesh.2", "mesh.5"] {
+        let (_, u) = moved.iter().find(|(label, _)| label == name).unwrap();
+        let unit = 0.01 * 8.0 / 1000.0;
+        assert!(
+            (u[1] / (unit * 7.0 / 768.0) - 1.0).abs() < 1e-6 && (u[2] / (unit / 48.0) - 1.0).abs() < 1e-6,
+            "{name}: {u:?}"
+        );
+    }
+}
+
+#[test]
+fn groups_without_ends_are_not_released() {
+    let said = |lines: &str, release: &str| {
+        let (folder, deck) = members(lines, release);
+        folder.read(&deck.replace("orientation = [0.0, 1.0, 0.0]", "orientation = [0.0, 0.0, 1.0]")).1
+    };
+    let branched = "1 1 2 1 1 1 2\n2 1 2 1 1 2 3\n3 1 2 1 1 2 5\n";
+    assert!(said(branched, "{ start = \"ry\" }").contains("branch or close a ring at `mesh.2`"));
+    let ring = "1 1 2 1 1 1 2\n2 1 2 1 1 2 5\n3 1 2 1 1 5 1\n";
+    assert!(said(ring, "{ start = \"ry\" }").contains("branch or close a ring"));
+    let against = "1 1 2 1 1 2 1\n2 1 2 1 1 2 3\n3 1 2 1 1 4 5\n4 1 2 1 1 5 6\n";
+    assert!(said(against, "{ start = \"ry\" }").contains("a line has no start"));
+    assert_eq!(said(against, "{ start = \"ry\", end = \"ry\" }"), "");
+}

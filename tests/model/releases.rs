@@ -40,6 +40,31 @@ fn beams_turn_about_released_axes() {
     }
 }
 
+/// A square plate that cannot deform, on a foundation of 1000 per area under a force at its corner: it sinks by F/(k A) and tilts by the moment
+/// F a/2 about both middle lines, k a⁴/12 each, so the corner sinks by F/(k A) (1 + 3 + 3). Integrals of shape functions are exact for it but for
+/// what lumping adds: nodes at the border have their share at the border, a²/n² of the second moment.
+#[test]
+fn plates_lie_on_an_elastic_foundation() {
+    for (order, lumped) in [(1, 1.0 + 2.0 / 64.0), (2, 1.0)] {
+        let text = format!(
+            "[analysis]\nkind = \"static\"\nend_time = 1.0\ntime_step = 1.0\n[materials.m]\nmodel = \"elastic\"\nyoungs_modulus = 1e12\n\
+             poisson_ratio = 0.3\n[points]\na = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]\n\
+             [[shells]]\nname = \"plate\"\ncorners = [\"a\", \"b\", \"c\", \"d\"]\nelements = 8\norder = {order}\nthickness = 0.5\nmaterial = \"m\"\n\
+             foundation = [1.0, 1.0, 1000.0]\n[[loads]]\nat = \"c\"\nforce = [0.0, 0.0, -1e-3]\n"
+        );
+        let model = read_deck(&text);
+        let [near, far] = ["c", "a"].map(|name| crate::support::node(&model, name));
+        let sunk = |frame: &Frame, node: usize| -frame.state.nodes[node].moved(&frame.model.nodes[node].x).z;
+        let done = run_to_the_end(&model, &mut |frame: &Frame| vec![sunk(frame, near), sunk(frame, far)]);
+        let [corner, opposite] = done.rows.last().unwrap()[..] else { unreachable!() };
+        // The trapezoidal rule of linear elements has 1 + 2/n² of the second moment; the rule of Simpson is exact.
+        for (found, sides) in [(corner, 6.0), (opposite, -6.0)] {
+            let expected = 1e-6 * (1.0 + sides / lumped);
+            assert!((found / expected - 1.0).abs() < 1e-5, "order {order}: {found} for {expected}");
+        }
+    }
+}
+
 /// Each of four nodes has a quarter.
 #[test]
 fn nodes_share_a_total_force() {

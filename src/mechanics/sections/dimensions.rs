@@ -15,6 +15,23 @@ pub fn rectangles(parts: &[([f64; 2], f64, f64)]) -> (f64, [f64; 2], [f64; 3]) {
     (area, center, moments)
 }
 
+/// Area, centroid, and moments about the centroid of a polygon, its corners (y, z) counter-clockwise.
+pub fn polygon(corners: &[[f64; 2]]) -> (f64, [f64; 2], [f64; 3]) {
+    let (mut area, mut first, mut second) = (0.0, [0.0; 2], [0.0; 3]);
+    for (a, b) in corners.iter().zip(corners.iter().cycle().skip(1)) {
+        let cross = a[0] * b[1] - b[0] * a[1];
+        let square = |axis: usize| a[axis] * a[axis] + a[axis] * b[axis] + b[axis] * b[axis];
+        area += 0.5 * cross;
+        first = [0, 1].map(|axis| first[axis] + cross * (a[axis] + b[axis]) / 6.0);
+        second[0] += cross * square(1) / 12.0;
+        second[1] += cross * square(0) / 12.0;
+        second[2] += cross * (a[0] * b[1] + 2.0 * a[0] * a[1] + 2.0 * b[0] * b[1] + b[0] * a[1]) / 24.0;
+    }
+    let [y, z] = first.map(|moment| moment / area);
+    let about = [second[0] - area * z * z, second[1] - area * y * y, second[2] - area * y * z];
+    (area, [y, z], about)
+}
+
 /// Every dimension must be a positive number.
 pub fn positive(dimensions: &[(&str, f64)]) -> Result<(), String> {
     match dimensions.iter().find(|(_, value)| !(value.is_finite() && *value > 0.0)) {

@@ -2,6 +2,7 @@
 
 pub mod grading;
 pub mod paths;
+mod released;
 
 use crate::beams::grading::{cuts, gradings};
 use crate::beams::paths::{counts, path, segments};
@@ -9,7 +10,6 @@ use crate::data::{Beam, BeamElement, Part, PartIndex, PartKind};
 use crate::mesh::MeshElement;
 use crate::own_damping;
 use crate::part_context::PartContext;
-use crate::parts::ReleasedEnd;
 use crate::report::Owner;
 use crate::sections;
 use crate::values::{chosen, flag, keys, vec3};
@@ -18,7 +18,6 @@ use base::math::quadrature::lobatto;
 use base::math::{Mat3, Vec3};
 use deck::Deck;
 use deck::beams as words;
-use deck::words::Directions;
 use deck::words::Vector;
 use mechanics::elements::beam::{DEFAULT_ORDER, FibreModel, IntegrationRule, MOST_POINTS};
 use mechanics::elements::heat::Heat;
@@ -102,7 +101,7 @@ struct Line<'b, 'd> {
 impl<'d> Line<'_, 'd> {
     /// Makes elements along the segments of a group of the mesh, as yet without their sections.
     fn group_elements(&self, group: &'d At<String>, cx: &mut PartContext<'_, 'd>) -> Option<Vec<BeamElement>> {
-        let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end, release);
+        let unused = keys!(self.beam; path, elements, grading, offset_start, offset_end);
         cx.report.reject_unused("a beam made of a group of the mesh", &unused);
         let toward = self.orientation.and_then(|orientation| cx.report.unit("orientation", orientation));
         // The group is read also without an orientation, whose lack has been reported.
@@ -149,6 +148,9 @@ impl<'d> Line<'_, 'd> {
             return cx.report.error_with(place, message, "it must point to the side, where local y is to lie");
         }
         self.takes_segments(group, &segments, curved, cx)?;
+        if let Some(release) = &self.beam.release {
+            released::release_chains(self.name, group, (release, self.order), &mut made, (self.at, cx))?;
+        }
         self.check_directions(group, &segments, toward?, cx);
         Some(made)
     }
@@ -277,20 +279,10 @@ impl<'d> Line<'_, 'd> {
             return;
         };
         let end = path.len() - 1;
-        for (at, which, released, axes) in [(0, "start", &release.start, first), (end, "end", &release.end, last)] {
-            let Some(Directions(dofs)) = released.as_ref().map(|at| at.value) else { continue };
-            if let Some(at) = released.as_ref().filter(|_| dofs[..3].contains(&true)) {
-                let hint = "name rotations: \"rx\" is torsion, \"ry\" and \"rz\" bending about the local axes";
-                cx.report.error_with::<()>(&at.span, "the end of a beam releases no translations", hint);
-                continue;
+        for (at, which, dofs, axes) in [(0, "start", &release.start, first), (end, "end", &release.end, last)] {
+            if let Some(held) = released::held(dofs, cx.report) {
+                path[at] = released::release(&format!("{}.", self.name), which, path[at], (held, *axes), cx);
             }
-            let x = cx.nodes.x(path[at]);
-            let node = cx.nodes.add(format!("{}.released_{which}", self.name), false, x);
-            cx.nodes.connect(node, true);
-            let held = [3, 4, 5].map(|dof| !dofs[dof]);
-            let name = format!("{}.{which}", self.name);
-            cx.parts.releases.push(ReleasedEnd { name, ends: [path[at], node], held, axes: *axes });
-            path[at] = node;
         }
     }
 

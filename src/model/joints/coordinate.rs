@@ -103,11 +103,25 @@ impl<'d> CoordinateKeys<'_, 'd> {
         let motion = self.motion();
         let gear = self.gear();
         let effort = self.effort();
+        if own == Coordinate::Length {
+            self.needs_an_action(kind);
+        }
         let (damping, own_damping) = of_spring("a joint", &self.joint.damping, self.report);
         let law = self.law(kind, coordinate, damping);
         let stick = self.report.positive("stick", &joint.stick);
         let counted = self.is_counted();
         Some(CoordinateActions { coordinate, motion, gear, effort, law, own_damping, stick, counted })
+    }
+
+    /// Reports an actuator that does nothing.
+    fn needs_an_action(&mut self, kind: &JointKind) {
+        let joint = self.joint;
+        let acts = keys!(joint; motion, gear, effort, stiffness, damping, limits, friction_force, backbone);
+        if acts.iter().all(|(key, place)| place.is_none() && !self.report.is_spoiled(self.owner.span, key)) {
+            let message = format!("{} of kind \"{}\" does nothing", self.owner.what, kind.word);
+            let hint = "give the change of its length as `motion` = { position = 1.0, amplitude = \"...\" }, or a force as `effort`";
+            self.report.error_with::<()>(self.owner.span, message, hint);
+        }
     }
 
     /// True for a joint absent at t = 0 or later: the deck does not define the origin of its coordinate.
@@ -308,7 +322,7 @@ impl<'d> CoordinateKeys<'_, 'd> {
         let (moment, force) = (("yield_moment", &joint.yield_moment), ("yield_force", &joint.yield_force));
         let ((key, value), other) = match coordinate {
             Coordinate::Angle => (moment, force),
-            Coordinate::Distance => (force, moment),
+            Coordinate::Distance | Coordinate::Length => (force, moment),
         };
         let what = format!("a joint whose coordinate is its {}", coordinate.word());
         self.report.reject_unused(&what, &[(other.0, span(other.1))]);
@@ -351,7 +365,7 @@ impl<'d> CoordinateKeys<'_, 'd> {
         let force = ("friction_force", &joint.friction_force);
         let ((key, value), other) = match coordinate {
             Coordinate::Angle => (moment, force),
-            Coordinate::Distance => (force, moment),
+            Coordinate::Distance | Coordinate::Length => (force, moment),
         };
         let what = format!("a joint whose coordinate is its {}", coordinate.word());
         self.report.reject_unused(&what, &[(other.0, span(other.1))]);
@@ -427,12 +441,16 @@ impl CoordinateActions<'_> {
     ) {
         let [from, to] = placed.ends;
         let d = nodes.x(from) - nodes.x(to);
-        let axis = placed.axes.column(0).into_owned();
+        // An actuator pushes along the line between its ends, which turns with them.
+        let axis = match self.coordinate {
+            Coordinate::Length => -d.normalize(),
+            _ => placed.axes.column(0).into_owned(),
+        };
         let lock = self.coordinate.lock(&placed.axes, &d);
         if let Some(friction) = &mut self.law.friction {
             friction.stick = self.stick.unwrap_or_else(|| match self.coordinate {
                 Coordinate::Angle => 1e-4,
-                Coordinate::Distance => 1e-5 * size(scene, nodes, &joint.name),
+                Coordinate::Distance | Coordinate::Length => 1e-5 * size(scene, nodes, &joint.name),
             });
         }
         let drive = self.motion.map(|motion| {
@@ -444,7 +462,7 @@ impl CoordinateActions<'_> {
             let pull = effort.value * axis;
             let (force, moment) = match self.coordinate {
                 Coordinate::Angle => (Vec3::zeros(), pull),
-                Coordinate::Distance => (pull, Vec3::zeros()),
+                Coordinate::Distance | Coordinate::Length => (pull, Vec3::zeros()),
             };
             efforts.extend([(0, -1.0), (1, 1.0)].map(|(end, sign)| Load {
                 node: placed.ends[end],

@@ -1,6 +1,7 @@
 //! Coordinates of joints: their equations and what acts along them against differences, driven and powered mechanisms against
 //! minimal coordinates and a recursive Newton-Euler, friction, stops and screws against closed forms, turns counted.
 
+mod actuators;
 mod bennett;
 mod derivatives;
 mod door;

@@ -34,6 +34,8 @@ pub enum Coordinate {
     Angle,
     /// The distance along the axis.
     Distance,
+    /// The distance of the ends, less that at t = 0. (actuator)
+    Length,
 }
 
 impl Coordinate {
@@ -43,6 +45,7 @@ impl Coordinate {
         match self {
             Coordinate::Angle => ConstraintEquation::Angle(Angle::about_first(axes)),
             Coordinate::Distance => ConstraintEquation::distance_along(&axes.column(0).into_owned(), d),
+            Coordinate::Length => ConstraintEquation::Distance { length: d.norm() },
         }
     }
 
@@ -51,6 +54,7 @@ impl Coordinate {
         match self {
             Coordinate::Angle => "angle",
             Coordinate::Distance => "distance",
+            Coordinate::Length => "length",
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Kinds of joints, with their constraint equations and axes. A new kind needs a file and an entry of [`JOINTS`].
 
+pub mod actuator;
 pub mod cylindrical;
 pub mod distance;
 pub mod fixed;
@@ -28,4 +29,5 @@ pub static JOINTS: &[&JointKind] = &[
     &universal::KIND,
     &fixed::KIND,
     &distance::KIND,
+    &actuator::KIND,
 ];
