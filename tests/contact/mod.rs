@@ -19,6 +19,7 @@ mod impact;
 mod lines;
 mod lines_alone;
 mod multipliers;
+mod open_stiffness;
 mod pairs;
 mod polyhedra;
 mod rigid_parts;

@@ -227,7 +227,7 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
         stiffness: 25.0,
         post_yield_stiffness: 4.0,
         yield_force: firmness,
-        exponent: 2.0,
+        exponent: 5.0,
         bulge: 0.5,
         losses: [0.02, 0.01],
     };

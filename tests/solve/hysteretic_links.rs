@@ -77,12 +77,16 @@ fn a_mass_on_a_hysteretic_link() {
         };
         let period = TAU / 100.0;
         for scheme in ["newmark", "central-difference"] {
-            let last = |n: f64| run(scheme, period / n).last().expect("rows").clone();
-            let [coarse, fine, finest] = [100.0, 200.0, 800.0].map(last);
-            let [a, b] = [&coarse, &fine].map(|row| (row[0] - finest[0]).abs());
+            let [coarse, fine, finest] = [100, 200, 800].map(|n| run(scheme, period / f64::from(n)));
+            let finest_end = finest.last().expect("rows").clone();
+            let off = |rows: &[Vec<f64>], every: usize| {
+                let pairs = rows.iter().zip(finest.iter().step_by(every)).take(rows.len() - 1);
+                pairs.map(|(row, exact)| (row[0] - exact[0]).abs()).fold(0.0, f64::max)
+            };
+            let (a, b, finest) = (off(&coarse, 8), off(&fine, 4), finest_end);
             println!("{law} {scheme}: {a:e} {b:e}, energy {:e}", finest[1] / 50.0 - 1.0);
-            // Of second order, but for the places of kinks in steps, which scatter.
-            assert!(a < 2e-5 && b < 0.5 * a + 1e-7, "{law} {scheme}: {a} {b}");
+            // Of second order, but for the places of kinks in steps, which scatter; motions of 1 cm.
+            assert!(a < 2e-4 && b < 0.4 * a, "{law} {scheme}: {a} {b}");
             assert!((finest[1] / 50.0 - 1.0).abs() < 1e-4, "{law} {scheme}: {finest:?}");
         }
     }

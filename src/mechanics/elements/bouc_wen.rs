@@ -60,11 +60,16 @@ impl BoucWen {
         self.stiffness - self.post_yield_stiffness
     }
 
+    /// ν and η.
+    fn deterioration(&self, area: f64) -> [f64; 2] {
+        let energy = self.hysteretic_stiffness() * area / (self.yield_force * self.yield_displacement());
+        self.losses.map(|loss| 1.0 + loss * energy.max(0.0))
+    }
+
     /// dz/dx towards `sign`.
     fn slope(&self, z: f64, area: f64, sign: f64) -> f64 {
         let of = z / self.yield_displacement();
-        let energy = self.hysteretic_stiffness() * area / (self.yield_force * self.yield_displacement());
-        let [nu, eta] = self.losses.map(|loss| 1.0 + loss * energy.max(0.0));
+        let [nu, eta] = self.deterioration(area);
         let part = self.bulge * (z * sign).signum() + 1.0 - self.bulge;
         (1.0 - nu * of.abs().powf(self.exponent) * part) / eta
     }
@@ -75,10 +80,13 @@ impl BoucWen {
         if way == 0.0 {
             return *from;
         }
-        let pieces = (way.abs() / (PIECE * self.yield_displacement())).ceil().clamp(1.0, MOST_PIECES);
-        let (h, sign) = (way / pieces, way.signum());
-        let (mut z, mut area) = (from.z, from.area);
-        for _ in 0..pieces as usize {
+        let sign = way.signum();
+        // Whole pieces and a rest, so that the force has no jump where one more is needed.
+        let piece = self.yield_displacement() * PIECE.max(way.abs() / self.yield_displacement() / MOST_PIECES);
+        let (mut left, mut z, mut area) = (way.abs(), from.z, from.area);
+        while left > 0.0 {
+            let h = sign * left.min(piece);
+            left -= piece;
             let rate = |z: f64, area: f64| [self.slope(z, area, sign), z];
             let k1 = rate(z, area);
             let k2 = rate(z + 0.5 * h * k1[0], area + 0.5 * h * k1[1]);
@@ -99,14 +107,17 @@ impl BoucWen {
         [self.post_yield_stiffness * x + hysteretic * at.z, self.post_yield_stiffness + hysteretic * slope]
     }
 
-    /// The energy that comes back.
+    /// The energy that comes back: unloading has the slope (k − k₂)/η.
     pub fn energy(&self, at: &BoucWenState) -> f64 {
-        0.5 * (self.post_yield_stiffness * at.x * at.x + self.hysteretic_stiffness() * at.z * at.z)
+        let eta = self.deterioration(at.area)[1];
+        0.5 * (self.post_yield_stiffness * at.x * at.x + self.hysteretic_stiffness() * eta * at.z * at.z)
     }
 
-    /// What is dissipated between two states.
+    /// What is dissipated between two states: the work less the change of the energy.
     pub fn dissipated(&self, from: &BoucWenState, to: &BoucWenState) -> f64 {
-        self.hysteretic_stiffness() * (to.area - from.area - 0.5 * (to.z * to.z - from.z * from.z))
+        let elastic = 0.5 * self.post_yield_stiffness * (to.x * to.x - from.x * from.x);
+        let work = elastic + self.hysteretic_stiffness() * (to.area - from.area);
+        work - (self.energy(to) - self.energy(from))
     }
 }
 
