@@ -418,6 +418,9 @@ fn forces_balance_and_turn_with_the_element() {
     for _ in 0..20 {
         for kind in strained(&mut rng, 1.0) {
             let name = &kind.name;
+            if name.contains("heated") {
+                continue; // numbers of temperature do not turn, and their forces are none in space
+            }
             let along = name.contains("direction");
             let nodes = moved(&mut rng, &kind.x, 0.3);
             let F = kind.forces(&nodes);

@@ -1,6 +1,7 @@
 //! Strain by temperature against closed forms: expansion, bending by a gradient, buckling, yielding, vibration.
 
 use crate::support::{Row, Tables, read_deck, run_with_warnings, tables_of};
+use rdsolve::solve::Outcome;
 use std::f64::consts::PI;
 
 const STEEL: &str = r#"
@@ -221,26 +222,26 @@ fn yielding_by_heat_leaves_stress() {
             {part}
             supports = [{{ at = "line", fix = "all" }}]
             amplitudes = {{ cycle = {{ kind = "table", points = [[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]] }} }}
-            loads = [{{ part = "line", temperature = 150.0, amplitude = "cycle" }}]
+            loads = [{{ part = "line", temperature = 125.0, amplitude = "cycle" }}]
             output = {{ nodes = "all", energy = true, sections = {{ at = "points" }} }}
             "#
         )))
     };
-    let left = E * ALPHA * 150.0 - 2e8;
+    let left = E * ALPHA * 125.0 - 2e8;
     let bars = heat(r#"bars = [{ name = "line", path = ["a", "b"], material = "steel", area = 0.02 }]"#);
     let force = last(&bars, "bars.csv").remove(0).number("N");
     assert!((force / (AREA * left) - 1.0).abs() < 1e-9, "{force}");
-    // The work of the cycle is that of yielding and what is stored: the trapezoids of ten steps each way have corners in two of them.
+    // The work of the cycle is that of yielding and what is stored. Yielding begins at the end of a step, so trapezoids are exact.
     let energy = last(&bars, "energy.csv").remove(0);
     let spent = energy.number("plastic") + energy.number("strain");
-    assert!((energy.number("external") / spent - 1.0).abs() < 1e-3, "{} {spent}", energy.number("external"));
+    assert!((energy.number("external") / spent - 1.0).abs() < 1e-9, "{} {spent}", energy.number("external"));
     let beam = r#"beams = [{ name = "line", path = ["a", "b"], elements = 1, material = "steel", section = "square",
                              orientation = [0.0, 1.0, 0.0] }]"#;
     let force = last(&heat(beam), "sections.csv").remove(0).number("N");
     assert!((force / (AREA * left) - 1.0).abs() < 1e-6, "{force}");
     let shell = r#"shells = [{ name = "line", corners = ["a", "b", "c", "d"], elements = 1, material = "steel", thickness = 0.02 }]"#;
     let force = last(&heat(shell), "shells.csv").remove(0).number("N11");
-    let both = E * ALPHA * 150.0 * (1.0 + 0.5 * ALPHA * 150.0) / 0.75 - 2e8;
+    let both = E * ALPHA * 125.0 * (1.0 + 0.5 * ALPHA * 125.0) / 0.75 - 2e8;
     // Green's strain of the heat.
     assert!((force / (0.02 * both) - 1.0).abs() < 2e-3, "{} {}", force, 0.02 * both);
 }
@@ -248,11 +249,11 @@ fn yielding_by_heat_leaves_stress() {
 /// A pinned column buckles at α ΔT E A = π² E I/L², less the part of shear: one bifurcation temperature below it, one above.
 #[test]
 fn a_heated_column_buckles() {
-    let warnings = |factor: f64| {
+    let stands = |factor: f64| {
         let euler = PI * PI * (0.01f64.powi(4) / 12.0) / 4.0 / (1e-4 * ALPHA);
-        run_with_warnings(&format!(
+        let (outcome, warnings) = run_with_warnings(&format!(
             r#"
-            analysis = {{ kind = "static", end_time = 1.0, time_step = 0.1, plane = true }}
+            analysis = {{ kind = "static", end_time = 1.0, time_step = 0.1 }}
             materials = {{ steel = {{ model = "elastic", youngs_modulus = 2e11, poisson_ratio = 0.25, expansion = 1e-5 }} }}
             sections = {{ square = {{ shape = "rectangle", width = 0.01, height = 0.01 }} }}
             points = {{ a = [0.0, 0.0, 0.0], b = [2.0, 0.0, 0.0] }}
@@ -262,12 +263,12 @@ fn a_heated_column_buckles() {
             loads = [{{ part = "line", temperature = {:?} }}]
             "#,
             factor * euler
-        ))
-        .1
+        ));
+        matches!(outcome, Outcome::Done) && !warnings.iter().any(|said| said.contains("buckle"))
     };
     // Shear and shortening before buckling take 1e-4 of it.
-    assert!(!warnings(0.999).iter().any(|said| said.contains("buckles")), "{:?}", warnings(0.999));
-    assert!(warnings(1.001).iter().any(|said| said.contains("buckle")), "{:?}", warnings(1.001));
+    assert!(stands(0.999));
+    assert!(!stands(1.001));
 }
 
 /// A bar held at one end and heated at once vibrates as one released from compression: the tip moves between 0 and 2 α ΔT L, and no energy
@@ -336,16 +337,18 @@ fn small_temperatures_are_linear() {
         load_cases = [{ name = "one", loads = ["sun", "fire"] }, { name = "two", loads = ["sun"], factors = -2.0 }]
         combinations = [{ name = "both", cases = ["one", "two"], factors = [1.0, 0.5] }]"#;
     let (linear, combined) = (frame(LINEAR, "", 1.0), frame(LINEAR, cases, 1.0));
-    let small = [1e-4, -1e-4].map(|size| frame(STATIC, "", size));
+    let small = [1.0, -1.0, 2.0, -2.0].map(|factor| frame(STATIC, "", factor * 1e-3));
     let of = |tables: &Tables, column: &str| {
         last(tables, "nodes.csv").iter().map(|row| row.number(column)).collect::<Vec<_>>()
     };
     for column in ["ux", "uz", "ry"] {
-        let [plus, minus] = small.each_ref().map(|tables| of(tables, column));
+        let sampled = small.each_ref().map(|tables| of(tables, column));
         let exact = of(&linear, column);
         let largest = exact.iter().fold(0.0f64, |most, u| most.max(u.abs()));
-        for ((plus, minus), u) in plus.iter().zip(&minus).zip(&exact) {
-            assert!(((plus - minus) / 2e-4 - u).abs() < 1e-9 * largest, "{column}: {} {u}", (plus - minus) / 2e-4);
+        for (i, u) in exact.iter().enumerate() {
+            // Differences of fourth order: those of second order err by 6e-9, and rounding by 1e-10.
+            let difference = (8.0 * (sampled[0][i] - sampled[1][i]) - (sampled[2][i] - sampled[3][i])) / (12.0 * 1e-3);
+            assert!((difference - u).abs() < 1e-9 * largest, "{column}: {difference} {u}");
         }
         let rows = combined.rows("nodes.csv");
         let case = |name: &str| {

@@ -290,7 +290,7 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
     fn tangent(&self, e: usize, now: &Configuration, rate_weight: f64, moduli: Moduli, K: &mut [f64]) {
         // In yielding material the current state matters more than the stretching by a correction.
         let previous = now.previous.filter(|_| S::IS_ELASTIC);
-        let of = (&self.elements[e..=e], self.free_strain(e, previous.unwrap_or(now.nodes)));
+        let of = (&self.elements[e..=e], self.free_strain(e, now.nodes));
         self.tangents_of::<f64>(of, (now, previous), Some(rate_weight), moduli, self.own_matrix(K));
         self.widen(e, now, K);
     }
