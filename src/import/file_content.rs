@@ -27,8 +27,10 @@ pub struct MaterialCard {
     pub damping: Option<[f64; 2]>,
     /// Rate and exponent of an overstress.
     pub rate: Option<[f64; 2]>,
-    /// Coefficient of thermal expansion.
-    pub expansion: Option<f64>,
+    /// Coefficient of thermal expansion, and its line.
+    pub expansion: Option<(f64, usize)>,
+    /// True where it depends on temperature.
+    pub has_expansions: bool,
 }
 
 /// The materials of a file.
@@ -372,6 +374,19 @@ pub struct ForceLine {
     pub is_follower: bool,
 }
 
+/// A temperature on a line of `*TEMPERATURE` or of initial conditions.
+#[derive(Debug, Clone)]
+pub struct TemperatureLine {
+    /// Its line.
+    pub line: usize,
+    /// Its nodes.
+    pub target: NamedTarget,
+    /// The temperature, and its gradients along the first and the second axis of the section.
+    pub values: [f64; 3],
+    /// The name of an amplitude.
+    pub amplitude: Option<String>,
+}
+
 /// A distributed load on a line of `*DLOAD` or `*DSLOAD`.
 #[derive(Debug, Clone)]
 pub struct SpreadLine {
@@ -429,6 +444,10 @@ pub struct StepCard {
     pub spread: Vec<SpreadLine>,
     /// True where earlier distributed loads end.
     pub new_spread: bool,
+    /// Its temperatures.
+    pub temperatures: Vec<TemperatureLine>,
+    /// True where earlier temperatures end.
+    pub new_temperatures: bool,
 }
 
 impl StepCard {
@@ -445,6 +464,7 @@ impl StepCard {
         supports
             || self.forces.iter().any(|line| line.amplitude.is_some())
             || self.spread.iter().any(|line| line.amplitude.is_some())
+            || self.temperatures.iter().any(|line| line.amplitude.is_some())
     }
 }
 
@@ -457,6 +477,8 @@ pub struct StepCards {
     pub list: Vec<StepCard>,
     /// True between `*STEP` and `*END STEP`.
     pub is_open: bool,
+    /// Temperatures at the start.
+    pub first_temperatures: Vec<TemperatureLine>,
     /// What all steps ask for.
     pub requests: Requests,
     /// Velocities at the start: line, nodes, degree of freedom from 0 to 5, value.

@@ -4,7 +4,7 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
     amplitude_cards, connector_cards, constraint_cards, material_cards, mesh_cards, nodal_axes, property_cards,
-    section_cards, step_cards,
+    section_cards, step_cards, temperatures,
 };
 use std::fmt::Write;
 
@@ -50,7 +50,7 @@ const fn refuse(word: &'static str, about: &'static str) -> KeywordRow {
 
 const OUTPUT: &str = "output of the other program; the deck has its own";
 const SOLVER: &str = "settings of the other solver";
-const HEAT: &str = "rdsolve computes no temperatures, and no strains by temperature";
+const HEAT: &str = "rdsolve computes no temperatures; give them by *TEMPERATURE";
 const FLUID: &str = "rdsolve computes no fluids";
 const FIELDS: &str = "rdsolve computes no electric or magnetic fields";
 const LAW: &str = "rdsolve has elastic, plastic and viscoplastic materials alone";
@@ -111,7 +111,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("RATE DEPENDENT", "TYPE", material_cards::rate_dependent, "[materials] viscosity"),
     read("DENSITY", "", material_cards::density, "[materials] density"),
     read("DAMPING", "ALPHA BETA STRUCTURAL COMPOSITE", material_cards::damping, "[damping]"),
-    read("EXPANSION", "TYPE ZERO", material_cards::expansion, "no temperature changes"),
+    read("EXPANSION", "TYPE ZERO", material_cards::expansion, "[materials] expansion, where a temperature changes"),
     read("MASS", "ELSET ALPHA", property_cards::mass, "[[masses]]"),
     read("ROTARY INERTIA", "ELSET ALPHA ORIENTATION", property_cards::inertia, "[[masses]] inertia, or that of a body"),
     read("SPRING", "ELSET NONLINEAR ORIENTATION", property_cards::spring, "[[links]]"),
@@ -174,6 +174,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
     read("COMPLEX FREQUENCY", "CORIOLIS FRICTIONDAMPING", step_cards::complex_frequency, "complex modes"),
     read("BUCKLE", "EIGENSOLVER SOLVER", step_cards::buckle, "buckling factors"),
     read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE", step_cards::forces, "[[loads]] force, moment"),
+    read("TEMPERATURE", "OP AMPLITUDE", temperatures::temperatures, "[[loads]] temperature, temperature_gradient"),
     read("DLOAD", "OP AMPLITUDE", step_cards::element_loads, "[[loads]] by length or area, or gravity"),
     read("DSLOAD", "OP AMPLITUDE", step_cards::surface_loads, "[[loads]] pressure"),
     read("NODE PRINT", "NSET FREQUENCY TOTALS GLOBAL TIMEPOINTS OUTPUT SUMMARY", step_cards::node_output, "[output]"),
@@ -292,7 +293,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("CONNECTOR FAILURE", "failing connectors are not translated; give `failure` of [[links]]"),
     refuse("CONNECTOR HARDENING", "plastic connectors are not translated; give `yield_moment` of [[joints]]"),
     refuse("CONNECTOR CONSTITUTIVE REFERENCE", "reference lengths of connectors are not translated"),
-    refuse("TEMPERATURE", HEAT),
     refuse("HEAT TRANSFER", HEAT),
     refuse("COUPLED TEMPERATURE-DISPLACEMENT", HEAT),
     refuse("UNCOUPLED TEMPERATURE-DISPLACEMENT", HEAT),

@@ -77,10 +77,16 @@ pub fn density(im: &mut Importer, block: &KeywordBlock) {
 
 /// `*EXPANSION`.
 pub fn expansion(im: &mut Importer, block: &KeywordBlock) {
-    let expansion = block.data.first().and_then(|data| im.number_at(data, 0));
-    im.ignore(block.keyword.line, "no temperature changes");
-    if let Some(material) = at_hand(im, block.keyword.line) {
+    let line = block.keyword.line;
+    let is_other = |kind: &str| !"ISOTROPIC".starts_with(&kind.to_ascii_uppercase());
+    if block.keyword.value("TYPE").is_some_and(is_other) {
+        return im.refuse(line, "rdsolve has isotropic expansion alone");
+    }
+    let expansion = block.data.first().and_then(|data| im.number_at(data, 0)).map(|factor| (factor, line));
+    let rows = block.data.len();
+    if let Some(material) = at_hand(im, line) {
         material.expansion = expansion;
+        material.has_expansions = rows > 1;
     }
 }
 
@@ -118,8 +124,25 @@ pub fn rate_dependent(im: &mut Importer, block: &KeywordBlock) {
     }
 }
 
+/// Says what becomes of coefficients of expansion.
+pub fn say_expansions(im: &mut Importer) {
+    let is_heated = im.is_heated();
+    for material in im.materials.list.clone() {
+        let Some((_, line)) = material.expansion else { continue };
+        if !is_heated {
+            im.ignore(line, "no temperature changes");
+        } else if material.has_expansions {
+            im.change(line, "values that depend on temperature: those of the first row are taken");
+        }
+    }
+    if !is_heated {
+        let lines: Vec<usize> = im.steps.first_temperatures.iter().map(|line| line.line).collect();
+        lines.into_iter().for_each(|line| im.ignore(line, "no temperature changes"));
+    }
+}
+
 /// The table of a material, under a name.
-pub fn table(material: &MaterialCard, name: &str) -> DeckTable {
+pub fn table(material: &MaterialCard, name: &str, is_heated: bool) -> DeckTable {
     let model = match (&material.plastic[..], material.rate) {
         ([], _) => "elastic",
         (_, None) => "elastic-plastic",
@@ -132,6 +155,9 @@ pub fn table(material: &MaterialCard, name: &str) -> DeckTable {
         .number("poisson_ratio", ratio);
     if let Some(density) = material.density {
         table = table.number("density", density);
+    }
+    if let Some((expansion, _)) = material.expansion.filter(|_| is_heated) {
+        table = table.number("expansion", expansion);
     }
     match &material.plastic[..] {
         [] => return table,

@@ -8,6 +8,7 @@ use crate::file_content::{SectionCard, SectionOf, SectionValue};
 use crate::material_cards;
 use crate::part_piece::PartPiece;
 use crate::scopes::{NamedTarget, PlacedElement};
+use crate::temperatures;
 use base::math::Vec3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -131,7 +132,16 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     let mut seen = BTreeSet::new();
     targets.retain(|target| seen.insert((target.scope, target.name.to_lowercase())));
     let found = targets.iter().filter_map(|target| build.mesh.cell_indices(&build.im.scopes, target));
-    found.map(|cells| cells.into_iter().collect()).collect()
+    let mut marks: Vec<BTreeSet<usize>> = found.map(|cells| cells.into_iter().collect()).collect();
+    for target in temperatures::targets(build.im).iter().filter(|_| build.im.is_heated()) {
+        let nodes: BTreeSet<u64> =
+            build.mesh.node_ids(&build.im.scopes, target).unwrap_or_default().into_iter().collect();
+        let cells = build.mesh.cells.iter().enumerate();
+        marks.push(
+            cells.filter(|(_, cell)| cell.nodes.iter().all(|node| nodes.contains(node))).map(|of| of.0).collect(),
+        );
+    }
+    marks
 }
 
 /// The shape of an element, 0 for a beam of two nodes, 1 for a straight one of three, 2 for a curved one, 3 for a bar, 4 for a shell, 5 for
@@ -302,8 +312,9 @@ fn material(build: &mut Build, card: &SectionCard, names: &mut HashMap<String, S
         build.im.refuse(material.line, "a material of beams and shells needs *ELASTIC");
         return None;
     }
+    let is_heated = build.im.is_heated();
     let name = names.entry(material.name.to_lowercase()).or_insert_with(|| {
-        build.deck.add(material_cards::table(&material, &material.name));
+        build.deck.add(material_cards::table(&material, &material.name, is_heated));
         material.name.clone()
     });
     Some((name.clone(), material.density.unwrap_or(0.0)))

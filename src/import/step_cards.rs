@@ -3,6 +3,7 @@
 use crate::file_content::{ForceLine, SpreadLine, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
+use crate::temperatures;
 use base::text_file::cards::{Data, name_in};
 
 /// Why a line that acts in a step is refused outside of all steps.
@@ -276,7 +277,7 @@ pub fn initial_conditions(im: &mut Importer, block: &KeywordBlock) {
                 im.steps.velocities.push((data.line, target, degree as usize - 1, value));
             }
         }
-        "TEMPERATURE" => im.ignore(line, "no temperature changes"),
+        "TEMPERATURE" => temperatures::initial(im, block),
         kind => im.refuse(line, &format!("initial conditions of TYPE={kind} are not translated")),
     }
 }

@@ -181,3 +181,23 @@ fn thickness_of_nodes() {
     let made = imported(&edited(SHELL, &nodal[1..]));
     assert!(reasons(&made, KeywordVerdict::Ignored)[0].contains("no section asks for it"), "{}", made.deck);
 }
+
+/// The change from the temperature at the start strains a part, with gradients along its axes.
+#[test]
+fn temperatures_of_parts() {
+    let heated = [
+        ("*DENSITY", "*EXPANSION\n1.2e-5\n*DENSITY"),
+        ("*STEP", "*NSET, NSET=all\n1, 2\n*INITIAL CONDITIONS, TYPE=TEMPERATURE\nall, 20.\n*STEP"),
+        ("*CLOAD", "*TEMPERATURE\nall, 60., 5., 7.\n*CLOAD"),
+    ];
+    let made = imported(&edited(BEAM, &heated));
+    assert_eq!(refusals(&made), [""; 0]);
+    let wanted = "part = \"rod\"\ntemperature = 40.0\ntemperature_gradient = [7.0, 5.0]\n";
+    assert!(made.deck.contains(wanted) && made.deck.contains("expansion = 1.2e-5\n"), "{}", made.deck);
+    let cold = imported(&edited(BEAM, &heated[..2]));
+    assert!(!cold.deck.contains("expansion"), "{}", cold.deck);
+    assert!(reasons(&cold, KeywordVerdict::Ignored).iter().any(|said| said.contains("no temperature changes")));
+    refuses(BEAM, &[heated[0], ("*CLOAD", "*TEMPERATURE\n1, 60.\n*CLOAD")], "differs over the nodes of `rod`");
+    let kind = ("*DENSITY", "*EXPANSION, TYPE=ORTHO\n1e-5, 2e-5, 3e-5\n*DENSITY");
+    refuses(BEAM, &[kind, heated[2]], "isotropic expansion alone");
+}
