@@ -115,6 +115,15 @@ impl PartKind {
         }
     }
 
+    /// The number of directions across the part in which its temperature may vary.
+    pub fn gradients(self) -> usize {
+        match self {
+            PartKind::Beam => 2,
+            PartKind::Shell => 1,
+            PartKind::Bar | PartKind::Link | PartKind::Contact => 0,
+        }
+    }
+
     /// True for parts with nodes and elements of material, which have mass, strain energy and may yield.
     pub fn is_deformable(self) -> bool {
         match self {

@@ -8,7 +8,6 @@ pub mod temperature;
 use crate::data::{Actors, Load, Pressure};
 use crate::loads::placed::placed_load;
 use crate::loads::spread::spread_load;
-use crate::loads::temperature::is_temperature;
 use crate::places::nodes::Topology;
 use crate::procedure::stops::NamedActors;
 use crate::report::{Owner, Report};
@@ -57,6 +56,11 @@ pub fn loads<'d>(
     }
     loads.nodal.extend(efforts);
     loads
+}
+
+/// True for a load that heats parts.
+pub fn is_temperature(load: &words::Load) -> bool {
+    load.temperature.is_some() || load.temperature_gradient.is_some()
 }
 
 /// True for a load that is spread over parts or edges.

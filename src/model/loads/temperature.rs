@@ -1,6 +1,7 @@
 //! `[[loads]]` that heat parts: the strain that causes no stress, as the displacement of nodes whose motion is given.
 
 use crate::data::{Actors, AnalysisKind, History, PrescribedMotion};
+use crate::loads::is_temperature;
 use crate::places::nodes::Topology;
 use crate::places::place::Place;
 use crate::report::{Owner, Report};
@@ -15,11 +16,6 @@ use mechanics::amplitude::Amplitude;
 
 /// The names of the three strains, by their places in [`mechanics::elements::heat::Heat::numbers`].
 const NAMES: [&str; 3] = ["temperature", "temperature_gradient", "temperature_gradient along z"];
-
-/// True for a load that heats parts.
-pub fn is_temperature(load: &words::Load) -> bool {
-    load.temperature.is_some() || load.temperature_gradient.is_some()
-}
 
 /// Reads the loads that heat parts. They act as given motions, which the loads with names are added to `actors` by.
 pub fn temperatures<'d>(
@@ -123,11 +119,7 @@ fn heat<'d>(
         let hint = "give the material one, such as 1.2e-5 for steel, per unit of temperature";
         return report.error_with(&name.span, message, hint);
     };
-    let wanted = match part.kind {
-        deck::parts::PartKind::Beam => 2,
-        deck::parts::PartKind::Shell => 1,
-        _ => 0,
-    };
+    let wanted = part.kind.gradients();
     let gradient = load.temperature_gradient.as_ref();
     if let Some(at) = gradient.filter(|at| at.values.len() != wanted) {
         let message = format!("`temperature_gradient` of {} has {} values", table.title(), at.values.len());

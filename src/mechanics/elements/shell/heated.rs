@@ -4,10 +4,9 @@
 //! along the normal bends it to the curvature α dT/dz in both directions.
 
 use super::interpolation::Interpolation;
-use super::pack::{Motion, ShellPack, Shells, Strains};
+use super::pack::{Motion, PackHeat, ShellPack, Shells, Strains};
 use super::section::ShellSections;
 use crate::elements::heat::{Heat, HeatNodes};
-use crate::state::Node;
 use base::math::Vec3;
 use base::math::lanes::Lanes;
 use base::math::number::LaneVec3;
@@ -17,51 +16,6 @@ use std::sync::Arc;
 /// The change of size, or of slope across the element, by which strains are differentiated. They are of second degree but for bending by
 /// angles, so the error is the square of this.
 const STEP: f64 = 1e-4;
-
-/// The temperatures of eight elements.
-pub(super) struct PackHeat<const N: usize, const P: usize, const E: usize> {
-    nodes: Arc<HeatNodes>,
-    /// Derivatives of the strains by the change of size, and by the curvature.
-    unit: [Strains<N, P, E>; 2],
-}
-
-impl<const N: usize, const P: usize, const E: usize> PackHeat<N, P, E> {
-    /// Strains less those without stress. Products of slopes are of second degree in the change of size.
-    #[inline]
-    pub fn less(&self, mut strains: Strains<N, P, E>, nodes: &[Node]) -> Strains<N, P, E> {
-        let [growth, curvature, _] = self.nodes.strain(nodes);
-        let [growth, curvature] = [growth, curvature].map(Lanes::splat);
-        let square = growth + Lanes::splat(0.5) * growth * growth;
-        let [size, bend] = &self.unit;
-        for i in 0..E {
-            let growth = if i < P { square } else { growth };
-            strains.plane.membrane[i] -= growth * size.plane.membrane[i] + curvature * bend.plane.membrane[i];
-        }
-        for i in 0..P {
-            strains.plane.bending[i] -= growth * size.plane.bending[i] + curvature * bend.plane.bending[i];
-        }
-        for i in 0..N {
-            strains.shear[i] -= growth * size.shear[i] + curvature * bend.shear[i];
-        }
-        strains
-    }
-
-    /// The work of a stress on the second derivative of the strains by the change of size.
-    pub fn second(&self, stress: &Strains<N, P, E>, lane: usize) -> f64 {
-        let [size, _] = &self.unit;
-        (0..P).map(|i| (stress.plane.membrane[i] * size.plane.membrane[i]).as_array()[lane]).sum()
-    }
-
-    /// The derivative of the strains without stress by one of them.
-    pub fn derivative(&self, of: usize, nodes: &[Node]) -> Strains<N, P, E> {
-        let mut unit = self.unit[of.min(1)];
-        if of == 0 {
-            let square = Lanes::splat(1.0 + self.nodes.strain(nodes)[0]);
-            (0..P).for_each(|i| unit.plane.membrane[i] = square * unit.plane.membrane[i]);
-        }
-        unit
-    }
-}
 
 impl<K, const N: usize, const V: usize, const P: usize, const E: usize, S> Shells<K, N, V, P, E, S>
 where

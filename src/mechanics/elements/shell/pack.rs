@@ -5,7 +5,6 @@ use super::arc::Slopes;
 use super::camber::Camber;
 use super::edge::EdgeTangents;
 use super::edge_bending::EdgeBending;
-use super::heated::PackHeat;
 use super::in_plane::{InPlane, product};
 use super::interpolation::{Interpolation, Quadrilateral, Triangle};
 use super::rolled_edges::RolledEdges;
@@ -87,6 +86,51 @@ pub(super) struct ShellPack<const N: usize, const V: usize, const P: usize, cons
     pub heat: Option<Box<PackHeat<N, P, E>>>,
     /// The sections side by side.
     pub sections: S,
+}
+
+/// The temperatures of eight elements.
+pub(super) struct PackHeat<const N: usize, const P: usize, const E: usize> {
+    pub nodes: Arc<HeatNodes>,
+    /// Derivatives of the strains by the change of size, and by the curvature.
+    pub unit: [Strains<N, P, E>; 2],
+}
+
+impl<const N: usize, const P: usize, const E: usize> PackHeat<N, P, E> {
+    /// Strains less those without stress. Products of slopes are of second degree in the change of size.
+    #[inline]
+    pub fn less(&self, mut strains: Strains<N, P, E>, nodes: &[Node]) -> Strains<N, P, E> {
+        let [growth, curvature, _] = self.nodes.strain(nodes);
+        let [growth, curvature] = [growth, curvature].map(Lanes::splat);
+        let square = growth + Lanes::splat(0.5) * growth * growth;
+        let [size, bend] = &self.unit;
+        for i in 0..E {
+            let growth = if i < P { square } else { growth };
+            strains.plane.membrane[i] -= growth * size.plane.membrane[i] + curvature * bend.plane.membrane[i];
+        }
+        for i in 0..P {
+            strains.plane.bending[i] -= growth * size.plane.bending[i] + curvature * bend.plane.bending[i];
+        }
+        for i in 0..N {
+            strains.shear[i] -= growth * size.shear[i] + curvature * bend.shear[i];
+        }
+        strains
+    }
+
+    /// The work of a stress on the second derivative of the strains by the change of size.
+    pub fn second(&self, stress: &Strains<N, P, E>, lane: usize) -> f64 {
+        let [size, _] = &self.unit;
+        (0..P).map(|i| (stress.plane.membrane[i] * size.plane.membrane[i]).as_array()[lane]).sum()
+    }
+
+    /// The derivative of the strains without stress by one of them.
+    pub fn derivative(&self, of: usize, nodes: &[Node]) -> Strains<N, P, E> {
+        let mut unit = self.unit[of.min(1)];
+        if of == 0 {
+            let square = Lanes::splat(1.0 + self.nodes.strain(nodes)[0]);
+            (0..P).for_each(|i| unit.plane.membrane[i] = square * unit.plane.membrane[i]);
+        }
+        unit
+    }
 }
 
 /// The strains of elements, or the stresses conjugate to them.

@@ -1,54 +1,15 @@
 //! Temperatures of curved elements, see [`crate::elements::shell`]'s other elements: the strains that they have without stress.
 
-use super::kinematics::{CurvedShell, CurvedShells, CurvedStrain};
+use super::kinematics::{CurvedHeat, CurvedShell, CurvedShells, CurvedStrain};
 use super::sampling::CurvedStrains;
-use crate::elements::block::Force;
 use crate::elements::heat::{Heat, HeatNodes};
 use crate::elements::shell::heated::bending;
 use crate::elements::shell::nodal_vectors::NodalVectors;
 use crate::elements::shell::section::ShellSections;
-use crate::state::{Configuration, Node};
+use crate::state::Configuration;
 use base::math::Vec3;
 use std::array::from_fn;
 use std::sync::Arc;
-
-/// The temperatures of an element.
-pub(super) struct CurvedHeat<const N: usize, const P: usize, const Q: usize> {
-    nodes: Arc<HeatNodes>,
-    /// Derivatives of the strains by the change of size, and by the curvature.
-    unit: [CurvedStrain<N, P, Q>; 2],
-}
-
-impl<const N: usize, const P: usize, const Q: usize> CurvedHeat<N, P, Q> {
-    /// Strains less those without stress. Products of slopes are of second degree in the change of size.
-    pub fn less(&self, strains: CurvedStrain<N, P, Q>, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
-        let [growth, curvature, _] = self.nodes.strain(nodes);
-        let [size, bend] = &self.unit;
-        let mut grown = size.less(&CurvedStrain::ZERO, growth);
-        grown.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + 0.5 * growth);
-        strains.less(&grown, 1.0).less(&bend.less(&CurvedStrain::ZERO, curvature), 1.0)
-    }
-
-    /// The derivative of the strains without stress by one of them.
-    fn derivative(&self, of: usize, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
-        let mut unit = self.unit[of.min(1)];
-        if of == 0 {
-            let growth = self.nodes.strain(nodes)[0];
-            unit.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + growth);
-        }
-        unit
-    }
-
-    /// The work of a stress by each of the strains.
-    fn work(&self, stress: &CurvedStrain<N, P, Q>, nodes: &[Node]) -> [f64; 3] {
-        [stress.dot(&self.derivative(0, nodes)), stress.dot(&self.derivative(1, nodes)), 0.0]
-    }
-
-    /// Subtracts the forces of the temperatures on their nodes from `F`.
-    pub fn subtract_forces(&self, stress: &CurvedStrain<N, P, Q>, nodes: &[Node], F: &mut [Force]) {
-        self.nodes.subtract_forces(&self.work(stress, nodes), F);
-    }
-}
 
 impl<const N: usize, const V: usize, const P: usize, const Q: usize, S> CurvedShell<N, V, P, Q, S> {
     /// The derivatives of the strains by the change of size, and by the curvature.

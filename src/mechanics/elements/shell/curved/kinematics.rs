@@ -1,7 +1,7 @@
 //! Kinematics of a curved element: from the motion of its nodes to its strains, their rates and their derivatives.
 
-use super::heated::CurvedHeat;
 use super::sampling::Sampling;
+use crate::elements::block::Force;
 use crate::elements::heat::HeatNodes;
 use crate::elements::shell::in_plane::InPlane;
 use crate::elements::shell::nodal_vectors::{NodalVectors, sum};
@@ -35,6 +35,44 @@ pub(super) struct CurvedShell<const N: usize, const V: usize, const P: usize, co
     pub heat: Option<Box<CurvedHeat<N, P, Q>>>,
     /// The sections at its integration points.
     pub section: S,
+}
+
+/// The temperatures of an element.
+pub(super) struct CurvedHeat<const N: usize, const P: usize, const Q: usize> {
+    pub nodes: Arc<HeatNodes>,
+    /// Derivatives of the strains by the change of size, and by the curvature.
+    pub unit: [CurvedStrain<N, P, Q>; 2],
+}
+
+impl<const N: usize, const P: usize, const Q: usize> CurvedHeat<N, P, Q> {
+    /// Strains less those without stress. Products of slopes are of second degree in the change of size.
+    pub fn less(&self, strains: CurvedStrain<N, P, Q>, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
+        let [growth, curvature, _] = self.nodes.strain(nodes);
+        let [size, bend] = &self.unit;
+        let mut grown = size.less(&CurvedStrain::ZERO, growth);
+        grown.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + 0.5 * growth);
+        strains.less(&grown, 1.0).less(&bend.less(&CurvedStrain::ZERO, curvature), 1.0)
+    }
+
+    /// The derivative of the strains without stress by one of them.
+    pub fn derivative(&self, of: usize, nodes: &[Node]) -> CurvedStrain<N, P, Q> {
+        let mut unit = self.unit[of.min(1)];
+        if of == 0 {
+            let growth = self.nodes.strain(nodes)[0];
+            unit.plane.membrane.iter_mut().for_each(|number| *number *= 1.0 + growth);
+        }
+        unit
+    }
+
+    /// The work of a stress by each of the strains.
+    pub fn work(&self, stress: &CurvedStrain<N, P, Q>, nodes: &[Node]) -> [f64; 3] {
+        [stress.dot(&self.derivative(0, nodes)), stress.dot(&self.derivative(1, nodes)), 0.0]
+    }
+
+    /// Subtracts the forces of the temperatures on their nodes from `F`.
+    pub fn subtract_forces(&self, stress: &CurvedStrain<N, P, Q>, nodes: &[Node], F: &mut [Force]) {
+        self.nodes.subtract_forces(&self.work(stress, nodes), F);
+    }
 }
 
 /// σ·∂²ε, which is bilinear in positions and directors.
