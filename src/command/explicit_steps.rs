@@ -10,7 +10,7 @@ const MULTIPLES: [f64; 3] = [2.0, 5.0, 10.0];
 
 /// The critical time step of the elements, and the element that governs it.
 pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, String)> {
-    let found = governed(model).then(|| governing(model, system)).flatten()?;
+    let found = governed(model).then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()?;
     let part = &model.parts[found.part];
     let x = |node: &usize| model.nodes[*node].x;
     let nodes = part.nodes(found.element);
@@ -29,11 +29,15 @@ pub fn limit_of_steps(model: &Model, system: &System) -> Option<(&'static str, S
 
 /// The masses that `mass_scaling_step` would add for longer steps, a line for each.
 pub fn offers(model: &Model, system: &System) -> Vec<(&'static str, String)> {
-    let Some(found) = governed(model).then(|| governing(model, system)).flatten() else { return Vec::new() };
+    let Some(found) =
+        governed(model).then(|| governing(model, &system.groups, system.mass_scaling().is_some())).flatten()
+    else {
+        return Vec::new();
+    };
     let mass: f64 = system.inertias.iter().map(|inertia| inertia.weighing).sum();
     let line = |(k, multiple): (usize, f64)| {
         let step = multiple * found.step;
-        let added = added_at(model, system, step);
+        let added = added_at(model, &system.groups, step);
         let what = format!(
             "`mass_scaling_step` = {}, {multiple} times the step, would add {}, {} % of the mass of the scene",
             to_digits(step, 3),

@@ -158,8 +158,8 @@ mod tests {
             let (mut state, mut work, mut spent) = (BoucWenState::default(), 0.0, 0.0);
             let [mut z, mut e] = [0.0f64; 2];
             let (x_y, part) = (law.yield_force / law.stiffness, 0.9);
-            for step in 0..2000 {
-                let t = |k: f64| (step as f64 + k) * 2e-3;
+            for step in 0..4000 {
+                let t = |k: f64| (step as f64 + k) * 1e-3;
                 let next = law.moved(&state, way(t(1.0)));
                 spent += law.dissipated(&state, &next);
                 work += law.post_yield_stiffness * 0.5 * (next.x * next.x - state.x * state.x)
@@ -183,7 +183,7 @@ mod tests {
                     e += part * (z + 0.5 * change) * dx / (x_y * x_y);
                     z += change;
                 }
-                // Steps of the law turn at their ends only: 2000 of them leave 1e-4 where the way turns.
+                // Steps of the law turn at their ends only: 4000 of them leave 1e-4 where the way turns.
                 assert!((state.z - z).abs() < 2e-4 * x_y, "{exponent} {step}: {} {z}", state.z);
             }
             assert!((work - law.energy(&state) - spent).abs() < 1e-9 * spent, "{work} {spent}");

@@ -10,7 +10,7 @@ use mechanics::elements::hysteretic_link::PathLaw;
 
 /// What the deck gives.
 #[derive(Clone, Copy)]
-pub enum Found {
+pub enum GivenLaw {
     /// Another law, or none.
     None,
     /// A law with errors, which are reported.
@@ -27,16 +27,16 @@ pub fn keys(link: &words::Link) -> Vec<(&'static str, Option<&Span>)> {
 }
 
 /// The law of a link that yields; other laws have none of its keys.
-pub fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Found {
+pub fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> GivenLaw {
     let found = match link.law.as_ref().map(|law| law.value) {
         Some(words::LinkLaw::Yielding) => yielding(owner, link, report),
         Some(words::LinkLaw::BoucWen) => bouc_wen(owner, link, report),
         _ => {
             report.reject_unused("a link whose law is not \"yielding\" or \"bouc-wen\"", &keys(link));
-            return Found::None;
+            return GivenLaw::None;
         }
     };
-    found.map_or(Found::Wrong, Found::Law)
+    found.map_or(GivenLaw::Wrong, GivenLaw::Law)
 }
 
 /// Stiffness, the slope beyond yielding and the yield force.

@@ -1,6 +1,6 @@
 //! Links by full matrices: their rows, and their speeds.
 
-use super::of_lines;
+use super::line_keys::of_lines;
 use crate::data::LinkKind;
 use crate::places::axes::axes;
 use crate::report::{Owner, Report};

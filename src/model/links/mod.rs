@@ -2,11 +2,13 @@
 
 pub mod foundation;
 pub mod hysteretic;
+pub mod line_keys;
 pub mod matrices;
 pub mod pretension;
 
 use crate::data::{Link, LinkKind, Load, OwnDamping};
 use crate::links::foundation::foundations;
+use crate::links::line_keys::{dashpot, of_lines};
 use crate::links::matrices::bearing;
 use crate::links::pretension::pretension;
 use crate::own_damping::of_spring;
@@ -102,7 +104,7 @@ fn line<'d>(
     report.reject_unused("a link without `bushing`", &unused);
     let path = hysteretic::law(owner, link, report);
     let law = match path {
-        hysteretic::Found::None => law(owner, link, report),
+        hysteretic::GivenLaw::None => law(owner, link, report),
         _ => None,
     };
     let free_length = link.free_length.as_ref().map(|length| length.value);
@@ -124,7 +126,7 @@ fn line<'d>(
         None => arm.norm(),
     };
     let free_length = free_length.unwrap_or(initial);
-    if let hysteretic::Found::Law(law) = path {
+    if let hysteretic::GivenLaw::Law(law) = path {
         return Some(LinkKind::Hysteretic { law, damping, direction, free_length });
     }
     Some(LinkKind::Line { law: law?, damping, direction, free_length })
@@ -168,22 +170,6 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
     }
 }
 
-/// The keys of a law along a line.
-fn of_lines(link: &words::Link) -> Vec<(&'static str, Option<&Span>)> {
-    let of_paths = hysteretic::keys(link);
-    let others = [
-        ("law", span(&link.law)),
-        ("stiffness", span(&link.stiffness)),
-        ("damping", dashpot(link)),
-        ("gap", span(&link.gap)),
-        ("preload", span(&link.preload)),
-        ("free_length", span(&link.free_length)),
-        ("direction", span(&link.direction)),
-        ("points", span(&link.points)),
-    ];
-    others.into_iter().chain(of_paths).collect()
-}
-
 fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKind> {
     report.reject_unused("a bushing", &of_lines(link));
     let stiffness = six("bushing", &link.bushing, report);
@@ -193,15 +179,6 @@ fn bushing<'d>(link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkKin
         None => Mat3::identity(),
     };
     Some(LinkKind::Bushing { stiffness: stiffness?, damping: damping?, axes })
-}
-
-/// The place of a damper along the line of a link, which a bushing does not have.
-fn dashpot(link: &words::Link) -> Option<&Span> {
-    let given = link.damping.as_ref()?;
-    match &given.value {
-        NumberOrTable::Number(_) => Some(&given.span),
-        NumberOrTable::Table(table) => span(&table.viscous),
-    }
 }
 
 /// The forces of a link at failure. Along a line there is no shear.

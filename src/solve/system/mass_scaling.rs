@@ -2,7 +2,6 @@
 //! rotary inertia and mass, once, at t = 0. The additional mass has inertia but no weight, so equilibrium under weight is unchanged.
 
 use super::element_stability::{ElementScaling, factor, fastest, scaling};
-use super::equations::System;
 use super::group::Group;
 use super::inertia::Inertia;
 use super::parts::{LumpedElement, NodalMasses, NodeSpacing, assembled};
@@ -179,20 +178,20 @@ impl ScaledPart {
 
 /// The element with the shortest critical time step, in the configuration at t = 0 and with Rayleigh damping; `None` without elements that
 /// have lumped mass. Of elements with `mass_scaling_step`, which have one step at least, none is named.
-pub fn governing(model: &Model, system: &System) -> Option<GoverningElement> {
+pub fn governing(model: &Model, groups: &[Group], is_raised: bool) -> Option<GoverningElement> {
     if model.solution.scheme.mass_scaling_step().is_some() {
         return None;
     }
     let x: Vec<Vec3> = model.nodes.iter().map(|node| node.x).collect();
-    Elements::new(model, &x).governing(&system.groups, system.mass_scaling().map(|_| 1.0))
+    Elements::new(model, &x).governing(groups, is_raised.then_some(1.0))
 }
 
 /// The mass that a critical time step would add.
-pub fn added_at(model: &Model, system: &System, step: f64) -> f64 {
+pub fn added_at(model: &Model, groups: &[Group], step: f64) -> f64 {
     let x: Vec<Vec3> = model.nodes.iter().map(|node| node.x).collect();
     let elements = Elements::new(model, &x);
     let mut added = 0.0;
-    for group in system.groups.iter().filter(|group| elements.may_scale(group)) {
+    for group in groups.iter().filter(|group| elements.may_scale(group)) {
         let limit = elements.limit(group, step);
         elements.each(group, |_, K, element| {
             added += element.map_or(0.0, |of| {
