@@ -52,9 +52,9 @@ fn depth(said: &[String]) -> Option<f64> {
 
 #[test]
 fn what_is_pressed_in_by_more_than_is_seen_is_said() {
-    // 10 m/s: v √(m/k), which the chosen stiffness of a slow run cannot hold.
+    // 10 m/s: v √(m/k), which this stiffness cannot hold.
     for (shape, surface, end_time) in [(BALL, FLOOR, 4.0), (BRICK, FLOOR, 4.0), (BALL, DRUM, 10.0)] {
-        let text = pushed(shape, surface, end_time, "");
+        let text = pushed(shape, surface, end_time, "stiffness = 2e5");
         let chosen = read_deck(&text).each::<model::Contact>().next().unwrap().law.unwrap().stiffness;
         // A brick lies on four corners.
         let corners = if shape == BRICK { 4.0 } else { 1.0 };
@@ -64,8 +64,6 @@ fn what_is_pressed_in_by_more_than_is_seen_is_said() {
         let found = depth(&said).unwrap_or_else(|| panic!("{shape}, {surface}: {said:?}, {exact}"));
         // The steps hold some five per cent of the turning point; four digits are written.
         assert!((found / exact - 1.0).abs() < 0.05, "{shape}, {surface}: {found} for {exact}");
-        let (_, read) = model::read(&Source::new("deck.toml", text, &[]));
-        assert!(read.iter().any(|said| said.message.contains("rests on `end_time` alone")), "{read:?}");
     }
 }
 

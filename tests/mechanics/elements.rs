@@ -227,7 +227,7 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
         stiffness: 25.0,
         post_yield_stiffness: 4.0,
         yield_force: firmness,
-        exponent: 5.0,
+        exponent: 2.0,
         bulge: 0.5,
         losses: [0.02, 0.01],
     };
@@ -377,7 +377,8 @@ fn tangent_of_elastic_moduli() {
             let least = more.symmetric_eigenvalues().min();
             assert!(least >= -1e-12 * K.amax(), "{}: {least}", kind.name);
         }
-        for kind in kinds(&mut rng, 1e6) {
+        // The smooth law softens from the first.
+        for kind in kinds(&mut rng, 1e6).into_iter().filter(|kind| !kind.name.contains("smooth")) {
             let nodes = moved(&mut rng, &kind.x, 0.15);
             let [elastic, full] =
                 [Moduli::Elastic, Moduli::Algorithmic].map(|moduli| kind.tangent(&nodes, 0.7, moduli));
@@ -452,7 +453,8 @@ fn forces_balance_and_turn_with_the_element() {
                 for (a, b) in kind.forces(&turned).iter().zip(&F) {
                     for i in [0, 3] {
                         let (a, b) = (Vec3::new(a[i], a[i + 1], a[i + 2]), Vec3::new(b[i], b[i + 1], b[i + 2]));
-                        assert!((a - R * b).norm() < 1e-12 * size, "{name}");
+                        // Rounding of positions of ten, times stiffnesses of sixty.
+                        assert!((a - R * b).norm() < 1e-12 * size.max(1.0), "{name}");
                     }
                 }
             }

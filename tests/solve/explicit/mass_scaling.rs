@@ -17,6 +17,7 @@ const STEEL: &str =
     "[materials.steel]\nmodel = \"elastic\"\nyoungs_modulus = 200e9\npoisson_ratio = 0.0\ndensity = 8000.0\n";
 const SPEED: f64 = 5000.0;
 const DENSITY: f64 = 8000.0;
+const OFF: &str = "mass_scaling = \"off\"\n";
 /// Length of the elements of a bar, and of the one among them that is a twentieth as long.
 const ELEMENT: f64 = 0.05;
 const SLIVER: f64 = 0.0025;
@@ -457,5 +458,65 @@ fn damping_is_counted() {
         println!("{alpha} {beta}: factor {factor:.2}, first step {:.3} of it", first / step);
         // The sliver is bound by its neighbours besides, which are slower.
         assert!((0.8 * 0.99..1.2).contains(&(first / step)), "{first}");
+    }
+}
+
+/// A deck of a thin beam on two hinges, 32 elements long, and of a thin plate on hinges all round.
+fn thin(key: &str, time_step: &str, order: usize) -> [String; 2] {
+    let head = dynamic(1e-3, time_step, "central-difference") + key + STEEL + "[output]\nevery = 1\n[points]\n";
+    let beam = format!(
+        "a = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\n[sections.flat]\nshape = \"rectangle\"\nwidth = 0.01\nheight = 0.002\n[[beams]]\n\
+         name = \"beam\"\npath = [\"a\", \"b\"]\nelements = {}\norder = {order}\nmaterial = \"steel\"\nsection = \"flat\"\n\
+         orientation = [0.0, 1.0, 0.0]\n[[supports]]\nat = [\"a\", \"b\"]\nfix = [\"ux\", \"uy\", \"uz\", \"rx\", \"rz\"]\n",
+        32 / order
+    );
+    let plate = format!(
+        "a = [0.0, 0.0, 0.0]\nb = [1.0, 0.0, 0.0]\nc = [1.0, 1.0, 0.0]\nd = [0.0, 1.0, 0.0]\n[[shells]]\nname = \"plate\"\n\
+         corners = [\"a\", \"b\", \"c\", \"d\"]\nelements = {}\norder = {}\nthickness = 0.005\nmaterial = \"steel\"\n[[supports]]\n\
+         at = [\"plate.edge1\", \"plate.edge2\", \"plate.edge3\", \"plate.edge4\"]\nfix = \"translations\"\n[[supports]]\nat = \"plate\"\n\
+         fix = [\"ux\", \"uy\", \"rz\"]\n",
+        8 / order.min(2),
+        order.min(2)
+    );
+    [head.clone() + &beam, head + &plate]
+}
+
+/// Thickness does not set the step of thin beams and plates, and low modes keep their closed forms: n²π² √(EI/ρA)/L² of the beam, 2π² √(D/ρh)/L²
+/// of the plate.
+#[test]
+fn thin_parts_take_steps_of_their_length_by_default() {
+    for order in [1, 2] {
+        for (which, gain) in [(0, 1.4), (1, 6.0)] {
+            let model = |key: &str| scene(&thin(key, AUTO, order)[which], &[]);
+            let (own, raised) = (spectrum(&model(OFF)), spectrum(&model("")));
+            let told = &parts(&model(""))[0];
+            assert_eq!((told.heavier, told.added, told.rotary), (0, 0.0, told.elements), "{told:?}");
+            let longer = (own.last().unwrap() / raised.last().unwrap()).sqrt();
+            let step = System::new(&model("")).unwrap().mass_scaling().unwrap().critical_step;
+            let limit = 2.0 / raised.last().unwrap().sqrt();
+            println!(
+                "order {order}, {which}: the step is {longer:.1} times as long, {:.3} of what is told",
+                limit / step
+            );
+            assert!(longer > gain, "{order} {which}: {longer}");
+            // No mode of a scene is faster than that of an element alone.
+            assert!(limit >= step && limit < 1.6 * step, "{limit} {step}");
+            let radius = |h: f64| SPEED * h / 12f64.sqrt();
+            let exact: Vec<f64> = match which {
+                0 => (1..=3).map(|n| (n as f64 * PI).powi(2) * radius(0.002)).collect(),
+                _ => vec![2.0 * PI * PI * radius(0.005)],
+            };
+            // Most is due to r² k²/2 with r² = h²/8, h the distance of nodes: 0.5 % of the third mode of the beam, 1 % of that of the plate.
+            for (n, exact) in exact.iter().enumerate() {
+                let found = raised[n].sqrt() / exact - 1.0;
+                println!(
+                    "  mode {}: {:+.3} %, {:+.3} % with its own inertia",
+                    n + 1,
+                    100.0 * found,
+                    100.0 * (own[n].sqrt() / exact - 1.0)
+                );
+                assert!(found.abs() < 0.012, "{order} {which} {n}: {found}");
+            }
+        }
     }
 }

@@ -7,7 +7,6 @@ mod implicit;
 mod mass_scaling;
 mod masses;
 mod order;
-mod rotary_inertia;
 mod scenes;
 
 use crate::support::{body_omega, error, node, position, read, run_to_the_end, slope};
