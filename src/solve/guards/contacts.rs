@@ -105,7 +105,7 @@ fn step_for(law: &ContactLaw, stiffness: f64, step_length: &StepLength) -> f64 {
     let StepLength::Fixed { step } = *step_length else { return 0.0 };
     // Half of the longest duration, which goes with the root of the stiffness.
     let needed = 0.5 * law.duration * (law.stiffness / stiffness).sqrt() / STEPS_OF_IMPACT;
-    if law.resolution.is_finite() || !(needed < step) { 0.0 } else { needed }
+    if law.resolution.is_infinite() && needed < step { needed } else { 0.0 }
 }
 
 /// Warns if a new contact of a dynamic stage begins with a penetration, which throws the body out with unphysical energy. `fresh` are the
