@@ -4,9 +4,9 @@
 //! equation in x alone. Y. K. Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249-263; T. T. Baber & Y. K. Wen, ibid. 107 (1981) 1069-1087.
 
 /// Length of a step of the integration, over the yield displacement: its error is 1e-10 of it for exponents up to 5.
-const PIECE: f64 = 0.01;
+const PIECE: f64 = 0.005;
 /// Largest number of steps: a way of hundred yield displacements ends where z has settled long before.
-const MOST_PIECES: f64 = 10_000.0;
+const MOST_PIECES: f64 = 20_000.0;
 
 /// The parameters of a law.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -487,7 +487,7 @@ fn thin(key: &str, time_step: &str, order: usize) -> [String; 2] {
 fn thin_parts_take_steps_of_their_length_by_default() {
     for order in [1, 2] {
         for (which, gain) in [(0, 1.4), (1, 6.0)] {
-            let model = |key: &str| scene(&thin(key, AUTO, order)[which], &[]);
+            let model = |key: &str| scene(&thin(key, AUTO, order)[which], &["analysis.plane=off"]);
             let (own, raised) = (spectrum(&model(OFF)), spectrum(&model("")));
             let told = &parts(&model(""))[0];
             assert_eq!((told.heavier, told.added, told.rotary), (0, 0.0, told.elements), "{told:?}");
