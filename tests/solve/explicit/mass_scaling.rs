@@ -475,7 +475,7 @@ fn thin(key: &str, time_step: &str, order: usize) -> [String; 2] {
          corners = [\"a\", \"b\", \"c\", \"d\"]\nelements = {}\norder = {}\nthickness = 0.005\nmaterial = \"steel\"\n[[supports]]\n\
          at = [\"plate.edge1\", \"plate.edge2\", \"plate.edge3\", \"plate.edge4\"]\nfix = \"translations\"\n[[supports]]\nat = \"plate\"\n\
          fix = [\"ux\", \"uy\", \"rz\"]\n",
-        8 / order.min(2),
+        16 / order.min(2),
         order.min(2)
     );
     [head.clone() + &beam, head + &plate]
