@@ -4,7 +4,7 @@ use crate::element_types::ElementType;
 use base::math::{Mat3, Vec3, rotation};
 use std::collections::HashMap;
 
-/// What is added to a number that lies beyond those of its instance, so that it is none of the next one.
+/// The offset of a number beyond those of its instance. Such a number never falls on the next instance.
 pub const NOWHERE: u64 = 1 << 40;
 
 /// A part, an instance, or all that stands outside of them.

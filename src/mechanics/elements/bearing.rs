@@ -1,7 +1,7 @@
 //! A bearing or mount given by full matrices: force and moment depend on all relative displacements, tilts and their rates.
 //!
-//! Components are along the axes B = R₁ A of the first end; the first axis n is that of the shaft. With d the displacement, s the swing of n
-//! ([`super::relative_rotation`]), u̇ and w the relative velocity and angular velocity:
+//! Components are along the axes B = R₁ A of the first end; the first axis n is that of the shaft. The displacement is d, and s is the swing of n
+//! ([`super::relative_rotation`]). The relative velocity is u̇ and the relative angular velocity w. Force f and moment m are
 //!   (f, p) = K (d, s) + C (u̇, 0),  m = Hᵀ p + C_φ (u̇, w),  ṡ = H w.
 //! K and C need not be symmetric, and change with the speed |n·w|. The swing of n is that of the shaft's axis, however far the shaft has turned.
 //! The power of the skew part of K and of a change of K with the speed counts as damping; it is negative where whirl is fed.
@@ -116,7 +116,7 @@ fn elastic_moment(elastic: &Vec6, swing: &Swing) -> Vec6 {
 /// A group of bearings.
 pub struct Bearings {
     list: Vec<Bearing>,
-    /// The speeds of a linearized state, whose nodes have no velocities, as bits; not a number where the speed is that of the nodes.
+    /// The speeds at which a linearization holds the matrices, as bits. Not a number: the nodes have the speed.
     held: Vec<AtomicU64>,
 }
 
@@ -162,7 +162,8 @@ impl Elements for Bearings {
 
 impl Mechanics for Bearings {
     fn is_damped(&self) -> bool {
-        true
+        let has_damping = |of: &BearingMatrices| of.damping != Mat6::zeros();
+        self.list.iter().any(|bearing| bearing.matrices.len() > 1 || bearing.matrices.iter().any(has_damping))
     }
 
     fn hold_speeds(&self, nodes: &[Node]) {

@@ -1,7 +1,10 @@
-//! The hysteresis of Bouc and Wen with the deterioration of Baber: F = k₂ x + (k − k₂) z, with the hysteretic displacement z by
-//!   dz/dx = (1 − ν |z/x_y|ⁿ (b sgn(z dx) + 1 − b)) / η,   ν = 1 + δ_ν e,  η = 1 + δ_η e,
-//! and x_y = F_y/k. The energy e = ∫ (1 − k₂/k) z dx / x_y² is the work on z in units of F_y x_y. Along a step x runs straight, so this is an
-//! equation in x alone. Y. K. Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249-263; T. T. Baber & Y. K. Wen, ibid. 107 (1981) 1069-1087.
+//! The hysteresis of Bouc and Wen, with the deterioration of Baber. The force is
+//!   F = k₂ x + (k − k₂) z.
+//! The hysteretic displacement z follows from
+//!   dz/dx = (1 − ν |z/x_y|ⁿ (b sgn(z dx) + 1 − b)) / η,   ν = 1 + δ_ν e,  η = 1 + δ_η e.
+//! The yield displacement is x_y = F_y/k. The energy e = ∫ (1 − k₂/k) z dx / x_y² is the work on z in units of F_y x_y. Along a step x runs
+//! straight, so this is an equation in x alone. Y. K. Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249-263; T. T. Baber & Y. K. Wen, ibid. 107
+//! (1981) 1069-1087.
 
 /// Length of a step of the integration, over the yield displacement: its error is 1e-10 of it for exponents up to 5.
 const PIECE: f64 = 0.005;
@@ -113,7 +116,7 @@ impl BoucWen {
         0.5 * (self.post_yield_stiffness * at.x * at.x + self.hysteretic_stiffness() * eta * at.z * at.z)
     }
 
-    /// What is dissipated between two states: the work less the change of the energy.
+    /// The dissipation between two states: the work less the change of the energy.
     pub fn dissipated(&self, from: &BoucWenState, to: &BoucWenState) -> f64 {
         let elastic = 0.5 * self.post_yield_stiffness * (to.x * to.x - from.x * from.x);
         let work = elastic + self.hysteretic_stiffness() * (to.area - from.area);

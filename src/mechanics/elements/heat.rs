@@ -11,8 +11,8 @@ use base::math::Vec3;
 /// The temperatures of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heat {
-    /// The nodes whose displacements along x are the strain, the strain per length along y of the section or along the normal of a shell,
-    /// and that along z, each times [`Heat::length`].
+    /// The nodes whose displacements along x stand for strains, each times [`Heat::length`]. The first is the strain of the axis, the second
+    /// its derivative along y of the section or along the normal of a shell, the third its derivative along z.
     pub numbers: [Option<usize>; 3],
     /// A length of the part, above 0.
     pub length: f64,

@@ -69,7 +69,7 @@ impl PathLaw {
         }
     }
 
-    /// Moves what is remembered `part` of the way to the elongation `x`; returns what is dissipated on it.
+    /// Moves the memory `part` of the way to the elongation `x`, and returns the dissipation.
     fn follow(&self, x: f64, part: f64, memory: &mut [f64]) -> f64 {
         match self {
             PathLaw::Backbone(backbone) => backbone.follow(x, part, memory),
@@ -83,7 +83,7 @@ impl PathLaw {
     }
 }
 
-/// One such link: its line is that of a link without a force of its own but for its damper.
+/// One such link. A link without stiffness gives its line and its damper.
 #[derive(Debug, Clone)]
 pub struct HystereticLink {
     /// Ends, line and damper.
@@ -201,5 +201,31 @@ impl Results for HystereticLinks {
 impl Branches for HystereticLinks {
     fn has_kinks(&self) -> bool {
         true
+    }
+
+    fn is_turned_over(&self, e: usize, before: &[Node], now: &[Node]) -> bool {
+        let link = &self.links[e].link;
+        link.direction.is_none() && link.line(before).e.dot(&link.line(now).e) < 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::elements::link::LinkLaw;
+    use base::math::Vec3;
+
+    /// One end passes the other: along the line of the ends the link is reversed, along a fixed direction it is not.
+    #[test]
+    fn a_link_that_passes_through_itself_is_turned_over() {
+        let law = PathLaw::Backbone(Hysteresis::new(&[[0.1, 1.0]], 0.0).expect("a backbone"));
+        for (direction, reversed) in [(None, true), (Some(Vec3::x()), false)] {
+            let none = LinkLaw::Linear { stiffness: 0.0, preload: 0.0 };
+            let link = Link::new([0, 1], none, 0.0, direction, 1.0, [Vec3::zeros(), Vec3::x()]);
+            let block = HystereticLinks::new(vec![HystereticLink { link, law }]);
+            let at = |x: f64| [0.0, x].map(|x| Node::at_rest(Vec3::new(x, 0.0, 0.0)));
+            assert!(!block.is_turned_over(0, &at(1.0), &at(0.2)));
+            assert_eq!(block.is_turned_over(0, &at(0.2), &at(-0.2)), reversed);
+        }
     }
 }

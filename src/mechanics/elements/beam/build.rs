@@ -151,7 +151,7 @@ fn with_bending_flexibility(section: &Stiffness, length: f64) -> Stiffness {
     out
 }
 
-/// The same for a section whose forces and moments are all coupled: the flexibility of bending adds to that of shear in the inverse of the whole.
+/// [`with_bending_flexibility`] for a fully coupled section. The flexibility of bending adds to that of shear in the inverse of the matrix.
 fn with_coupled_flexibility(section: &Stiffness, length: f64) -> Stiffness {
     let Some(mut flexibility) = section.matrix().try_inverse() else { return section.clone() };
     let more = length * length / 12.0;
