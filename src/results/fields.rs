@@ -206,6 +206,8 @@ pub struct Fields {
     before: Option<usize>,
     /// How far the grids have come.
     marked: FieldsMark,
+    /// The bytes of the lines that fields.pvd has.
+    written: usize,
     grid: GridText,
 }
 
@@ -250,6 +252,7 @@ impl Fields {
                 others.map(|part| part.elements()).sum()
             }),
             marked: FieldsMark::default(),
+            written: 0,
             grid,
         })
     }
@@ -271,7 +274,7 @@ impl Fields {
     /// The list cannot be written.
     pub fn go_on(&mut self, mark: FieldsMark) -> io::Result<()> {
         self.marked = mark;
-        if self.marked.listed.is_empty() { Ok(()) } else { self.write_list() }
+        self.finish()
     }
 
     /// How far the grids have come.
@@ -304,6 +307,7 @@ impl Fields {
             }
         }
         self.marked.listed.truncate(self.marked.before_stage);
+        self.written = 0;
         Ok(())
     }
 
@@ -402,13 +406,22 @@ impl Fields {
         self.list.note([name.as_str()])?;
         self.grid.write(&path)?;
         let _ = writeln!(self.marked.listed, "<DataSet timestep=\"{time}\" part=\"0\" file=\"{name}\"/>");
-        self.write_list()
+        // A viewer may open the first grid at once; the others wait, for a list at each grid costs as much as the grid.
+        if self.written == 0 { self.finish() } else { Ok(()) }
     }
 
-    /// Writes the list of all grids.
-    fn write_list(&self) -> io::Result<()> {
+    /// Writes the list of all grids, if it is not there yet.
+    ///
+    /// # Errors
+    /// The list cannot be written.
+    pub fn finish(&mut self) -> io::Result<()> {
+        if self.written == self.marked.listed.len() {
+            return Ok(());
+        }
         let list = format!("{LIST}{}</Collection>\n</VTKFile>\n", self.marked.listed);
-        replace(&self.dir.join("fields.pvd"), list.as_bytes())
+        replace(&self.dir.join("fields.pvd"), list.as_bytes())?;
+        self.written = self.marked.listed.len();
+        Ok(())
     }
 }
 

@@ -152,12 +152,15 @@ impl Files {
         Ok(())
     }
 
-    /// Hands over the rows still waiting, at the end of a run.
+    /// Hands over the rows and the list of grids still waiting, at the end of a run.
     ///
     /// # Errors
     /// A table cannot grow, or is no longer what this run has written.
     pub fn finish(&mut self) -> io::Result<()> {
         self.flushed = Instant::now();
+        if let Some(fields) = &mut self.fields {
+            fields.finish()?;
+        }
         self.tables.iter_mut().try_for_each(|table| table.file.flush().and_then(|()| table.file.verify()))
     }
 
