@@ -223,6 +223,42 @@ fn a_killed_case_goes_on_from_its_checkpoint() {
     }
 }
 
+/// Of a case whose folder goes away only the tables of `[collect]` are written: its checkpoint is of no use to a list that reads others.
+#[test]
+fn a_checkpoint_without_the_table_that_is_read_begins_again() {
+    let sweep = SWEEP.replace("steps = 5", "steps = 1").replace("[1.0, 2.0, 4.0]", "[1.0]");
+    let folder = files(&sweep);
+    let folder = folder.path();
+    let long = DECK
+        .replace("end_time = 1.0", "end_time = 400.0")
+        .replace("[output]", "[output]\nevery = 500\ncheckpoint = 0.01");
+    fs::write(folder.join("deck.toml"), long).unwrap();
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "alone"]).status.success());
+    let case = folder.join("killed").join(&rows(folder, "alone/cases.csv")[1][1]);
+    let kept = sweep.replacen("[vary]", "keep = \"summary\"\n[vary]", 1);
+    let without_energy: String =
+        kept.lines().filter(|line| !line.starts_with("kinetic")).map(|line| format!("{line}\n")).collect();
+    fs::write(folder.join("s.toml"), without_energy).unwrap();
+    let killed = (0..20).any(|_| {
+        let _ = fs::remove_dir_all(folder.join("killed"));
+        let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("rdsolve"));
+        command.current_dir(folder).args(["sweep", "s.toml", "-o", "killed"]).stdout(Stdio::null());
+        let mut process = command.spawn().unwrap();
+        while !case.join("run.checkpoint").exists() && process.try_wait().unwrap().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        process.kill().unwrap();
+        process.wait().unwrap();
+        case.join("run.checkpoint").exists()
+    });
+    assert!(killed, "it always came to its end without a checkpoint");
+    assert!(case.join("bodies.csv").exists() && !case.join("energy.csv").exists() && !case.join("links.csv").exists());
+    fs::write(folder.join("s.toml"), kept).unwrap();
+    assert!(rdsolve(folder, &["sweep", "s.toml", "-o", "killed"]).status.success());
+    let summary = |out: &str| fs::read_to_string(folder.join(out).join("summary.csv")).unwrap();
+    assert_eq!(summary("alone"), summary("killed"));
+}
+
 /// A case that a signal stops goes on from there, whether the deck asks for checkpoints or not, by the same command.
 #[test]
 #[cfg(unix)]

@@ -112,6 +112,8 @@ pub struct Case<'a> {
     pub deck: &'a str,
     /// The digests of the files that the sweep has found when it began.
     pub files: &'a HashMap<PathBuf, Vec<u8>>,
+    /// The only tables that are read; `None`: all are kept.
+    pub only: Option<Vec<&'static str>>,
 }
 
 /// Runs a variant of a deck on one thread, without messages, in a separate folder, and leaves its result unmarked. It continues from the
@@ -120,7 +122,7 @@ pub struct Case<'a> {
 /// # Errors
 /// The obstacle: errors of the deck as text, or an error of input/output.
 pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status, CaseFault> {
-    let Case { sets, folder, deck, files } = *case;
+    let Case { sets, folder, deck, files, ref only } = *case;
     let began = Instant::now();
     let faults = |problems: &[Diagnostic], source: &Source| {
         let errors = problems.iter().filter(|problem| problem.is_error());
@@ -129,6 +131,9 @@ pub fn run_case(source: Source, case: &Case, stop: &AtomicBool) -> Result<Status
     let mut loaded = build(source, sets).map_err(|(problems, source)| faults(&problems, &source))?;
     go_on_unless(stop)?;
     refuse_changed(&loaded, files)?;
+    for model in std::iter::once(&mut loaded.model).chain(&mut loaded.later) {
+        model.output.only.clone_from(only);
+    }
     let read_s = began.elapsed().as_secs_f64();
     let planning = Instant::now();
     let (system, plan, warnings) = prepare(&mut loaded, 1).map_err(|unfit| match unfit {

@@ -260,7 +260,8 @@ impl Sweep<'_> {
             fs::remove_file(&failure)?;
         }
         let source = Source::new(self.deck.display().to_string(), self.text, &sets);
-        let what = Case { sets: &sets, folder: &folder, deck: pool.deck, files: &self.folder.files };
+        let only = self.folder.only();
+        let what = Case { sets: &sets, folder: &folder, deck: pool.deck, files: &self.folder.files, only };
         let ran = catch_unwind(AssertUnwindSafe(|| run_case(source, &what, self.stop)));
         let why = match ran {
             Ok(Ok(status)) => {

@@ -72,6 +72,7 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         joints: flag(&table.joints, false),
         fields,
         field_format: field_format(table),
+        only: None,
         checkpoint: report.positive("checkpoint", &table.checkpoint),
     };
     Selection { output, all_nodes: word == Some("all") }
@@ -96,6 +97,7 @@ fn by_default<'d>(scene: &Scene<'d>, nodes: Vec<usize>, units: Option<String>, r
         joints: false,
         fields: None,
         field_format: FieldFormat::Vtu,
+        only: None,
         checkpoint: None,
     }
 }

@@ -69,9 +69,9 @@ impl Files {
     /// A file cannot be made.
     pub fn open(dir: &Path, model: &Model) -> io::Result<Files> {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
-        let wanted = TABLES.iter().copied().filter(|kind| (kind.wanted)(model));
+        let wanted = TABLES.iter().copied().filter(|kind| kind.is_written(model));
         let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
-        let format = model.output.fields.map(|_| model.output.field_format);
+        let format = model.output.drawn().map(|(_, format)| format);
         let fields = (format == Some(FieldFormat::Vtu)).then(|| Fields::open(dir, model)).transpose()?;
         let frd = (format == Some(FieldFormat::Frd)).then(|| FrdFile::open(dir, model)).transpose()?;
         let envelopes = Envelopes::of(model);
@@ -95,10 +95,15 @@ impl Files {
     /// # Errors
     /// A file cannot be opened, or has changed since the checkpoint.
     pub fn go_on(&mut self, model: &Model, mark: FilesMark) -> io::Result<()> {
+        let has = |kind: &TableKind| mark.tables.iter().any(|mark| mark.file == kind.file);
+        if let Some(kind) = TABLES.iter().find(|kind| kind.is_written(model) && !has(kind)) {
+            let message = format!("the checkpoint has no {}: it is of a run with other output", kind.file);
+            return Err(at(&self.dir, io::Error::new(io::ErrorKind::InvalidData, message)));
+        }
         for mark in mark.tables {
             let Some(&kind) = TABLES.iter().find(|kind| kind.file == mark.file) else { continue };
             let file = TableFile::reopen(&self.dir, mark)?;
-            self.tables.push(OpenTable { kind, file, write: (kind.wanted)(model).then(|| (kind.rows)(model)) });
+            self.tables.push(OpenTable { kind, file, write: kind.is_written(model).then(|| (kind.rows)(model)) });
         }
         if let Some(mark) = mark.fields {
             let mut fields = Fields::open(&self.dir, model)?;
@@ -136,9 +141,9 @@ impl Files {
         let stage = model.analysis.stage.as_ref().map_or("", |stage| &stage.name);
         for table in &mut self.tables {
             table.file.begin_stage(stage)?;
-            table.write = (table.kind.wanted)(model).then(|| (table.kind.rows)(model));
+            table.write = table.kind.is_written(model).then(|| (table.kind.rows)(model));
         }
-        for &kind in TABLES.iter().filter(|kind| (kind.wanted)(model)) {
+        for &kind in TABLES.iter().filter(|kind| kind.is_written(model)) {
             if !self.tables.iter().any(|table| std::ptr::eq(table.kind, kind)) {
                 self.tables.push(OpenTable::open(&self.dir, kind, model)?);
             }
@@ -181,9 +186,9 @@ impl Files {
 
 /// Names of the tables and lists that a run of this model writes; grids come with the steps.
 pub fn names(model: &Model) -> Vec<&'static str> {
-    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file);
+    let tables = TABLES.iter().copied().filter(|kind| kind.is_written(model)).map(|kind| kind.file);
     let lists = |format| if format == FieldFormat::Frd { vec![frd::NAME] } else { LISTS.to_vec() };
-    tables.chain(model.output.fields.iter().flat_map(|_| lists(model.output.field_format))).collect()
+    tables.chain(model.output.drawn().into_iter().flat_map(|(_, format)| lists(format))).collect()
 }
 
 impl Observer for Files {
@@ -259,11 +264,11 @@ impl Observer for Files {
 /// The files that a run of this model writes, when, and how large they become.
 pub fn listed(model: &Model, plan: &Plan) -> String {
     let output = &model.output;
-    let names: Vec<&str> = TABLES.iter().filter(|kind| (kind.wanted)(model)).map(|kind| kind.file).collect();
+    let names: Vec<&str> = TABLES.iter().filter(|kind| kind.is_written(model)).map(|kind| kind.file).collect();
     let chosen = output.cadence_is_open && output.cadence != Cadence::Steps(1);
     let open = if chosen { ", as rows would be many and `[output]` has neither `every` nor `interval`" } else { "" };
     let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
-    groups.extend(output.fields.map(|cadence| format!("fields ({})", in_words(cadence))));
+    groups.extend(output.drawn().map(|(cadence, _)| format!("fields ({})", in_words(cadence))));
     groups.extend(output.checkpoint.map(|apart| format!("a checkpoint every {apart} s of run time")));
     groups.push(size_in_words(model, plan));
     groups.join("; ")
@@ -280,11 +285,11 @@ fn in_words(cadence: Cadence) -> String {
 
 /// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
-    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
+    let tables = TABLES.iter().copied().filter(|kind| kind.is_written(model)).map(|kind| kind.needs);
     let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
     // Stresses of fibres are those of integration points.
     let drawn = if model.yields() { drawn | Wanted::SECTIONS.where_drawn() } else { drawn };
-    let fields = model.output.fields.map(|_| drawn);
+    let fields = model.output.drawn().map(|_| drawn);
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
         When::Max | When::Min | When::Abs => needs(expect.at, &expect.quantity).at_every_step(),

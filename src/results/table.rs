@@ -48,7 +48,7 @@ pub struct TableKind {
     pub about: &'static str,
     /// The columns behind `step` and `time`, group by group.
     pub columns: &'static [&'static [Column]],
-    /// Whether the deck requests the table and the scene has rows for it.
+    /// Whether the deck requests the table and the scene has rows for it, as [`TableKind::is_written`] asks.
     pub wanted: fn(&Model) -> bool,
     /// The quantities that the solver must compute for its rows.
     pub needs: Wanted,
@@ -75,6 +75,11 @@ pub struct Answers {
 }
 
 impl TableKind {
+    /// Whether a run of this model writes the table.
+    pub fn is_written(&self, model: &Model) -> bool {
+        (self.wanted)(model) && model.output.only.as_ref().is_none_or(|only| only.contains(&self.file))
+    }
+
     /// All columns in their order, `step` and `time` first.
     pub fn columns(&self) -> impl Iterator<Item = Column> {
         [STEP, TIME].into_iter().chain(self.columns.iter().copied().flatten().copied())

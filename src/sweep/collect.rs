@@ -10,6 +10,20 @@ use std::path::Path;
 /// Times are those of a row within this part of it.
 const SAME_TIME: f64 = 1e-9;
 
+/// The tables that hold these numbers.
+pub fn tables_of(wanted: &[Collected]) -> Vec<&'static str> {
+    let holds_one = |table: &&&TableKind| wanted.iter().any(|one| holds(table, one));
+    TABLES.iter().filter(holds_one).map(|table| table.file).collect()
+}
+
+/// Whether a table has the column of this number, and rows about its subject.
+fn holds(table: &TableKind, one: &Collected) -> bool {
+    let about_all = !table.columns().any(|column| column.is_key());
+    !table.every_step
+        && table.columns().any(|column| !column.is_key() && column.name == one.quantity)
+        && (one.at == "energy") == (about_all && table.file == "energy.csv")
+}
+
 /// The collected numbers, in their order; `None` if the tables lack one. Each table is read once.
 ///
 /// # Errors
@@ -18,15 +32,10 @@ pub fn collect(folder: &Path, wanted: &[Collected]) -> io::Result<Vec<Option<f64
     let mut found = vec![None; wanted.len()];
     // A response is asked for its own table, whose columns have the names of others.
     let (first, others): (Vec<&TableKind>, Vec<&TableKind>) =
-        TABLES.iter().copied().filter(|table| !table.every_step).partition(|table| table.file == "response.csv");
+        TABLES.iter().copied().partition(|table| table.file == "response.csv");
     for table in first.into_iter().chain(others) {
-        let about_all = !table.columns().any(|column| column.is_key());
-        let has_it = |one: &Collected| {
-            let has_it = table.columns().any(|column| !column.is_key() && column.name == one.quantity);
-            has_it && (one.at == "energy") == (about_all && table.file == "energy.csv")
-        };
         let asked: Vec<usize> =
-            (0..wanted.len()).filter(|&place| found[place].is_none() && has_it(&wanted[place])).collect();
+            (0..wanted.len()).filter(|&place| found[place].is_none() && holds(table, &wanted[place])).collect();
         let path = folder.join(table.file);
         if asked.is_empty() || !path.exists() {
             continue;

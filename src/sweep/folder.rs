@@ -5,7 +5,7 @@
 
 use super::case_state::{CaseState, one_line};
 use super::cases::Cases;
-use super::collect::collect;
+use super::collect::{collect, tables_of};
 use super::file::{Collected, KeptFolders, SweepFile};
 use super::page::page;
 use super::records::{Records, remove_folder};
@@ -53,6 +53,11 @@ impl SweepFolder {
     /// The folder of a case, counted from 0.
     pub fn case(&self, case: usize) -> PathBuf {
         self.path.join(&self.names[case])
+    }
+
+    /// The only files of a case that are read; `None` where folders may stay.
+    pub fn only(&self) -> Option<Vec<&'static str>> {
+        (self.keep == KeptFolders::Summary).then(|| tables_of(&self.collect))
     }
 
     /// The state of a case.

@@ -93,6 +93,7 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             joints: false,
             fields: None,
             field_format: FieldFormat::default(),
+            only: None,
             checkpoint: None,
         },
         study: None,

@@ -153,6 +153,7 @@ pub fn model() -> Model {
             joints: false,
             fields: None,
             field_format: FieldFormat::default(),
+            only: None,
             checkpoint: None,
         },
         study: None,

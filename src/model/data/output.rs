@@ -38,8 +38,17 @@ pub struct Output {
     pub fields: Option<Cadence>,
     /// The format of field files.
     pub field_format: FieldFormat,
+    /// The only files that are written of those above; `None`: all. Nobody reads the others of a run whose folder is removed at its end.
+    pub only: Option<Vec<&'static str>>,
     /// Seconds of run time between two checkpoints; `None`: only when the run is stopped.
     pub checkpoint: Option<f64>,
+}
+
+impl Output {
+    /// The times and the format of the field files that are written.
+    pub fn drawn(&self) -> Option<(Cadence, FieldFormat)> {
+        self.fields.filter(|_| self.only.is_none()).map(|cadence| (cadence, self.field_format))
+    }
 }
 
 /// The displacement of a node relative to another.
