@@ -23,7 +23,8 @@ pub(super) fn update_point(
     let (law, point, old) = (&contacts.law, &contacts.points[e], contacts.memory(e, now.history));
     let (d, w) = contacts.relative(point, now.nodes);
     let speed = w.norm();
-    if let Some(spent) = pass_over(law, (d.norm() - contacts.reach() - point.radius, speed), now, old, new) {
+    let distance = contacts.least_distance(&d, now.nodes) - point.radius;
+    if let Some(spent) = pass_over(law, (distance, speed), now, old, new) {
         return spent;
     }
     let mut at = contacts.kinematics(point, now.nodes);
