@@ -1,4 +1,4 @@
-//! Words that other programs have for what ours has another word for. A user who guesses one is told ours.
+//! Words of other programs, with the word of the deck for each. An error that names one of them recommends the deck's word.
 //!
 //! The words stand in `hints.toml`; those for schemes, sections and joints stand with these, see [`Kind`].
 
@@ -17,7 +17,7 @@ use std::sync::LazyLock;
 static HINTS: LazyLock<Hints> =
     LazyLock::new(|| toml::from_str(include_str!("hints.toml")).expect("the rows of hints are read by their tests"));
 
-/// All kinds of which a word of the deck chooses one.
+/// All kinds that words of the deck choose from.
 static KINDS: LazyLock<Vec<Kind<()>>> = LazyLock::new(|| {
     let mut kinds = Vec::new();
     add(&mut kinds, SCHEMES);
@@ -73,7 +73,7 @@ fn that_is(word: &str) -> String {
     format!("that is `{word}` here")
 }
 
-/// The first row that answers a guess in the table with this path, where some words are known.
+/// The first row for a guess in the table with this path, among these known words.
 fn find<'h>(rows: &'h [Hint], guess: &str, path: &[String], known: &[&str]) -> Option<&'h Hint> {
     rows.iter().find(|row| {
         row.guesses.iter().any(|word| word == guess)
@@ -82,24 +82,24 @@ fn find<'h>(rows: &'h [Hint], guess: &str, path: &[String], known: &[&str]) -> O
     })
 }
 
-/// What to say of a guessed key in the table with this path, and the key that is then not missing.
+/// The sentence on a guessed key in the table with this path, and the key that then counts as present.
 pub fn key(guess: &str, path: &[String], known: &[&str]) -> Option<(String, Option<&'static str>)> {
     let row = find(&HINTS.keys, guess, path, known)?;
     Some((row.sentence(known), row.word(known)))
 }
 
-/// What may stand behind a key.
+/// An example of the value of a key.
 pub fn example(key: &str) -> Option<&'static str> {
     find(&HINTS.examples, key, &[], &[])?.say.as_deref()
 }
 
-/// What a guessed value should be.
+/// The sentence on a guessed value.
 pub fn value(guess: &str, known: &[&str]) -> Option<String> {
     let row = |rows: &[Hint]| find(rows, guess, &[], known).map(|row| row.sentence(known));
     row(&HINTS.values).or_else(|| kind(guess, known).map(that_is)).or_else(|| row(&HINTS.absent))
 }
 
-/// The kind that a guessed word is meant to be, by what the kinds themselves say.
+/// The kind meant by a guessed word, by the guesses listed for each kind.
 fn kind(guess: &str, known: &[&str]) -> Option<&'static str> {
     let meant = KINDS.iter().filter(|kind| kind.guesses.contains(&guess)).map(|kind| kind.word);
     meant.into_iter().find(|word| known.contains(word))
@@ -148,7 +148,7 @@ mod tests {
         }
     }
 
-    /// The tables in which a row answers.
+    /// The tables of a row.
     fn places(row: &Hint) -> Vec<&'static DeckTable> {
         let is_at = |table: &DeckTable| row.at.iter().any(|label| tables::is_label_of(label, &path(table)));
         tables().iter().filter(|table| row.at.is_empty() || is_at(table)).collect()
@@ -188,7 +188,7 @@ mod tests {
         }
     }
 
-    /// Every value that answers is a word where the guess is none.
+    /// Every recommended value is a word of its table, and no guess is one.
     #[test]
     fn values_answer_where_they_exist() {
         let choices = choices();
@@ -232,7 +232,7 @@ mod tests {
         named
     }
 
-    /// A sentence recommends keys of the tables where it is said and of those that it names.
+    /// A sentence recommends keys of its own tables and of the tables named in it.
     #[test]
     fn sentences_recommend_keys_that_exist() {
         let choices = choices();
@@ -253,7 +253,7 @@ mod tests {
                 seen += 1;
                 let exists =
                     tables.iter().any(|table| has(table, word)) || choices.iter().any(|set| set.contains(word));
-                assert!(exists, "there is no `{word}` where this is said: {sentence}");
+                assert!(exists, "there is no `{word}` in the tables of this sentence: {sentence}");
             }
         }
         assert!(seen > 40, "{seen}");

@@ -18,7 +18,7 @@ pub mod convergence {
     pub const STAGNANT: usize = 3;
     /// Contraction above which the remaining correction may be only rounding.
     pub const SLOW: f64 = 0.5;
-    /// Residual, relative to the largest forces, above which it consists of these forces: its ratios then tell nothing of the contraction.
+    /// Above this residual, relative to the largest forces, it consists of these forces, and its ratios do not measure the contraction.
     pub const SATURATED: f64 = 0.1;
     /// Ratio to the last residual above which a residual counts as not decreased.
     pub const FALLS: f64 = 0.5;
@@ -368,8 +368,8 @@ pub mod arc_length {
     /// Desired number of iterations of a step, the first being the prediction: more make it too long for its cost, fewer too short. Frames of
     /// slender beams take a third fewer iterations in all than with five; with eight roofs leave their path.
     pub const DESIRED: f64 = 6.0;
-    /// The same where material yields: fibres that begin to yield or unload cost iterations in steps of any length, so that five to eight of
-    /// them are no reason for a shorter one. With six, frames of perfectly plastic columns take thousands of steps.
+    /// The desired iterations where material yields. Fibres that begin to yield or unload cost iterations in steps of any length.
+    /// With six, frames of perfectly plastic columns need thousands of steps.
     pub const DESIRED_WITH_HISTORY: f64 = 12.0;
     /// Largest ratio of a step to the one before, and of the one before to it.
     pub const CHANGE: f64 = 2.0;
@@ -384,12 +384,12 @@ pub mod arc_length {
     pub const HARD: usize = 12;
     /// Largest number of steps of a path, unless the deck gives another.
     pub const MOST_STEPS: usize = 100_000;
-    /// Part of the displacement by which a path comes on noticeably.
+    /// Part of the displacement that counts as progress of a path.
     pub const CREEPS: f64 = 1e-3;
-    /// Number of steps in which a path that does not come on creeps: steps shorter than the first, and others, of which a fine path needs some
+    /// Number of steps without progress after which a path creeps: of steps shorter than the first, and of others. A fine path needs some
     /// hundreds to turn.
     pub const CREEPING_STEPS: [usize; 2] = [200, 2000];
-    /// Part of the last step by which a controlled displacement passes its value, before the step is ended there: well above rounding.
+    /// A step ends at the value of a controlled displacement if it passes this value by more than this part of the last step: well above rounding.
     pub const PASSES: f64 = 1e-3;
     /// Number of targets tried in a step before it is cut: they may lie in another order than straight lines suggest.
     pub const MOST_TARGETS: usize = 8;
@@ -542,8 +542,8 @@ pub mod mass_scaling {
 }
 
 pub mod explained_shells {
-    /// Up to so many layers: the largest error of the moment of a yielding rectangle, in per cent of the plastic moment, in first bending, over cycles
-    /// of one amplitude, and of changing amplitudes, as docs/limits.md has them.
+    /// Largest errors of the moment of a yielding rectangle, in per cent of the plastic moment, up to so many layers. The three are for first
+    /// bending, for cycles of one amplitude, and for changing amplitudes; docs/limits.md lists them.
     pub const MOMENT_OFF: [(usize, [f64; 3]); 3] =
         [(7, [5.5, 13.0, 14.0]), (11, [1.0, 2.9, 5.5]), (15, [0.5, 1.3, 2.4])];
     /// Layers for cycles, with errors of 0.33, 0.9 and 2.1 %.
@@ -712,7 +712,7 @@ pub mod modal_response {
     pub const ZERO: f64 = 1e-6;
     /// Terms of damping between modes below this part of the largest couple nothing.
     pub const COUPLED: f64 = 1e-12;
-    /// Part of the highest frequency found up to which results are good: a missing mode is then at least twice as fast, and wrong by a
+    /// Results are good up to this part of the highest frequency found. A missing mode is then at least twice as fast, and wrong by a
     /// tenth at most.
     pub const NEAR: f64 = 0.5;
     /// Part of the stiffness of a mode below which inertia and damping leave none of it: natural frequencies are known to this.
@@ -777,12 +777,12 @@ pub mod turning_body {
 }
 
 pub mod thin_axes {
-    /// Part of the largest inertia, at which the error of the iteration turns a hung rod with 6 rad/s by 5e-4 of its spin too much. At 1e-9 that is
-    /// 1 %, and at 1e-10 runs lose a free rod.
+    /// Least inertia relative to the largest. At this ratio the error of the iteration turns a hung rod with 6 rad/s by 5e-4 of its spin too much.
+    /// At 1e-9 it is 1 %, and at 1e-10 runs lose a free rod.
     pub const LEAST: f64 = 1e-8;
     /// Distance of a point from the axis, over the radius of gyration, that decimals of a deck leave.
     pub const ON_AXIS: f64 = 1e-9;
-    /// The part of the largest inertia that rounding leaves where there is none.
+    /// Rounding of an inertia of zero, relative to the largest inertia.
     pub const ROUNDING: f64 = 1e-12;
 }
 
@@ -866,14 +866,14 @@ pub mod linear_statics {
     pub const FIRST: [f64; 3] = [3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0];
     /// Weights of the second derivative, even, over the square of the step; the function is zero in the middle.
     pub const SECOND: [f64; 3] = [3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0];
-    /// Rotation in radians from which a linear analysis is doubtful: its cosine departs from 1 by half a percent.
+    /// A linear analysis is doubtful from this rotation on, in radians: its cosine departs from 1 by half a percent.
     pub const LARGE_ROTATION: f64 = 0.1;
 }
 
 pub mod independent_rows {
     /// An equation is redundant where less than this fraction of its gradient is linearly independent of others.
     pub const NEW: f64 = 1e-8;
-    /// Largest number of equations of one group in which redundant ones are found at every evaluation: some ten million operations.
+    /// Redundant equations are found at every evaluation in groups of at most so many: some ten million operations.
     pub const MOST: usize = 256;
 }
 
@@ -884,7 +884,7 @@ pub mod element_stability {
     pub const NONE: f64 = 1e-12;
     /// Number of bisections for the part of the largest squared radii: the excess is 2⁻¹⁶ of them.
     pub const BISECTIONS: usize = 16;
-    /// Relative distance of the step that elements are given from the longest that rotary inertia alone can give: rounding of eigenvalues.
+    /// Relative distance between the step given to elements and the longest possible by rotary inertia alone: rounding of eigenvalues.
     pub const BORDER: f64 = 1e-6;
     /// Least relative reduction of the largest squared frequency by rotary inertia. Below it only mass is added, because rotary inertia
     /// would slow bending without benefit.

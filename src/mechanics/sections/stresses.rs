@@ -7,11 +7,11 @@ use super::section::Section;
 use nalgebra::{Matrix2, Vector2};
 use std::f64::consts::{PI, TAU};
 
-/// Number of points of a circle at which stresses are compared, from the direction of bending on, and from that of the shear force on. The
-/// largest value lies half a step away at most, so a cosine loses 0.1 % at most.
+/// Stresses are compared at so many points of a circle, counted from the direction of bending and again from that of the shear force.
+/// The largest value lies half a step away at most, so a cosine loses 0.1 % at most.
 const AROUND: usize = 72;
 
-/// What stresses of a section follow from.
+/// The shape and stiffness of a section, for stresses from its resultants.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SectionStresses {
     area: f64,
@@ -21,7 +21,7 @@ pub struct SectionStresses {
     outline: SectionOutline,
 }
 
-/// The points of a section at which stresses may be extreme.
+/// The points of a section with possibly extreme stresses.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SectionOutline {
     /// Points of polygons and walls.
@@ -130,7 +130,7 @@ fn edge_shear([a, b]: [f64; 2], nu: f64, [y, z]: [f64; 2], force: Vector2<f64>) 
     let (p, q) = (e.dot(&Vector2::new(y, z)), across.dot(&Vector2::new(y, z)));
     let (a2, b2, r2) = (a * a, b * b, p * p + q * q);
     let k = 0.75 + 0.5 * nu;
-    // What the hole adds; without one there is no pole.
+    // The pole of the hole, if there is one.
     let [hole_p, hole_q] = if b2 == 0.0 {
         [0.0; 2]
     } else {
@@ -173,8 +173,8 @@ mod tests {
         close(mises, most, 1e-14);
     }
 
-    /// Largest shear stress over 3/2 V/A at ν = 1/4, at the centre and at the middle of the sides along the force (Timoshenko & Goodier,
-    /// Theory of Elasticity, art. 122, with three digits).
+    /// Largest shear stress over 3/2 V/A at ν = 1/4, at the centre and at the middle of the sides along the force. Three digits of
+    /// Timoshenko & Goodier, Theory of Elasticity, art. 122.
     #[test]
     fn shear_of_a_rectangle_is_saint_venants() {
         for (depth, centre, side) in
@@ -218,7 +218,7 @@ mod tests {
         close(tau, (3.0 + 2.0 * nu) / (8.0 * (1.0 + nu)) * 5.0 * r * r / I, 1e-13);
         let thin = Tube { radius: r, thickness: 1e-4 * r };
         let area = thin.section(nu).unwrap().area;
-        // The wall takes part in proportion to its thickness over the radius.
+        // The wall's share is its thickness over the radius.
         close(extremes(&thin, nu, [0.0, 0.0, 5.0, 0.0, 0.0, 0.0])[2], 10.0 / area, 1e-3);
         // No shear stress crosses the surfaces.
         for (inner, x) in [(0.1, 0.4), (0.1, 0.1)] {
@@ -237,8 +237,8 @@ mod tests {
         close(mises, ((m * r / I).powi(2) + 3.0 * (t * r / (2.0 * I)).powi(2)).sqrt(), 1e-14);
     }
 
-    /// V Q/(I t) in the middle of the web of an I, with Q and I of its rectangles: middle lines miss by the depth of the flanges over that
-    /// of the section squared, here 0.2 %.
+    /// V Q/(I t) in the middle of the web of an I, with Q and I of its rectangles. Middle lines err by the square of the depth of the
+    /// flanges over that of the section, here 0.2 %.
     #[test]
     fn shear_of_an_i_is_that_of_its_static_moment() {
         let (h, b, w, f) = (200.0, 100.0, 5.6, 8.5);
@@ -257,7 +257,7 @@ mod tests {
         close(extremes(&shape, 0.3, [0.0, 0.0, 0.0, 9.0, 0.0, 0.0])[2], 9.0 * f / section.torsion, 1e-13);
     }
 
-    /// Bredt: T/(2 A_m t) in the thinnest wall of a box, and the linear part of the wall besides, of which J has its share.
+    /// Bredt: T/(2 A_m t) in the thinnest wall of a box, and the linear part of the wall, whose share of the torque follows from J.
     #[test]
     fn torsion_of_a_box_is_bredts() {
         let shape = HollowBox { width: 60.0, height: 100.0, web: 1.0, flange: 1.5 };
@@ -280,7 +280,7 @@ mod tests {
         let [y, _] = section.shear_center;
         let [.., through_shear_centre, _] = extremes(&channel, 0.3, [0.0, 0.0, 1e3, 1e3 * y, 0.0, 0.0]);
         let [.., through_centroid, _] = extremes(&channel, 0.3, [0.0, 0.0, 1e3, 0.0, 0.0, 0.0]);
-        // Torsion is largest in the flanges, which are thicker, and adds to what flows there.
+        // Torsion is largest in the thicker flanges, and adds to their shear flow.
         let twist = (1e3 * y).abs() * 11.5 / section.torsion;
         assert!(through_centroid > twist && through_centroid < through_shear_centre + twist, "{through_centroid}");
         assert!(through_shear_centre < 1.2 * 1e3 / (8.5 * 188.5), "{through_shear_centre}");
