@@ -1,6 +1,6 @@
 //! Explicit Runge-Kutta schemes of Dormand and Prince, of order 8 and 5, each with embedded ones that tell the error of a step. The
 //! unknowns are y = (q, v), with q the increment of the step including its rotation vector, ẏ = (T⁻¹ v, M⁻¹ r). For scenes that are not
-//! stiff: bodies on soft links, tops, mechanisms. P. J. Prince, J. R. Dormand, J. Comput. Appl. Math. 7 (1981); E. Hairer, S. P. Nørsett,
+//! stiff: bodies on soft links, tops, mechanisms. Inside a step the motion is known to order 7 and 4. P. J. Prince, J. R. Dormand, J. Comput. Appl. Math. 7 (1981); E. Hairer, S. P. Nørsett,
 //! G. Wanner, Solving Ordinary Differential Equations I (1993), II.5 and II.10, whence the coefficients; they are proved by the order
 //! conditions below.
 
@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use super::coefficients::Coefficients;
 use super::scheme::{MakeScheme, Scheme, SchemeKind, Stepping};
-use super::tableau::Tableau;
+use super::tableau::{StepPolynomial, Tableau};
 use base::math::rotation::RotationUpdate;
 use base::words::kinds::{Form, Key};
 
@@ -198,6 +198,99 @@ pub static DORMAND_PRINCE_8: Tableau = Tableau {
         ],
     ],
     error_order: 8.0,
+    inside: StepPolynomial {
+        c: &[0.1, 0.2, 7.0 / 9.0],
+        a: &[
+            &[
+                (0, 0.0561675022830479523392909219681),
+                (6, 0.253500210216624811088794765333),
+                (7, -0.246239037470802489917441475441),
+                (8, -0.124191423263816360469010140626),
+                (9, 0.15329179827876569731206322685),
+                (10, 0.00820105229563468988491666602057),
+                (11, 0.00756789766054569976138603589584),
+                (12, -0.008298),
+            ],
+            &[
+                (0, 0.0318346481635021405060768473261),
+                (5, 0.0283009096723667755288322961402),
+                (6, 0.0535419883074385676223797384372),
+                (7, -0.0549237485713909884646569340306),
+                (10, -0.000108347328697249322858509316994),
+                (11, 0.000382571090835658412954920192323),
+                (12, -0.000340465008687404560802977114492),
+                (13, 0.141312443674632500278074618366),
+            ],
+            &[
+                (0, -0.428896301583791923408573538692),
+                (5, -4.69762141536116384314449447206),
+                (6, 7.68342119606259904184240953878),
+                (7, 4.06898981839711007970213554331),
+                (8, 0.356727187455281109270669543021),
+                (12, -0.00139902416515901462129418009734),
+                (13, 2.9475147891527723389556272149),
+                (14, -9.15095847217987001081870187138),
+            ],
+        ],
+        bubbles: &[
+            &[
+                (0, -8.4289382761090128651353491142),
+                (5, 0.56671495351937776962531783590),
+                (6, -3.0689499459498916912797304727),
+                (7, 2.3846676565120698287728149680),
+                (8, 2.1170345824450282767155149946),
+                (9, -0.87139158377797299206789907490),
+                (10, 2.2404374302607882758541771650),
+                (11, 0.63157877876946881815570249290),
+                (12, -0.088990336451333310820698117400),
+                (13, 18.148505520854727256656404962),
+                (14, -9.1946323924783554000451984436),
+                (15, -4.4360363875948939664310572000),
+            ],
+            &[
+                (0, 10.427508642579134603413151009),
+                (5, 242.28349177525818288430175319),
+                (6, 165.20045171727028198505394887),
+                (7, -374.54675472269020279518312152),
+                (8, -22.113666853125306036270938578),
+                (9, 7.7334326684722638389603898808),
+                (10, -30.674084731089398182061213626),
+                (11, -9.3321305264302278729567221706),
+                (12, 15.697238121770843886131091075),
+                (13, -31.139403219565177677282850411),
+                (14, -9.3529243588444783865713862664),
+                (15, 35.816841486394083752465898540),
+            ],
+            &[
+                (0, 19.985053242002433820987653617),
+                (5, -387.03730874935176555105901742),
+                (6, -189.17813819516756882830838328),
+                (7, 527.80815920542364900561016686),
+                (8, -11.573902539959630126141871134),
+                (9, 6.8812326946963000169666922661),
+                (10, -1.0006050966910838403183860980),
+                (11, 0.77771377980534432092869265740),
+                (12, -2.7782057523535084065932004339),
+                (13, -60.196695231264120758267380846),
+                (14, 84.320405506677161018159903784),
+                (15, 11.992291136182789328035130030),
+            ],
+            &[
+                (0, -25.693933462703749003312586129),
+                (5, -154.18974869023643374053993627),
+                (6, -231.52937917604549567536039109),
+                (7, 357.63911791061412378285349910),
+                (8, 93.405324183624310003907691704),
+                (9, -37.458323136451633156875139351),
+                (10, 104.09964950896230045147246184),
+                (11, 29.840293426660503123344363579),
+                (12, -43.533456590011143754432175058),
+                (13, 96.324553959188282948394950600),
+                (14, -39.177261675615439165231486172),
+                (15, -149.72683625798562581422125276),
+            ],
+        ],
+    },
 };
 
 /// Order 5 with 6 evaluations a step.
@@ -222,6 +315,18 @@ pub static DORMAND_PRINCE_5: Tableau = Tableau {
         (6, -1.0 / 40.0),
     ]],
     error_order: 5.0,
+    inside: StepPolynomial {
+        c: &[],
+        a: &[],
+        bubbles: &[&[
+            (0, -12715105075.0 / 11282082432.0),
+            (2, 87487479700.0 / 32700410799.0),
+            (3, -10690763975.0 / 1880347072.0),
+            (4, 701980252875.0 / 199316789632.0),
+            (5, -1453857185.0 / 822651844.0),
+            (6, 69997945.0 / 29380423.0),
+        ]],
+    },
 };
 
 #[cfg(test)]
@@ -327,10 +432,61 @@ mod tests {
         }
     }
 
+    /// The rows of all stages with the further ones; the last two are the motion at the fraction `s` of the step, and its derivative.
+    fn matrix_inside(tableau: &Tableau, s: f64) -> Vec<Vec<f64>> {
+        let (all, own) = (tableau.all_stages(), matrix(tableau));
+        let wide = |row: &Vec<f64>| row.iter().copied().chain(std::iter::repeat(0.0)).take(all).collect();
+        let mut rows: Vec<Vec<f64>> = own.iter().map(wide).collect();
+        rows.extend(tableau.inside.a.iter().map(|row| dense(row, all)));
+        let mut weights = vec![[0.0; 2]; all];
+        let whole = tableau.weights_inside(s, &mut weights);
+        let end = rows[tableau.stages() - 1].clone();
+        rows.extend(
+            [0, 1].map(|of| weights.iter().zip(&end).map(|(weight, end)| weight[of] + whole[of] * end).collect()),
+        );
+        rows
+    }
+
+    /// The motion inside: Σ b(s) Φ(t) = s^|t|/γ(t) for every tree up to order 7 and 4, and not for all of the next; its derivative likewise.
+    #[test]
+    fn order_conditions_inside_steps() {
+        for (tableau, full) in [(&DORMAND_PRINCE_8, 7), (&DORMAND_PRINCE_5, 4)] {
+            for s in [0.13, 0.5, 0.71] {
+                let mut a = matrix_inside(tableau, s);
+                let [slopes, b] = [(); 2].map(|()| a.pop().expect("the motion inside"));
+                let miss = |weights: &[f64], order: usize, power: f64| {
+                    let of = |tree: &Tree| {
+                        let sum: f64 = weights.iter().zip(tree.weights(&a)).map(|(b, phi)| b * phi).sum();
+                        (sum - power / tree.density()).abs()
+                    };
+                    trees(order).iter().map(of).fold(0.0, f64::max)
+                };
+                for order in 1..=full + 1 {
+                    let power = s.powi(order as i32 - 1);
+                    let misses = [miss(&b, order, s * power), miss(&slopes, order, order as f64 * power)];
+                    println!("{full}: {misses:?} at {order}, s = {s}");
+                    // Weights of up to 530 cancel: a hundred roundings of that.
+                    assert!(misses.iter().all(|miss| (*miss < 1e-11) == (order <= full)), "{misses:?}");
+                }
+            }
+            // At both ends the motion is that of the step, with its rates.
+            for (s, end) in [(0.0, 0.0), (1.0, 1.0)] {
+                let mut weights = vec![[0.0; 2]; tableau.all_stages()];
+                assert_eq!(tableau.weights_inside(s, &mut weights), [end, 0.0]);
+                for (stage, weight) in weights.into_iter().enumerate() {
+                    let rate =
+                        if (stage == 0 && s == 0.0) || (stage == tableau.stages() - 1 && s == 1.0) { 1.0 } else { 0.0 };
+                    assert_eq!(weight.map(f64::abs), [0.0, rate], "{stage}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn stages_are_when_their_weights_say() {
         for tableau in [&DORMAND_PRINCE_8, &DORMAND_PRINCE_5] {
-            for (c, a) in tableau.c.iter().zip(tableau.a) {
+            let further = tableau.inside.c.iter().zip(tableau.inside.a);
+            for (c, a) in tableau.c.iter().zip(tableau.a).chain(further) {
                 let sum: f64 = a.iter().map(|(_, a)| a).sum();
                 assert!((c - sum).abs() < 2e-14, "{c} {sum}"); // terms of up to 44
             }
