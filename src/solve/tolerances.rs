@@ -320,6 +320,9 @@ pub mod embedded_error {
     pub const SAFETY: f64 = 0.9;
     /// Least and largest ratio of a step to the one before.
     pub const GROWTH: [f64; 2] = [0.2, 5.0];
+    /// The longest rotation of a step, in radians, at the largest angular velocity of the step before. The comparison run, whose steps are up
+    /// to 1.5 times as long, stays below the limit of a rotation vector, [`super::explicit_runge_kutta::FARTHEST`].
+    pub const TURN: f64 = 1.9;
     /// The largest velocity times this fraction of the run counts as displacement, for at the start there is none.
     pub const GLANCE: f64 = 1e-3;
 }

@@ -118,6 +118,13 @@ fn explicit_steps_allocate_nothing_either() {
             assert_none(&model, rdsolve::linear::Factorization::BlockLu);
         }
     }
+    // Tables are due inside automatic steps.
+    let sets =
+        ["integrator={scheme=\"runge-kutta\"}", "analysis.time_step=\"auto\"", "output={interval=0.01,links=true}"];
+    let source = Source::new("deck.toml", decks[0], &sets.map(str::to_string));
+    let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
+    model.expects.clear();
+    assert_none(&model, rdsolve::linear::Factorization::BlockLu);
     let deck = include_str!("../../decks/portal_and_block/deck.toml");
     let sets = ["integrator.scheme=\"central-difference\"", "beams.portal.elements=3", "beams.portal.order=1"];
     let source = Source::new("deck.toml", deck, &sets.map(str::to_string));

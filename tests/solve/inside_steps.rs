@@ -1,4 +1,4 @@
-//! Output inside the steps of a diagonally implicit scheme: steps find their own ends, and what is written between them is as exact.
+//! Output inside the steps of Runge-Kutta schemes: steps find their own ends, and what is written between them is as exact.
 
 use crate::support::{Done, error, read, read_deck, run_to_the_end};
 use rdsolve::model::Model;
@@ -6,10 +6,13 @@ use rdsolve::solve::Frame;
 
 type Probe = fn(&Model, &Frame) -> Vec<f64>;
 
-fn run(deck: &str, end: f64, rows: usize, step: &str, others: &[&str], probe: Probe) -> Done {
+const IMPLICIT: &str = "integrator={scheme=\"esdirk3\"}";
+const EXPLICIT: [&str; 2] = ["integrator={scheme=\"runge-kutta\"}", "integrator={scheme=\"runge-kutta\",order=5}"];
+
+fn run(scheme: &str, (deck, end): (&str, f64), rows: usize, step: &str, others: &[&str], probe: Probe) -> Done {
     let own = [
         "expect=[]".to_owned(),
-        "integrator={scheme=\"esdirk3\"}".to_owned(),
+        scheme.to_owned(),
         format!("analysis={{kind=\"dynamic\",end_time={end:?},{step}}}"),
         format!("output.interval={:?}", end / rows as f64),
         "output.reactions=true".to_owned(),
@@ -32,6 +35,10 @@ fn displacements(model: &Model, frame: &Frame) -> Vec<f64> {
 
 fn velocities(_: &Model, frame: &Frame) -> Vec<f64> {
     frame.state.nodes.iter().flat_map(|node| <[f64; 3]>::from(node.v)).collect()
+}
+
+fn accelerations(_: &Model, frame: &Frame) -> Vec<f64> {
+    frame.state.nodes.iter().flat_map(|node| <[f64; 3]>::from(node.a)).collect()
 }
 
 fn reactions(_: &Model, frame: &Frame) -> Vec<f64> {
@@ -60,7 +67,7 @@ fn what_is_inside_steps_is_as_exact_as_their_ends() {
     let asked = 1e-3;
     for (deck, end, others) in scenes {
         for (what, probe) in probes {
-            let of = |rows: usize, step: &str| run(deck, end, rows, step, others, probe);
+            let of = |rows: usize, step: &str| run(IMPLICIT, (deck, end), rows, step, others, probe);
             let reference = of(240, &format!("time_step={:?}", end / 240.0 / 32.0)).rows;
             if reference[0].is_empty() {
                 continue; // nothing is held
@@ -75,12 +82,68 @@ fn what_is_inside_steps_is_as_exact_as_their_ends() {
     }
 }
 
+/// The same for explicit schemes, whose steps are several times as long as the time between two rows: bodies on springs, a top on its
+/// pivot, and an arm whose joints are driven. Without forces in the output, accelerations are those of the polynomial, by one order less.
+#[test]
+fn what_is_inside_explicit_steps_is_as_exact() {
+    let probes: [(&str, Probe); 5] = [
+        ("displacements", displacements),
+        ("velocities", velocities),
+        ("accelerations", accelerations),
+        ("reactions", reactions),
+        ("energies", energies),
+    ];
+    let asked = 1e-5;
+    for (scheme, rows) in EXPLICIT.into_iter().zip([300, 600]) {
+        for (deck, end) in [("two_bodies_on_springs", 1.0), ("heavy_top/pivot", 0.1), ("robot_arm", 1.0)] {
+            for (what, probe) in probes {
+                let of =
+                    |scheme: &str, step: &str, others: &[&str]| run(scheme, (deck, end), rows, step, others, probe);
+                let reference = of(EXPLICIT[0], &format!("time_step={:?}", end / 1200.0), &[]).rows;
+                if reference[0].is_empty() {
+                    continue; // nothing is held
+                }
+                let auto = format!("time_step=\"auto\",error_tolerance={asked}");
+                let free = of(scheme, &auto, &[]);
+                let inside = error(&free.rows, &reference, 1);
+                println!("{deck}, {what}: {} steps, {inside:.1e}", free.counts.steps);
+                assert!(free.counts.steps < rows, "{deck}: {} steps", free.counts.steps);
+                assert!(inside < asked, "{deck}, {what}: {inside:e}");
+                if what == "accelerations" {
+                    let bare = of(scheme, &auto, &["output.reactions=false", "output.energy=false"]);
+                    let inside = error(&bare.rows, &reference, 1);
+                    println!("{deck}, {what} of the polynomial: {inside:.1e}");
+                    assert!(inside < 3.0 * asked, "{deck}, {what} of the polynomial: {inside:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Explicit steps are the same to the last bit whatever is written inside them.
+#[test]
+fn output_does_not_change_explicit_steps() {
+    for scheme in EXPLICIT {
+        for (deck, end) in [("two_bodies_on_springs", 2.0), ("heavy_top/pivot", 0.5), ("bouncing_ball", 0.5)] {
+            let of = |rows: usize| {
+                run(scheme, (deck, end), rows, "time_step=\"auto\",error_tolerance=1e-3", &[], displacements)
+            };
+            // Halves are exact, so the times of both have the same digits.
+            let (few, many) = (of(16), of(512));
+            assert_eq!(few.counts.steps, many.counts.steps, "{deck}");
+            for (row, same) in few.rows.iter().zip(many.rows.iter().step_by(32)) {
+                assert_eq!(row, same, "{deck}");
+            }
+        }
+    }
+}
+
 /// Steps do not get shorter by what is written: the same steps with 16 rows as with 400, and the same motion at times of both.
 #[test]
 fn output_does_not_shorten_steps() {
     let of = |rows: usize| {
         let step = "time_step=\"auto\",error_tolerance=1e-3";
-        run("two_bodies_on_springs", 2.0, rows, step, &[], displacements)
+        run(IMPLICIT, ("two_bodies_on_springs", 2.0), rows, step, &[], displacements)
     };
     let (few, many) = (of(16), of(400));
     assert_eq!(few.counts.steps, many.counts.steps);
@@ -97,10 +160,15 @@ fn output_does_not_shorten_steps() {
 /// a force that is switched on and off, (t - 1)² and then a straight line.
 #[test]
 fn jumps_end_steps_and_expected_times_do_not() {
-    let model = read_deck(
-        r#"
+    for scheme in ["esdirk3", "runge-kutta"] {
+        jumps_end_steps(scheme);
+    }
+}
+
+fn jumps_end_steps(scheme: &str) {
+    let text = r#"
         analysis = { kind = "dynamic", end_time = 3.0, time_step = "auto", error_tolerance = 1e-4 }
-        integrator = { scheme = "esdirk3" }
+        integrator = { scheme = "SCHEME" }
         points = { p = [0.0, 0.0, 0.0] }
         masses = [{ at = "p", mass = 2.0 }]
         loads = [{ at = "p", force = [4.0, 0.0, 0.0], amplitude = "switched" }]
@@ -121,8 +189,8 @@ fn jumps_end_steps_and_expected_times_do_not() {
         time = 1.71
         value = 1.42
         absolute_tolerance = 1e-9
-        "#,
-    );
+        "#;
+    let model = read_deck(&text.replace("SCHEME", scheme));
     let done = run_to_the_end(&model, &mut |frame| vec![frame.state.time, frame.state.nodes[0].x.x]);
     for row in &done.rows {
         let (t, x) = (row[0], row[1]);

@@ -48,7 +48,7 @@ pub trait StepController: Keep {
     /// Records a step of length `dt` that failed for another reason than its error; errors limit the next length anyway.
     fn cut_back(&mut self, dt: f64);
 
-    /// State at a time inside the last step, which ended at `end`, and its cost; `None` if steps end at all output times.
+    /// State at a time inside the last step, which led to `end`, and its cost; `None` if steps end at all output times.
     ///
     /// # Errors
     /// No equilibrium was found there.
@@ -56,7 +56,7 @@ pub trait StepController: Keep {
         &mut self,
         _: &Context,
         _: &mut Workspace,
-        _end: f64,
+        _end: &State,
         _time: f64,
     ) -> Result<Option<(&State, StepReport)>, Failure> {
         Ok(None)
@@ -158,7 +158,7 @@ fn show_inside(
 ) -> Result<Result<(), Failure>, Outcome> {
     let end = march.state.time;
     while let Some(sample) = march.samples.next(end) {
-        match controller.look_inside(march.cx, march.ws, end, sample.time) {
+        match controller.look_inside(march.cx, march.ws, march.state, sample.time) {
             Ok(Some((state, report))) => march.notify_inside(state, &report, dt, &sample)?,
             Ok(None) => {}
             Err(failure) => return Ok(Err(failure)),

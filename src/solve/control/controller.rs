@@ -81,7 +81,11 @@ impl<'a> Controller<'a> {
 
     /// True if the motion is known inside steps, so output times need no step end.
     pub fn looks_inside(&self) -> bool {
-        matches!(self, Controller::ErrorControlled(controller) if controller.looks_inside())
+        match self {
+            Controller::ErrorControlled(controller) => controller.looks_inside(),
+            Controller::EmbeddedError(_) => true,
+            Controller::Fixed(_) | Controller::StabilityLimited(_) | Controller::ArcLength(_) => false,
+        }
     }
 
     /// Leads the run from its state at t = 0 to its end, as scheduled.

@@ -9,7 +9,7 @@ use crate::jumps;
 use crate::report::StepReport;
 use crate::step::size::Size;
 use crate::system::kinks::has_kinks;
-use crate::tolerances::embedded_error::{GLANCE, GROWTH, SAFETY};
+use crate::tolerances::embedded_error::{GLANCE, GROWTH, SAFETY, TURN};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::state::State;
@@ -28,12 +28,19 @@ pub struct EmbeddedErrorController {
     /// Length of the first step of a run, and the longest allowed.
     first: f64,
     longest: f64,
-    /// State at the start of the step, in scenes with events.
-    before: State,
+    /// The longest rotation of a step.
+    turn: f64,
+    /// State at the start of the step, and the largest motion up to there.
+    start: State,
+    motion_at_start: Size,
+    /// The state at a time inside the step.
+    inside: State,
     events: EventLimit,
 }
 
-keep!(EmbeddedErrorController { stepper, tolerance, next, motion, longest, events } without { asked, first, before });
+keep!(EmbeddedErrorController {
+    stepper, tolerance, next, motion, longest, turn, start, inside, events
+} without { asked, first, motion_at_start });
 
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.
@@ -46,7 +53,10 @@ impl EmbeddedErrorController {
             motion: Size::default(),
             first,
             longest: f64::INFINITY,
-            before: State::default(),
+            turn: TURN,
+            start: State::default(),
+            motion_at_start: Size::default(),
+            inside: State::default(),
             events: EventLimit::default(),
         }
     }
@@ -76,7 +86,7 @@ impl EmbeddedErrorController {
         let ratio = error * end_time / (dt * self.tolerance);
         let [least, most] = GROWTH;
         let factor = (SAFETY * ratio.powf(-1.0 / (self.stepper.error_order() - 1.0))).clamp(least, most);
-        self.next = dt * if factor.is_nan() { least } else { factor };
+        self.next = (dt * if factor.is_nan() { least } else { factor }).min(self.turn / spin);
         if ratio > 1.0 || ratio.is_nan() {
             self.next = self.next.min(SAFETY * dt);
             return Err(Failure::ErrorTooLarge { dt });
@@ -90,13 +100,16 @@ impl FollowTolerance for EmbeddedErrorController {
         // A trial has a longer first step too, otherwise both runs would share its effects.
         let longer = (tolerance / self.asked).powf(1.0 / self.stepper.error_order()).clamp(1.0, 2.0);
         (self.tolerance, self.next) = (tolerance, self.first * longer);
-        self.longest = longest.unwrap_or(f64::INFINITY);
+        (self.longest, self.turn) = (longest.unwrap_or(f64::INFINITY), TURN * longer);
         self.events = EventLimit::default();
     }
 }
 
 impl StepController for EmbeddedErrorController {
-    fn restart(&mut self, _: &Context, _: &mut Workspace, _: &mut State) {}
+    fn restart(&mut self, _: &Context, _: &mut Workspace, state: &mut State) {
+        self.start.clone_from(state);
+        self.inside.clone_from(state);
+    }
 
     fn release(&mut self, cx: &Context, ws: &mut Workspace, state: &mut State, dt: f64) -> Result<(), Failure> {
         jumps::release(cx, ws, state, dt)
@@ -118,18 +131,16 @@ impl StepController for EmbeddedErrorController {
         let dt = to - state.time;
         self.stepper.evaluate_stages(cx, ws, state, to)?;
         let motion = self.judge(cx, ws, dt)?;
-        let meets_events = has_kinks(cx.system);
-        if meets_events {
-            self.before.clone_from(state);
-        }
+        self.start.copy_from(state);
+        self.motion_at_start = self.motion;
         let report = self.stepper.accept(cx, ws, state, to)?;
-        if meets_events && self.events.is_passed(cx, [&self.before, state], self.tolerance) {
-            state.copy_from(&self.before);
-            self.next = 0.5 * dt;
-            return Err(Failure::ErrorTooLarge { dt });
-        }
-        if meets_events {
-            self.events.accept([&self.before, state]);
+        if has_kinks(cx.system) {
+            if self.events.is_passed(cx, [&self.start, state], self.tolerance) {
+                state.copy_from(&self.start);
+                self.next = 0.5 * dt;
+                return Err(Failure::ErrorTooLarge { dt });
+            }
+            self.events.accept([&self.start, state]);
         }
         // A step refused by contacts or joints has not moved anything, so its motion is no reference for errors.
         self.motion = motion;
@@ -138,5 +149,21 @@ impl StepController for EmbeddedErrorController {
 
     fn cut_back(&mut self, dt: f64) {
         self.next = 0.5 * dt;
+    }
+
+    fn look_inside(
+        &mut self,
+        cx: &Context,
+        ws: &mut Workspace,
+        end: &State,
+        time: f64,
+    ) -> Result<Option<(&State, StepReport)>, Failure> {
+        let report = self.stepper.look_inside(cx, ws, (&self.start, end), (&mut self.inside, time))?;
+        Ok(report.map(|report| (&self.inside, report)))
+    }
+
+    fn take_back(&mut self, state: &mut State) {
+        state.copy_from(&self.start);
+        self.motion = self.motion_at_start;
     }
 }

@@ -316,10 +316,10 @@ impl StepController for ErrorController<'_> {
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
-        end: f64,
+        end: &State,
         time: f64,
     ) -> Result<Option<(&State, StepReport)>, Failure> {
-        let report = self.stepper.look_inside(cx, ws, (&self.start, end), (&mut self.inside, time))?;
+        let report = self.stepper.look_inside(cx, ws, (&self.start, end.time), (&mut self.inside, time))?;
         Ok(report.map(|report| (&self.inside, report)))
     }
 

@@ -5,6 +5,7 @@ mod central_difference;
 mod critical_step;
 mod dense_projection;
 mod inner_product;
+mod inside_step;
 mod node_loops;
 mod node_sums;
 mod runge_kutta;

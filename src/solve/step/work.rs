@@ -1,7 +1,7 @@
 //! The work of loads and dampers over a step, by quadrature with the weights of a Runge-Kutta scheme.
 
 use crate::context::Context;
-use crate::system::{Forces, Prescribed};
+use crate::system::{Forces, Loading, Prescribed};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::integrators::tableau::StageWeights;
@@ -22,10 +22,21 @@ keep!(Power { external, damping });
 impl Power {
     /// The power at the start of a step; with `driven`, that on prescribed motion is included.
     pub fn at_start(cx: &Context, ws: &mut Workspace, state: &State, driven: bool) -> Power {
-        cx.system.external(&state.nodes, &ws.loads.start, &mut ws.forces);
-        let driving = if driven { driving_power(&state.reactions, &ws.prescribed.start) } else { 0.0 };
+        let Workspace { loads, prescribed, forces, .. } = ws;
+        Power::of_state(cx, forces, state, (&loads.start, driven.then_some(&prescribed.start)))
+    }
+
+    /// The power of a state under these loads, and that on `prescribed` motion. The current forces are lost.
+    pub fn of_state(
+        cx: &Context,
+        forces: &mut Forces,
+        state: &State,
+        (loading, prescribed): (&Loading, Option<&Vec<Prescribed>>),
+    ) -> Power {
+        cx.system.external(&state.nodes, loading, forces);
+        let driving = prescribed.map_or(0.0, |prescribed| driving_power(&state.reactions, prescribed));
         let carrying = cx.system.carrying_power(&state.nodes);
-        let external = external_power(&ws.forces, &state.nodes) + driving + carrying;
+        let external = external_power(forces, &state.nodes) + driving + carrying;
         Power { external, damping: damping_power(cx, &state.configuration()) }
     }
 
@@ -80,11 +91,19 @@ impl WorkQuadrature {
         let part = |whole: f64, start: f64, end: f64| {
             (3.0 * s2 - 2.0 * s3) * whole + dt * ((s - 2.0 * s2 + s3) * start + (s3 - s2) * end)
         };
-        let damping = part(self.damping, start.damping, end.damping);
-        WorkQuadrature {
-            external: part(self.external, start.external, end.external),
-            damping: damping.max(0.0).min(self.damping.max(0.0)),
-        }
+        let (external, damping) =
+            (part(self.external, start.external, end.external), part(self.damping, start.damping, end.damping));
+        WorkQuadrature { external, damping }.within(self)
+    }
+
+    /// This part of the work.
+    pub fn part(&self, part: f64) -> WorkQuadrature {
+        WorkQuadrature { external: part * self.external, damping: part * self.damping }
+    }
+
+    /// The work within a step whose whole work is given: damping gives nothing back.
+    pub fn within(self, whole: &WorkQuadrature) -> WorkQuadrature {
+        WorkQuadrature { damping: self.damping.max(0.0).min(whole.damping.max(0.0)), ..self }
     }
 
     /// Adds the work of the step to the work of the run.
