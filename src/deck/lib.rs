@@ -42,6 +42,7 @@ pub mod stages;
 pub mod study;
 pub mod supports;
 mod tables;
+pub mod ties;
 mod value;
 
 pub use base::words;
@@ -103,6 +104,9 @@ pub struct Deck {
     /// Nodes rigidly attached to bodies or beams.
     #[serde(default)]
     pub attachments: Vec<At<Table<attachments::Attachment>>>,
+    /// Nodes tied to faces or nodes beside them.
+    #[serde(default)]
+    pub ties: Vec<At<Table<ties::Tie>>>,
     /// Restrained and prescribed degrees of freedom.
     #[serde(default)]
     pub supports: Vec<At<Table<supports::Support>>>,

@@ -68,6 +68,7 @@ use super::shells::shells;
 use super::stages::{self, CurrentStage, StageSequence};
 use super::supports::given_rotations::{TurnedNode, given_turns};
 use super::supports::supports;
+use super::ties::ties;
 use super::values::vec3;
 use base::diagnostic::{Diagnostic, Source};
 use deck::Deck;
@@ -296,6 +297,7 @@ fn connect<'d>(
     let mut links = links(scene, &mut nodes, report);
     let Joints { list: mut joints, efforts } = joints(scene, &mut links, &mut amplitudes, &mut nodes, report);
     joints.extend(attachments(scene, &mut nodes, report));
+    joints.extend(ties(scene, &mut nodes, report));
     joints.extend(scene.parts.releases.iter().map(released));
     connect_touching_points(scene, &mut nodes);
     (JoinedNodes { masses, links, joints, amplitudes, topology: Topology::new(nodes, report) }, efforts)

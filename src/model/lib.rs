@@ -45,6 +45,7 @@ mod sections;
 mod shells;
 mod stages;
 mod supports;
+mod ties;
 mod values;
 
 /// Internals of the model for tests.

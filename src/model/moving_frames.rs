@@ -177,7 +177,7 @@ impl<'m> Structures<'m> {
         for dependent in &model.constraints.dependents {
             structures.connect(&[dependent.node, dependent.master]);
         }
-        model.constraints.joints.iter().for_each(|joint| structures.connect(&joint.ends));
+        model.constraints.joints.iter().for_each(|joint| structures.connect(&joint.all_ends().collect::<Vec<_>>()));
         structures
     }
 

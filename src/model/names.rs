@@ -446,6 +446,7 @@ impl<'d> Names<'d> {
         let points = points.filter_map(|end| end.node.as_ref());
         let lists = deck.masses.iter().map(|mass| &mass.at);
         let lists = lists.chain(deck.attachments.iter().map(|attachment| &attachment.nodes));
+        let lists = lists.chain(deck.ties.iter().map(|tie| &tie.nodes));
         let lists = lists.chain(deck.supports.iter().map(|support| &support.at));
         let lists = lists.chain(deck.loads.iter().filter(|load| !is_over_surfaces(load)).map(|load| &load.at));
         let lists = lists.chain(deck.initial.iter().map(|initial| &initial.at));

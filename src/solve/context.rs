@@ -5,6 +5,7 @@ use super::stop_request::StopRequest;
 use crate::plan::Plan;
 use crate::system::{Excitation, System};
 use base::math::Vec3;
+use mechanics::constraints::joint::Joint;
 use mechanics::state::Node;
 use model::{AnalysisKind, Model, Restraint};
 use std::sync::atomic::AtomicBool;
@@ -102,7 +103,7 @@ fn independent_nodes(model: &Model, plan: &Plan, system: &System) -> Vec<usize> 
 /// The prescribed degrees of freedom of nodes at the end of a joint, and of the masters of such nodes.
 fn driving(model: &Model, system: &System) -> Vec<usize> {
     let mut at_joints = vec![false; model.nodes.len()];
-    system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| at_joints[node] = true);
+    system.joints.iter().flat_map(Joint::ends).for_each(|node| at_joints[node] = true);
     system.joints.iter().filter_map(|joint| joint.drive).for_each(|drive| at_joints[drive.node] = true);
     // The order is reversed, for dependent nodes come after their masters.
     for dependent in system.rigid_links.iter().rev() {

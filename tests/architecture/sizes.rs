@@ -22,7 +22,7 @@ const WIDE: Known = &[
     ("deck/expect.rs: Expect", 16),
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 25),
-    ("deck/lib.rs: Deck", 36),
+    ("deck/lib.rs: Deck", 37),
     ("deck/loads.rs: Load", 18),
     ("deck/shells.rs: Shell", 18),
     ("deck/stages.rs: Stage", 20),

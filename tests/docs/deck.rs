@@ -5,7 +5,7 @@ use serde_json::Value;
 use std::fmt::Write;
 
 /// The tables of the deck in the order in which a reader meets them; the schema has them by the alphabet.
-const ORDER: [&str; 28] = [
+const ORDER: [&str; 29] = [
     "title",
     "units",
     "analysis",
@@ -22,6 +22,7 @@ const ORDER: [&str; 28] = [
     "bodies",
     "masses",
     "attachments",
+    "ties",
     "supports",
     "joints",
     "links",

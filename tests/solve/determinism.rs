@@ -360,8 +360,8 @@ impl Observer for Steps {
     fn on_step(&mut self, frame: &Frame) -> std::io::Result<()> {
         let mut sums: Vec<f64> = frame.derived.energy.map_or(Vec::new(), |energy| numbers_of(&energy));
         let mut touching = Vec::new();
-        for JointState { f, m, on_second: [second_f, second_m], drive } in &frame.derived.joints {
-            sums.extend(f.iter().chain(m).chain(second_f).chain(second_m));
+        for JointState { f, m, drive } in &frame.derived.joints {
+            sums.extend(f.iter().chain(m));
             sums.push(*drive);
         }
         for ContactState { touching: points, gap, f, m } in &frame.derived.contacts {

@@ -48,4 +48,5 @@ mod support_axes;
 mod temperature;
 mod thin_rods;
 mod thin_rods_in_loops;
+mod ties;
 mod warning;

@@ -29,6 +29,7 @@ fn sparse_and_dense_agree() {
     let body = |k: usize| model.bodies[k].node;
     let rows: Vec<[Option<usize>; 2]> =
         (0..35).map(|row| [(row >= 5).then(|| body(row / 5 - 1)), Some(body(row / 5))]).collect();
+    let rows: Vec<&[Option<usize>]> = rows.iter().map(|ends| &ends[..]).collect();
     let mut dense = SchurFactor::new(&[5; 7], &rows).unwrap();
     let mut sparse = SchurFactor::Sparse(SparseFactor::new(&[5; 7], &rows).unwrap());
     assert!(!dense.is_sparse());

@@ -6,6 +6,7 @@
 
 use super::angle::{Angle, body_vector};
 use super::given_angle::GivenAngle;
+use super::relative_turn;
 use crate::state::Node;
 use base::math::{Mat3, Vec3, Vec6, skew, stack};
 use std::f64::consts::TAU;
@@ -13,17 +14,34 @@ use std::f64::consts::TAU;
 /// Largest number of constraint equations of a joint: a node of multipliers has six rows.
 pub const MOST_EQUATIONS: usize = 6;
 
-/// A joint of two nodes; its equations describe the first as seen from the second.
+/// Largest number of ends of a joint: a node tied to a face of nine nodes.
+pub const MOST_ENDS: usize = 10;
+
+/// A joint of two nodes; its equations describe the first as seen from the second. A tie has several second nodes: each equation is then the
+/// mean of those with every one of them, by their weights.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// The two nodes.
     pub nodes: [usize; 2],
+    /// The weight of the second node: 1 unless there are more.
+    pub weight: f64,
+    /// More second nodes. All weights together are 1.
+    pub more: Vec<SecondNode>,
     /// The constraint equations, at most six.
     pub equations: Vec<ConstraintEquation>,
     /// True if the second node is restrained and represents a support.
     pub supports: bool,
     /// Drive of the coordinate; the last equation holds the coordinate at the drive.
     pub drive: Option<Drive>,
+}
+
+/// A second node of a joint with its weight.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SecondNode {
+    /// The node.
+    pub node: usize,
+    /// Its part of the mean.
+    pub weight: f64,
 }
 
 /// Drive of a joint coordinate: a separate node, whose displacement along x times a ratio is the prescribed coordinate. A prescribed drive
@@ -53,9 +71,8 @@ impl Joint {
     /// Violation of an equation with its first two time derivatives; for a drive the lag behind it.
     #[inline]
     pub fn gap(&self, number: usize, nodes: &[Node]) -> [f64; 3] {
-        let [a, b] = self.nodes.map(|n| &nodes[n]);
         let row = &self.equations[number];
-        let gap = row.gap(a, b);
+        let gap = self.mean_gap(row, nodes);
         match &self.drive {
             Some(drive) if self.is_driven(number) => {
                 let node = &nodes[drive.node];
@@ -66,11 +83,54 @@ impl Joint {
         }
     }
 
+    fn mean_gap(&self, row: &ConstraintEquation, nodes: &[Node]) -> [f64; 3] {
+        let [a, b] = self.nodes.map(|n| &nodes[n]);
+        let mut gap = row.gap(a, b);
+        if !self.more.is_empty() {
+            gap = gap.map(|gap| self.weight * gap);
+            for share in &self.more {
+                let other = row.gap(a, &nodes[share.node]);
+                (0..3).for_each(|k| gap[k] += share.weight * other[k]);
+            }
+        }
+        gap
+    }
+
+    /// The nodes of the joint: the first, then the second ones. The node of a drive is none of them.
+    pub fn ends(&self) -> impl Iterator<Item = usize> + Clone + '_ {
+        self.nodes.into_iter().chain(self.more.iter().map(|share| share.node))
+    }
+
+    /// The gradient G = ∂c/∂(x, θ) of an equation at each end, in their order, written into `room`.
+    pub fn gradient<'r>(&self, number: usize, nodes: &[Node], room: &'r mut [Vec6; MOST_ENDS]) -> &'r [Vec6] {
+        let (row, [a, b]) = (&self.equations[number], self.nodes.map(|n| &nodes[n]));
+        [room[0], room[1]] = row.gradient(a, b);
+        if !self.more.is_empty() {
+            (0..2).for_each(|end| room[end] *= self.weight);
+            for (end, share) in self.more.iter().enumerate() {
+                let [of_first, of_second] = row.gradient(a, &nodes[share.node]);
+                room[0] += share.weight * of_first;
+                room[2 + end] = share.weight * of_second;
+            }
+        }
+        &room[..2 + self.more.len()]
+    }
+
+    /// Adds the stiffness of an equation, as [`ConstraintEquation::stiffness`] does: x and θ of the ends in their order.
+    pub fn stiffness(&self, number: usize, nodes: &[Node], lambda: f64, mut add: impl FnMut(usize, usize, Mat3)) {
+        let (row, [a, b]) = (&self.equations[number], self.nodes.map(|n| &nodes[n]));
+        row.stiffness(a, b, self.weight * lambda, &mut add);
+        for (k, share) in self.more.iter().enumerate() {
+            let at = |of: usize| if of < 2 { of } else { of + 2 * (k + 1) };
+            row.stiffness(a, &nodes[share.node], share.weight * lambda, |i, j, block| add(at(i), at(j), block));
+        }
+    }
+
     /// The change of the violation of an equation for small motions (u, θ) of all nodes.
     pub fn opening(&self, number: usize, nodes: &[Node], motions: &[Vec6]) -> f64 {
-        let [a, b] = self.nodes;
-        let [Ga, Gb] = self.equations[number].gradient(&nodes[a], &nodes[b]);
-        let change = Ga.dot(&motions[a]) + Gb.dot(&motions[b]);
+        let mut room = [Vec6::zeros(); MOST_ENDS];
+        let of_ends = self.gradient(number, nodes, &mut room).iter().zip(self.ends());
+        let change = of_ends.map(|(G, node)| G.dot(&motions[node])).sum::<f64>();
         match &self.drive {
             Some(drive) if self.is_driven(number) => change - drive.ratio * motions[drive.node][0],
             _ => change,
@@ -84,7 +144,7 @@ impl Joint {
 
     /// Nodes with unknowns in the matrix, in the order of the matrix.
     pub fn matrix_nodes(&self) -> impl Iterator<Item = usize> + '_ {
-        self.nodes.into_iter().chain(self.shared().map(|drive| drive.node))
+        self.ends().chain(self.shared().map(|drive| drive.node))
     }
 
     /// True for the equation of the drive.
@@ -127,6 +187,11 @@ pub enum ConstraintEquation {
     Angle(Angle),
     /// One of the rotations of the first node against the second, a support, is zero.
     Given(GivenAngle),
+    /// A component of the rotation vector from the second to the first node is zero: log(R_a R_bᵀ)·e = 0.
+    Turn {
+        /// The global axis, 0 to 2.
+        axis: usize,
+    },
     /// The second node goes along a shared axis by `lead` for each turn about it: −(x_a − x_b)·R_b e − `at` = `lead` θ/2π.
     Screw {
         /// The angle θ of the second node from the first.
@@ -157,9 +222,10 @@ impl ConstraintEquation {
         match self {
             ConstraintEquation::GlobalAxis { axis, .. } => [std::array::from_fn(|i| i == *axis); 2],
             ConstraintEquation::BodyAxis { .. } => [moves, [true; 6]],
-            ConstraintEquation::Perpendicular { .. } | ConstraintEquation::Angle(_) | ConstraintEquation::Given(_) => {
-                [turns; 2]
-            }
+            ConstraintEquation::Perpendicular { .. }
+            | ConstraintEquation::Angle(_)
+            | ConstraintEquation::Given(_)
+            | ConstraintEquation::Turn { .. } => [turns; 2],
             ConstraintEquation::Screw { .. } => [[true; 6]; 2],
             ConstraintEquation::Distance { .. } => [moves; 2],
         }
@@ -203,8 +269,8 @@ impl ConstraintEquation {
                 ConstraintEquation::Screw { angle: *angle, e: *e, at: at + gap, lead: *lead }
             }
             ConstraintEquation::Given(angle) => ConstraintEquation::Given(angle.from_here(a)),
-            // A drive is never held where it is: it goes on.
-            ConstraintEquation::Angle(_) => *self,
+            // A drive is never held where it is: it goes on. Ties hold in all stages alike.
+            ConstraintEquation::Angle(_) | ConstraintEquation::Turn { .. } => *self,
         }
     }
 
@@ -246,6 +312,7 @@ impl ConstraintEquation {
             }
             ConstraintEquation::Angle(angle) => angle.value(a, b),
             ConstraintEquation::Given(angle) => angle.value(a, b),
+            ConstraintEquation::Turn { axis } => relative_turn::value(a, b).map(|of| of[*axis]),
             ConstraintEquation::Screw { angle, e, at, lead } => {
                 let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gap(a, b);
                 let turned = angle.value(a, b);
@@ -279,6 +346,7 @@ impl ConstraintEquation {
             }
             ConstraintEquation::Angle(angle) => angle.gradient(a, b),
             ConstraintEquation::Given(angle) => angle.gradient(a, b),
+            ConstraintEquation::Turn { axis } => relative_turn::gradient(a, b, *axis),
             ConstraintEquation::Screw { angle, e, at, lead } => {
                 let along = ConstraintEquation::BodyAxis { e: -e, at: *at }.gradient(a, b);
                 let turned = angle.gradient(a, b);
@@ -312,6 +380,7 @@ impl ConstraintEquation {
             }
             ConstraintEquation::Angle(angle) => angle.stiffness(a, b, lambda, &mut add),
             ConstraintEquation::Given(angle) => angle.stiffness(a, b, lambda, &mut add),
+            ConstraintEquation::Turn { axis } => relative_turn::stiffness(a, b, &Vec3::ith(*axis, lambda), &mut add),
             ConstraintEquation::Screw { angle, e, lead, .. } => {
                 along_axis(&-e, b, &d, lambda, &mut add);
                 angle.stiffness(a, b, -lead / TAU * lambda, &mut add);
@@ -321,8 +390,8 @@ impl ConstraintEquation {
 
     /// True where the multiplier is a moment and the gap an angle; otherwise they are a force and a length.
     pub fn is_rotational(&self) -> bool {
-        use ConstraintEquation::{Angle, Given, Perpendicular};
-        matches!(self, Perpendicular { .. } | Angle(_) | Given(_))
+        use ConstraintEquation::{Angle, Given, Perpendicular, Turn};
+        matches!(self, Perpendicular { .. } | Angle(_) | Given(_) | Turn { .. })
     }
 
     /// Classifies the equation for motion in the plane normal to a global axis: true if it constrains something, `None` if its forces act
@@ -339,7 +408,9 @@ impl ConstraintEquation {
             ConstraintEquation::Perpendicular { p, s } => (across(p) && across(s)).then_some(true),
             ConstraintEquation::Distance { .. } => across(d).then_some(true),
             ConstraintEquation::Angle(Angle { p, s, .. }) => (across(p) && across(s)).then_some(true),
-            ConstraintEquation::Given(angle) => Some(angle.axis == normal),
+            ConstraintEquation::Given(GivenAngle { axis, .. }) | ConstraintEquation::Turn { axis } => {
+                Some(*axis == normal)
+            }
             // Its moment is about the axis along which its force acts.
             ConstraintEquation::Screw { .. } => None,
         }
@@ -353,7 +424,9 @@ impl ConstraintEquation {
             ConstraintEquation::Perpendicular { .. } => "turn",
             ConstraintEquation::Distance { .. } => "distance",
             ConstraintEquation::Angle(_) => "angle",
-            ConstraintEquation::Given(angle) => ["rx", "ry", "rz"][angle.axis],
+            ConstraintEquation::Given(GivenAngle { axis, .. }) | ConstraintEquation::Turn { axis } => {
+                ["rx", "ry", "rz"][*axis]
+            }
             ConstraintEquation::Screw { .. } => "thread",
         }
     }

@@ -4,4 +4,5 @@ pub mod angle;
 pub mod given_angle;
 pub mod joint;
 pub mod joints;
+mod relative_turn;
 pub mod rigid_link;

@@ -3,7 +3,7 @@
 use base::math::Vec3;
 use base::math::turn::RotationAngles;
 use deck::supports::History;
-use mechanics::constraints::joint::{ConstraintEquation, Drive};
+use mechanics::constraints::joint::{ConstraintEquation, Drive, SecondNode};
 
 /// The constraints of a scene: rigid links, joints and restraints.
 #[derive(Debug, Clone, Default)]
@@ -49,6 +49,11 @@ pub struct Joint {
     pub name: String,
     /// Nodes at `from` and `to`: dependent nodes of a node or body, the node itself, or a restrained node for the ground.
     pub ends: [usize; 2],
+    /// The weight of the second node, and more second nodes with theirs: those of a tie to a face, see
+    /// [`mechanics::constraints::joint::Joint::more`].
+    pub weight: f64,
+    /// See `weight`.
+    pub more: Vec<SecondNode>,
     /// The constraint equations.
     pub equations: Vec<ConstraintEquation>,
     /// The equations of the deck at t = 0; a stage with other initial positions locks those instead.
@@ -70,6 +75,8 @@ pub enum JointOrigin {
     Support,
     /// An attachment that elimination cannot do.
     Attachment,
+    /// A node of an entry of `[[ties]]`.
+    Tie,
 }
 
 /// The coordinate of a joint, its drive and its effort.
@@ -118,12 +125,39 @@ impl Joint {
     /// A joint as the deck has it.
     pub fn new(name: String, ends: [usize; 2], equations: Vec<ConstraintEquation>, supports: bool) -> Joint {
         let origin = if supports { JointOrigin::Support } else { JointOrigin::Deck };
-        Joint { name, ends, of_deck: equations.clone(), equations, supports, origin, coordinate: None }
+        Joint {
+            name,
+            ends,
+            weight: 1.0,
+            more: Vec::new(),
+            of_deck: equations.clone(),
+            equations,
+            supports,
+            origin,
+            coordinate: None,
+        }
     }
 
     /// Marks the joint as the substitute of an attachment.
     pub fn of_attachment(self) -> Joint {
         Joint { origin: JointOrigin::Attachment, ..self }
+    }
+
+    /// The joint of a tied node and those of the face under it, with their weights.
+    pub fn tie(name: String, node: usize, shares: &[SecondNode], equations: Vec<ConstraintEquation>) -> Option<Joint> {
+        let (first, more) = shares.split_first()?;
+        let joint = Joint::new(name, [node, first.node], equations, false);
+        Some(Joint { weight: first.weight, more: more.to_vec(), origin: JointOrigin::Tie, ..joint })
+    }
+
+    /// Its nodes: the first, then all second ones.
+    pub fn all_ends(&self) -> impl Iterator<Item = usize> + '_ {
+        self.ends.into_iter().chain(self.more.iter().map(|share| share.node))
+    }
+
+    /// True for joints with rows in the tables: supports have rows of their own, and ties have none.
+    pub fn is_listed(&self) -> bool {
+        !self.supports && self.origin != JointOrigin::Tie
     }
 
     /// Lets its coordinate follow a drive, by one more equation. A joint without a coordinate is not changed.

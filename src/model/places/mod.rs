@@ -3,6 +3,7 @@
 pub mod axes;
 pub mod cells;
 pub mod ends;
+pub mod foot;
 pub mod nearest_nodes;
 pub mod nodes;
 pub mod place;

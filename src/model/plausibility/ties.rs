@@ -21,7 +21,7 @@ impl Ties {
         for dependent in topology.dependents.iter().filter(|dependent| dependent.dofs[..3].contains(&true)) {
             ties.join(dependent.node, dependent.master);
         }
-        joints.iter().for_each(|joint| ties.join(joint.ends[0], joint.ends[1]));
+        joints.iter().for_each(|joint| joint.all_ends().for_each(|end| ties.join(joint.ends[0], end)));
         for node in 0..count {
             let rests = |dof| topology.restraint(node, dof).is_some_and(|restraint| restraint.motion.is_none());
             if (0..3).all(rests) {

@@ -43,8 +43,8 @@ fn report_overlap(scene: &Scene, overlap: &Overlap, [own, other]: [&str; 2], rep
         1 => format!("an edge of {own} lies on {other}, and nothing holds the two together along it"),
         edges => format!("{edges} edges of {own} lie on {other}, and nothing holds the two together along them"),
     };
-    let hint = "parts share the nodes of a mesh and points that both name, not those between: name points of both there, or join \
-                them with `[[attachments]]` or `[[joints]]`";
+    let hint = "parts share the nodes of a mesh and points that both name, not those between: name points of both there, or tie \
+                them with `[[ties]]`";
     report.warn(place.unwrap_or(&(0..0)), message, hint);
 }
 
@@ -181,7 +181,9 @@ impl Search<'_, '_> {
             };
             let message = format!("`{label}`{of} {how}{more}, and nothing holds the two together");
             let hint = match between {
-                true => "make it a point of the path or a node of the mesh of both, or join them with `[[joints]]`",
+                true => {
+                    "make it a point of the path or a node of the mesh of both, or join them with `[[ties]]` or `[[joints]]`"
+                }
                 false => "name the same point in both, or join them with `[[joints]]` or `[[attachments]]`",
             };
             report.warn(self.place(*node), message, hint);

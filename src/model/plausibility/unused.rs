@@ -17,7 +17,9 @@ fn visit_nodes(model: &mut Model, of: &mut impl FnMut(&mut usize)) {
     model.bodies.iter_mut().for_each(|body| of(&mut body.node));
     model.masses.iter_mut().for_each(|mass| of(&mut mass.node));
     model.parts.iter_mut().for_each(|part| part.visit_nodes(of));
-    model.constraints.joints.iter_mut().flat_map(|joint| &mut joint.ends).for_each(&mut *of);
+    for joint in &mut model.constraints.joints {
+        joint.ends.iter_mut().chain(joint.more.iter_mut().map(|share| &mut share.node)).for_each(&mut *of);
+    }
     let drives = model.constraints.joints.iter_mut().filter_map(|joint| joint.coordinate.as_mut()?.drive.as_mut());
     drives.for_each(|drive| of(&mut drive.node));
     model.constraints.restraints.iter_mut().for_each(|restraint| of(&mut restraint.node));

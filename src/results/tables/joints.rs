@@ -32,7 +32,7 @@ const NEEDS: Wanted = Wanted::REACTIONS.with(Wanted::LINKS);
 
 /// The joints of the deck and its attachments; supports have rows in another table.
 fn of_deck(model: &Model) -> impl Iterator<Item = &Joint> {
-    model.constraints.joints.iter().filter(|joint| !joint.supports)
+    model.constraints.joints.iter().filter(|joint| joint.is_listed())
 }
 
 fn quantities(at: ExpectAt) -> Vec<&'static str> {
@@ -90,7 +90,7 @@ fn motor(coordinate: &JointCoordinate, frame: &Frame) -> f64 {
 }
 
 fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
-    frame.model.constraints.joints.iter().enumerate().filter(|(_, joint)| !joint.supports).try_for_each(
+    frame.model.constraints.joints.iter().enumerate().filter(|(_, joint)| joint.is_listed()).try_for_each(
         |(index, joint)| {
             let values = values(index, frame).unwrap_or([f64::NAN; 9]);
             let mut row = table.row(frame.step, frame.state.time).text(&joint.name);

@@ -30,7 +30,7 @@ pub static TABLE: TableKind = TableKind {
     extent: |extent| {
         let model = extent.model;
         let restraints = &model.constraints.restraints;
-        let joints = model.constraints.joints.iter().filter(|joint| !joint.supports);
+        let joints = model.constraints.joints.iter().filter(|joint| joint.is_listed());
         let supports = restraints
             .iter()
             .filter(|held| !model.nodes[held.node].is_number)
@@ -76,7 +76,7 @@ fn write(table: &mut dyn WriteRow, frame: &Frame) -> io::Result<()> {
         table.row(step, state.time).text(&node.label).text(DIRECTIONS[restraint.dof]).number(*value).end()
     })?;
     // A joint between a node and its support transmits the force of the support.
-    model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| !joint.supports).try_for_each(
+    model.constraints.joints.iter().zip(&derived.joints).filter(|(joint, _)| joint.is_listed()).try_for_each(
         |(joint, state_of)| {
             DIRECTIONS.iter().zip(of_joint(state_of)).try_for_each(|(direction, value)| {
                 table.row(step, state.time).text(&joint.name).text(direction).number(value).end()

@@ -35,11 +35,11 @@ pub fn find(
 fn opens_joints(system: &System, now: &Configuration, motions: &[Vec6], length: f64) -> bool {
     let size = |motion: &Vec6| linear(motion).amax().max(length * angular(motion).amax());
     system.joints.iter().any(|joint| {
-        let [a, b] = joint.nodes;
+        let largest = joint.ends().map(|node| size(&motions[node])).fold(0.0, f64::max);
         joint.equations.iter().enumerate().any(|(k, equation)| {
             let gap = joint.opening(k, now.nodes, motions);
             let lever = if equation.is_rotational() { length } else { 1.0 };
-            gap.abs() * lever > MOVING * size(&motions[a]).max(size(&motions[b])).max(MOVING)
+            gap.abs() * lever > MOVING * largest.max(MOVING)
         })
     })
 }

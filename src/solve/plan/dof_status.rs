@@ -2,6 +2,7 @@
 
 use crate::system::System;
 use base::math::Vec3;
+use mechanics::constraints::joint::ConstraintEquation;
 use mechanics::elements::ElementBlock;
 use model::{AnalysisKind, Model};
 
@@ -102,9 +103,11 @@ fn resistance(system: &System, n: usize) -> Vec<[bool; 6]> {
         }
     }
     for joint in &system.joints {
-        let moving = &joint.nodes[..if joint.supports { 1 } else { 2 }];
-        for (&node, reach) in joint.equations.iter().flat_map(|row| moving.iter().zip(row.reach())) {
-            acts[node].iter_mut().zip(reach).for_each(|(acts, reaches)| *acts |= reaches);
+        let moving = || joint.ends().take(if joint.supports { 1 } else { usize::MAX }).enumerate();
+        for reach in joint.equations.iter().map(ConstraintEquation::reach) {
+            for (end, node) in moving() {
+                acts[node].iter_mut().zip(reach[end.min(1)]).for_each(|(acts, reaches)| *acts |= reaches);
+            }
         }
     }
     // The entry of a node is `None` without mass, else it says whether there is rotary inertia.

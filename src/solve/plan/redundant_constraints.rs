@@ -4,7 +4,8 @@
 use crate::system::dependents;
 use crate::system::{DofMap, System};
 use crate::tolerances::redundant_constraints::{MOST, NEW, ROUNDING};
-use base::math::Vec3;
+use base::math::{Vec3, Vec6};
+use mechanics::constraints::joint::MOST_ENDS;
 use mechanics::state::Node;
 use model::Model;
 use std::collections::BTreeSet;
@@ -33,10 +34,10 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
     let mut columns = 0;
     let mut sparse: Vec<Vec<(usize, f64)>> = Vec::with_capacity(count);
     let mut joints: Vec<Range<usize>> = Vec::with_capacity(system.joints.len());
+    let mut room = [Vec6::zeros(); MOST_ENDS];
     for joint in &system.joints {
         joints.push(sparse.len()..sparse.len() + joint.equations.len());
-        let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for (k, row) in joint.equations.iter().enumerate() {
+        for k in 0..joint.equations.len() {
             let mut entries = Vec::new();
             let mut add = |row: usize, value: f64| {
                 let at = *column[row].get_or_insert_with(|| {
@@ -50,9 +51,9 @@ pub fn find(model: &Model, system: &System, dofs: &DofMap) -> Option<Vec<usize>>
             {
                 add(row, -drive.ratio);
             }
-            for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
+            for (node, G) in joint.ends().zip(joint.gradient(k, &nodes, &mut room)) {
                 for (&independent, T) in independent_nodes[node].iter().zip(&projections[node]) {
-                    let G = T.tr_mul(&G);
+                    let G = T.tr_mul(G);
                     for dof in 0..6 {
                         let Some(row) = dofs.row(independent, dof) else { continue };
                         add(row, if dof < 3 { G[dof] } else { G[dof] / length });

@@ -4,6 +4,7 @@ use crate::context::{Context, at_rest};
 use crate::system::Group;
 use crate::tolerances::beam_trees::SLENDER;
 use base::math::{Vec3, frame_along};
+use mechanics::constraints::joint::Joint;
 use mechanics::elements::Moduli;
 use mechanics::state::{Configuration, Node};
 use std::collections::VecDeque;
@@ -162,7 +163,7 @@ impl Graph {
                 }
             }
         }
-        cx.system.joints.iter().flat_map(|joint| joint.nodes).for_each(|node| foreign[node] = true);
+        cx.system.joints.iter().flat_map(Joint::ends).for_each(|node| foreign[node] = true);
         for link in &cx.system.rigid_links {
             branches.push(Branch::new(&[link.master, link.node], Some(link.master), [0; 2]));
             foreign[link.node] |= !link.rigid;

@@ -56,6 +56,8 @@ pub fn joints(model: &Model, x: &[Vec3], plane: Option<usize>) -> Vec<Joint> {
         let drive = joint.coordinate.as_ref().and_then(|coordinate| coordinate.drive.as_ref());
         Joint {
             nodes: joint.ends,
+            weight: joint.weight,
+            more: joint.more.clone(),
             equations: joint.equations.iter().filter(says).copied().collect(),
             supports: joint.supports,
             drive: drive.map(|drive| drive.at(x)),

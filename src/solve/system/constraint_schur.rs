@@ -2,19 +2,21 @@
 //! = c. It gives accelerations that the joints allow, and closes gaps by the least change of positions in the norm of the masses.
 
 use super::equations::System;
+use super::gradients::Gradients;
 use super::masses::Masses;
 use super::schur_group::{self, SchurGroup};
 use crate::tolerances::constraint_schur::NEGLIGIBLE;
 use base::math::{Vec3, Vec6, angular, linear, stack};
 use base::snapshot::keep;
+use mechanics::constraints::joint::MOST_ENDS;
 use mechanics::elements::Force;
 use mechanics::state::Node;
 use std::ops::Range;
 
 /// The system of the constraint equations. It is allocated once, before the first step.
 pub struct ConstraintSchur {
-    /// For each constraint equation, the independent nodes behind the two ends of its joint; `None` if a node has no unknown.
-    rows: Vec<[Option<usize>; 2]>,
+    /// The gradients G and the responses M⁻¹ Gᵀ.
+    gradients: Gradients,
     /// True where constraint equations may be redundant.
     shares: bool,
     /// The translations, and the rotations, of each joint. Their diagonals are raised by a common value, so that the loads shared by
@@ -22,9 +24,6 @@ pub struct ConstraintSchur {
     alike: Vec<Range<usize>>,
     /// Weights of the loads of equations that redundant ones share.
     weights: Vec<f64>,
-    /// ∂c/∂(x, θ) of the nodes behind the ends, and their accelerations under a unit multiplier.
-    G: Vec<[Vec6; 2]>,
-    W: Vec<[Vec6; 2]>,
     /// Equations between restrained degrees of freedom only, such as those out of the plane of a plane motion. They cause no acceleration,
     /// and their multipliers stay zero.
     inert: Vec<bool>,
@@ -34,11 +33,11 @@ pub struct ConstraintSchur {
     pub x: Vec<f64>,
 }
 
-keep!(ConstraintSchur { G, W, inert, x } without { rows, shares, alike, weights, groups });
+keep!(ConstraintSchur { gradients, inert, x } without { shares, alike, weights, groups });
 
 /// The response of an equation to a unit force. Rotations from arms are excluded for translations: joints at different places of one body
 /// would otherwise share loads unevenly.
-fn same_kind(G: &[Vec6; 2], W: &[Vec6; 2]) -> f64 {
+fn same_kind(G: &[Vec6], W: &[Vec6]) -> f64 {
     let of = |part: fn(&Vec6) -> Vec3| G.iter().zip(W).map(|(G, W)| part(G).dot(&part(W))).sum::<f64>();
     let translations = of(linear);
     if translations > 0.0 { translations } else { of(angular) }
@@ -75,25 +74,20 @@ impl ConstraintSchur {
             }
             Some(node)
         };
-        let mut rows = Vec::with_capacity(count);
+        let mut ends: Vec<Vec<Option<usize>>> = Vec::with_capacity(system.joints.len());
         for joint in &system.joints {
-            let mut ends = [None; 2];
-            for (end, &node) in ends.iter_mut().zip(&joint.nodes) {
-                let master = master(node)?;
-                *end = masses.of(master).map(|_| master);
-            }
-            rows.extend(joint.equations.iter().map(|_| ends));
+            let of = |node| master(node).map(|master| masses.of(master).map(|_| master));
+            ends.push(joint.ends().map(of).collect::<Option<_>>()?);
         }
-        let zeros = vec![[Vec6::zeros(); 2]; count];
+        let rows = system.joints.iter().zip(&ends).flat_map(|(joint, ends)| joint.equations.iter().map(|_| &ends[..]));
+        let gradients = Gradients::new(rows);
         let sizes: Vec<usize> = system.joints.iter().map(|joint| joint.equations.len()).collect();
         Some(ConstraintSchur {
-            groups: schur_group::of(&sizes, &rows, shares)?,
-            rows,
+            groups: schur_group::of(&sizes, &gradients, shares)?,
+            gradients,
             shares,
             alike: alike(system),
             weights: vec![0.0; count],
-            G: zeros.clone(),
-            W: zeros,
             inert: vec![false; count],
             x: vec![0.0; count],
         })
@@ -103,19 +97,17 @@ impl ConstraintSchur {
     /// be closed.
     pub fn form(&mut self, system: &System, masses: &Masses, nodes: &[Node]) -> bool {
         let mut k = 0;
+        let mut room = [Vec6::zeros(); MOST_ENDS];
         for joint in &system.joints {
-            let [a, b] = joint.nodes.map(|node| &nodes[node]);
-            for row in &joint.equations {
-                let gradient = row.gradient(a, b);
+            for number in 0..joint.equations.len() {
                 let (mut whole, mut moving) = (0.0f64, 0.0f64);
-                for end in 0..2 {
-                    let Some(master) = self.rows[k][end] else { continue };
-                    let (f, m) = (linear(&gradient[end]), angular(&gradient[end]));
-                    let arm = nodes[joint.nodes[end]].x - nodes[master].x;
+                for (end, (node, G)) in joint.ends().zip(joint.gradient(number, nodes, &mut room)).enumerate() {
+                    let Some(master) = self.gradients.nodes(k)[end] else { continue };
+                    let (f, m) = (linear(G), angular(G));
+                    let arm = nodes[node].x - nodes[master].x;
                     let G = stack(&f, &(m + arm.cross(&f)));
-                    self.G[k][end] = G;
                     let Some(block) = masses.of(master) else { continue };
-                    self.W[k][end] = block.accelerate(&nodes[master], G.as_ref());
+                    self.gradients.set((k, end), G, block.accelerate(&nodes[master], G.as_ref()));
                     whole = whole.max(G.amax());
                     let free = G.iter().zip(block.free).filter(|(_, free)| *free);
                     moving = free.map(|(g, _)| g.abs()).fold(moving, f64::max);
@@ -128,13 +120,13 @@ impl ConstraintSchur {
     }
 
     fn factor(&mut self, masses: &Masses) -> bool {
-        let ConstraintSchur { rows, G, W, inert, groups, shares, alike, weights, .. } = self;
+        let ConstraintSchur { gradients, inert, groups, shares, alike, weights, .. } = self;
         let entry = |k: usize, l: usize| {
             let mut sum = 0.0;
-            for (i, master) in rows[k].iter().enumerate() {
-                for (j, other) in rows[l].iter().enumerate() {
+            for (master, G) in gradients.nodes(k).iter().zip(gradients.of(k)) {
+                for (other, W) in gradients.nodes(l).iter().zip(gradients.response(l)) {
                     if master.is_some() && master == other {
-                        sum += G[k][i].dot(&W[l][j]);
+                        sum += G.dot(W);
                     }
                 }
             }
@@ -144,12 +136,12 @@ impl ConstraintSchur {
             for range in alike.iter() {
                 let own = || range.clone().filter(|&k| !inert[k]);
                 let count = own().count().max(1) as f64;
-                let without_arms = own().map(|k| same_kind(&G[k], &W[k])).sum::<f64>();
+                let without_arms = own().map(|k| same_kind(gradients.of(k), gradients.response(k))).sum::<f64>();
                 let sum = if without_arms > 0.0 { without_arms } else { own().map(|k| entry(k, k)).sum::<f64>() };
                 weights[range.clone()].fill(sum / count);
             }
         }
-        groups.iter_mut().all(|group| group.factor((rows, G), inert, (masses, weights), entry))
+        groups.iter_mut().all(|group| group.factor(gradients, inert, (masses, weights), entry))
     }
 
     /// True where the system of a group is sparse.
@@ -167,30 +159,22 @@ impl ConstraintSchur {
 
     /// Adds the constraint rates: x ← x + G δ, with δ by node.
     pub fn add_rates(&mut self, motion: &[Vec6]) {
-        for ((x, ends), G) in self.x.iter_mut().zip(&self.rows).zip(&self.G) {
-            *x += ends.iter().zip(G).filter_map(|(master, G)| master.map(|master| G.dot(&motion[master]))).sum::<f64>();
+        for (x, ends) in self.x.iter_mut().zip(self.gradients.each()) {
+            *x += ends.map(|(node, G, _)| G.dot(&motion[node])).sum::<f64>();
         }
     }
 
     /// Subtracts the constraint forces on independent nodes: F ← F − Gᵀ x.
     pub fn subtract_forces(&self, F: &mut [Force]) {
-        for ((x, ends), G) in self.x.iter().zip(&self.rows).zip(&self.G) {
-            for (master, G) in ends.iter().zip(G) {
-                if let Some(master) = master {
-                    F[*master].iter_mut().zip(G).for_each(|(f, G)| *f -= G * x);
-                }
-            }
+        for (x, ends) in self.x.iter().zip(self.gradients.each()) {
+            ends.for_each(|(node, G, _)| F[node].iter_mut().zip(G).for_each(|(f, G)| *f -= G * x));
         }
     }
 
     /// Subtracts the response to the constraint forces: δ ← δ − M⁻¹ Gᵀ x, by node.
     pub fn subtract_response(&self, motion: &mut [Vec6]) {
-        for ((x, ends), W) in self.x.iter().zip(&self.rows).zip(&self.W) {
-            for (master, W) in ends.iter().zip(W) {
-                if let Some(master) = master {
-                    motion[*master] -= W * *x;
-                }
-            }
+        for (x, ends) in self.x.iter().zip(self.gradients.each()) {
+            ends.for_each(|(node, _, W)| motion[node] -= W * *x);
         }
     }
 }

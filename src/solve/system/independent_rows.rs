@@ -3,6 +3,7 @@
 //! Redundancy is a matter of geometry. Orthogonalization with pivoting finds it in the gradients (G. Golub & C. Van Loan, Matrix
 //! Computations, 5.4). The entries of G M⁻¹ Gᵀ are unsuitable, because they scale with different inertias.
 
+use super::gradients::Gradients;
 use super::masses::Masses;
 use super::schur_factor::SchurFactor;
 use crate::tolerances::independent_rows::NEW;
@@ -30,11 +31,12 @@ pub struct IndependentRows {
 
 impl IndependentRows {
     /// Room for equations that move these nodes.
-    pub fn new(rows: &[[Option<usize>; 2]]) -> IndependentRows {
-        let nodes = rows.iter().flatten().flatten().max().map_or(0, |last| last + 1);
+    pub fn new(rows: &[&[Option<usize>]]) -> IndependentRows {
+        let ends = || rows.iter().copied().flatten().flatten();
+        let nodes = ends().max().map_or(0, |last| last + 1);
         let mut first = vec![usize::MAX; nodes];
         let mut width = 0;
-        for &node in rows.iter().flatten().flatten() {
+        for &node in ends() {
             if first[node] == usize::MAX {
                 first[node] = width;
                 width += 6;
@@ -55,13 +57,7 @@ impl IndependentRows {
     }
 
     /// Finds which of these equations, by their numbers among all, are to be solved for; `inert` ones are not.
-    pub fn find(
-        &mut self,
-        equations: &[usize],
-        gradients: (&[[Option<usize>; 2]], &[[Vec6; 2]]),
-        inert: &[bool],
-        masses: &Masses,
-    ) {
+    pub fn find(&mut self, equations: &[usize], gradients: &Gradients, inert: &[bool], masses: &Masses) {
         self.write_gradients(equations, gradients, masses);
         let IndependentRows { width, left, spans, norms, idle, .. } = self;
         let part = |k: usize, span: &Range<usize>| k * *width + span.start..k * *width + span.end;
@@ -100,19 +96,14 @@ impl IndependentRows {
     }
 
     /// Writes the gradients in the unknowns, rotations over the length of the arms.
-    fn write_gradients(
-        &mut self,
-        equations: &[usize],
-        (rows, G): (&[[Option<usize>; 2]], &[[Vec6; 2]]),
-        masses: &Masses,
-    ) {
+    fn write_gradients(&mut self, equations: &[usize], gradients: &Gradients, masses: &Masses) {
         let ratio = |G: &Vec6| if linear(G).amax() > 0.0 { angular(G).amax() / linear(G).amax() } else { 0.0 };
-        let arms = equations.iter().flat_map(|&k| &G[k]).map(ratio).fold(0.0, f64::max);
+        let arms = equations.iter().flat_map(|&k| gradients.of(k)).map(ratio).fold(0.0, f64::max);
         let length = if arms > 0.0 { arms } else { 1.0 };
         self.left.fill(0.0);
         for (k, &equation) in equations.iter().enumerate() {
             let (mut begin, mut end) = (usize::MAX, 0);
-            for (node, G) in rows[equation].iter().zip(&G[equation]) {
+            for (node, G) in gradients.nodes(equation).iter().zip(gradients.of(equation)) {
                 let Some(node) = *node else { continue };
                 let free = masses.of(node).map_or([false; 6], |block| block.free);
                 let first = self.first[node];

@@ -13,11 +13,12 @@ use super::penalties::{self, Diagonals, INDEFINITE};
 use super::scale::Scale;
 use super::tangent_weights::TangentWeights;
 use base::math::{Mat6, Vec3, Vec6, angular, linear};
-use mechanics::constraints::joint::{ConstraintEquation, Joint, MOST_EQUATIONS};
+use mechanics::constraints::joint::{ConstraintEquation, Joint, MOST_ENDS, MOST_EQUATIONS};
 use mechanics::state::Node;
 
-/// Largest size of a joint's matrix: six degrees of freedom for each of its two nodes and for a node shared by gears, then its multipliers.
-const MOST_WIDTH: usize = 6 + 6 + 6 + MOST_EQUATIONS;
+/// Largest size of a joint's matrix: six degrees of freedom for each of its ends, then its multipliers. A joint with a node shared by gears
+/// has two ends.
+const MOST_WIDTH: usize = 6 * MOST_ENDS + MOST_EQUATIONS;
 
 /// Size of a joint's matrix.
 pub(super) fn width(joint: &Joint) -> usize {
@@ -31,8 +32,6 @@ pub struct JointState {
     pub f: Vec3,
     /// Moment.
     pub m: Vec3,
-    /// Force and moment on the second node.
-    pub on_second: [Vec3; 2],
     /// Force or moment of the drive along the coordinate on the second node; zero without a drive.
     pub drive: f64,
 }
@@ -55,15 +54,15 @@ impl System {
     /// Subtracts the constraint forces Gᵀλ and writes the gaps.
     pub(super) fn subtract_joint_forces(&self, nodes: &[Node], forces: &mut Forces, scale: &mut Scale) {
         let Forces { multipliers, on_nodes: F, .. } = forces;
+        let mut room = [Vec6::zeros(); MOST_ENDS];
         for (joint, first) in self.numbered() {
-            let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            for (k, row) in joint.equations.iter().enumerate() {
+            for k in 0..joint.equations.len() {
                 multipliers.gaps[first + k] = joint.gap(k, nodes)[0];
                 let lambda = multipliers.values[first + k];
                 if lambda == 0.0 {
                     continue;
                 }
-                for (node, G) in joint.nodes.into_iter().zip(row.gradient(a, b)) {
+                for (node, G) in joint.ends().zip(joint.gradient(k, nodes, &mut room)) {
                     let pull = lambda * G;
                     scale.include(&pull.data.0);
                     F[node].iter_mut().zip(&pull).for_each(|(f, pull)| *f -= pull);
@@ -141,25 +140,23 @@ impl System {
     /// Writes the force and moment of each joint on its first node, in the order of the model's list.
     pub fn joint_states(&self, nodes: &[Node], values: &[f64], out: &mut Vec<JointState>) {
         out.clear();
+        let mut room = [Vec6::zeros(); MOST_ENDS];
         out.extend(self.numbered().map(|(joint, first)| {
-            let [a, b] = joint.nodes.map(|n| &nodes[n]);
-            let [mut f, mut m, mut second_f, mut second_m] = [Vec3::zeros(); 4];
-            for (row, lambda) in joint.equations.iter().zip(&values[first..]) {
-                let [G, second] = row.gradient(a, b);
+            let [mut f, mut m] = [Vec3::zeros(); 2];
+            for (k, lambda) in (0..joint.equations.len()).zip(&values[first..]) {
+                let G = joint.gradient(k, nodes, &mut room)[0];
                 f -= *lambda * linear(&G);
                 m -= *lambda * angular(&G);
-                second_f -= *lambda * linear(&second);
-                second_m -= *lambda * angular(&second);
             }
             let drive = joint.drive.map_or(0.0, |_| -values[first + joint.equations.len() - 1]);
-            JointState { f, m, on_second: [second_f, second_m], drive }
+            JointState { f, m, drive }
         }));
     }
 }
 
 /// Adds the derivative of the force of a constraint equation to the matrix `K` of its joint, with `width` columns.
-fn add_stiffness(row: &ConstraintEquation, [a, b]: [&Node; 2], lambda: f64, (K, width): (&mut [f64], usize)) {
-    row.stiffness(a, b, lambda, |i, j, block| {
+fn add_stiffness((joint, number): (&Joint, usize), nodes: &[Node], lambda: f64, (K, width): (&mut [f64], usize)) {
+    joint.stiffness(number, nodes, lambda, |i, j, block| {
         for r in 0..3 {
             for c in 0..3 {
                 K[(3 * i + r) * width + 3 * j + c] += block[(r, c)];
@@ -180,8 +177,8 @@ pub(super) fn stiffnesses(
         let width = width(joint);
         let K = &mut K[..width * width];
         K.fill(0.0);
-        for (row, &lambda) in joint.equations.iter().zip(&multipliers.values[first..]) {
-            add_stiffness(row, joint.nodes.map(|n| &nodes[n]), lambda, (K, width));
+        for (k, &lambda) in (0..joint.equations.len()).zip(&multipliers.values[first..]) {
+            add_stiffness((joint, k), nodes, lambda, (K, width));
         }
         add(j, K);
     }
@@ -204,25 +201,27 @@ pub(super) fn tangents(
         multipliers.penalties.iter_mut().for_each(|s| *s *= INDEFINITE);
     }
     let mut K = [0.0; MOST_WIDTH * MOST_WIDTH];
+    let mut room = [Vec6::zeros(); MOST_ENDS];
     let mut first = 0;
     for (j, joint) in system.joints.iter().enumerate() {
         let width = width(joint);
         let (K, own) = (&mut K[..width * width], width - MOST_EQUATIONS);
         K.fill(0.0);
-        let [a, b] = joint.nodes.map(|n| &nodes[n]);
-        for (k, row) in joint.equations.iter().enumerate() {
+        for k in 0..joint.equations.len() {
             let (s, lambda) = (multipliers.penalties[first + k], multipliers.values[first + k]);
             if weights.stiffness {
-                add_stiffness(row, [a, b], lambda, (K, width));
+                add_stiffness((joint, k), nodes, lambda, (K, width));
             }
-            let [Ga, Gb] = row.gradient(a, b);
-            let G: [f64; 12] = std::array::from_fn(|i| if i < 6 { Ga[i] } else { Gb[i - 6] });
-            for i in 0..12 {
-                for j in 0..12 {
-                    K[i * width + j] += s * G[i] * G[j];
+            let of_ends = joint.gradient(k, nodes, &mut room);
+            let mut components = [0.0; 6 * MOST_ENDS];
+            components.chunks_exact_mut(6).zip(of_ends).for_each(|(to, G)| to.copy_from_slice(G.as_slice()));
+            let G = &components[..6 * of_ends.len()];
+            for (i, Gi) in G.iter().enumerate() {
+                for (j, Gj) in G.iter().enumerate() {
+                    K[i * width + j] += s * Gi * Gj;
                 }
-                K[i * width + own + k] = s * G[i];
-                K[(own + k) * width + i] = s * G[i];
+                K[i * width + own + k] = s * Gi;
+                K[(own + k) * width + i] = s * Gi;
             }
             if let Some(drive) = joint.shared().filter(|_| joint.is_driven(k)) {
                 let g = -drive.ratio;

@@ -17,6 +17,7 @@ pub mod energy;
 mod equations;
 mod excitation;
 mod free_rotation;
+mod gradients;
 mod group;
 mod independent_rows;
 mod inertia;

@@ -6,7 +6,7 @@ use super::multipliers::Multipliers;
 use crate::tolerances::penalties::{FAINT, FIRM, MODERATE, NOTHING};
 use base::math::{Mat6, Vec3, Vec6, angular, linear};
 use linear::Solver;
-use mechanics::constraints::joint::{ConstraintEquation, Joint};
+use mechanics::constraints::joint::{ConstraintEquation, Joint, MOST_ENDS};
 use mechanics::state::Node;
 
 /// The data for the penalty factors of all joints.
@@ -141,7 +141,7 @@ impl Diagonal {
             let row = dofs.row(node, dof)?;
             solver.slot(row, row).map(|slot| slot as u32)
         };
-        let of = |(end, &node): (usize, &usize)| {
+        let of = |(end, node): (usize, usize)| {
             let places = independent_nodes[node].iter().enumerate();
             let place = move |(index, &independent): (usize, &usize)| Place {
                 end,
@@ -152,7 +152,7 @@ impl Diagonal {
             };
             places.map(place).collect::<Vec<_>>()
         };
-        Diagonal(joint.nodes.iter().enumerate().flat_map(of).collect())
+        Diagonal(joint.ends().enumerate().flat_map(of).collect())
     }
 
     /// The effective stiffness behind an equation: the inverse of Σ g²/K over its degrees of freedom, zero without stiffness. Then the
@@ -161,7 +161,7 @@ impl Diagonal {
     /// loads equally at all places.
     fn stiffness(
         &self,
-        G: &[Vec6; 2],
+        G: &[Vec6],
         (rotational, even): (bool, bool),
         projections: &[Vec<Mat6>],
         (values, rounding): (&[f64], &[f64]),
@@ -203,11 +203,11 @@ impl Diagonal {
         projections: &[Vec<Mat6>],
         (values, extent): (&[f64], f64),
     ) -> [f64; 2] {
-        let [a, b] = joint.nodes.map(|n| &nodes[n]);
+        let mut room = [Vec6::zeros(); MOST_ENDS];
         let arm = |node: usize, k: usize| projections[node][k].fixed_view::<3, 3>(0, 3).amax();
         let longest = self.0.iter().map(|place| arm(place.node, place.index)).fold(0.0, f64::max);
-        let of = |(row, lambda): (&ConstraintEquation, &f64)| {
-            let G = row.gradient(a, b);
+        let of = |((k, row), lambda): ((usize, &ConstraintEquation), &f64)| {
+            let G = joint.gradient(k, nodes, &mut room);
             let on = |&Place { end, node, index, .. }: &Place| {
                 arm(node, index) * linear(&G[end]).amax() + angular(&G[end]).amax()
             };
@@ -216,7 +216,7 @@ impl Diagonal {
             let is_one = row.is_rotational() || lever > FAINT * extent;
             if is_one { lambda.abs() * lever } else { 0.0 }
         };
-        [joint.equations.iter().zip(values).map(of).sum(), longest]
+        [joint.equations.iter().enumerate().zip(values).map(of).sum(), longest]
     }
 }
 
@@ -240,16 +240,20 @@ pub(super) fn set(
     }
     let firm = |j: usize| if at_rest { diagonals.firm(j, values) } else { None };
     let (mut largest, mut firmest) = ([0.0f64; 2], [0.0f64; 2]);
+    let mut room = [Vec6::zeros(); MOST_ENDS];
     let mut first = 0;
     for (j, (joint, diagonal)) in system.joints.iter().zip(&diagonals.joints).enumerate() {
-        let [a, b] = joint.nodes.map(|n| &nodes[n]);
         let firm = firm(j);
         let [translations, rotations] = firm.unwrap_or_default();
         firmest = [firmest[0].max(translations), firmest[1].max(rotations)];
         for (k, row) in joint.equations.iter().enumerate().filter(|_| firm.is_none()) {
             let how = (row.is_rotational(), multipliers.may_share());
-            let [s, heaviest] =
-                diagonal.stiffness(&row.gradient(a, b), how, projections, (values, &diagonals.rounding));
+            let [s, heaviest] = diagonal.stiffness(
+                joint.gradient(k, nodes, &mut room),
+                how,
+                projections,
+                (values, &diagonals.rounding),
+            );
             let s = match joint.is_driven(k) {
                 true => drive_penalty(
                     s,

@@ -35,7 +35,7 @@ impl SchurFactor {
     pub const MOST_DENSE: usize = 64;
 
     /// Room for the system of joints with so many constraint equations each, which move the nodes `rows`. `None` where there is no memory.
-    pub fn new(sizes: &[usize], rows: &[[Option<usize>; 2]]) -> Option<SchurFactor> {
+    pub fn new(sizes: &[usize], rows: &[&[Option<usize>]]) -> Option<SchurFactor> {
         let count = rows.len();
         if count > Self::MOST_DENSE {
             return SparseFactor::new(sizes, rows).map(SchurFactor::Sparse);
@@ -130,13 +130,13 @@ impl DenseFactor {
 
 impl SparseFactor {
     /// The structure of the system of these joints. `None` where there is no memory.
-    pub fn new(sizes: &[usize], rows: &[[Option<usize>; 2]]) -> Option<SparseFactor> {
+    pub fn new(sizes: &[usize], rows: &[&[Option<usize>]]) -> Option<SparseFactor> {
         let sizes: Vec<usize> = sizes.iter().copied().filter(|&equations| equations > 0).collect();
         let firsts: Vec<usize> =
             sizes.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size))).collect();
         let mut of_node: Vec<Vec<usize>> = Vec::new();
         for (joint, &first) in firsts.iter().enumerate() {
-            for node in rows[first].into_iter().flatten() {
+            for &node in rows[first].iter().flatten() {
                 if of_node.len() <= node {
                     of_node.resize(node + 1, Vec::new());
                 }

@@ -1,11 +1,11 @@
 //! The part of G M⁻¹ Gᵀ that belongs to joints which bodies connect: no entry couples it with others, and it is solved by itself.
 
+use super::gradients::Gradients;
 use super::independent_rows::IndependentRows;
 use super::masses::Masses;
 use super::schur_factor::SchurFactor;
 use crate::tolerances::independent_rows::MOST;
 use crate::tolerances::multipliers::REGULARIZATION;
-use base::math::Vec6;
 
 /// A group of equations with the factor of their matrix. It is allocated once.
 pub struct SchurGroup {
@@ -25,15 +25,15 @@ pub struct SchurGroup {
 
 /// The groups of joints with so many equations each, which move the nodes `rows`. Few equations, and those that depend on no others, are one group.
 /// `None` where there is no memory.
-pub fn of(sizes: &[usize], rows: &[[Option<usize>; 2]], shares: bool) -> Option<Vec<SchurGroup>> {
-    let whole = rows.len() <= SchurFactor::MOST_DENSE || !shares;
-    let groups = if whole { vec![(0..sizes.len()).collect()] } else { connected(sizes, rows) };
+pub fn of(sizes: &[usize], gradients: &Gradients, shares: bool) -> Option<Vec<SchurGroup>> {
+    let whole = gradients.count() <= SchurFactor::MOST_DENSE || !shares;
+    let groups = if whole { vec![(0..sizes.len()).collect()] } else { connected(sizes, gradients) };
     let firsts: Vec<usize> = sizes.iter().scan(0, |next, size| Some(std::mem::replace(next, *next + size))).collect();
     let group = |joints: &Vec<usize>| {
         let own: Vec<usize> = joints.iter().map(|&joint| sizes[joint]).collect();
         let equations: Vec<usize> =
             joints.iter().flat_map(|&joint| firsts[joint]..firsts[joint] + sizes[joint]).collect();
-        let own_rows: Vec<_> = equations.iter().map(|&k| rows[k]).collect();
+        let own_rows: Vec<_> = equations.iter().map(|&k| gradients.nodes(k)).collect();
         let count = equations.len();
         Some(SchurGroup {
             factor: SchurFactor::new(&own, &own_rows)?,
@@ -50,8 +50,9 @@ pub fn of(sizes: &[usize], rows: &[[Option<usize>; 2]], shares: bool) -> Option<
 }
 
 /// Joints in groups that no node connects, in order of their first joints.
-fn connected(sizes: &[usize], rows: &[[Option<usize>; 2]]) -> Vec<Vec<usize>> {
-    let nodes = rows.iter().flatten().flatten().max().map_or(0, |last| last + 1);
+fn connected(sizes: &[usize], gradients: &Gradients) -> Vec<Vec<usize>> {
+    let rows = || (0..gradients.count()).map(|k| gradients.nodes(k).iter().flatten());
+    let nodes = rows().flatten().max().map_or(0, |last| last + 1);
     let mut towards: Vec<usize> = (0..nodes).collect();
     fn root(towards: &mut [usize], mut node: usize) -> usize {
         while towards[node] != node {
@@ -60,18 +61,21 @@ fn connected(sizes: &[usize], rows: &[[Option<usize>; 2]]) -> Vec<Vec<usize>> {
         }
         node
     }
-    rows.iter().filter_map(|ends| ends[0].zip(ends[1])).for_each(|(a, b)| {
-        let (a, b) = (root(&mut towards, a), root(&mut towards, b));
-        towards[a.max(b)] = a.min(b);
-    });
+    for mut ends in rows() {
+        let Some(&a) = ends.next() else { continue };
+        for &b in ends {
+            let (a, b) = (root(&mut towards, a), root(&mut towards, b));
+            towards[a.max(b)] = a.min(b);
+        }
+    }
     let mut groups: Vec<Vec<usize>> = Vec::new();
     let mut place = vec![usize::MAX; nodes];
     let mut first = 0;
     for (joint, size) in sizes.iter().enumerate() {
-        let node = rows.get(first).filter(|_| *size > 0).and_then(|ends| ends[0].or(ends[1]));
+        let node = (*size > 0).then(|| gradients.nodes(first).iter().flatten().next()).flatten();
         first += size;
         // A joint that moves nothing has a group of its own.
-        match node.map(|node| root(&mut towards, node)) {
+        match node.map(|&node| root(&mut towards, node)) {
             Some(root) if place[root] != usize::MAX => groups[place[root]].push(joint),
             at => {
                 at.into_iter().for_each(|root| place[root] = groups.len());
@@ -91,7 +95,7 @@ impl SchurGroup {
     /// Factorizes the matrix with these entries, by numbers among all equations. Returns false where it is singular.
     pub fn factor(
         &mut self,
-        gradients: (&[[Option<usize>; 2]], &[[Vec6; 2]]),
+        gradients: &Gradients,
         inert: &[bool],
         (masses, weights): (&Masses, &[f64]),
         entry: impl Fn(usize, usize) -> f64,

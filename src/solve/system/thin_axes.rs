@@ -116,6 +116,9 @@ impl Surroundings<'_> {
     }
 
     fn is_free_of(&self, joint: &Joint) -> bool {
+        if joint.more.iter().any(|share| self.moves(share.node)) {
+            return false;
+        }
         let [first, second] = joint.ends.map(|node| self.moves(node));
         let on_axis = || joint.ends.iter().filter(|&&node| self.moves(node)).all(|&node| self.is_on_axis(node));
         let is_axis = |of: &Vec3| of.cross(&self.axis).norm() <= ON_AXIS * of.norm();
@@ -135,7 +138,10 @@ impl Surroundings<'_> {
                 let of_second = is_axis(s) && (second || in_line([None, Some(s)]));
                 of_first || of_second
             }
-            ConstraintEquation::Angle(_) | ConstraintEquation::Given(_) | ConstraintEquation::Screw { .. } => false,
+            ConstraintEquation::Angle(_)
+            | ConstraintEquation::Given(_)
+            | ConstraintEquation::Turn { .. }
+            | ConstraintEquation::Screw { .. } => false,
         };
         let effort = joint.coordinate.as_ref().is_some_and(|coordinate| coordinate.effort.is_some());
         !(first || second) || !effort && joint.equations.iter().all(is_free)

@@ -29,6 +29,7 @@ pub fn redundant_constraints(plan: &Plan, model: &Model, system: &System) -> Vec
             JointOrigin::Deck => (format!("joint `{}`", of.name), "joints"),
             JointOrigin::Support => (format!("the support of `{node}`"), "supports"),
             JointOrigin::Attachment => (format!("the attachment of `{node}`"), "attachments"),
+            JointOrigin::Tie => (format!("the tie of `{node}`"), "ties"),
         };
         let (are, these) = if words.len() == 1 { ("is", "this reaction") } else { ("are", "these reactions") };
         format!(

@@ -13,7 +13,7 @@ use super::shells::ShellState;
 use crate::tolerances::shell_shear::SAME;
 use base::math::Vec3;
 use mechanics::elements::shell::result_axes;
-use model::{Load, Model, PartType, Shell};
+use model::{Joint, Load, Model, PartType, Shell};
 
 /// The balance of moments at a node.
 #[derive(Debug, Clone, Copy)]
@@ -115,7 +115,7 @@ impl ShearBalance {
             balance.is_free &= balance.normal[held.dof - 3].abs() >= SAME;
         }
         let attached = constraints.dependents.iter().flat_map(|dependent| [dependent.node, dependent.master]);
-        let joined = constraints.joints.iter().flat_map(|joint| joint.ends);
+        let joined = constraints.joints.iter().flat_map(Joint::all_ends);
         let with_moments = |load: &&Load| load.moment_counts && load.moment != Vec3::zeros();
         let loaded = model.loading.nodal.iter().filter(with_moments).map(|load| load.node);
         let bodies = model.bodies.iter().map(|body| body.node);
