@@ -1466,6 +1466,27 @@ fn loads_of_temperature() {
 }
 
 #[test]
+fn centrifugal_loads() {
+    let dynamic = "kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4";
+    let turning = |kind: &str, keys: &str, rotation: &str| {
+        let load = format!("[[loads]]\n{keys}\ncentrifugal = {rotation}\n[[loads]]");
+        portal(&[(dynamic, kind), ("[[loads]]", &load)])
+    };
+    let (statics, sound) =
+        ("kind = \"static\"\nend_time = 0.3\ntime_step = 0.1", "{ speed = 10.0, axis = [0.0, 0.0, 1.0] }");
+    let says = turning(statics, "part = [\"portal\", \"block\"]", sound);
+    assert!(!says.contains("error"), "{says}");
+    assert_snapshot!("centrifugal_in_dynamics", turning(dynamic, "", sound));
+    assert_snapshot!("centrifugal_without_keys", turning(statics, "at = \"feet\"", "{ axis = [0.0, 0.0, 0.0] }"));
+    assert_snapshot!("centrifugal_on_nothing", turning(statics, "part = [\"bumper\", \"knee_left\"]", sound));
+    assert_snapshot!("centrifugal_without_mass", turning(statics, "part = \"knee_left\"", sound));
+    let speeds = "kind = \"modal\"\ndamped = true\nspeeds = { from = 0.0, to = 1.0 }";
+    assert_snapshot!("centrifugal_beside_speeds", turning(speeds, "", sound));
+    let guess = |key: &str| portal(&[("[[loads]]", &format!("[[loads]]\n{key} = 10.0\n[[loads]]"))]);
+    assert_snapshot!("centrifugal_by_other_words", ["rpm", "kind"].map(guess).join("\n"));
+}
+
+#[test]
 fn loads_on_beams() {
     let load = |keys: &str| portal_and(&format!("[[loads]]\npart = \"portal\"\n{keys}\n"));
     assert_eq!(load("distance = 1.0\nforce = [0.0, 0.0, -1.0]"), "");

@@ -145,6 +145,7 @@ pub fn first_period(model: &Model) -> String {
     let loading = &mut bare.loading;
     loading.nodal.clear();
     loading.pressures.clear();
+    loading.centrifugal.clear();
     loading.base_accelerations.clear();
     loading.gravity.fill(0.0);
     bare.expects.clear();

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::words::{Maybe, Names, Numbers, OneOrMany, Vector};
+use super::words::{Maybe, Names, Numbers, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 
 /// A force or moment on points or bodies, or spread over shells.
@@ -45,6 +45,9 @@ pub struct Load {
     /// Change of temperature per length across the parts of `part`, zero on the axis or reference surface: of shells one number, along the
     /// normal; of beams [along y, along z] of the section.
     pub temperature_gradient: Maybe<OneOrMany<f64>>,
+    /// Centrifugal force of a rotation, in statics and modes. It acts on all masses, or on those that `part` names: beams, bars, shells,
+    /// bodies, points with `[[masses]]`, groups of the mesh or sets of them.
+    pub centrifugal: Maybe<Table<SteadyRotation>>,
     /// A force or moment turns with its node, a load per length with the sections of its beam, a pressure follows the surface. Default:
     /// false.
     pub follower: Maybe<bool>,
@@ -52,7 +55,21 @@ pub struct Load {
     pub name: Maybe<String>,
     /// Names of the stages in which it acts. Default: all.
     pub stages: Maybe<Names>,
-    /// Name of an amplitude that multiplies the load. Default: constant in a dynamic analysis, growing linearly to the end time in a static
+    /// Name of an amplitude that multiplies the load, or the speed of a centrifugal one. Default: constant in a dynamic analysis, growing linearly to the end time in a static
     /// one. In stages it grows over its first static stage, and stays.
     pub amplitude: Maybe<String>,
+}
+
+/// A steady rotation about an axis fixed in space. Forces act at the deformed places, with `geometry = "linear"` at those of t = 0.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SteadyRotation {
+    /// Angular velocity, radians per unit of time; its sign does not count.
+    #[schemars(required)]
+    pub speed: Maybe<f64>,
+    /// Direction of the axis; its length does not count.
+    #[schemars(required)]
+    pub axis: Maybe<Vector>,
+    /// A point on the axis. Default: [0, 0, 0].
+    pub about: Maybe<Vector>,
 }

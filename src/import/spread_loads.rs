@@ -146,7 +146,12 @@ fn one(build: &mut Build, line: &SpreadLine, law: &TimeLaw, (lines, history): (&
 /// Why a kind of load is not translated.
 fn reason(kind: &str) -> String {
     match kind {
-        "CENTRIF" | "CENT" | "ROTA" | "CORIO" => {
+        "CENTRIF" | "CENT" => {
+            format!(
+                "loads of kind {kind} are not translated; give `centrifugal` in [[loads]], with the root of its magnitude as `speed`"
+            )
+        }
+        "ROTA" | "CORIO" => {
             format!("loads of kind {kind} act in a rotating frame; give the parts an angular velocity instead")
         }
         "NEWTON" => "bodies do not attract each other in rdsolve".to_owned(),

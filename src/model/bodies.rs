@@ -39,7 +39,8 @@ pub(super) struct Bodies<'d> {
 /// `rigid = true`. Nothing in statics depends on mass but weight, so that a body may then have none.
 pub(super) fn bodies<'d>(deck: &'d Deck, has_inertia: bool, nodes: &mut Nodes, report: &mut Report<'d>) -> Bodies<'d> {
     let mut bodies = Bodies::default();
-    let weighs = deck.environment.as_ref().is_some_and(|of| of.gravity.is_some());
+    let weighs = deck.environment.as_ref().is_some_and(|of| of.gravity.is_some())
+        || deck.loads.iter().any(|load| load.centrifugal.is_some());
     let with_mass = if deck.stages.is_empty() { has_inertia } else { deck.stages.iter().any(has_inertia_in) };
     for (index, body) in deck.bodies.iter().enumerate() {
         let (label, owner) = report.named(("body", "bodies", index), body.name.as_ref(), &body.span);

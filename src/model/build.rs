@@ -322,7 +322,8 @@ fn act<'d>(scene: &mut Scene<'d>, joined: &mut JoinedNodes, efforts: Vec<Load>, 
     temperatures(scene, amplitudes, topology, &mut actors, report);
     set_bulges(&mut scene.parts.list, topology, scene.stage.map_or(&[], |stage| &stage.sequence.bulges));
     let contacts = contacts(scene, masses, joints, fields.gravity, topology, report);
-    let loads = loads(scene, [&efforts[..], &links.pulls[..]].concat(), topology, &mut actors, report);
+    let efforts = [&efforts[..], &links.pulls[..]].concat();
+    let loads = loads(scene, (efforts, &masses[..]), amplitudes, topology, &mut actors, report);
     let damping = damping(scene, topology, report);
     initial(scene, amplitudes, topology, report);
     Acting { fields, actors, turned, contacts, loads, damping }

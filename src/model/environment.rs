@@ -23,8 +23,8 @@ impl AccelerationFields {
     /// These with the other loads of a scene.
     pub fn with(self, amplitudes: Vec<Amplitude>, loads: Loads) -> Loading {
         let AccelerationFields { gravity, gravity_amplitude, base_accelerations } = self;
-        let Loads { nodal, pressures } = loads;
-        Loading { amplitudes, nodal, pressures, gravity, gravity_amplitude, base_accelerations }
+        let Loads { nodal, pressures, centrifugal } = loads;
+        Loading { amplitudes, nodal, pressures, centrifugal, gravity, gravity_amplitude, base_accelerations }
     }
 }
 

@@ -37,7 +37,8 @@ pub(super) fn materials<'d>(deck: &'d Deck, has_inertia: bool, report: &mut Repo
     });
     let laws = laws.collect();
     let pulls = |environment: &Environment| environment.gravity.is_some() || !environment.base_acceleration.is_empty();
-    let pulled = deck.environment.as_ref().is_some_and(|environment| pulls(environment));
+    let pulled = deck.environment.as_ref().is_some_and(|environment| pulls(environment))
+        || deck.loads.iter().any(|load| load.centrifugal.is_some());
     Materials { table: &deck.materials, laws, inertia_matters: has_inertia || pulled }
 }
 

@@ -72,7 +72,9 @@ fn loads(cx: &Context) -> [Loading; 2] {
     let nodal = model.loading.nodal.iter().map(|load| load.amplitude);
     let pressures = model.loading.pressures.iter().map(|load| load.amplitude);
     let each = base.factors.iter_mut().zip(&mut factored.factors).zip(nodal);
+    let turning = model.loading.centrifugal.iter().map(|load| load.amplitude);
     let each = each.chain(base.pressures.iter_mut().zip(&mut factored.pressures).zip(pressures));
+    let each = each.chain(base.squares.iter_mut().zip(&mut factored.squares).zip(turning));
     for ((base, factored), amplitude) in each {
         *(if is_factored(amplitude) { base } else { factored }) = 0.0;
     }

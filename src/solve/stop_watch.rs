@@ -57,6 +57,7 @@ impl Buffers {
         if !actors.are_new {
             held.factors.iter_mut().zip(&before.factors).for_each(|(held, before)| *held -= before);
             held.pressures.iter_mut().zip(&before.pressures).for_each(|(held, before)| *held -= before);
+            held.squares.iter_mut().zip(&before.squares).for_each(|(held, before)| *held -= before);
         }
     }
 }
@@ -66,6 +67,7 @@ fn take_held(cx: &Context, held: &Loading, time: f64, loads: &mut Loading) {
     let left = (cx.model.analysis.end_time - time) / cx.model.analysis.duration();
     loads.factors.iter_mut().zip(&held.factors).for_each(|(load, held)| *load -= left * held);
     loads.pressures.iter_mut().zip(&held.pressures).for_each(|(load, held)| *load -= left * held);
+    loads.squares.iter_mut().zip(&held.squares).for_each(|(load, held)| *load -= left * held);
 }
 
 impl StopWatch {
@@ -199,8 +201,7 @@ impl StopWatch {
                     cx.excitation.prescribed(time, side, motions);
                 }
                 let mut sum = *work;
-                let which = (actors.nodal.clone(), actors.pressures.clone());
-                cx.system.add_load_work(which, (&before.nodes, l0), (&state.nodes, l1), &mut sum);
+                cx.system.add_load_work(actors, (&before.nodes, l0), (&state.nodes, l1), &mut sum);
                 cx.excitation.moved(m0, m1, by);
                 let of_motion = |&i: &usize| 0.5 * (before.reactions[i] + state.reactions[i]) * by[i].u;
                 sum + moved.iter().map(of_motion).sum::<f64>()
@@ -211,8 +212,7 @@ impl StopWatch {
                 let side = if state.time > cx.model.analysis.begin { Side::Before } else { Side::After };
                 cx.excitation.loading(state.time, side, loads);
                 take_held(cx, &buffers.held, state.time, loads);
-                let which = (actors.nodal.clone(), actors.pressures.clone());
-                let mut sum = cx.system.load_force(which, &state.nodes, loads, &mut buffers.forces);
+                let mut sum = cx.system.load_force(actors, &state.nodes, loads, &mut buffers.forces);
                 for &i in moved.iter() {
                     let dof = cx.model.constraints.restraints[i].dof;
                     if dof < 3 {

@@ -39,6 +39,7 @@ impl SuddenLoads {
         (self.from, self.to, self.jump.field) = (*from, *to, jump.field);
         self.jump.factors.clone_from(&jump.factors);
         self.jump.pressures.clone_from(&jump.pressures);
+        self.jump.squares.clone_from(&jump.squares);
     }
 
     /// Subtracts the part of the jump that does not act yet at a time of the step. At the end of the step the loads keep every bit.
@@ -54,5 +55,6 @@ fn add(y: &mut Loading, s: f64, x: &Loading) {
     let add = |y: &mut [f64], x: &[f64]| y.iter_mut().zip(x).for_each(|(y, x)| *y += s * x);
     add(&mut y.factors, &x.factors);
     add(&mut y.pressures, &x.pressures);
+    add(&mut y.squares, &x.squares);
     y.field += s * x.field;
 }

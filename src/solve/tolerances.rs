@@ -694,6 +694,8 @@ pub mod shape {
 pub mod gyroscopic {
     /// An asymmetry below this part is rounding.
     pub const SYMMETRIC: f64 = 1e-9;
+    /// Part of a mode's kinetic energy across the axis of a rotation below which its Coriolis forces change the frequency by no more than such a part.
+    pub const ACROSS: f64 = 1e-3;
 }
 
 pub mod pencil {

@@ -23,7 +23,7 @@ const WIDE: Known = &[
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 25),
     ("deck/lib.rs: Deck", 37),
-    ("deck/loads.rs: Load", 18),
+    ("deck/loads.rs: Load", 19),
     ("deck/shells.rs: Shell", 18),
     ("deck/stages.rs: Stage", 20),
     ("model/data/model.rs: Model", 17),

@@ -12,7 +12,10 @@ use rdsolve::integrators::{
 use rdsolve::linear;
 use rdsolve::math::rotation::{self, exp, inverse_tangent};
 use rdsolve::math::{Mat3, Vec3, Vec6, angular, skew, stack};
-use rdsolve::model::{AnalysisKind, Beam, Link, MassKind, Model, NodalDamping, PartKind, Pressure, StepLength};
+use rdsolve::model::{
+    AnalysisKind, Beam, Centrifugal, Link, MassKind, Model, NodalDamping, PartKind, Pressure, RotationAxis, StepLength,
+    TurningMasses,
+};
 use rdsolve::plan::Plan;
 use rdsolve::state::{Configuration, Increment, Node};
 use rdsolve::system::TangentWeights;
@@ -206,6 +209,18 @@ fn press(m: &mut Model) {
     let n = m.nodes.len();
     let faces = vec![Face::Quadrilateral([1, 4, 5, 3]), Face::Triangle([2, n - 3, 5]), Face::Triangle([4, 3, n - 1])];
     m.loading.pressures.push(Pressure { faces, pressure: 3.0, amplitude: None });
+    spin(m);
+}
+
+/// A centrifugal load on all masses, about an axis beside them.
+fn spin(m: &mut Model) {
+    let of = TurningMasses {
+        parts: (0..m.parts.len()).filter(|&part| m.parts[part].mass_kind().is_some()).collect(),
+        bodies: (0..m.bodies.len()).collect(),
+        masses: (0..m.masses.len()).collect(),
+    };
+    let axis = RotationAxis { direction: Vec3::new(0.6, -0.48, 0.64), through: Vec3::new(0.3, 0.2, -0.5) };
+    m.loading.centrifugal.push(Centrifugal { of, axis, speed: 1.5, amplitude: None });
 }
 
 /// A dynamic scene caught at rest: mass and the weights of the scheme, still without anything left out.

@@ -6,6 +6,7 @@ mod auto_step;
 mod bearings;
 mod breakage;
 mod central_difference;
+mod centrifugal;
 mod chains;
 mod dependents;
 mod determinism;

@@ -1,7 +1,7 @@
 //! Loads, ground motion and damping.
 
 use super::moving_frame::MovingFrames;
-use base::math::Vec3;
+use base::math::{Mat3, Vec3};
 use mechanics::amplitude::Amplitude;
 use mechanics::constraints::joint::ConstraintEquation;
 use mechanics::elements::pressure::Face;
@@ -16,6 +16,8 @@ pub struct Loading {
     pub nodal: Vec<Load>,
     /// Follower pressures on faces.
     pub pressures: Vec<Pressure>,
+    /// Centrifugal forces of masses.
+    pub centrifugal: Vec<Centrifugal>,
     /// Acceleration of gravity, global components.
     pub gravity: Vec3,
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
@@ -30,6 +32,7 @@ impl Default for Loading {
             amplitudes: Vec::new(),
             nodal: Vec::new(),
             pressures: Vec::new(),
+            centrifugal: Vec::new(),
             gravity: Vec3::zeros(),
             gravity_amplitude: None,
             base_accelerations: Vec::new(),
@@ -144,6 +147,52 @@ pub struct Pressure {
     pub pressure: f64,
     /// Index of its amplitude; `None`: constant in dynamics, growing linearly in statics.
     pub amplitude: Option<usize>,
+}
+
+/// The centrifugal force of masses in a frame that turns steadily: it acts at their current places.
+#[derive(Debug, Clone)]
+pub struct Centrifugal {
+    /// The masses.
+    pub of: TurningMasses,
+    /// The axis of the rotation.
+    pub axis: RotationAxis,
+    /// Angular velocity for the factor 1, radians per time.
+    pub speed: f64,
+    /// Index of its amplitude, which multiplies the speed; `None`: the speed grows linearly in statics.
+    pub amplitude: Option<usize>,
+}
+
+/// The masses under a centrifugal force.
+#[derive(Debug, Clone, Default)]
+pub struct TurningMasses {
+    /// Indices into [`super::Model::parts`].
+    pub parts: Vec<usize>,
+    /// Indices into [`super::Model::bodies`].
+    pub bodies: Vec<usize>,
+    /// Indices into [`super::Model::masses`].
+    pub masses: Vec<usize>,
+}
+
+/// The axis of a rotation, fixed in space.
+#[derive(Debug, Clone, Copy)]
+pub struct RotationAxis {
+    /// Unit vector along it, global components.
+    pub direction: Vec3,
+    /// A point on it.
+    pub through: Vec3,
+}
+
+impl RotationAxis {
+    /// The vector from the axis to a place, perpendicular to the axis: centrifugal force per mass at an angular velocity of 1.
+    pub fn away(&self, x: &Vec3) -> Vec3 {
+        let arm = x - self.through;
+        arm - self.direction * self.direction.dot(&arm)
+    }
+
+    /// The centrifugal moment of an inertia tensor J about its node at an angular velocity of 1.
+    pub fn moment(&self, J: &Mat3) -> Vec3 {
+        -self.direction.cross(&(J * self.direction))
+    }
 }
 
 /// Acceleration of the ground. Every mass M has the force −M a; displacements are relative to the ground.

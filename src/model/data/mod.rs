@@ -46,7 +46,8 @@ pub use initial_motion::{GivenVelocity, InitialMotion, PlaceFactor};
 pub use integrals::MassIntegrals;
 pub use link::{Link, LinkKind, set_coordinate_equations};
 pub use loading::{
-    BaseAcceleration, Damping, Load, LoadOrigin, LoadedCoordinate, Loading, NodalDamping, OwnDamping, Pressure,
+    BaseAcceleration, Centrifugal, Damping, Load, LoadOrigin, LoadedCoordinate, Loading, NodalDamping, OwnDamping,
+    Pressure, RotationAxis, TurningMasses,
 };
 pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use modes::{ModeExtent, ModesAsked};

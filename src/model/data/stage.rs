@@ -54,6 +54,8 @@ pub struct Actors {
     pub nodal: Range<usize>,
     /// Indices into [`super::Loading::pressures`].
     pub pressures: Range<usize>,
+    /// Indices into [`super::Loading::centrifugal`].
+    pub centrifugal: Range<usize>,
     /// Node and degree of freedom of restraints whose motion is prescribed.
     pub motions: Vec<[usize; 2]>,
     /// True for loads that did not act in the stage before.

@@ -1,11 +1,13 @@
 //! `[[loads]]`: forces and moments at nodes.
 
+pub mod centrifugal;
 pub mod per_length;
 pub mod placed;
 pub mod spread;
 pub mod temperature;
 
-use crate::data::{Actors, Load, Pressure};
+use crate::data::{Actors, Centrifugal, Load, Mass, Pressure};
+use crate::loads::centrifugal::centrifugal_load;
 use crate::loads::placed::placed_load;
 use crate::loads::spread::spread_load;
 use crate::places::nodes::Topology;
@@ -16,6 +18,7 @@ use crate::values::{directions, flag, keys, span, vec3_or_zero};
 use base::diagnostic::At;
 use deck::loads as words;
 use deck::words::Table;
+use mechanics::amplitude::Amplitude;
 
 /// Loads of the scene, in the order of the deck.
 #[derive(Default)]
@@ -24,22 +27,28 @@ pub struct Loads {
     pub nodal: Vec<Load>,
     /// Follower pressures.
     pub pressures: Vec<Pressure>,
+    /// Centrifugal loads.
+    pub centrifugal: Vec<Centrifugal>,
 }
 
 /// Reads `[[loads]]`; loads on edges and surfaces are shared out to their nodes. Named loads are added to `actors`. The `efforts` of joints
 /// come after them.
 pub fn loads<'d>(
     scene: &Scene<'d>,
-    efforts: Vec<Load>,
+    (efforts, masses): (Vec<Load>, &[Mass]),
+    amplitudes: &[Amplitude],
     topology: &Topology,
     actors: &mut NamedActors<'d>,
     report: &mut Report<'d>,
 ) -> Loads {
     let mut loads = Loads::default();
     for load in scene.deck.loads.iter().filter(|load| !is_temperature(load)) {
-        let first = [loads.nodal.len(), loads.pressures.len()];
+        let first = [loads.nodal.len(), loads.pressures.len(), loads.centrifugal.len()];
         let amplitude = amplitude(scene, load, report);
-        if load.distance.is_some() {
+        if let Some(rotation) = &load.centrifugal {
+            let amplitude = (amplitude, amplitudes);
+            loads.centrifugal.extend(centrifugal_load(scene, (load, rotation), amplitude, (masses, topology), report));
+        } else if load.distance.is_some() {
             loads.nodal.extend(placed_load(scene, load, amplitude, topology, report));
         } else if is_spread(load) {
             let (nodal, pressure) = spread_load(scene, load, amplitude, topology, report);
@@ -50,8 +59,9 @@ pub fn loads<'d>(
         }
         if let Some(name) = &load.name {
             let (nodal, pressures) = (first[0]..loads.nodal.len(), first[1]..loads.pressures.len());
+            let centrifugal = first[2]..loads.centrifugal.len();
             let are_new = scene.stage.is_some_and(|stage| stage.is_new(&load.stages));
-            actors.push((name, Actors { nodal, pressures, motions: Vec::new(), are_new }));
+            actors.push((name, Actors { nodal, pressures, centrifugal, motions: Vec::new(), are_new }));
         }
     }
     loads.nodal.extend(efforts);
@@ -96,6 +106,7 @@ fn nodal_load<'d>(
         "pressure",
         "temperature",
         "temperature_gradient",
+        "centrifugal",
     ];
     let unused = keys!(load; part, projected, profile);
     let unread = keys.iter().any(|key| report.is_spoiled(owner.span, key));
@@ -103,7 +114,7 @@ fn nodal_load<'d>(
         report.error_with::<()>(
             owner.span,
             "this load is empty",
-            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`; or `temperature`",
+            "give it `force` or `moment`; of beams also `force_per_length`, of shells `pressure` or `force_per_area`; or `temperature` or `centrifugal`",
         );
     } else if !unread {
         report.reject_unused("a load at nodes", &unused);

@@ -27,7 +27,7 @@ pub fn temperatures<'d>(
 ) {
     for load in scene.deck.loads.iter().filter(|load| is_temperature(load)) {
         let owner = Owner::new("`[[loads]]`", &load.span);
-        let unused = keys!(load; at, force, total_force, moment, distance, force_per_length, local, projected, profile, force_per_area, pressure, follower);
+        let unused = keys!(load; at, force, total_force, moment, distance, force_per_length, local, projected, profile, force_per_area, pressure, centrifugal, follower);
         report.reject_unused("a load that heats parts", &unused);
         if scene.stage.is_some_and(|stage| !stage.stays(&load.stages)) {
             let hint = "name all later stages too, and let the `amplitude` go back to zero";

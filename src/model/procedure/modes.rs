@@ -139,6 +139,9 @@ pub fn hold_at_start(model: &mut Model) {
     for load in &mut loading.pressures {
         load.pressure *= at_start(&mut load.amplitude);
     }
+    for load in &mut loading.centrifugal {
+        load.speed *= at_start(&mut load.amplitude);
+    }
     loading.gravity *= at_start(&mut loading.gravity_amplitude);
     loading.base_accelerations.retain(|base| {
         let keeps = excites && is_harmonic(&loading.amplitudes, Some(base.amplitude));

@@ -163,8 +163,13 @@ fn add_jumps_and_kinks(model: &Model, out: &mut Vec<Event>) {
     let driving = || {
         let loads = model.loading.nodal.iter().filter_map(|load| load.amplitude);
         let pressures = model.loading.pressures.iter().filter_map(|load| load.amplitude);
+        let turning = model.loading.centrifugal.iter().filter_map(|load| load.amplitude);
         let gravity = model.loading.gravity_amplitude;
-        loads.chain(pressures).chain(gravity).chain(model.loading.base_accelerations.iter().map(|base| base.amplitude))
+        loads
+            .chain(pressures)
+            .chain(turning)
+            .chain(gravity)
+            .chain(model.loading.base_accelerations.iter().map(|base| base.amplitude))
     };
     for amplitude in driving() {
         out.extend(model.loading.amplitudes[amplitude].jumps().iter().map(|jump| {

@@ -154,6 +154,7 @@ fn no_loads(cx: &Context) -> Loading {
     Loading {
         factors: vec![0.0; loading.nodal.len()],
         pressures: vec![0.0; loading.pressures.len()],
+        squares: vec![0.0; loading.centrifugal.len()],
         ..Loading::default()
     }
 }

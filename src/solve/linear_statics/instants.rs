@@ -54,9 +54,10 @@ fn select(cx: &Context, case: &LoadCase, loading: &mut Loading, prescribed: &mut
     for term in &case.terms {
         match &term.acts {
             CaseActor::Gravity => loading.field += term.factor * all.field,
-            CaseActor::Named(Actors { nodal, pressures, motions, .. }) => {
+            CaseActor::Named(Actors { nodal, pressures, centrifugal, motions, .. }) => {
                 nodal.clone().for_each(|i| loading.factors[i] += term.factor * all.factors[i]);
                 pressures.clone().for_each(|i| loading.pressures[i] += term.factor * all.pressures[i]);
+                centrifugal.clone().for_each(|i| loading.squares[i] += term.factor * all.squares[i]);
                 let restraints = &cx.model.constraints.restraints;
                 for &[node, dof] in motions {
                     if let Ok(at) = restraints.binary_search_by_key(&(node, dof), |held| (held.node, held.dof)) {

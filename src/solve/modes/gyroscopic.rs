@@ -1,18 +1,21 @@
-//! The gyroscopic moments of bodies that spin, as matrices of small motions.
+//! The gyroscopic moments of bodies that spin, and the Coriolis forces in frames that turn with centrifugal loads, as matrices of small motions.
 //!
 //! A small rotation θ of a body changes its angular momentum π by θ×π + Jθ̇, whatever its earlier rotation. The rate changes by Jθ̈ + (ω~J
 //! − Jω~ − π~)θ̇ − π̇~θ. About an axis of symmetry the first two terms cancel.
 
 use super::linearized::Linearized;
 use super::mode::EigenMode;
-use crate::system::ConsistentMass;
+use crate::system::{ConsistentMass, dependents};
 use crate::tolerances::gyroscopic::SYMMETRIC;
-use base::math::{Mat3, Vec3, angular, linear, skew};
+use base::math::{Mat3, Mat6, Vec3, angular, linear, skew};
+use std::collections::BTreeMap;
 
 /// The matrices of the bodies that spin.
 pub struct Gyroscopic {
     /// The rows of the rotations of a node, with the matrices of θ̇ and of θ.
     blocks: Vec<([Option<usize>; 3], Mat3, Mat3)>,
+    /// The rows and columns of two nodes, with the matrix of rates: Coriolis forces.
+    coriolis: Vec<([[Option<usize>; 6]; 2], Mat6)>,
     /// The sum of the angular momenta, whose direction is that of the spin.
     momentum: Vec3,
     /// Neglected terms, in words.
@@ -22,7 +25,8 @@ pub struct Gyroscopic {
 impl Gyroscopic {
     /// The matrices of the bodies that spin in a state.
     pub fn of(at: &Linearized) -> Gyroscopic {
-        let mut gyroscopic = Gyroscopic { blocks: Vec::new(), momentum: Vec3::zeros(), warnings: Vec::new() };
+        let mut gyroscopic =
+            Gyroscopic { blocks: Vec::new(), coriolis: coriolis(at), momentum: Vec3::zeros(), warnings: Vec::new() };
         let links = &at.system.rigid_links;
         for inertia in &at.system.inertias {
             let mut root = inertia.node;
@@ -67,7 +71,7 @@ impl Gyroscopic {
 
     /// True where anything spins.
     pub fn acts(&self) -> bool {
-        !self.blocks.is_empty()
+        !self.blocks.is_empty() || !self.coriolis.is_empty()
     }
 
     /// The sense of the orbits of a mode, weighted by mass and inertia, as in [`EigenMode::whirl`].
@@ -112,5 +116,38 @@ impl Gyroscopic {
                 }
             }
         }
+        for ([rows, columns], rate) in &self.coriolis {
+            for (i, row) in rows.iter().enumerate() {
+                for (j, column) in columns.iter().enumerate() {
+                    if let (Some(row), Some(column)) = (row, column) {
+                        visit(*row, *column, [rate[(i, j)], 0.0]);
+                    }
+                }
+            }
+        }
     }
+}
+
+/// The Coriolis matrices of all masses under centrifugal loads, for the independent nodes.
+fn coriolis(at: &Linearized) -> Vec<([[Option<usize>; 6]; 2], Mat6)> {
+    let (nodes, links) = (&at.state.nodes, &at.system.rigid_links);
+    let turning = || at.system.centrifugal().iter().zip(&at.loading.squares).filter(|(_, square)| **square > 0.0);
+    if turning().next().is_none() {
+        return Vec::new();
+    }
+    let independent = dependents::independent_nodes(links, nodes.len());
+    let projections = dependents::projections(links, nodes, &independent);
+    let mut sums: BTreeMap<[usize; 2], Mat6> = BTreeMap::new();
+    for (load, square) in turning() {
+        load.coriolis(square.sqrt(), nodes, &mut |ends, G: &Mat6| {
+            let [left, right] = ends.map(|end| independent[end].iter().zip(&projections[end]));
+            for (row, P) in left {
+                for (column, Q) in right.clone() {
+                    *sums.entry([*row, *column]).or_insert_with(Mat6::zeros) += P.transpose() * G * Q;
+                }
+            }
+        });
+    }
+    let rows = |node: usize| std::array::from_fn(|dof| at.plan.dofs.row(node, dof));
+    sums.into_iter().map(|(ends, G)| (ends.map(rows), G)).collect()
 }

@@ -12,6 +12,7 @@ use super::mode::{EigenMode, Modes};
 use super::pencil::Pencil;
 use super::shape::Shapes;
 use crate::system::assembly::Assembly;
+use crate::tolerances::gyroscopic::ACROSS;
 use crate::tolerances::modal::{
     APART, FAR_APART, FITS, LOW, MOST, NEAR, NEXT_TO, PROBE, ROUNDING, SEARCHES, SHIFTS, TOLERANCE, WIDTH,
 };
@@ -38,6 +39,7 @@ pub fn natural_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> R
     let (factorizations, solves) = (pencil.factorizations, pencil.solves);
     let kind = ModeKind::Natural;
     let mut warnings = left_out(at);
+    warnings.extend(without_coriolis(at, &list));
     warnings.extend(far_apart(&list));
     match (list.len(), extent) {
         (0, ModeExtent::UpTo(frequency)) => warnings.push(format!(
@@ -149,6 +151,22 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// The modes whose motion across the axis of a centrifugal load feels Coriolis forces, in words.
+fn without_coriolis(at: &Linearized, list: &[EigenMode]) -> Option<String> {
+    let turning = || at.system.centrifugal().iter().zip(&at.loading.squares).filter(|(_, square)| **square > 0.0);
+    let feels = |mode: &&EigenMode| {
+        turning().map(|(load, _)| load.energy_across(&at.state.nodes, &mode.shape)).sum::<f64>()
+            > ACROSS * mode.modal_mass
+    };
+    let first = list.iter().find(feels)?;
+    let count = list.iter().filter(feels).count();
+    Some(format!(
+        "{count} of the modes, first that of {} Hz, move masses across the axis of the centrifugal load, and modes omit their Coriolis forces. Give \
+         `damped = true`, which includes them",
+        short(first.frequency())
+    ))
 }
 
 /// An estimate of the lowest ω² that is not zero, and whether others are, or next to it.

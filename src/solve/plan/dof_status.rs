@@ -166,6 +166,9 @@ fn causes(model: &Model, system: &System, resisted: &[[bool; 6]]) -> Vec<[bool; 
     for node in model.loading.pressures.iter().flat_map(|load| &load.faces).flat_map(|face| face.nodes()) {
         moved[*node][..3].fill(true);
     }
+    for inertia in system.centrifugal().iter().flat_map(|load| &load.inertias) {
+        moved[inertia.node].fill(true);
+    }
     for restraint in model.constraints.restraints.iter().filter(|restraint| restraint.motion.is_some()) {
         moved[restraint.node][restraint.dof] = true;
     }

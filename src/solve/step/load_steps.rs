@@ -12,7 +12,7 @@ use base::snapshot::keep;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Peak {
     /// Gravity, the factors of loads, pressures, prescribed displacements and rotations.
-    acting: [f64; 4],
+    acting: [f64; 5],
     /// The terms that forces are summed from.
     pub forces: Scale,
     /// The forces of the residual evaluated last.
@@ -91,10 +91,12 @@ impl Peak {
     pub fn begin_step(&mut self, loads: &Loading, prescribed: &[Prescribed], length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
         let moved = prescribed.iter().fold(0.0, |most: f64, given| most.max(given.u.abs()));
-        let acting = [loads.field.amax(), largest(&loads.factors), largest(&loads.pressures), moved];
-        let gone: [bool; 4] = std::array::from_fn(|i| acting[i] <= GONE * self.acting[i]);
-        self.released = gone == [true; 4];
-        self.unloaded = gone[..3] == [true; 3] && (moved == 0.0 || moved > SEEN * length);
+        let [factors, pressures, squares] =
+            [&loads.factors, &loads.pressures, &loads.squares].map(|values| largest(values));
+        let acting = [loads.field.amax(), factors, pressures, squares, moved];
+        let gone: [bool; 5] = std::array::from_fn(|i| acting[i] <= GONE * self.acting[i]);
+        self.released = gone == [true; 5];
+        self.unloaded = gone[..4] == [true; 4] && (moved == 0.0 || moved > SEEN * length);
         self.acting.iter_mut().zip(acting).for_each(|(most, now)| *most = most.max(now));
     }
 

@@ -102,6 +102,7 @@ impl ArcLengthConstraint {
             loading: Loading {
                 factors: Vec::with_capacity(cx.model.loading.nodal.len()),
                 pressures: Vec::with_capacity(cx.model.loading.pressures.len()),
+                squares: Vec::with_capacity(cx.model.loading.centrifugal.len()),
                 ..Loading::default()
             },
             forces: ws.forces.clone(),

@@ -35,6 +35,8 @@ pub struct Assembly {
     masses: Vec<Destination>,
     /// Destinations of the faces under follower pressure, in their order.
     faces: Vec<Destination>,
+    /// Destinations of the consistent masses under centrifugal loads, in their order.
+    centrifugal: Vec<Destination>,
     /// Destinations of the efforts of joints, in the order of the loads.
     efforts: Vec<Destination>,
     joints: Vec<Destination>,
@@ -99,6 +101,8 @@ impl Assembly {
             partners.iter().map(|(group, partners)| WanderingPairs::new(*group, partners, &mut find)).collect();
         let faces = system.pressures.iter().flat_map(|load| &load.faces);
         let faces: Vec<Destination> = faces.map(|face| find.local(face.nodes(), 3)).collect();
+        let turning = system.centrifugal().iter().flat_map(|load| &load.consistent);
+        let centrifugal = turning.map(|mass| find.local(&mass.nodes, 3)).collect();
         let efforts = efforts(system).map(|(_, along)| find.local(&along.ends, 6)).collect();
         let joints = system.joints.iter().zip(nodes - system.joints.len()..);
         let joints: Vec<Destination> =
@@ -117,6 +121,7 @@ impl Assembly {
             nodes: own,
             masses: of_masses,
             faces,
+            centrifugal,
             efforts,
             joints,
             diagonals,
@@ -205,6 +210,7 @@ impl Assembly {
             self.add_elements(system, now, weights, values);
             self.add_wanderers(system, now, weights.rate, values);
             self.add_pressures(system, nodes, loading, values);
+            self.add_centrifugal(system, loading, values);
             self.add_efforts(system, nodes, loading, values);
         }
         self.form_nodes(system, nodes, loading, forces, weights);
@@ -298,6 +304,19 @@ impl Assembly {
         }
     }
 
+    fn add_centrifugal(&mut self, system: &System, loading: &Loading, values: &mut [f64]) {
+        let Scratch { local, projections, projected, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+        let mut destinations = self.centrifugal.iter();
+        for (load, square) in system.centrifugal().iter().zip(&loading.squares) {
+            for (mass, destination) in load.consistent.iter().zip(&mut destinations) {
+                let K = &mut local[..9 * mass.m.len()];
+                load.stiffness(*square, mass, K);
+                how.add((K, 3 * mass.nodes.len()), destination, projected, values);
+            }
+        }
+    }
+
     fn add_efforts(&mut self, system: &System, nodes: &[Node], loading: &Loading, values: &mut [f64]) {
         let Scratch { projections, projected, .. } = &mut self.scratch;
         let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
@@ -369,6 +388,13 @@ impl Assembly {
             add(load.node, 0, f);
             add(load.node, 3, m);
         }
+        for (load, square) in system.centrifugal().iter().zip(&loading.squares) {
+            load.add_nodal_stiffness(*square, nodes, own);
+        }
+        let mut add = |node: usize, row: usize, k: Mat3| {
+            let mut block = own[node].fixed_view_mut::<3, 3>(row, 3);
+            block += k;
+        };
         for (dependent, f) in system.rigid_links.iter().zip(&forces.on_dependents) {
             add(dependent.master, 3, -dependent.arm_stiffness(nodes, f));
         }

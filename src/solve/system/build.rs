@@ -5,20 +5,31 @@ use super::inertia::{ConsistentMass, Inertia};
 use super::parts::{NodalMasses, Setting, assembled};
 use base::math::Vec3;
 use mechanics::constraints::joint::{ConstraintEquation, Joint};
-use model::{self, Model};
+use model::{self, Body, Mass, Model, Part};
 
 /// Lumped and consistent masses of bodies, point masses and deformable parts; `x` are the initial positions of all
 /// nodes.
 pub fn masses(model: &Model, x: &[Vec3]) -> (Vec<Inertia>, Vec<ConsistentMass>) {
+    masses_of(model, x, model.bodies.iter(), model.masses.iter(), model.parts.iter())
+}
+
+/// [`masses`] of some of the bodies, point masses and parts.
+pub fn masses_of<'m>(
+    model: &Model,
+    x: &[Vec3],
+    bodies: impl Iterator<Item = &'m Body>,
+    points: impl Iterator<Item = &'m Mass>,
+    parts: impl Iterator<Item = &'m Part>,
+) -> (Vec<Inertia>, Vec<ConsistentMass>) {
     let mut masses = NodalMasses::new(model, x);
     let damping = &model.damping;
     if model.parts.iter().any(|part| part.own_damping().alpha.is_some()) {
         masses.lumped.with_drags();
     }
     masses.lumped.set_alpha(damping.mass_factor);
-    model.bodies.iter().for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));
-    model.masses.iter().for_each(|mass| masses.lumped.add(mass.node, mass.mass, &mass.inertia));
-    for part in &model.parts {
+    bodies.for_each(|body| masses.lumped.add(body.node, body.mass, &body.inertia));
+    points.for_each(|mass| masses.lumped.add(mass.node, mass.mass, &mass.inertia));
+    for part in parts {
         let (first, alpha) = (masses.consistent.len(), damping.alpha(&part.own_damping()));
         masses.lumped.set_alpha(alpha);
         assembled(part).add_masses(&model.stiffnesses, &mut masses);

@@ -141,14 +141,16 @@ impl<'a> Destinations<'a> {
         Destination { projection: None, entries, blocks: [0; 2] }
     }
 
-    /// The destinations of the matrices of nodes, which inertia, nodal damping, follower loads and arms have. Inertia
-    /// and damping couple neither translations with one another nor with rotations; arms and followers do.
+    /// The destinations of the matrices of nodes, which inertia, nodal damping, follower and centrifugal loads and arms have.
+    /// Inertia and damping couple neither translations with one another nor with rotations; the others do.
     pub fn nodal(&mut self, system: &System) -> Vec<(usize, Destination)> {
         let nodes = self.followers.independent_nodes.len();
         let (mut has_own, mut is_full) = (vec![false; nodes], vec![false; nodes]);
         system.inertias.iter().for_each(|i| has_own[i.node] = true);
         system.nodal_damping.iter().for_each(|d| has_own[d.node] = true);
         system.loads.iter().filter(|l| l.follower).for_each(|l| is_full[l.node] = true);
+        let turning = system.centrifugal().iter().flat_map(|load| &load.inertias);
+        turning.for_each(|inertia| is_full[inertia.node] = true);
         system.rigid_links.iter().for_each(|r| is_full[r.master] = true);
         let with_own = (0..nodes).filter(|&n| has_own[n] || is_full[n]);
         with_own.map(|n| (n, self.node(n, is_full[n]))).collect()

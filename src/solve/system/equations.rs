@@ -1,5 +1,6 @@
 //! Everything that acts on the nodes of a scene, and the residual of the equation of motion.
 
+use super::centrifugal::CentrifugalLoad;
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
@@ -22,8 +23,7 @@ use mechanics::constraints::rigid_link::{self, RigidLink};
 use mechanics::elements::Force;
 use mechanics::materials::Dissipation;
 use mechanics::state::{Configuration, Node, State};
-use model::{self, Model};
-use std::ops::Range;
+use model::{self, Actors, Model};
 
 /// Everything that acts on the nodes: elements, masses, constraints, loads and damping. It is constant over a run.
 pub struct System {
@@ -51,6 +51,8 @@ pub struct System {
     pub(super) loads: Vec<model::Load>,
     /// The follower pressures on faces.
     pub(super) pressures: Vec<model::Pressure>,
+    /// The centrifugal loads.
+    centrifugal: Vec<CentrifugalLoad>,
     /// The joints whose friction grows with their load.
     joint_loads: Vec<JointLoad>,
     /// The ends of the elements of beams, where results are wanted there.
@@ -193,6 +195,7 @@ impl System {
             mass_scaling,
             loads: model.loading.nodal.clone(),
             pressures: model.loading.pressures.clone(),
+            centrifugal: model.loading.centrifugal.iter().map(|load| CentrifugalLoad::new(model, &x, load)).collect(),
             nodal_damping: model.damping.nodal.clone(),
             mass_damping: MassDamping::of(model),
             dynamic: model.analysis.kind == model::AnalysisKind::Dynamic,
@@ -220,6 +223,7 @@ impl System {
             mass_scaling: None,
             loads: Vec::new(),
             pressures: Vec::new(),
+            centrifugal: Vec::new(),
             nodal_damping: Vec::new(),
             mass_damping: MassDamping::default(),
             gyroscopic: false,
@@ -340,6 +344,9 @@ impl System {
                 scale.force = scale.force.max(face.add_forces(*p, nodes, F));
             }
         }
+        for (load, square) in self.centrifugal.iter().zip(&loading.squares) {
+            scale.force = scale.force.max(load.add_forces(*square, nodes, F));
+        }
     }
 
     /// Transfers the forces on dependent nodes to their masters, the last in a chain first, and keeps them separately for the tangent.
@@ -362,40 +369,40 @@ impl System {
             let weight = |mass: &ConsistentMass| mass.pairs().map(|(a, _, m)| m * field.dot(&moved(a))).sum::<f64>();
             work += self.consistent.iter().map(weight).sum::<f64>();
         }
-        self.add_load_work((0..self.loads.len(), 0..self.pressures.len()), from, to, &mut work);
+        let all = Actors {
+            nodal: 0..self.loads.len(),
+            pressures: 0..self.pressures.len(),
+            centrifugal: 0..self.centrifugal.len(),
+            ..Actors::default()
+        };
+        self.add_load_work(&all, from, to, &mut work);
         work
     }
 
-    /// Adds the work of some of the loads on nodes and of the pressures between two configurations, as [`System::external_work`] has it.
-    pub fn add_load_work(
-        &self,
-        (nodal, pressures): (Range<usize>, Range<usize>),
-        from: (&[Node], &Loading),
-        to: (&[Node], &Loading),
-        work: &mut f64,
-    ) {
-        for i in nodal {
+    /// Adds the work of some of the loads between two configurations, as [`System::external_work`] has it.
+    pub fn add_load_work(&self, of: &Actors, from: (&[Node], &Loading), to: (&[Node], &Loading), work: &mut f64) {
+        for i in of.nodal.clone() {
             *work += loads::load_work(&self.loads[i], (from.1.factors[i], from.0), (to.1.factors[i], to.0));
         }
-        for i in pressures {
+        for i in of.pressures.clone() {
             let ends = [from.1.pressures[i], to.1.pressures[i]];
             *work += self.pressures[i].faces.iter().map(|face| face.work(ends, from.0, to.0)).sum::<f64>();
         }
+        for i in of.centrifugal.clone() {
+            *work += self.centrifugal[i].work((from.0, from.1.squares[i]), (to.0, to.1.squares[i]));
+        }
     }
 
-    /// The sum of the forces of some of the loads on nodes and of the pressures; `forces` is memory.
-    pub fn load_force(
-        &self,
-        (nodal, pressures): (Range<usize>, Range<usize>),
-        nodes: &[Node],
-        loading: &Loading,
-        forces: &mut Vec<Force>,
-    ) -> Vec3 {
+    /// The sum of the forces of some of the loads; `forces` is memory.
+    pub fn load_force(&self, of: &Actors, nodes: &[Node], loading: &Loading, forces: &mut Vec<Force>) -> Vec3 {
         let of_load = |i: usize| load_on(&self.loads[i], loading.factors[i], nodes).0;
-        let sum: Vec3 = nodal.map(of_load).sum();
+        let mut sum: Vec3 = of.nodal.clone().map(of_load).sum();
+        for i in of.centrifugal.clone() {
+            sum += self.centrifugal[i].total(loading.squares[i], nodes);
+        }
         forces.clear();
-        forces.resize(if pressures.is_empty() { 0 } else { nodes.len() }, [0.0; 6]);
-        for i in pressures {
+        forces.resize(if of.pressures.is_empty() { 0 } else { nodes.len() }, [0.0; 6]);
+        for i in of.pressures.clone() {
             for face in &self.pressures[i].faces {
                 face.add_forces(loading.pressures[i], nodes, forces);
             }
@@ -431,6 +438,9 @@ impl System {
                     add(*p0 * areas[0][k], *p1 * areas[1][k], moved(node));
                 }
             }
+        }
+        for ((load, old), new) in self.centrifugal.iter().zip(&from.1.squares).zip(&to.1.squares) {
+            load.along((from.0, *old), (to.0, *new), &mut |[old, new], way| add(old, new, way));
         }
         sums
     }
@@ -493,6 +503,11 @@ impl System {
         power
     }
 
+    /// The centrifugal loads, in the order of the model's list.
+    pub fn centrifugal(&self) -> &[CentrifugalLoad] {
+        &self.centrifugal
+    }
+
     /// Rayleigh damping of masses.
     pub fn mass_damping(&self) -> &MassDamping {
         &self.mass_damping
@@ -529,6 +544,7 @@ impl System {
             && self.joints.is_empty()
             && self.loads.iter().all(|l| !l.follower && l.coordinate().is_none())
             && self.pressures.is_empty()
+            && self.centrifugal.is_empty()
     }
 }
 

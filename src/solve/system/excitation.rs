@@ -140,6 +140,9 @@ impl<'a> Excitation<'a> {
         loading.pressures.clear();
         let pressures = self.model.loading.pressures.iter();
         loading.pressures.extend(pressures.map(|load| load.pressure * factor(load.amplitude)));
+        loading.squares.clear();
+        let turning = self.model.loading.centrifugal.iter();
+        loading.squares.extend(turning.map(|load| (load.speed * factor(load.amplitude)).powi(2)));
         loading.field = factor(self.model.loading.gravity_amplitude) * self.model.loading.gravity;
         for base in &self.model.loading.base_accelerations {
             loading.field -= self.factor(base.amplitude, t, side) * base.direction;
@@ -157,11 +160,12 @@ impl<'a> Excitation<'a> {
         };
         let loads = model.loading.nodal.iter().map(|load| rest(load.amplitude));
         let pressures = model.loading.pressures.iter().map(|load| rest(load.amplitude));
+        let turning = model.loading.centrifugal.iter().map(|load| rest(load.amplitude));
         let base_accelerations = model.loading.base_accelerations.iter().map(|base| rest(Some(base.amplitude)));
         let motions = model.constraints.restraints.iter().filter_map(|restraint| restraint.motion.as_ref()).map(moves);
         let is_heavy = model.loading.gravity != Vec3::zeros();
         let gravity = if is_heavy { rest(model.loading.gravity_amplitude) } else { f64::INFINITY };
-        loads.chain(pressures).chain(base_accelerations).chain(motions).fold(gravity, f64::min)
+        loads.chain(pressures).chain(turning).chain(base_accelerations).chain(motions).fold(gravity, f64::min)
     }
 
     /// Writes the rates of the loads at time `t` into `loading`; at a kink those to its right.
@@ -179,6 +183,12 @@ impl<'a> Excitation<'a> {
         loading.pressures.clear();
         let pressures = self.model.loading.pressures.iter();
         loading.pressures.extend(pressures.map(|load| load.pressure * load.amplitude.map_or(plain, rate)));
+        loading.squares.clear();
+        let turning = self.model.loading.centrifugal.iter();
+        loading.squares.extend(turning.map(|load| {
+            let factor = self.factor_of(load.amplitude, t, Side::After);
+            2.0 * load.speed.powi(2) * factor * load.amplitude.map_or(plain, rate)
+        }));
         loading.field = self.model.loading.gravity_amplitude.map_or(plain, rate) * self.model.loading.gravity;
         for base in &self.model.loading.base_accelerations {
             loading.field -= rate(base.amplitude) * base.direction;
@@ -258,6 +268,7 @@ pub fn between(a: &Loading, b: &Loading, s: f64, y: &mut Loading) {
     };
     mix(&a.factors, &b.factors, &mut y.factors);
     mix(&a.pressures, &b.pressures, &mut y.pressures);
+    mix(&a.squares, &b.squares, &mut y.squares);
     y.field = lerp(&a.field, &b.field, s);
 }
 

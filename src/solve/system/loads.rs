@@ -12,11 +12,13 @@ pub struct Loading {
     pub factors: Vec<f64>,
     /// Pressure of each follower pressure times its factor, in the order of the model's list.
     pub pressures: Vec<f64>,
+    /// Square of each angular velocity of a centrifugal load, in the order of the model's list.
+    pub squares: Vec<f64>,
     /// Gravity less the acceleration of the base, global components: every mass m feels the force m × field.
     pub field: Vec3,
 }
 
-keep!(Loading: Default { factors, pressures, field });
+keep!(Loading: Default { factors, pressures, squares, field });
 
 impl Loading {
     /// These loads and a multiple of others.
@@ -25,6 +27,7 @@ impl Loading {
         Loading {
             factors: sum(&self.factors, &others.factors),
             pressures: sum(&self.pressures, &others.pressures),
+            squares: sum(&self.squares, &others.squares),
             field: self.field + factor * others.field,
         }
     }

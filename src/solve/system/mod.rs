@@ -5,6 +5,7 @@ pub mod assembly;
 mod block_scatter;
 mod build;
 mod carry;
+mod centrifugal;
 pub mod connectivity;
 pub mod constraint_schur;
 pub mod contact_work;
@@ -54,6 +55,7 @@ pub mod inner {
 }
 
 pub use carry::carry_history;
+pub use centrifugal::CentrifugalLoad;
 pub use contacts::{ContactState, ContactTouch, law_of, open_gap};
 pub use dofs::{DofMap, NodeRows};
 pub use equations::{Forces, System};

@@ -6,7 +6,7 @@ use super::plane::MotionPlane;
 use crate::tolerances::plane::SMALL;
 use base::math::{Vec3, skew};
 use mechanics::constraints::rigid_link::RigidLink;
-use model::{Joint, Loading, Model, Node, Restraint};
+use model::{Joint, Loading, Model, Node, Restraint, RotationAxis};
 
 /// The global axis normal to the plane of a model that nothing moves out of it, unless the deck keeps out-of-plane motion.
 pub fn normal(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink]) -> Option<usize> {
@@ -25,7 +25,7 @@ fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], norm
     let flat = |p: &Node| (p.x[normal] - first.x[normal]).abs() <= SMALL * size;
     let still = |p: &Node| plane.contains(&p.v) && plane.is_normal(&p.omega);
     model.nodes.iter().all(|p| flat(p) && still(p))
-        && holds_loading(&plane, &model.loading)
+        && holds_loading(&plane, first.x[normal], &model.loading)
         && holds_constraints(&plane, model)
         && inertias.iter().all(|i| plane.decouples(&i.J0))
         && model.parts.iter().all(|part| assembled(part).stays_in(&plane, &model.stiffnesses))
@@ -33,10 +33,15 @@ fn is_plane(model: &Model, inertias: &[Inertia], rigid_links: &[RigidLink], norm
         && rigid_links.iter().all(|a| plane.decouples_rotations(&skew(&a.S0)) || a.S0 == Vec3::zeros())
 }
 
-/// True where no load and no ground motion drives anything out of the plane.
-fn holds_loading(plane: &MotionPlane, loading: &Loading) -> bool {
+/// True where no load and no ground motion drives anything out of the plane at this height along its normal.
+fn holds_loading(plane: &MotionPlane, height: f64, loading: &Loading) -> bool {
     loading.pressures.is_empty()
         && loading.nodal.iter().all(|load| plane.contains(&load.force) && plane.is_normal(&load.moment))
+        && loading.centrifugal.iter().all(|load| {
+            let RotationAxis { direction, through } = &load.axis;
+            let lies_in = plane.contains(direction) && (through[plane.normal] - height).abs() <= SMALL * plane.size;
+            lies_in || plane.is_normal(direction)
+        })
         && plane.contains(&loading.gravity)
         && loading.base_accelerations.iter().all(|base| plane.contains(&base.direction))
 }

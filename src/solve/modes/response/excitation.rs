@@ -80,6 +80,7 @@ fn forces(pencil: &Pencil, factor: C64) -> Vec<f64> {
     let harmonic = Loading {
         factors: loading.nodal.iter().map(|load| part(load.amplitude)).collect(),
         pressures: loading.pressures.iter().map(|load| load.pressure * part(load.amplitude)).collect(),
+        squares: vec![0.0; loading.centrifugal.len()],
         field: loading.base_accelerations.iter().fold(gravity, ground),
     };
     let mut forces = Forces::new(at.system, pencil.nodes.len());

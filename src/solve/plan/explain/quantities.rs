@@ -2,12 +2,13 @@
 
 use super::explanation::Explanation;
 use crate::system::energy::mass_and_center;
-use crate::system::{Excitation, Side, System};
+use crate::system::{CentrifugalLoad, Excitation, Side, System};
 use crate::tolerances::explained_quantities::ROUNDING;
 use base::math::Vec3;
 use base::names::{short, to_digits};
 use mechanics::amplitude::Amplitude;
-use model::{DIRECTIONS, History, Model};
+use mechanics::state::Node;
+use model::{self, DIRECTIONS, History, Model};
 
 /// Times at which loads and motions are looked at, besides the points of tables.
 const SAMPLES: usize = 1000;
@@ -20,6 +21,8 @@ pub fn explain(text: &mut Explanation, model: &Model, system: &System) {
     let excitation = Excitation::new(model);
     let times = times(model);
     text.computed.extend(loads(model, &excitation, &times).map(|line| ("loads", line)));
+    let turning = centrifugal(model, system, &excitation, &times);
+    text.computed.extend(turning.into_iter().map(|line| ("centrifugal", line)));
     let motions = motions(model, &excitation, &times);
     let more = motions.len().saturating_sub(LISTED);
     text.computed.extend(motions.into_iter().take(LISTED).map(|line| ("motion", line)));
@@ -101,6 +104,23 @@ fn loads(model: &Model, excitation: &Excitation, times: &[f64]) -> Option<String
     });
     let line: Vec<String> = line.collect();
     Some(if line.is_empty() { "sum to zero".to_owned() } else { line.join(", ") })
+}
+
+/// "mass 12 about (0, 0, 1) at a speed up to 100; its forces at t = 0 sum to (0, 1200, 0)", a line for each centrifugal load.
+fn centrifugal(model: &Model, system: &System, excitation: &Excitation, times: &[f64]) -> Vec<String> {
+    let nodes: Vec<Node> = model.nodes.iter().map(|node| Node::at_rest(node.x)).collect();
+    let vector = |v: &Vec3| {
+        let clean = |x: f64| short(if x.abs() < ROUNDING * v.amax() { 0.0 } else { x });
+        format!("({}, {}, {})", clean(v.x), clean(v.y), clean(v.z))
+    };
+    let line = |(load, placed): (&model::Centrifugal, &CentrifugalLoad)| {
+        let factors = times.iter().map(|&time| excitation.factor_of(load.amplitude, time, Side::After).abs());
+        let speed = load.speed.abs() * factors.fold(0.0, f64::max);
+        let [mass, about] = [to_digits(placed.mass(), 6), vector(&load.axis.direction)];
+        let force = vector(&placed.total(speed * speed, &nodes));
+        format!("mass {mass} about {about} at a speed up to {}; its forces at t = 0 sum to {force}", short(speed))
+    };
+    model.loading.centrifugal.iter().zip(system.centrifugal()).map(line).collect()
 }
 
 /// "-12" of what is constant, "-12 to 3" of all else.

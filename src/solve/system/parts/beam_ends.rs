@@ -11,7 +11,7 @@ use crate::system::scale::Scale;
 use base::math::{Mat3, Vec3};
 use mechanics::elements::{Force, IntegrationPoint, subtract};
 use mechanics::state::Configuration;
-use model::{AnalysisKind, Beam, ExpectAt, LoadOrigin, MassKind, Model, PartType, SectionPlaces};
+use model::{AnalysisKind, Beam, ExpectAt, LoadOrigin, MassKind, Model, PartType, RotationAxis, SectionPlaces};
 use std::collections::HashMap;
 
 /// The ends of all elements of all beams, in deck order.
@@ -32,6 +32,8 @@ struct BeamEnd {
     frame: Mat3,
     /// Loads that are shares of one along the element, by their index in the model.
     loads: Vec<usize>,
+    /// Centrifugal loads on the beam, by their index in the model, with their axes.
+    turning: Vec<(usize, RotationAxis)>,
 }
 
 impl BeamEnds {
@@ -52,6 +54,9 @@ impl BeamEnds {
         let masses = NodalMasses::new(model, x);
         let mut ends = Vec::new();
         for (part, beam) in model.parts.iter().enumerate().filter_map(|(part, of)| Some((part, Beam::of(of)?))) {
+            let turning = model.loading.centrifugal.iter().enumerate();
+            let turning = turning.filter(|(_, load)| load.of.parts.contains(&part));
+            let turning: Vec<_> = turning.map(|(index, load)| (index, load.axis)).collect();
             for (element, spec) in beam.elements.iter().enumerate() {
                 let nodes = &spec.nodes[..=beam.order];
                 let consistent = (beam.mass == MassKind::Consistent).then(|| {
@@ -82,6 +87,7 @@ impl BeamEnds {
                         alpha,
                         frame: spec.frame,
                         loads: loads.remove(&(part, element, node)).unwrap_or_default(),
+                        turning: turning.clone(),
                     }
                 }));
             }
@@ -131,6 +137,14 @@ impl BeamEnds {
                 inertia += end.alpha * damping.relative(column, now.nodes)[0];
             }
             subtract(&mut sum, 0, &(m * (inertia - loading.field)));
+        }
+        for (index, axis) in &end.turning {
+            let square = loading.squares[*index];
+            let own = (end.lumped.node, end.lumped.mass);
+            for (column, m) in end.row.iter().copied().chain([own]) {
+                subtract(&mut sum, 0, &(-square * m * axis.away(&now.nodes[column].x)));
+            }
+            subtract(&mut sum, 3, &(-square * axis.moment(&end.lumped.J(node))));
         }
         for &index in &end.loads {
             let (f, m) = load_on(&loads[index], loading.factors[index], now.nodes);
