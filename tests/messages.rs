@@ -545,6 +545,34 @@ fn links_that_fail() {
 
 /// Links that remember.
 #[test]
+fn dampers_with_exponents() {
+    let link = |name: &str, text: &str| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ node = \"knee_right\" }}\nto = {{ ground = [3.0, 0.0, 2.0] }}\n{text}\n"
+        )
+    };
+    let good = "damping = { viscous = 1e4, exponent = 0.3, slow = 1e-3 }";
+    assert_eq!(portal_and(&link("good", good)).trim(), "");
+    let bad = [
+        "damping = { viscous = 1e4, exponent = 0.3 }",
+        "damping = { viscous = 1e4, exponent = 0.3, slow = 0.0 }",
+        "damping = { viscous = 1e4, exponent = 0.0, slow = 1e-3 }",
+        "damping = { viscous = 1e4, exponent = 5.0 }",
+        "damping = { exponent = 2.0, beta = 1e-3 }\nstiffness = 1e5",
+        "damping = { viscous = 1e4, slow = 1e-3 }",
+        "bushing = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]\ndamping = { exponent = 2.0, beta = 1e-3 }",
+    ];
+    let joint = "[[joints]]\nname = \"pin\"\nkind = \"revolute\"\nfrom = { node = \"knee_right\" }\nto = { ground = [1.5, 0.0, 2.0] }\n\
+                 axis = [0.0, 1.0, 0.0]\ndamping = { viscous = 1.0, exponent = 0.5, slow = 1e-3 }\n";
+    let bad = bad.iter().enumerate().map(|(k, text)| link(&format!("bad_{k}"), text)).collect::<String>() + joint;
+    assert_snapshot!("dampers_with_exponents", portal_and(&bad));
+    let dynamic = "kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4\n";
+    let modes = |damped: &str| portal(&[(dynamic, damped), ("[analysis]", &(link("good", good) + "[analysis]"))]);
+    assert_snapshot!("dampers_with_exponents_in_modes", modes("kind = \"modal\"\ndamped = true\n"));
+    assert!(!modes("kind = \"modal\"\n").contains("error"));
+}
+
+#[test]
 fn links_that_yield() {
     let link = |name: &str, text: &str| {
         format!(

@@ -26,4 +26,10 @@ pub struct SpringDamping {
     /// Force per rate, or moment per angular velocity, of a damper beside the spring, 0 or more; a bushing has
     /// `bushing_damping`. Default: 0.
     pub viscous: Maybe<f64>,
+    /// Exponent a of the force viscous·|v|^a of a damper along the line of a link, above 0 to 4; `viscous` is the force at the rate 1.
+    /// Default: 1.
+    pub exponent: Maybe<f64>,
+    /// Rate v₀ well below which the force is linear, with |v| = √(v² + v₀²) in the power: a thousandth of the largest rate, above 0.
+    /// Required with an exponent below 1; default: 0.
+    pub slow: Maybe<f64>,
 }

@@ -51,7 +51,7 @@ use super::procedure::choose_scheme::choose_scheme;
 use super::procedure::control::{control, path_iteration};
 use super::procedure::linear::{check_linear, make_elastic};
 use super::procedure::mass_scaling::check_mass_scaling;
-use super::procedure::modes::{check_modal, hold_at_start};
+use super::procedure::modes::{check_modal, hold_at_start, refuse_power_dampers};
 use super::procedure::response::{add_expected, check_harmonic};
 use super::procedure::scaled_masses::rotary_inertia;
 use super::procedure::stops::{self, NamedActors};
@@ -444,6 +444,9 @@ fn check(
     check_harmonic(deck, scene.stage.map_or(deck, |stage| stage.sequence.whole), report);
     if analysis.has_modes() {
         check_modal(deck, report);
+        if analysis.damps_modes() {
+            refuse_power_dampers(deck, report);
+        }
     } else if analysis.is_static() {
         check_static(deck, report);
     }

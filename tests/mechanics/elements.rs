@@ -11,6 +11,7 @@ use rdsolve::elements::beam::{BeamGeometry, BeamSetting, FibreModel, Integration
 use rdsolve::elements::bearing::{Bearing, BearingMatrices, Bearings};
 use rdsolve::elements::bouc_wen::BoucWen;
 use rdsolve::elements::bushing::{Bushing, Bushings};
+use rdsolve::elements::damper::Damper;
 use rdsolve::elements::heat::Heat;
 use rdsolve::elements::hysteresis::Hysteresis;
 use rdsolve::elements::hysteretic_link::{HystereticLink, HystereticLinks, PathLaw};
@@ -126,11 +127,17 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
         add(name, block, &warm);
     }
     let ends = nodes_of(2, &frame, start);
-    let link = |law, direction| Link::new([0, 1], law, 0.7, direction, 1.2, [ends[0], ends[1]]);
+    let damped = |law, damper, direction| Link::new([0, 1], law, damper, direction, 1.2, [ends[0], ends[1]]);
+    let link = |law, direction| damped(law, Damper::linear(0.7), direction);
     let linear = LinkLaw::Linear { stiffness: 20.0, preload: 1.0 };
     let d = frame.column(1).into_owned();
     add("link", Box::new(Links::new(vec![link(linear.clone(), None)])), &ends);
     add("link along a direction", Box::new(Links::new(vec![link(linear, Some(d))])), &ends);
+    for (name, exponent, slow) in [("link with a fluid damper", 0.4, 0.3), ("link with drag", 2.0, 0.0)] {
+        let damper = Damper { coefficient: 0.7, exponent, slow };
+        let law = LinkLaw::Linear { stiffness: 20.0, preload: 1.0 };
+        add(name, Box::new(Links::new(vec![damped(law, damper, None)])), &ends);
+    }
     let table = LinkLaw::Table { points: vec![[-9.0, -7.0], [0.0, 0.0], [9.0, 20.0]] };
     add("table link", Box::new(Links::new(vec![link(table, None)])), &ends);
     add(
@@ -237,8 +244,9 @@ fn hysteretic_links(rng: &mut StdRng, firmness: f64, kinds: &mut Vec<Kind>) {
             let x = nodes_of(2, &frame, vector(rng, 2.0));
             let none = LinkLaw::Linear { stiffness: 0.0, preload: 0.0 };
             let length = direction.map_or(1.3, |d| d.dot(&(x[1] - x[0])));
-            let link = Link::new([0, 1], none, 0.7, direction, length, [x[0], x[1]]);
-            let block = Box::new(HystereticLinks::new(vec![HystereticLink { link, law }]));
+            let damper = Damper { coefficient: 0.7, exponent: 0.4, slow: 0.3 };
+            let link = Link::new([0, 1], none, damper, direction, length, [x[0], x[1]]);
+            let block = Box::new(HystereticLinks::new(vec![HystereticLink { link, law, beside: 0.2 }]));
             let past = vec![0.0; block.history()];
             let along = if direction.is_some() { " along a direction" } else { "" };
             kinds.push(Kind { name: format!("{name}{along}"), block, x, past });

@@ -4,6 +4,7 @@ use rand::rngs::StdRng;
 use rand::{Rng, RngExt};
 use rdsolve::amplitude::Amplitude;
 use rdsolve::elements::beam::{FibreModel, IntegrationRule};
+use rdsolve::elements::damper::Damper;
 use rdsolve::elements::heat::Heat;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::elements::pressure::Face;
@@ -176,7 +177,7 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
 pub fn line(m: &mut Model, ends: [usize; 2], law: LinkLaw, damping: f64, direction: Option<Vec3>) {
     let arm = m.nodes[ends[1]].x - m.nodes[ends[0]].x;
     let free_length = direction.map_or(arm.norm(), |d| d.dot(&arm));
-    let kind = LinkKind::Line { law, damping, direction, free_length };
+    let kind = LinkKind::Line { law, damper: Damper::linear(damping), direction, free_length };
     let name = format!("link{}", m.count(PartKind::Link));
     m.add(Link { name, ends, kind, own_damping: OwnDamping::default(), failure: None, take_up: None });
 }

@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use rand::SeedableRng;
 use rand::rngs::StdRng;
 use rdsolve::elements::Moduli;
+use rdsolve::elements::damper::Damper;
 use rdsolve::elements::pressure::Face;
 use rdsolve::integrators::{
     AlphaFamily, Bathe, Coefficients, RotationUpdate, Scheme, TwoStages, WilsonTheta, load_steps,
@@ -245,8 +246,8 @@ fn damp(m: &mut Model) {
     for link in m.each_mut::<Link>() {
         match &mut link.kind {
             rdsolve::model::LinkKind::Bearing { .. } => {}
-            rdsolve::model::LinkKind::Line { damping, .. } | rdsolve::model::LinkKind::Hysteretic { damping, .. } => {
-                *damping = 0.7
+            rdsolve::model::LinkKind::Line { damper, .. } | rdsolve::model::LinkKind::Hysteretic { damper, .. } => {
+                *damper = Damper { coefficient: 0.7, exponent: 0.6, slow: 0.2 }
             }
             rdsolve::model::LinkKind::Bushing { damping, .. } => *damping = [0.5, 0.3, 0.4, 0.2, 0.3, 0.1],
             rdsolve::model::LinkKind::Joint { law, .. } => law.damping = 0.6,

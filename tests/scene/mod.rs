@@ -3,6 +3,7 @@
 use nalgebra::{Quaternion, Unit, UnitQuaternion};
 use rdsolve::elements::IntegrationPoint;
 use rdsolve::elements::contact::{self, Surface};
+use rdsolve::elements::damper::Damper;
 use rdsolve::elements::heat::Heat;
 use rdsolve::elements::link::LinkLaw;
 use rdsolve::integrators::{RotationUpdate, WilsonTheta};
@@ -103,7 +104,7 @@ pub fn model() -> Model {
             Part::Link(Link {
                 name: "bumper".into(),
                 ends: [2, 5],
-                kind: LinkKind::Line { law, damping: 0.0, direction: None, free_length: 1.0 },
+                kind: LinkKind::Line { law, damper: Damper::linear(0.0), direction: None, free_length: 1.0 },
                 own_damping: OwnDamping::default(),
                 failure: None,
                 take_up: None,

@@ -17,6 +17,7 @@ mod esdirk3;
 mod events;
 mod explicit;
 mod failure;
+mod fluid_dampers;
 mod global_error;
 mod handover;
 mod hysteretic_links;

@@ -171,6 +171,7 @@ fn a_pretensioned_bolt_fails() {
 /// The matrix of a link that is taken up, damper and all, is the derivative of its forces.
 #[test]
 fn tangents_are_those_of_forces() {
+    use rdsolve::elements::damper::Damper;
     use rdsolve::elements::link::{LinkLaw, Links};
     use rdsolve::elements::{Mechanics, Moduli, link};
     use rdsolve::math::Vec3;
@@ -178,7 +179,8 @@ fn tangents_are_those_of_forces() {
     let start = [Vec3::new(0.3, -0.2, 0.1), Vec3::new(1.0, 0.7, -0.4), Vec3::new(0.3, -0.2, 0.1)];
     for direction in [None, Some(Vec3::new(0.6, 0.0, 0.8))] {
         let law = LinkLaw::Linear { stiffness: 20.0, preload: 0.0 };
-        let of = link::Link::new([0, 1], law, 0.7, direction, 0.9, [start[0], start[1]]).taken_up(Some(2));
+        let of =
+            link::Link::new([0, 1], law, Damper::linear(0.7), direction, 0.9, [start[0], start[1]]).taken_up(Some(2));
         let block = Links::new(vec![of]);
         let mut nodes = start.map(Node::at_rest);
         for (i, node) in nodes.iter_mut().enumerate() {

@@ -2,6 +2,7 @@
 //! force.
 
 use super::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
+use super::damper::Damper;
 use super::heat::{Heat, HeatNodes};
 use super::link::{Link, LinkLaw, Links};
 use crate::materials::{Ask, Dissipation, FAILED_STIFFNESS, MaterialLaw, PointResponse, Uniaxial};
@@ -27,7 +28,7 @@ pub fn elastic_bars(
             true => LinkLaw::TensionOnly { stiffness, gap: 0.0 },
             false => LinkLaw::Linear { stiffness, preload: 0.0 },
         };
-        let link = Link::new(nodes, law, damping * stiffness, None, length, start);
+        let link = Link::new(nodes, law, Damper::linear(damping * stiffness), None, length, start);
         match heat.numbers[0] {
             Some(node) => link.heated(node, x[node], length / heat.length),
             None => link,

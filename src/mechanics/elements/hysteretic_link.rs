@@ -90,13 +90,21 @@ pub struct HystereticLink {
     pub link: Link,
     /// The force.
     pub law: PathLaw,
+    /// Force per rate of elongation beside the damper, by Rayleigh's factor on the stiffness.
+    pub beside: f64,
 }
 
 impl HystereticLink {
+    /// The force of the dampers and its derivative by the rate.
+    fn damping(&self, rate: f64) -> (f64, f64) {
+        let (force, slope) = self.link.damper.force(rate);
+        (force + self.beside * rate, slope + self.beside)
+    }
+
     /// Elongation, its rate, and the force with damper; tension is positive. `memory`: its history variables.
     pub fn state(&self, nodes: &[Node], memory: &[f64]) -> (f64, f64, f64) {
         let line = self.link.line(nodes);
-        (line.delta, line.rate, self.law.at(line.delta, memory).force + self.link.damping * line.rate)
+        (line.delta, line.rate, self.law.at(line.delta, memory).force + self.damping(line.rate).0)
     }
 }
 
@@ -147,13 +155,13 @@ impl Mechanics for HystereticLinks {
     }
 
     fn is_damped(&self) -> bool {
-        self.links.iter().any(|of| of.link.damping > 0.0)
+        self.links.iter().any(|of| of.link.damper.coefficient > 0.0 || of.beside > 0.0)
     }
 
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for (of, memory) in self.with_memory(now.history) {
             let line = of.link.line(now.nodes);
-            let f = (of.law.at(line.delta, memory).force + of.link.damping * line.rate) * line.e;
+            let f = (of.law.at(line.delta, memory).force + of.damping(line.rate).0) * line.e;
             subtract(&mut F[of.link.nodes[0]], 0, &-f);
             subtract(&mut F[of.link.nodes[1]], 0, &f);
         }
@@ -164,12 +172,12 @@ impl Mechanics for HystereticLinks {
         let line = of.link.line(now.nodes);
         let at = of.law.at(line.delta, remembered(&self.memories[e], now.history));
         let slope = if moduli == Moduli::Elastic { of.law.stiffness() } else { at.slope };
-        let c = of.link.damping;
+        let (damping, c) = of.damping(line.rate);
         let along = line.e * line.e.transpose();
         let mut k = (slope + rate_weight * c) * along;
         if of.link.direction.is_none() && line.length > 0.0 {
             let across = (Mat3::identity() - along) / line.length;
-            k += (at.force + c * line.rate) * across + c * line.e * (across * line.dv).transpose();
+            k += (at.force + damping) * across + c * line.e * (across * line.dv).transpose();
         }
         set_pair(&k, K);
     }
@@ -194,7 +202,11 @@ impl Results for HystereticLinks {
     }
 
     fn damping_power(&self, now: &Configuration) -> f64 {
-        self.links.iter().map(|of| of.link.damping * of.link.line(now.nodes).rate.powi(2)).sum()
+        let power = |of: &HystereticLink| {
+            let rate = of.link.line(now.nodes).rate;
+            of.damping(rate).0 * rate
+        };
+        self.links.iter().map(power).sum()
     }
 }
 
@@ -212,6 +224,7 @@ impl Branches for HystereticLinks {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elements::damper::Damper;
     use crate::elements::link::LinkLaw;
     use base::math::Vec3;
 
@@ -221,8 +234,8 @@ mod tests {
         let law = PathLaw::Backbone(Hysteresis::new(&[[0.1, 1.0]], 0.0).expect("a backbone"));
         for (direction, reversed) in [(None, true), (Some(Vec3::x()), false)] {
             let none = LinkLaw::Linear { stiffness: 0.0, preload: 0.0 };
-            let link = Link::new([0, 1], none, 0.0, direction, 1.0, [Vec3::zeros(), Vec3::x()]);
-            let block = HystereticLinks::new(vec![HystereticLink { link, law }]);
+            let link = Link::new([0, 1], none, Damper::linear(0.0), direction, 1.0, [Vec3::zeros(), Vec3::x()]);
+            let block = HystereticLinks::new(vec![HystereticLink { link, law, beside: 0.0 }]);
             let at = |x: f64| [0.0, x].map(|x| Node::at_rest(Vec3::new(x, 0.0, 0.0)));
             assert!(!block.is_turned_over(0, &at(1.0), &at(0.2)));
             assert_eq!(block.is_turned_over(0, &at(0.2), &at(-0.2)), reversed);

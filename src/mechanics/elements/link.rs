@@ -1,6 +1,7 @@
-//! Springs and dampers between two points: a force N(δ) + c δ̇ along the line of the points or along a fixed direction.
+//! Springs and dampers between two points: a force N(δ) + D(δ̇) along the line of the points or along a fixed direction.
 
 use super::block::{Branches, Elements, FailureCause, Force, Mechanics, Moduli, Results, subtract};
+use super::damper::Damper;
 use super::link_failure::{self, LinkFailure, has_failed};
 use super::memories::places;
 use crate::materials::{Dissipation, FAILED_STIFFNESS};
@@ -95,17 +96,19 @@ impl LinkLaw {
         }
     }
 
-    /// The force with a damper `c` and a factor `beta` on the stiffness. A one-sided link has no force when open, and its damper never changes the sign of the force.
+    /// The force with a damper and a factor `beta` on the stiffness. A one-sided link has no force when open, and its damper never changes the sign of the force.
     #[inline]
-    fn damped_force(&self, delta: f64, rate: f64, c: f64, beta: f64) -> LinkForce {
+    fn damped_force(&self, delta: f64, rate: f64, damper: &Damper, beta: f64) -> LinkForce {
         let (elastic, stiffness) = self.force(delta);
         // A table may fall; its damper must not drive it.
-        let c = c + beta * stiffness.max(0.0);
+        let beside = beta * stiffness.max(0.0);
+        let (resisting, slope) = damper.force(rate);
+        let (damped, damping) = (resisting + beside * rate, slope + beside);
         let open = LinkForce { force: 0.0, elastic, stiffness: 0.0, damping: 0.0 };
         match self {
-            LinkLaw::CompressionOnly { .. } if stiffness == 0.0 || elastic + c * rate > 0.0 => open,
-            LinkLaw::TensionOnly { .. } if stiffness == 0.0 || elastic + c * rate < 0.0 => open,
-            _ => LinkForce { force: elastic + c * rate, elastic, stiffness, damping: c },
+            LinkLaw::CompressionOnly { .. } if stiffness == 0.0 || elastic + damped > 0.0 => open,
+            LinkLaw::TensionOnly { .. } if stiffness == 0.0 || elastic + damped < 0.0 => open,
+            _ => LinkForce { force: elastic + damped, elastic, stiffness, damping },
         }
     }
 }
@@ -158,8 +161,8 @@ pub struct Link {
     pub nodes: [usize; 2],
     /// The force as a function of the elongation.
     pub law: LinkLaw,
-    /// Force per rate of elongation.
-    pub damping: f64,
+    /// The force against the rate of elongation.
+    pub damper: Damper,
     /// Rayleigh's factor on the stiffness (time).
     beta: f64,
     /// A unit vector fixed in space along which the link acts; none for the line of the nodes.
@@ -200,7 +203,7 @@ impl Link {
     pub fn new(
         nodes: [usize; 2],
         law: LinkLaw,
-        damping: f64,
+        damper: Damper,
         direction: Option<Vec3>,
         free_length: f64,
         start: [Vec3; 2],
@@ -220,7 +223,7 @@ impl Link {
         Link {
             nodes,
             law,
-            damping,
+            damper,
             beta,
             direction,
             failure,
@@ -241,7 +244,8 @@ impl Link {
 
     /// True where its force depends on the rate.
     fn is_damped(&self) -> bool {
-        self.damping > 0.0 || (self.beta > 0.0 && !matches!(self.law, LinkLaw::Linear { stiffness: 0.0, .. }))
+        self.damper.coefficient > 0.0
+            || (self.beta > 0.0 && !matches!(self.law, LinkLaw::Linear { stiffness: 0.0, .. }))
     }
 
     /// Returns the link with a node for take-up: its displacement along x adds to the elongation of the ends.
@@ -303,7 +307,7 @@ impl Link {
     /// The force at an elongation, none where the link has failed.
     #[inline]
     fn force(&self, line: &LinkAxis, memory: &[f64]) -> LinkForce {
-        let acting = self.law.damped_force(line.delta, line.rate, self.damping, self.beta);
+        let acting = self.law.damped_force(line.delta, line.rate, &self.damper, self.beta);
         match has_failed(memory) {
             true => {
                 LinkForce { force: 0.0, elastic: 0.0, stiffness: FAILED_STIFFNESS * acting.stiffness, damping: 0.0 }
@@ -369,7 +373,9 @@ impl Elements for Links {
 impl Mechanics for Links {
     fn is_linear(&self) -> bool {
         self.memories.is_empty()
-            && self.links.iter().all(|l| l.direction.is_some() && matches!(l.law, LinkLaw::Linear { .. }))
+            && self.links.iter().all(|link| {
+                link.direction.is_some() && matches!(link.law, LinkLaw::Linear { .. }) && link.damper.is_linear()
+            })
     }
 
     fn is_damped(&self) -> bool {
@@ -530,8 +536,8 @@ mod tests {
     #[test]
     fn one_sided_links_never_pull_the_wrong_way() {
         let bumper = LinkLaw::CompressionOnly { stiffness: 10.0, gap: 0.0 };
-        assert_eq!(bumper.damped_force(0.1, -1.0, 5.0, 0.0).force, 0.0);
-        assert_eq!(bumper.damped_force(-0.1, 1.0, 5.0, 0.0).force, 0.0);
-        assert_eq!(bumper.damped_force(-0.1, -1.0, 5.0, 0.0).force, -6.0);
+        assert_eq!(bumper.damped_force(0.1, -1.0, &Damper::linear(5.0), 0.0).force, 0.0);
+        assert_eq!(bumper.damped_force(-0.1, 1.0, &Damper::linear(5.0), 0.0).force, 0.0);
+        assert_eq!(bumper.damped_force(-0.1, -1.0, &Damper::linear(5.0), 0.0).force, -6.0);
     }
 }

@@ -9,6 +9,7 @@ pub mod bouc_wen;
 pub mod bushing;
 pub mod contact;
 pub mod coordinate_law;
+pub mod damper;
 pub mod heat;
 pub mod hysteresis;
 pub mod hysteretic_link;

@@ -7,6 +7,7 @@ use base::quantities::{Column, LINK};
 use mechanics::constraints::joint::ConstraintEquation;
 use mechanics::elements::bearing::BearingMatrices;
 use mechanics::elements::coordinate_law::CoordinateLaw;
+use mechanics::elements::damper::Damper;
 use mechanics::elements::hysteretic_link::PathLaw;
 use mechanics::elements::link::LinkLaw;
 use mechanics::elements::link_failure::LinkFailure;
@@ -36,8 +37,8 @@ pub enum LinkKind {
     Line {
         /// The force over the elongation.
         law: LinkLaw,
-        /// The force per rate of the elongation.
-        damping: f64,
+        /// The force against the rate of the elongation.
+        damper: Damper,
         /// The fixed direction; `None` where the force acts along the line of the ends.
         direction: Option<Vec3>,
         /// Length (along the line) without elongation; along `direction` the initial projection, unless a free length is given.
@@ -47,8 +48,8 @@ pub enum LinkKind {
     Hysteretic {
         /// The force over the elongation and its past.
         law: PathLaw,
-        /// The force per rate of the elongation.
-        damping: f64,
+        /// The force against the rate of the elongation.
+        damper: Damper,
         /// The fixed direction; `None` where the force acts along the line of the ends.
         direction: Option<Vec3>,
         /// As for [`LinkKind::Line`].
@@ -153,8 +154,8 @@ impl PartAnswers for Link {
     fn linear_spring(&self) -> Option<LinearSpring> {
         match self.kind {
             _ if self.failure.is_some() => None,
-            LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, damping, .. } => {
-                Some(LinearSpring { ends: self.ends, stiffness, damping })
+            LinkKind::Line { law: LinkLaw::Linear { stiffness, .. }, damper, .. } if damper.is_linear() => {
+                Some(LinearSpring { ends: self.ends, stiffness, damping: damper.coefficient })
             }
             LinkKind::Joint { law, .. } if law == CoordinateLaw::FREE => {
                 Some(LinearSpring { ends: self.ends, stiffness: 0.0, damping: 0.0 })

@@ -5,7 +5,7 @@ use crate::data::{
     PrescribedMotion,
 };
 use crate::links::ModelLinks;
-use crate::own_damping::of_spring;
+use crate::own_damping::of_joint;
 use crate::places::nodes::Nodes;
 use crate::report::{Owner, Report};
 use crate::scene::Scene;
@@ -106,7 +106,7 @@ impl<'d> CoordinateKeys<'_, 'd> {
         if own == Coordinate::Length {
             self.needs_an_action(kind);
         }
-        let (damping, own_damping) = of_spring("a joint", &self.joint.damping, self.report);
+        let (damping, own_damping) = of_joint(&self.joint.damping, self.report);
         let law = self.law(kind, coordinate, damping);
         let stick = self.report.positive("stick", &joint.stick);
         let counted = self.is_counted();

@@ -11,7 +11,7 @@ use crate::links::foundation::foundations;
 use crate::links::line_keys::{dashpot, of_lines};
 use crate::links::matrices::bearing;
 use crate::links::pretension::pretension;
-use crate::own_damping::of_spring;
+use crate::own_damping::of_link;
 use crate::places::axes::axes;
 use crate::places::ends::EndTable;
 use crate::places::nodes::Nodes;
@@ -24,6 +24,7 @@ use deck::links as words;
 use deck::words::{Maybe, Numbers, Table};
 use mechanics::constraints::joint::ConstraintEquation;
 use mechanics::elements::coordinate_law::CoordinateLaw;
+use mechanics::elements::damper::Damper;
 use mechanics::elements::link::LinkLaw;
 use mechanics::elements::link_failure::LinkFailure;
 
@@ -63,11 +64,11 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
         };
         let (from, to) = (end("from", &link.from), end("to", &link.to));
         let ends = from.zip(to).map(|(from, to)| [from, to]);
-        let (damping, own_damping) = of_spring("a link", &link.damping, report);
+        let (damper, own_damping) = of_link(&link.damping, report);
         let kind = match (&link.bushing, &link.matrices) {
             (_, Some(list)) => bearing(&owner, link, list, report),
             (Some(_), None) => bushing(link, report),
-            (None, None) => line(&owner, link, (ends, damping), nodes, report),
+            (None, None) => line(&owner, link, (ends, damper), nodes, report),
         };
         if let Some([from, to]) = ends
             && from == to
@@ -96,7 +97,7 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
 fn line<'d>(
     owner: &Owner<'d>,
     link: &'d words::Link,
-    (ends, damping): (Option<[usize; 2]>, f64),
+    (ends, damper): (Option<[usize; 2]>, Damper),
     nodes: &Nodes,
     report: &mut Report<'d>,
 ) -> Option<LinkKind> {
@@ -127,9 +128,9 @@ fn line<'d>(
     };
     let free_length = free_length.unwrap_or(initial);
     if let hysteretic::GivenLaw::Law(law) = path {
-        return Some(LinkKind::Hysteretic { law, damping, direction, free_length });
+        return Some(LinkKind::Hysteretic { law, damper, direction, free_length });
     }
-    Some(LinkKind::Line { law: law?, damping, direction, free_length })
+    Some(LinkKind::Line { law: law?, damper, direction, free_length })
 }
 
 fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<LinkLaw> {

@@ -121,6 +121,7 @@ fn present<'s>(keys: &[(&'static str, Option<&'s Span>)]) -> Vec<(&'static str, 
     keys.iter().filter_map(|(key, place)| Some((*key, (*place)?))).collect()
 }
 
-fn name_of(name: &Maybe<String>) -> &str {
+/// The name in messages.
+pub fn name_of(name: &Maybe<String>) -> &str {
     name.as_ref().map_or("", |name| name.as_str())
 }

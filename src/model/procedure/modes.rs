@@ -5,13 +5,14 @@
 
 use crate::data::{Analysis, AnalysisKind, History, Model, ModesAsked, StepLength};
 use crate::procedure::extent::{count, extent};
+use crate::procedure::linear::name_of;
 use crate::procedure::response::{is_harmonic, keys_of_response, response};
 use crate::report::{Owner, Report};
 use crate::values::{flag, keys, span};
 use base::diagnostic::{Diagnostic, Span};
 use deck::Deck;
 use deck::analysis::{self as words, AnalysisKind as Word};
-use deck::words::Spacing;
+use deck::words::{NumberOrTable, Spacing};
 use mechanics::amplitude::Amplitude;
 
 /// End time of the static analysis, equal to the load factor.
@@ -110,6 +111,18 @@ fn note_times(analysis: &words::Analysis, what: &str, report: &mut Report) {
             let hint = "loads are those at t = 0, brought on in load steps of the program's own";
             report.push(Diagnostic::note(message).at(place).hint(hint));
         }
+    }
+}
+
+/// Refuses dampers with an exponent where damping is linearized at rest: the slope there belongs to no motion.
+pub fn refuse_power_dampers(deck: &Deck, report: &mut Report) {
+    for link in &deck.links {
+        let Some(NumberOrTable::Table(damping)) = link.damping.as_ref().map(|damping| &damping.value) else { continue };
+        let Some(exponent) = damping.exponent.as_ref().filter(|exponent| exponent.value != 1.0) else { continue };
+        let name = name_of(&link.name);
+        let message = format!("link `{name}` has a damper with an exponent, which linear vibrations do not have");
+        let hint = "give the `viscous` of a linear damper with the same dissipation at the expected amplitude, and no `exponent`";
+        report.error_with::<()>(&exponent.span, message, hint);
     }
 }
 

@@ -103,17 +103,16 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
     };
     let beta = |part: &Link| model.damping.beta(&part.own_damping);
     let element = |(index, part): (usize, &Link)| match &part.kind {
-        LinkKind::Line { law, damping, direction, free_length } => {
+        LinkKind::Line { law, damper, direction, free_length } => {
             let start = part.ends.map(|node| x[node]);
-            let line = link::Link::new(part.ends, law.clone(), *damping, *direction, *free_length, start);
+            let line = link::Link::new(part.ends, law.clone(), *damper, *direction, *free_length, start);
             LinkElement::Line(line.damped_by(beta(part)).failing(part.failure).taken_up(part.take_up))
         }
-        LinkKind::Hysteretic { law, damping, direction, free_length } => {
+        LinkKind::Hysteretic { law, damper, direction, free_length } => {
             let start = part.ends.map(|node| x[node]);
             let none = link::LinkLaw::Linear { stiffness: 0.0, preload: 0.0 };
-            let damping = damping + beta(part) * law.stiffness();
-            let link = link::Link::new(part.ends, none, damping, *direction, *free_length, start);
-            LinkElement::Hysteretic(HystereticLink { link, law: *law })
+            let link = link::Link::new(part.ends, none, *damper, *direction, *free_length, start);
+            LinkElement::Hysteretic(HystereticLink { link, law: *law, beside: beta(part) * law.stiffness() })
         }
         LinkKind::Bushing { stiffness, damping, axes } => LinkElement::Bushing(Bushing {
             nodes: part.ends,
