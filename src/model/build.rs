@@ -12,8 +12,8 @@ use super::cases::cases;
 use super::contacts::contacts;
 use super::contacts::points::connect_touching_points;
 use super::data::{
-    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, Iteration, Joint, Load, LoadCases, Mass,
-    MeshFile, Model, Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
+    Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, FieldFiles, Iteration, Joint, Load, LoadCases,
+    Mass, MeshFile, Model, Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
 };
 use super::environment::{AccelerationFields, damping, environment};
 use super::equations::equations;
@@ -499,7 +499,7 @@ fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -
         hold_at_start(&mut model);
         // Times of a motion would cut load steps that lead to the state.
         model.output.cadence = Cadence::Steps(1);
-        model.output.fields = model.output.fields.map(|_| Cadence::Steps(1));
+        model.output.fields = model.output.fields.map(|files| FieldFiles { cadence: Cadence::Steps(1), ..files });
     }
     if model.analysis.is_linear() {
         make_elastic(&mut model);

@@ -1,6 +1,6 @@
 //! `[output]`: tables, nodes and times of output.
 
-use super::data::{Cadence, Drift, FieldFormat, JointOrigin, Model, Node, Output};
+use super::data::{Cadence, Drift, FieldFiles, FieldFormat, JointOrigin, Model, Node, Output};
 use super::places::place::Place;
 use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
@@ -49,11 +49,12 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
     let cadence = cadence(table, end_time, is_arc_length, report);
     let fields = table.fields.as_ref().map(|fields| {
         report.require(&Owner::new("`fields`", &fields.span), "format", &fields.format);
-        match &fields.every {
+        let cadence = match &fields.every {
             Some(_) => Cadence::Steps(report.count("every", &fields.every, 1)),
             None if is_arc_length => Cadence::Steps(1),
             None => Cadence::at_most(MOST_FIELDS, end_time, &scene.analysis.step_length),
-        }
+        };
+        FieldFiles { cadence, format: field_format(table) }
     });
     let output = Output {
         units,
@@ -71,7 +72,6 @@ pub(super) fn output<'d>(scene: &Scene<'d>, nodes: &[Node], is_arc_length: bool,
         parts: flag(&table.parts, false),
         joints: flag(&table.joints, false),
         fields,
-        field_format: field_format(table),
         only: None,
         checkpoint: report.positive("checkpoint", &table.checkpoint),
     };
@@ -96,7 +96,6 @@ fn by_default<'d>(scene: &Scene<'d>, nodes: Vec<usize>, units: Option<String>, r
         parts: false,
         joints: false,
         fields: None,
-        field_format: FieldFormat::Vtu,
         only: None,
         checkpoint: None,
     }

@@ -71,7 +71,7 @@ impl Files {
         fs::create_dir_all(dir).map_err(|e| at(dir, e))?;
         let wanted = TABLES.iter().copied().filter(|kind| kind.is_written(model));
         let tables = wanted.map(|kind| OpenTable::open(dir, kind, model)).collect::<io::Result<_>>()?;
-        let format = model.output.drawn().map(|(_, format)| format);
+        let format = model.output.drawn().map(|files| files.format);
         let fields = (format == Some(FieldFormat::Vtu)).then(|| Fields::open(dir, model)).transpose()?;
         let frd = (format == Some(FieldFormat::Frd)).then(|| FrdFile::open(dir, model)).transpose()?;
         let envelopes = Envelopes::of(model);
@@ -188,7 +188,7 @@ impl Files {
 pub fn names(model: &Model) -> Vec<&'static str> {
     let tables = TABLES.iter().copied().filter(|kind| kind.is_written(model)).map(|kind| kind.file);
     let lists = |format| if format == FieldFormat::Frd { vec![frd::NAME] } else { LISTS.to_vec() };
-    tables.chain(model.output.drawn().into_iter().flat_map(|(_, format)| lists(format))).collect()
+    tables.chain(model.output.drawn().into_iter().flat_map(|files| lists(files.format))).collect()
 }
 
 impl Observer for Files {
@@ -268,7 +268,7 @@ pub fn listed(model: &Model, plan: &Plan) -> String {
     let chosen = output.cadence_is_open && output.cadence != Cadence::Steps(1);
     let open = if chosen { ", as rows would be many and `[output]` has neither `every` nor `interval`" } else { "" };
     let mut groups = vec![format!("{} ({}{open})", names.join(", "), in_words(output.cadence))];
-    groups.extend(output.drawn().map(|(cadence, _)| format!("fields ({})", in_words(cadence))));
+    groups.extend(output.drawn().map(|files| format!("fields ({})", in_words(files.cadence))));
     groups.extend(output.checkpoint.map(|apart| format!("a checkpoint every {apart} s of run time")));
     groups.push(size_in_words(model, plan));
     groups.join("; ")

@@ -5,7 +5,7 @@ use super::table::TableKind;
 use super::tables::TABLES;
 use super::{fields, frd};
 use base::names::amount;
-use model::{Cadence, FieldFormat, Model, StepLength};
+use model::{Cadence, FieldFiles, FieldFormat, Model, StepLength};
 use solve::plan::Plan;
 
 /// The number of bytes of a number with its comma: most have sixteen or seventeen digits.
@@ -63,7 +63,7 @@ fn sizes(model: &Model, plan: &Plan) -> Vec<(&'static str, usize)> {
 pub fn expected_sizes(model: &Model, plan: &Plan) -> Option<Vec<(&'static str, f64)>> {
     let times = times(model, model.output.cadence)?;
     let mut all: Vec<_> = sizes(model, plan).into_iter().map(|(file, size)| (file, size as f64 * times)).collect();
-    if let Some((cadence, format)) = model.output.drawn() {
+    if let Some(FieldFiles { cadence, format }) = model.output.drawn() {
         let bytes = if format == FieldFormat::Frd { frd::bytes(model) } else { fields::bytes(model) };
         all.push(("fields", self::times(model, cadence)? * bytes as f64));
     }

@@ -401,8 +401,8 @@ impl Recorder {
         let is_first = self.counts.steps == 0;
         // The beginning of a stage looks like the end of the one before.
         let begins_stage = self.before.steps > 0 && self.counts.steps == self.before.steps;
-        let cadence = output.fields.filter(|_| !begins_stage);
-        let drawn = cadence.is_some_and(|cadence| self.fields.is_due(cadence, at, is_first || step.last));
+        let files = output.fields.filter(|_| !begins_stage);
+        let drawn = files.is_some_and(|files| self.fields.is_due(files.cadence, at, is_first || step.last));
         (due, drawn)
     }
 

@@ -250,7 +250,10 @@ fn the_rest_is_taken_as_written() {
     assert_eq!(model.expects[2].at, ExpectAt::Sections(3));
     assert_eq!(model.expects[3].tolerance, Tolerance::Absolute(1e-3));
     assert_eq!(model.output.nodes, [node(&model, "a"), node(&model, "c"), node(&model, "d")]);
-    assert_eq!((model.output.cadence, model.output.fields), (Cadence::Interval(0.01), Some(Cadence::Steps(20))));
+    assert_eq!(
+        (model.output.cadence, model.output.fields.map(|files| files.cadence)),
+        (Cadence::Interval(0.01), Some(Cadence::Steps(20)))
+    );
     assert_eq!(model.analysis.least_step, 1e-4 / 1048576.0);
 }
 

@@ -93,7 +93,6 @@ pub fn empty(kind: AnalysisKind, end_time: f64, time_step: f64) -> Model {
             parts: false,
             joints: false,
             fields: None,
-            field_format: FieldFormat::default(),
             only: None,
             checkpoint: None,
         },

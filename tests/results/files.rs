@@ -2,7 +2,7 @@
 
 use crate::scene;
 use crate::support::grid::Grid;
-use rdsolve::model::{Cadence, Expect, ExpectAt, Model, PartIndex, PartKind, Tolerance, When};
+use rdsolve::model::{Cadence, Expect, ExpectAt, FieldFiles, FieldFormat, Model, PartIndex, PartKind, Tolerance, When};
 use rdsolve::output::Files;
 use rdsolve::output::expect::{Expectations, quantities};
 use rdsolve::solve::Observer;
@@ -108,7 +108,7 @@ fn rows_are_the_frames_to_the_last_bit() {
 fn a_resumed_run_leaves_the_same_files() {
     let [whole, resumed] = [tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap()];
     let mut model = scene::model();
-    model.output.fields = Some(Cadence::Steps(3));
+    model.output.fields = Some(FieldFiles { cadence: Cadence::Steps(3), format: FieldFormat::Vtu });
     run(whole.path(), &model);
     let mut files = Files::open(resumed.path(), &model).unwrap();
     show(&mut files, &model, 0, 4);
@@ -172,7 +172,7 @@ fn well_formed(xml: &str) -> bool {
 fn grids_hold_together() {
     let dir = tempfile::tempdir().unwrap();
     let mut model = scene::model();
-    model.output.fields = Some(Cadence::Steps(4));
+    model.output.fields = Some(FieldFiles { cadence: Cadence::Steps(4), format: FieldFormat::Vtu });
     run(dir.path(), &model);
     let list = fs::read_to_string(dir.path().join("fields.pvd")).unwrap();
     assert!(well_formed(&list));

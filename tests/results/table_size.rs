@@ -89,8 +89,9 @@ fn large_tables_have_fewer_rows_by_default() {
 
 #[test]
 fn fields_come_to_200_files_by_default() {
-    let fields =
-        |analysis: &str, fields: &str| on_a_spring(analysis, &format!("[output]\nfields = {fields}")).output.fields;
+    let fields = |analysis: &str, fields: &str| {
+        on_a_spring(analysis, &format!("[output]\nfields = {fields}")).output.fields.map(|files| files.cadence)
+    };
     let open = "{ format = \"vtu\" }";
     assert_eq!(fields("end_time = 1.0\ntime_step = 5e-3", open), Some(Cadence::Steps(1)));
     assert_eq!(fields("end_time = 1.0\ntime_step = 1e-4", open), Some(Cadence::Steps(50)));

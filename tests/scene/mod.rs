@@ -153,7 +153,6 @@ pub fn model() -> Model {
             parts: false,
             joints: false,
             fields: None,
-            field_format: FieldFormat::default(),
             only: None,
             checkpoint: None,
         },
@@ -253,7 +252,7 @@ impl Extras {
             dt: if step == 0 { 0.0 } else { 0.1 },
             effort: Effort { iterations: 3, refactorizations: 1, residual: 1e-9, cuts: step % 2 },
             due: step.is_multiple_of(2) || step == 10,
-            drawn: matches!(model.output.fields, Some(Cadence::Steps(every)) if step.is_multiple_of(every))
+            drawn: matches!(model.output.fields, Some(FieldFiles { cadence: Cadence::Steps(every), .. }) if step.is_multiple_of(every))
                 || step == 10,
             last: step == 10,
             inside: false,

@@ -53,7 +53,7 @@ pub use model::{MeshFile, Model, Origin, RecordFile, Rigid};
 pub use modes::{ModeExtent, ModesAsked};
 pub use moving_frame::{MovingFrame, MovingFrames};
 pub use node::{Body, DIRECTIONS, Mass, Node};
-pub use output::{Cadence, Drift, FieldFormat, Output, round_up};
+pub use output::{Cadence, Drift, FieldFiles, FieldFormat, Output, round_up};
 pub use part::{Part, PartType, quantities_of};
 pub use part_answers::{Drawing, LineElement, LinearSpring, NodalAction, NodeWeights};
 pub use response::{AroundResonances, ResponseAsked, ResponseMethod};

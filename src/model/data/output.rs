@@ -34,10 +34,8 @@ pub struct Output {
     pub parts: bool,
     /// True where joints.csv is written.
     pub joints: bool,
-    /// The times of field files; `None`: no fields.
-    pub fields: Option<Cadence>,
-    /// The format of field files.
-    pub field_format: FieldFormat,
+    /// The field files; `None`: no fields.
+    pub fields: Option<FieldFiles>,
     /// The only files that are written of those above; `None`: all. Nobody reads the others of a run whose folder is removed at its end.
     pub only: Option<Vec<&'static str>>,
     /// Seconds of run time between two checkpoints; `None`: only when the run is stopped.
@@ -45,9 +43,9 @@ pub struct Output {
 }
 
 impl Output {
-    /// The times and the format of the field files that are written.
-    pub fn drawn(&self) -> Option<(Cadence, FieldFormat)> {
-        self.fields.filter(|_| self.only.is_none()).map(|cadence| (cadence, self.field_format))
+    /// The field files that are written.
+    pub fn drawn(&self) -> Option<FieldFiles> {
+        self.fields.filter(|_| self.only.is_none())
     }
 }
 
@@ -58,6 +56,15 @@ pub struct Drift {
     pub name: String,
     /// The node that it is relative to, and the node whose displacement it is.
     pub ends: [usize; 2],
+}
+
+/// The field files of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FieldFiles {
+    /// Their times.
+    pub cadence: Cadence,
+    /// Their format.
+    pub format: FieldFormat,
 }
 
 /// The format of field files.
