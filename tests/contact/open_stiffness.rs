@@ -95,10 +95,13 @@ fn run(text: &str, size: f64) -> (f64, f64, Vec<String>) {
 /// Explicit, in automatic and fixed steps: the penetration is less than a quarter of the smaller size, of rubber too, and energy is closed.
 #[test]
 fn every_scene_runs_by_defaults() {
-    // A light ball on a thick sheet loses 5 % in these steps, of which a message says, and 16 % in automatic ones: docs/limits.md.
-    for (name, tables, size) in scenes().into_iter().filter(|(name, ..)| *name != "light on heavy") {
-        // Automatic steps are half of the critical one: a sheet that lands flat, all nodes at once, errs most.
-        for (step, closed) in [("\"auto\"", 0.1), ("1e-6", 0.02)] {
+    for (name, tables, size) in scenes() {
+        let is_light = name == "light on heavy";
+        // Automatic steps are half of the critical one: a sheet that lands flat, all nodes at once, errs most. A light ball has shorter steps: 15.6 %
+        // were lost without them. Of fixed steps too long for it, in which it loses 5 %, a message tells.
+        for (step, closed) in
+            [("\"auto\"", if is_light { 0.01 } else { 0.1 }), ("1e-6", if is_light { 0.06 } else { 0.02 })]
+        {
             let (depth, off, said) = run(&deck(&tables, "central-difference", step, 1e-3), size);
             println!("{name}, {step}: {:.2} % deep, energy {:.2} % off, {said:?}", 100.0 * depth, 100.0 * off);
             assert!(depth < 0.25 && off < closed, "{name}, {step}: {depth} {off}");

@@ -17,6 +17,9 @@ use std::f64::consts::{PI, TAU};
 
 /// Fraction of 1/√(k/m) for one step of an impact: an impact then needs nine steps or more.
 const RESOLUTION: f64 = 0.5;
+/// The same for a light body on a deformable part in automatic explicit steps. Their error is that of the steps in which the contact closes and opens, up
+/// to (ω Δt)²/4 of the energy: a hundredth.
+const RESOLUTION_OF_LIGHT: f64 = 0.2;
 /// Gap, as a part of the size of the scene, that counts as closed in statics: the rounding of positions.
 const TOUCHING: f64 = 1e-12;
 /// Number of steps for an impact where steps are not cut, as in the chapter on contact stiffness.
@@ -44,6 +47,8 @@ struct Other {
     mass: f64,
     /// The least.
     least: f64,
+    /// The largest that nothing holds.
+    free: f64,
     /// True where there are bodies, point masses and the ground alone.
     rigid: bool,
 }
@@ -56,6 +61,8 @@ struct Meeting {
     least: f64,
     /// True where only bodies and point masses are in contact.
     rigid: bool,
+    /// True where a body is lighter than a node of a deformable part that it may meet and nothing holds: the impact is then faster than any mode of the part.
+    light: bool,
 }
 
 impl LawReader<'_, '_> {
@@ -120,9 +127,11 @@ impl LawReader<'_, '_> {
             _ => Loss::None,
         };
         let words::Coefficients { sticking, kinetic, decay } = contact.coefficients();
-        let resolved = dynamic && meeting.rigid && frequency.is_finite();
+        let light = meeting.light && !meeting.rigid && self.finds_explicit_steps();
+        let resolved = dynamic && (meeting.rigid || light) && frequency.is_finite();
+        let resolution = if light { RESOLUTION_OF_LIGHT } else { RESOLUTION };
         // An impact with restitution 0 stops in half of the time.
-        let resolution = if matches!(loss, Loss::Whole { .. }) { 0.5 * RESOLUTION } else { RESOLUTION };
+        let resolution = if matches!(loss, Loss::Whole { .. }) { 0.5 * resolution } else { resolution };
         ContactLaw {
             stiffness,
             loss,
@@ -173,6 +182,12 @@ impl LawReader<'_, '_> {
             Some(step) => meeting.least * (PI / (EXPLICIT_STEPS * step)).powi(2),
             None => f64::INFINITY,
         }
+    }
+
+    /// True for central differences whose steps follow the critical one.
+    fn finds_explicit_steps(&self) -> bool {
+        let is_explicit = self.scene.deck.integrator.as_ref().is_some_and(is_central);
+        is_explicit && !matches!(self.scene.analysis.step_length, StepLength::Fixed { .. })
     }
 
     /// The fixed step, or the automatic one of central differences where membranes and bars limit it.
@@ -238,12 +253,18 @@ impl LawReader<'_, '_> {
     }
 
     fn meeting(&self, opposite: Opposite, points: &[ContactPoint], levers: &[f64]) -> Meeting {
-        let Other { mass: other, least: least_other, rigid: other_is_rigid } = self.other(opposite);
+        let Other { mass: other, least: least_other, free: free_other, rigid: other_is_rigid } = self.other(opposite);
         let (mut mean, mut least, mut rigid) = (0.0f64, f64::INFINITY, other_is_rigid);
+        let mut light = false;
         for (point, &lever) in points.iter().zip(levers) {
             let own: f64 = point.nodes().iter().zip(point.weights).map(|(&node, w)| w.abs() * self.mass(node)).sum();
             let reduced = 1.0 / (1.0 / own + 1.0 / other);
             let is_body = point.nodes().iter().all(|&node| self.is_lump(self.topology.root(node)));
+            light |= match (is_body, other_is_rigid) {
+                (true, false) => own < free_other,
+                (false, true) => own.is_finite() && other < own,
+                _ => false,
+            };
             rigid &= is_body || point.nodes().iter().all(|&node| self.is_weighted(self.topology.root(node)));
             // In an impact of a body on a deformable part, the effective mass exceeds that of the node.
             let taken = if is_body == other_is_rigid || !other.is_finite() { reduced } else { (own * other).sqrt() };
@@ -251,7 +272,7 @@ impl LawReader<'_, '_> {
             let reduced = 1.0 / (1.0 / own + 1.0 / least_other);
             least = if reduced > 0.0 { least.min(1.0 / (1.0 / reduced + self.ease(point, lever))) } else { least };
         }
-        Meeting { mean, least, rigid }
+        Meeting { mean, least, rigid, light }
     }
 
     /// The mass opposite to the points.
@@ -260,7 +281,7 @@ impl LawReader<'_, '_> {
             let carrier = opposite.node();
             let on_ground = !self.scene.bodies.iter().any(|body| body.node == carrier);
             let mass = if on_ground { f64::INFINITY } else { self.mass(carrier) };
-            return Other { mass, least: mass, rigid: true };
+            return Other { mass, least: mass, free: mass, rigid: true };
         };
         let nodes = opposite.nodes();
         let masses = || nodes.iter().map(|&node| self.mass(node));
@@ -268,7 +289,12 @@ impl LawReader<'_, '_> {
             let root = self.topology.root(node);
             self.is_lump(root) || self.is_weighted(root)
         });
-        Other { mass: masses().fold(0.0, f64::max), least: masses().fold(f64::INFINITY, f64::min), rigid }
+        Other {
+            mass: masses().fold(0.0, f64::max),
+            least: masses().fold(f64::INFINITY, f64::min),
+            free: masses().filter(|mass| mass.is_finite()).fold(0.0, f64::max),
+            rigid,
+        }
     }
 
     /// True where point masses are more than half of the mass at a node.
