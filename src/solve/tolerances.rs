@@ -320,9 +320,9 @@ pub mod embedded_error {
     pub const SAFETY: f64 = 0.9;
     /// Least and largest ratio of a step to the one before.
     pub const GROWTH: [f64; 2] = [0.2, 5.0];
-    /// The longest rotation of a step, in radians, at the largest angular velocity of the step before. The comparison run, whose steps are up
-    /// to 1.5 times as long, stays below the limit of a rotation vector, [`super::explicit_runge_kutta::FARTHEST`].
-    pub const TURN: f64 = 1.9;
+    /// The longest rotation of a step, in radians, at the largest angular velocity of the step before. The comparison run of order 8, whose steps
+    /// are 1.3 times as long, stays below the limit of a rotation vector, [`super::explicit_runge_kutta::FARTHEST`].
+    pub const TURN: f64 = 2.2;
     /// The largest velocity times this fraction of the run counts as displacement, for at the start there is none.
     pub const GLANCE: f64 = 1e-3;
 }
@@ -344,6 +344,9 @@ pub mod error_controlled {
     pub const MEAN: f64 = 0.3;
     /// This fraction for Runge-Kutta schemes: their errors mainly damp the motion, and cancel less.
     pub const MEAN_OF_STAGES: f64 = 0.6;
+    /// Part of the requested error that the motion inside steps may add: where the polynomial departs from the stages by less, it is written
+    /// without an equilibrium of its own.
+    pub const INSIDE: f64 = 0.1;
     /// Least number of steps of a run.
     pub const FEWEST: f64 = 50.0;
     /// Lengths of the trial steps that measure the motion ahead when motion begins, as fractions of the run; the first are
