@@ -8,7 +8,7 @@ use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
     bodies, distributing, equations, joints, links, loads, material_cards, mesh_text, nodal_axes, output, parts,
-    property_cards, spread_loads, stage_text, supports, temperatures, ties,
+    property_cards, spread_loads, stage_text, supports, surface_ties, temperatures, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -59,6 +59,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     links::links(&mut build);
     joints::connectors(&mut build);
     ties::joints(&mut build);
+    surface_ties::surface_ties(&mut build);
     equations::equations(&mut build);
     supports::supports(&mut build);
     loads::loads(&mut build);

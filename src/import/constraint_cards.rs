@@ -1,6 +1,6 @@
 //! Constraints: rigid bodies, couplings, constraints of several points, equations.
 
-use crate::file_content::{DistributingCard, EquationCard, OpenCoupling, PointsCard, RigidCard};
+use crate::file_content::{DistributingCard, EquationCard, OpenCoupling, PointsCard, RigidCard, TieCard};
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::scopes::{Members, NamedTarget};
@@ -192,6 +192,32 @@ pub fn points(im: &mut Importer, block: &KeywordBlock) {
             block.keyword.line,
             "BEAM is a rigid beam in Abaqus and a rod of fixed length in CalculiX: say --from abaqus or --from calculix",
         );
+    }
+}
+
+/// `*TIE`.
+pub fn tie(im: &mut Importer, block: &KeywordBlock) {
+    let (keyword, line) = (&block.keyword, block.keyword.line);
+    let tolerance = match keyword.value("POSITIONTOLERANCE").map(str::parse) {
+        None => None,
+        Some(Ok(tolerance)) => Some(tolerance),
+        Some(Err(_)) => return im.refuse(line, "POSITION TOLERANCE must be a number"),
+    };
+    if ["CYCLICSYMMETRY", "MULTISTAGE", "FLUIDSTRUCTURE"].iter().any(|word| keyword.has(word)) {
+        return im.refuse(line, "rdsolve has no cyclic symmetry");
+    }
+    for data in block.data.iter().filter(|data| data.filled() > 0) {
+        let [slave, master, ..] = &data.words[..] else {
+            return im.refuse(data.line, "*TIE needs two surfaces on a line");
+        };
+        let card = TieCard {
+            line: data.line,
+            name: keyword.value("NAME").unwrap_or("tie").to_owned(),
+            surfaces: [slave, master].map(|word| im.target(word)),
+            tolerance,
+            is_hinge: keyword.has("NOROTATION"),
+        };
+        im.constraints.ties.push(card);
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 /// Tables in the order of the reference.
-const ORDER: [&str; 26] = [
+const ORDER: [&str; 27] = [
     "analysis",
     "integrator",
     "iteration",
@@ -19,6 +19,7 @@ const ORDER: [&str; 26] = [
     "bodies",
     "masses",
     "attachments",
+    "ties",
     "supports",
     "equations",
     "joints",

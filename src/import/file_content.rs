@@ -221,10 +221,27 @@ pub struct ConstraintCards {
     pub equations: Vec<EquationCard>,
     /// `*TRANSFORM`: nodes, and the axes there.
     pub transforms: Vec<(NamedTarget, NodalAxes)>,
+    /// `*TIE`.
+    pub ties: Vec<TieCard>,
     /// Couplings that spread forces.
     pub distributing: Vec<DistributingCard>,
     /// The coupling at hand.
     pub open: Option<OpenCoupling>,
+}
+
+/// Two surfaces that are tied.
+#[derive(Debug, Clone)]
+pub struct TieCard {
+    /// Its line.
+    pub line: usize,
+    /// Its name.
+    pub name: String,
+    /// The surface whose nodes are tied, and the one that they are tied to.
+    pub surfaces: [NamedTarget; 2],
+    /// The distance up to which nodes are tied.
+    pub tolerance: Option<f64>,
+    /// True where translations alone are tied.
+    pub is_hinge: bool,
 }
 
 /// A connector section.

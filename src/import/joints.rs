@@ -100,8 +100,21 @@ fn behavior(build: &mut Build, section: &ConnectorSection) -> ConnectorBehavior 
     })
 }
 
+/// Refuses two nodes at one place, which have no direction between them; returns whether they are.
+pub fn refuse_one_place(build: &mut Build, line: usize, [a, b]: [u64; 2]) -> bool {
+    let is_one = [a, b].iter().all(|id| build.mesh.has(*id)) && build.mesh.x(a) == build.mesh.x(b);
+    if is_one {
+        let why = format!("nodes {a} and {b} lie at one place, so no direction leads from one to the other");
+        build.im.refuse(line, &why);
+    }
+    is_one
+}
+
 /// A joint between two nodes.
 fn joint(build: &mut Build, section: &ConnectorSection, joint: &JointOf, (name, [a, b]): (&str, [u64; 2])) {
+    if joint.word == "distance" && refuse_one_place(build, section.line, [a, b]) {
+        return;
+    }
     let [first, plane] = axes(build, section);
     let (from, to) = if joint.is_turned { (b, a) } else { (a, b) };
     let mut table = DeckTable::new("joints", section.line)
@@ -164,6 +177,11 @@ fn drives(
             );
             continue;
         }
+        let is_rate = drive.quantity.is_some_and(|quantity| quantity != "position");
+        if is_rate && build.timeline.stages.iter().any(|stage| !stage.is_dynamic) {
+            let why = "a velocity or an acceleration in a static step is not translated: give the position";
+            build.im.refuse(drive.line, why);
+        }
         let sign = if joint.is_turned { -1.0 } else { 1.0 };
         let sign = sign * drive.amplitude.as_ref().map_or(1.0, |name| build.over_sine(name));
         let mut keys = vec![(drive.quantity.unwrap_or("value"), number(sign * drive.value))];
@@ -182,6 +200,9 @@ fn drives(
 
 /// A spring and damper along the line between two nodes.
 fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64; 2]) {
+    if refuse_one_place(build, section.line, [a, b]) {
+        return;
+    }
     let behavior = behavior(build, section);
     refuse_rest(build, section, &behavior);
     if behavior.stiffness[1..].iter().chain(&behavior.damping[1..]).any(Option::is_some) {

@@ -124,6 +124,12 @@ pub const KEYWORDS: &[KeywordRow] = &[
         "[[bodies]], [[attachments]]",
     ),
     read(
+        "TIE",
+        "NAME ADJUST POSITIONTOLERANCE TYPE NOROTATION NOTHICKNESS CYCLICSYMMETRY MULTISTAGE FLUIDSTRUCTURE",
+        constraint_cards::tie,
+        "[[ties]]",
+    ),
+    read(
         "COUPLING",
         "CONSTRAINTNAME REFNODE SURFACE ORIENTATION",
         constraint_cards::coupling,
@@ -241,7 +247,6 @@ pub const KEYWORDS: &[KeywordRow] = &[
     refuse("MODAL DAMPING", "frequency responses and modal motions are not translated yet"),
     refuse("BASE MOTION", "frequency responses and modal motions are not translated yet"),
     refuse("JOINT", "springs of JOINTC elements are not translated; use CONN3D2 with CARTESIAN and CARDAN"),
-    refuse("TIE", "ties of surfaces are not translated; give both the same nodes"),
     refuse("SHELL GENERAL SECTION", "rdsolve has no shells by their stiffness"),
     refuse("MEMBRANE SECTION", "rdsolve has no membranes"),
     refuse("SURFACE SECTION", "rdsolve has no surface elements"),

@@ -23,7 +23,9 @@ impl Build<'_, '_, '_> {
             let stage = &self.timeline.stages[self.timeline.general[first]];
             let jumps = steps[stage.step].jumps.unwrap_or(stage.is_dynamic);
             let stages = self.timeline.from(first);
-            if given.amplitude.is_none() && jumps == stage.is_dynamic && !(is_motion && stage.is_dynamic) {
+            // A motion grows by itself in static stages alone.
+            let is_custom = !is_motion || !stage.is_dynamic && self.timeline.is_staged();
+            if given.amplitude.is_none() && jumps == stage.is_dynamic && is_custom {
                 return TimeLaw { scale: given.value, amplitude: None, stages };
             }
             if given.amplitude.is_none() && jumps && !self.timeline.is_staged() {

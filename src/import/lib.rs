@@ -45,6 +45,7 @@ mod spread_loads;
 mod stage_text;
 mod step_cards;
 mod supports;
+mod surface_ties;
 mod temperatures;
 mod thin_sections;
 mod tied_nodes;

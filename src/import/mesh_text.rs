@@ -25,16 +25,23 @@ pub fn mesh(build: &Build) -> String {
     }
     for (set, ids) in &build.groups {
         let ids: Vec<u64> = ids.iter().copied().filter(|id| build.mesh.used.contains(id)).collect();
-        if ids.is_empty() {
-            continue;
-        }
-        let _ = writeln!(text, "*NSET, NSET={}", name(set));
-        for line in ids.chunks(A_LINE) {
-            let line: Vec<String> = line.iter().map(u64::to_string).collect();
-            let _ = writeln!(text, "{}", line.join(", "));
+        if !ids.is_empty() {
+            add_set(&mut text, "NSET", set, &ids);
         }
     }
+    for (set, ids) in &build.tied.faces {
+        add_set(&mut text, "ELSET", set, ids);
+    }
     text
+}
+
+/// Adds a set of nodes or of elements.
+fn add_set(text: &mut String, keyword: &str, set: &str, ids: &[u64]) {
+    let _ = writeln!(text, "*{keyword}, {keyword}={}", name(set));
+    for line in ids.chunks(A_LINE) {
+        let line: Vec<String> = line.iter().map(u64::to_string).collect();
+        let _ = writeln!(text, "{}", line.join(", "));
+    }
 }
 
 /// A name as a parameter: in quotes where it has a comma or blanks.

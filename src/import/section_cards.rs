@@ -90,6 +90,7 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     let found = match &word[..] {
         "HEX" if sizes.len() >= 2 => thin_sections::hexagon(sizes[0], sizes[1]),
         "ARBITRARY" => thin_sections::arbitrary(&rows),
+        "TRAPEZOID" if sizes.len() >= 4 => thin_sections::trapezoid(sizes),
         _ => shape(&word, sizes, im.dialect),
     };
     let (keys, centroid) = match found {
@@ -99,8 +100,12 @@ fn read_beam(im: &mut Importer, block: &KeywordBlock, is_general: bool) {
     if word == "GENERAL" && im.dialect != Some(Dialect::Calculix) {
         im.change(line, "the shear areas are the area; Abaqus lowers them for slender elements");
     }
-    if word == "ARBITRARY" {
-        im.change(line, "the shear centre is the centroid");
+    match &word[..] {
+        "ARBITRARY" => im.change(line, "the shear centre is the centroid"),
+        "TRAPEZOID" => {
+            im.change(line, "the torsion constant is A⁴/(40 I), with I about the centroid; the shear centre is there")
+        }
+        _ => {}
     }
     let walls = if word == "ARBITRARY" { sizes[0] as usize } else { 1 };
     let n1 = match rows.get(walls).map(Vec::as_slice) {

@@ -1,4 +1,4 @@
-//! Sections of thin walls by their integrals: SECTION=HEX and SECTION=ARBITRARY.
+//! Sections by their integrals: SECTION=HEX, SECTION=ARBITRARY and SECTION=TRAPEZOID.
 
 use crate::file_content::SectionValue;
 
@@ -51,6 +51,22 @@ pub fn hexagon(radius: f64, thickness: f64) -> Result<KeysAndCentroid, String> {
         shear: 0.53,
     };
     Ok((integrals.keys(), [0.0; 2]))
+}
+
+/// A trapezoid by the width of its base, its height, the width of its top, and the height of the node over the base. Saint-Venant's estimate
+/// gives the torsion constant; the shear factor is that of Abaqus.
+pub fn trapezoid(sizes: &[f64]) -> Result<KeysAndCentroid, String> {
+    let [base, height, top, node, ..] = *sizes else { return Err("a trapezoid has four sizes".to_owned()) };
+    if !(base >= 0.0 && top >= 0.0 && base + top > 0.0 && height > 0.0) {
+        return Err("the height and a width of this trapezoid must be above zero".to_owned());
+    }
+    let (sum, squares) = (base + top, base * base + top * top);
+    let area = 0.5 * sum * height;
+    let first = height.powi(3) * (squares + 4.0 * base * top) / (36.0 * sum);
+    let second = height * sum * squares / 48.0;
+    let torsion = area.powi(4) / (40.0 * (first + second));
+    let integrals = Integrals { area, moments: [first, second, 0.0], torsion, shear: 0.822 };
+    Ok((integrals.keys(), [0.0, height * (base + 2.0 * top) / (3.0 * sum) - node]))
 }
 
 /// A line of walls through points; `rows`: the number of walls, the first two points and a thickness, then a point and a thickness each.

@@ -64,6 +64,8 @@ pub struct DistributedNodes {
 /// What constraints say about nodes.
 #[derive(Default)]
 pub struct TiedNodes {
+    /// Sets of shell elements that nodes are tied to, by their names in the deck.
+    pub faces: BTreeMap<String, Vec<u64>>,
     /// Nodes that bushings join.
     pub bushed: BTreeSet<u64>,
     /// Axes at nodes that have their own, as columns.

@@ -5,6 +5,7 @@ use crate::deck_text::DeckTable;
 use crate::dialect::Dialect;
 use crate::equations;
 use crate::file_content::{PointsCard, RigidCard, SupportLine};
+use crate::joints;
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalEquation;
 use std::collections::BTreeMap;
@@ -165,7 +166,9 @@ pub fn joints(build: &mut Build) {
             _ => continue,
         };
         let nodes: Vec<u64> = card.nodes.iter().filter_map(|target| build.node(target)).collect();
-        if let [a, b] = nodes[..] {
+        if let [a, b] = nodes[..]
+            && !(kind == "distance" && joints::refuse_one_place(build, card.line, [a, b]))
+        {
             add(build, (kind, &card.kind.to_lowercase()), (a, b), card.line, None);
         }
     }

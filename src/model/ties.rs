@@ -5,7 +5,6 @@
 //! bulge with the rotations of their ends, and so does the place between them.
 
 use super::data::Joint;
-use super::places::foot::{Foot, foot};
 use super::places::nearest_nodes::NodesAlongAxis;
 use super::places::nodes::Nodes;
 use super::places::place::Place;
@@ -14,6 +13,7 @@ use super::report::{Owner, Report};
 use super::scene::{Reach, Scene};
 use base::diagnostic::Diagnostic;
 use base::math::Vec3;
+use base::math::face_foot::{Foot, foot};
 use base::names::short;
 use deck::parts::PartIndex;
 use deck::ties::{Beyond, Tie, TiedDofs};

@@ -201,3 +201,57 @@ fn temperatures_of_parts() {
     let kind = ("*DENSITY", "*EXPANSION, TYPE=ORTHO\n1e-5, 2e-5, 3e-5\n*DENSITY");
     refuses(BEAM, &[kind, heated[2]], "isotropic expansion alone");
 }
+
+/// Two strips side by side in one part, two elements beside three; the second is tied to the first.
+fn strips(surfaces: &str, tie: &str) -> String {
+    format!(
+        "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n11, 1., 0., 0.\n12, 2., 0., 0.\n13, 2., 1., 0.\n\
+         14, 1., 1., 0.\n15, 1., 0.5, 0.\n16, 2., 0.5, 0.\n*ELEMENT, TYPE=S4, ELSET=ALL\n1, 1, 2, 3, 4\n2, 11, 12, 16, 15\n\
+         3, 15, 16, 13, 14\n*ELSET, ELSET=FIRST\n1\n*ELSET, ELSET=SECOND\n2, 3\n*NSET, NSET=ROOT\n1, 4\n*NSET, NSET=SEAM\n11, 14, 15\n*NSET, NSET=TIP\n12, 13, 16\n\
+         {surfaces}*MATERIAL, NAME=M\n*ELASTIC\n1000., 0.\n*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.1\n{tie}\n*BOUNDARY\nROOT, 1, 6\n\
+         *STEP\n*STATIC\n*BOUNDARY\nTIP, 1, 1, 0.2\nTIP, 2, 6\n*END STEP\n"
+    )
+}
+
+/// Pulled by 0.2 over a length of 2, both strips strain evenly: the seam goes half the way.
+#[test]
+fn ties_of_surfaces() {
+    let first = "*SURFACE, NAME=S1\nFIRST, SPOS\n";
+    let seams = [
+        "*SURFACE, NAME=S2\n2, E4\n3, E4\n",
+        "*SURFACE, NAME=S2\n2, S6\n3, S6\n",
+        "*SURFACE, NAME=S2, TYPE=NODE\nSEAM\n",
+        "*SURFACE, NAME=S2\nSECOND, SNEG\n",
+    ];
+    for seam in seams {
+        let text = strips(&format!("{first}{seam}"), "*TIE, NAME=join, POSITION TOLERANCE=0.01\nS2, S1");
+        let made = imported(&text);
+        assert_eq!(refusals(&made), [""; 0], "{seam}");
+        assert!(made.deck.contains(
+            "[[ties]]\nname = \"join\"\nnodes = [\"mesh.11\", \"mesh.14\", \"mesh.15\"]\nto = \"join_faces\"\n"
+        ));
+        let is_changed = reasons(&made, KeywordVerdict::Changed).iter().any(|how| how.contains("stay free: 3"));
+        assert_eq!(is_changed, seam.contains("SNEG"), "{seam}");
+        for node in ["mesh.2", "mesh.11", "mesh.15"] {
+            near(moves(&text, node).0[0], 0.1, 1e-9);
+        }
+    }
+    let with = |seam: &str, tie: &str| strips(&format!("{first}{seam}"), tie);
+    let hinged = imported(&with(seams[0], "*TIE, NAME=join, NO ROTATION\nS2, S1"));
+    assert!(hinged.deck.contains("dofs = \"translations\"\n"), "{}", hinged.deck);
+    for (seam, tie, why) in [
+        ("*SURFACE, NAME=S2, TYPE=NODE\n12\n", "*TIE, NAME=join\nS2, S1", "no node of `S2` lies within"),
+        (seams[0], "*TIE, NAME=join\nS2, S9", "no surface is named `S9`"),
+        (seams[0], "*TIE, NAME=join\nS1, S2\n*TIE, NAME=more\nS2, S1", ""),
+        (seams[2], "*TIE, NAME=join\nS1, S2", "holds no elements of shells"),
+        (seams[0], "*TIE, NAME=a\nS2, S1\n*TIE, NAME=b\nS2, S1", "each is tied once"),
+        (seams[0], "*TIE, NAME=a, POSITION TOLERANCE=x\nS2, S1", "POSITION TOLERANCE must be a number"),
+        (seams[0], "*TIE, NAME=a, CYCLIC SYMMETRY\nS2, S1", "no cyclic symmetry"),
+    ] {
+        let told = refusals(&imported(&with(seam, tie)));
+        match why.is_empty() {
+            true => assert_eq!(told, [""; 0], "{tie}"),
+            false => assert!(told.iter().any(|told| told.contains(why)), "{tie}: {told:?}"),
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Rows of the mapping, each with a file of some lines and the words of the deck that come out.
 
+use super::values::model_of;
 use super::{imported, imported_from, reasons, refusals, tables};
 use import::{Dialect, KeywordVerdict};
 
@@ -19,11 +20,12 @@ pub fn edited(text: &str, edits: &[(&str, &str)]) -> String {
     })
 }
 
-/// The deck has these lines one after the other, and nothing is refused.
+/// The deck has these lines one after the other, nothing is refused, and the deck can be read.
 pub fn has(text: &str, edits: &[(&str, &str)], dialect: Option<Dialect>, wanted: &str) {
     let made = imported_from(&edited(text, edits), dialect);
     assert_eq!(refusals(&made), [""; 0], "{edits:?}");
     assert!(tables(&made.deck).contains(wanted), "{wanted} is not in\n{}", made.deck);
+    model_of(&made);
 }
 
 /// A reason for which it is refused.
@@ -56,7 +58,18 @@ fn sections_of_beams() {
         "shape = \"l\"\nwidth = 0.1\nheight = 0.2\nthickness = [0.02, 0.01]\n",
     );
     refuses(BEAM, &with("SECTION=CIRC", "0.1"), "--from abaqus or --from calculix");
-    refuses(BEAM, &with("SECTION=TRAPEZOID", "0.1, 0.1, 0.2, 0."), "SECTION=TRAPEZOID is not translated");
+    refuses(BEAM, &with("SECTION=CHANNEL", "0.1, 0.1, 0.2, 0."), "SECTION=CHANNEL is not translated");
+    refuses(BEAM, &with("SECTION=TRAPEZOID", "0., 0.1, 0., 0."), "must be above zero");
+    // Equal widths are a rectangle of 0.1 by 0.2, whose node lies at the base.
+    let made = imported(&edited(BEAM, &with("SECTION=TRAPEZOID", "0.1, 0.2, 0.1, 0.")));
+    let row = |key: &str| -> Vec<f64> {
+        let line = made.deck.lines().find(|line| line.starts_with(key)).unwrap();
+        line.split(['[', ' ', ',', ']']).filter_map(|word| word.parse().ok()).collect()
+    };
+    let wanted = [0.1 * 0.2_f64.powi(3) / 12.0, 0.2 * 0.1_f64.powi(3) / 12.0, 0.0, 0.0, 0.1];
+    for (found, wanted) in row("moments").into_iter().chain(row("offset_start")).zip(wanted) {
+        assert!((found - wanted).abs() < 1e-15, "{}", made.deck); // rounding
+    }
     // An ellipse: A = π a b, I = A a²/4, J = π a³ b³/(a² + b²).
     let made = imported_from(&edited(BEAM, &with("SECTION=CIRC", "0.2, 0.4")), calculix);
     let area = std::f64::consts::PI * 0.02;
@@ -201,7 +214,12 @@ fn supports() {
         "[[supports]]\nat = \"tip\"\nfix = [\"uy\", \"ry\", \"rz\"]\n",
     );
     has(BEAM, &with("*BOUNDARY\n1, XSYMM"), None, "fix = [\"ux\", \"ry\", \"rz\"]\n");
-    has(BEAM, &with("*BOUNDARY\n1, 1, 6\n2, 3, 3, 0.1"), None, "at = \"mesh.2\"\nmotion = { uz = { scale = 0.1 } }\n");
+    has(
+        BEAM,
+        &with("*BOUNDARY\n1, 1, 6\n2, 3, 3, 0.1"),
+        None,
+        "motion = { uz = { scale = 0.1, amplitude = \"history\" } }\n",
+    );
     refuses(BEAM, &with("*BOUNDARY\n1, 1, 6\n77, 3"), "node 77 does not exist");
     refuses(BEAM, &with("*BOUNDARY\n1, 1, 6\n2, 11, 11, 0.1"), "the degrees of freedom 1 to 6 alone");
     let amplitude = [
@@ -448,8 +466,12 @@ fn connectors() {
         ("CYLINDRICAL", "cylindrical", "axis = [0.0, 1.0, 0.0]\n"),
         ("PLANAR", "planar", "axis = [0.0, 1.0, 0.0]\n"),
         ("WELD", "fixed", ""),
-        ("LINK", "distance", ""),
     ];
+    refuses(&with("LINK", ""), &[], "lie at one place");
+    refuses(&with("AXIAL", ""), &[], "lie at one place");
+    let apart = [("9, 1., 0., 0.", "9, 1., 0., 0.5")];
+    let link = "kind = \"distance\"\nfrom = { node = \"mesh.2\" }\nto = { node = \"mesh.9\" }\n";
+    has(&with("LINK", ""), &apart, None, link);
     for (kind, word, axis) in plain {
         let joint = format!("kind = \"{word}\"\nfrom = {{ node = \"mesh.2\" }}\nto = {{ node = \"mesh.9\" }}\n{axis}");
         has(&with(kind, ""), &[], None, &joint);
@@ -467,7 +489,8 @@ fn connectors() {
     let bushing = "bushing = [7.0, 0.0, 0.0, 0.0, 0.0, 0.0]\nbushing_damping = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0]\naxes = [[0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\n";
     has(&with("CARTESIAN, CARDAN", "*CONNECTOR ELASTICITY, COMPONENT=1\n7.\n"), &[], None, bushing);
     let driven = with("HINGE", "").replace("*CLOAD", "*CONNECTOR MOTION, TYPE=VELOCITY\nc, 4, 3.\n*CLOAD");
-    has(&driven, &[], None, "motion = { velocity = 3.0 }\n");
+    refuses(&driven, &[], "in a static step is not translated");
+    has(&driven, &[("*STATIC", "*DYNAMIC")], None, "motion = { velocity = 3.0 }\n");
 }
 
 #[test]

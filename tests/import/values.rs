@@ -2,24 +2,30 @@
 
 use super::{deck, imported, refusals};
 use crate::support;
+use import::Imported;
 use rdsolve::diagnostic::Source;
-use rdsolve::model;
+use rdsolve::model::{self, Model};
 
 /// Displacement and rotation vector of a node at the end of a deck that has been imported; and the largest displacement along x.
 pub fn moves(text: &str, node: &str) -> ([f64; 3], f64) {
     let made = imported(text);
     assert_eq!(refusals(&made), [""; 0]);
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("a.mesh.inp"), &made.mesh).unwrap();
-    let source = Source::new(folder.path().join("a.toml").display().to_string(), made.deck.as_str(), &[]);
-    let (model, said) = model::read(&source);
-    let model = model.unwrap_or_else(|| panic!("{}\n{}", said[0].draw(&source, false), made.deck));
+    let model = model_of(&made);
     let at = support::node(&model, node);
     let start = model.nodes[at].x;
     let done = support::run_to_the_end(&model, &mut |frame| (frame.state.nodes[at].x - start).as_slice().to_vec());
     let last = done.rows.last().unwrap();
     let most = done.rows.iter().map(|row| row[0]).fold(0.0, f64::max);
     ([last[0], last[1], last[2]], most)
+}
+
+/// The model of a deck that has been made.
+pub fn model_of(made: &Imported) -> Model {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.mesh.inp"), &made.mesh).unwrap();
+    let source = Source::new(folder.path().join("a.toml").display().to_string(), made.deck.as_str(), &[]);
+    let (model, said) = model::read(&source);
+    model.unwrap_or_else(|| panic!("{}\n{}", said[0].draw(&source, false), made.deck))
 }
 
 pub fn near(value: f64, wanted: f64, tolerance: f64) {

@@ -6,6 +6,7 @@ pub mod curved_faces;
 pub mod cylinder;
 #[cfg(feature = "portable")]
 mod elementary;
+pub mod face_foot;
 pub mod lanes;
 pub mod number;
 pub mod polyhedron;

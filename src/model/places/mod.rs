@@ -3,7 +3,6 @@
 pub mod axes;
 pub mod cells;
 pub mod ends;
-pub mod foot;
 pub mod nearest_nodes;
 pub mod nodes;
 pub mod place;

@@ -1,7 +1,7 @@
 //! The place on a face that is nearest to a point, as weights of the nodes of the face.
 
-use base::math::Vec3;
-use base::math::curved_faces::{CurvedFace, NineNodes, SixNodes, corners, ring};
+use super::Vec3;
+use super::curved_faces::{CurvedFace, NineNodes, SixNodes, corners, ring};
 
 /// The most nodes of a face.
 const MOST: usize = 9;
