@@ -26,6 +26,7 @@ use model::{Model, StepLength};
 use results::checkpoint::{Checkpoint, CheckpointOrigin};
 use results::error_bars::ErrorBars;
 use results::log::Log;
+use results::marks::SceneMarks;
 use results::result_json::{
     ReportedCounts, ReportedErrors, ReportedMasses, ReportedMesh, ReportedStepError, RunOrigin, RunResult, Sizes,
     Status, Timings, peak_memory_bytes,
@@ -325,6 +326,7 @@ impl Job<'_> {
             peak_memory_bytes: peak_memory_bytes(),
             warnings,
             expectations,
+            marks: SceneMarks::of(&self.loaded.models()),
         };
         let serves = end.status == Status::Stopped || watchers.checkpoints.is_some_and(|last| last.is_over());
         self.leave(&result, serves)?;

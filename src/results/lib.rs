@@ -20,6 +20,7 @@ mod frd;
 mod lock;
 pub mod log;
 pub mod low_pass;
+pub mod marks;
 pub mod matrix_market;
 pub mod progress;
 pub mod report;

@@ -3,6 +3,7 @@
 use super::disk::{at, create, replace};
 use super::error_bars::ErrorBar;
 use super::expect::Verdict;
+use super::marks::SceneMarks;
 use serde::Serialize;
 use solve::system::{MassScaling, ScaledPart};
 use std::io::{self, Write};
@@ -81,6 +82,8 @@ pub struct RunResult {
     pub warnings: Vec<String>,
     /// The judgements on the expectations, in the order of the deck.
     pub expectations: Vec<Verdict>,
+    /// Supports, loads, joints and sections of beams, for pages and pictures.
+    pub marks: SceneMarks,
 }
 
 /// The deck and the program that results come from: enough to run them again, and to tell whether two runs were of the same deck
@@ -346,6 +349,7 @@ mod tests {
             peak_memory_bytes: None,
             warnings: vec![],
             expectations: vec![],
+            marks: SceneMarks::default(),
         };
         result.write(dir.path()).unwrap();
         let text = std::fs::read(dir.path().join("result.json")).unwrap();

@@ -28,6 +28,7 @@ const WIDE: Known = &[
     ("deck/stages.rs: Stage", 20),
     ("model/data/model.rs: Model", 17),
     ("model/data/output.rs: Output", 17),
+    ("results/result_json.rs: RunResult", 16),
     ("solve/derived.rs: Derived", 16),
     ("solve/frame.rs: Frame", 17),
     ("solve/workspace.rs: Workspace", 17),

@@ -113,6 +113,20 @@ fn every_scene_runs_by_defaults() {
     }
 }
 
+/// Implicit steps far longer than a blow throw bodies off with more energy than they had. Both the deck and the run tell of it.
+#[test]
+fn implicit_steps_that_add_energy_are_told() {
+    for (name, tables, size) in
+        scenes().into_iter().filter(|(name, ..)| ["light on heavy", "a thin sheet on a floor"].contains(name))
+    {
+        let (_, off, said) = run(&deck(&tables, "newmark", "1e-4", 2e-2), size);
+        assert!(off > 0.5, "{name} adds no energy: {off}");
+        for words in ["the step is too long for the stiffness chosen", "energy growth"] {
+            assert!(said.iter().any(|one| one.contains(words)), "{name}: {said:?}");
+        }
+    }
+}
+
 /// A message of a step that lowers the stiffness names one with which nothing is lowered; none asks for less stiffness.
 #[test]
 fn the_step_that_a_message_names_is_short_enough() {

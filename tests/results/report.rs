@@ -114,6 +114,121 @@ fn places(base64: &Value) -> Vec<u32> {
     bytes.as_chunks().0.iter().map(|&four| u32::from_le_bytes(four)).collect()
 }
 
+/// The places of rows of marks: a point of the scene and the way from there.
+fn marked(rows: &Value, x0: &[f32]) -> Vec<[f64; 3]> {
+    let place = |row: &Value| {
+        let number = |k: usize| row[k].as_f64().unwrap();
+        [0, 1, 2].map(|k| f64::from(x0[3 * number(0) as usize + k]) + number(1 + k))
+    };
+    rows.as_array().unwrap().iter().map(place).collect()
+}
+
+/// Supports, loads and joints stand where the deck has them, a body's beside the points of the scene; beams have their section; stages their ends. Points
+/// of pages have seven digits.
+#[test]
+fn supports_loads_joints_sections_and_stages_are_marked() {
+    let deck = r#"
+[[stages]]
+name = "weight"
+kind = "static"
+duration = 1.0
+time_step = 0.5
+[[stages]]
+name = "push"
+kind = "static"
+duration = 2.0
+time_step = 1.0
+[materials]
+steel = { model = "elastic", youngs_modulus = 210e9, poisson_ratio = 0.3, density = 7850.0 }
+[sections]
+pipe = { shape = "tube", diameter = 0.2, thickness = 0.01 }
+bar = { shape = "rectangle", width = 0.1, height = 0.3 }
+[points]
+a = [1.0, 0.0, 0.0]
+b = [1.0, 0.0, 2.0]
+c = [4.0, 0.0, 2.0]
+[[beams]]
+name = "post"
+path = ["a", "b"]
+elements = 2
+material = "steel"
+section = "pipe"
+orientation = [0.0, 1.0, 0.0]
+[[beams]]
+name = "arm"
+path = ["b", "c"]
+elements = 1
+material = "steel"
+section = "bar"
+orientation = [0.0, 1.0, 0.0]
+[[bodies]]
+name = "weight"
+center = [4.5, 0.0, 2.0]
+mass = 10.0
+shape = { kind = "box", size = [0.2, 0.2, 0.2] }
+[[joints]]
+name = "hinge"
+kind = "revolute"
+axis = [0.0, 1.0, 0.0]
+from = { node = "c" }
+to = { body = "weight" }
+stiffness = 1e5
+[[supports]]
+at = "a"
+fix = "all"
+[[supports]]
+at = "b"
+fix = ["uy"]
+[[loads]]
+at = "weight"
+force = [0.0, 0.0, -30.0]
+[[loads]]
+at = "c"
+moment = [0.0, 4.0, 0.0]
+stages = ["push"]
+[output]
+fields = { format = "vtu", every = 1 }
+"#;
+    let (folder, page) = page(deck, 0);
+    let (data, bytes) = data(&page);
+    assert_eq!(data["stages"], serde_json::json!([["weight", 1.0], ["push", 3.0]]));
+    let (scene, x0) = (&data["scene"], floats(&bytes, &data["scene"]["x0"]));
+    let marks = &scene["marks"];
+    let near = |found: &[[f64; 3]], wanted: &[[f64; 3]]| {
+        found.len() == wanted.len()
+            && found.iter().flatten().zip(wanted.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-6)
+    };
+    let supports = marked(&marks["supports"], &x0);
+    assert!(near(&supports, &[[1.0, 0.0, 0.0], [1.0, 0.0, 2.0]]), "{supports:?}");
+    assert_eq!([0, 1].map(|k| marks["supports"][k][4].as_f64().unwrap()), [63.0, 2.0]);
+    let loads = marked(&marks["loads"], &x0);
+    assert!(near(&loads, &[[4.0, 0.0, 2.0], [4.5, 0.0, 2.0]]), "{loads:?}");
+    assert_eq!([marks["loads"][0][8].as_f64(), marks["loads"][1][6].as_f64()], [Some(4.0), Some(-30.0)]);
+    let joints = marked(&marks["joints"], &x0);
+    assert!(near(&joints, &[[4.0, 0.0, 2.0]]), "{joints:?}");
+    let sizes = serde_json::json!([{ "radius": 0.1 }, { "y": [-0.05, 0.05], "z": [-0.15, 0.15] }]);
+    assert_eq!(marks["sections"], sizes);
+    let of_cells = BASE64_STANDARD.decode(marks["cellSections"].as_str().unwrap()).unwrap();
+    assert_eq!(of_cells[..3], [1, 1, 2]);
+    assert!(of_cells[3..].iter().all(|section| *section == 0));
+    // The y axis of the post is that of the deck.
+    assert_eq!(floats(&bytes, &marks["sectionY"])[..3], [0.0, 1.0, 0.0]);
+
+    // The boundary has a row of each stage, which a pivot by stage tells apart.
+    let table = fs::read_to_string(folder.path().join("x.out/energy.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').take(3).collect()).collect();
+    assert_eq!(rows[0], ["step", "time", "stage"]);
+    assert_eq!([&rows[3], &rows[4]], [&["2", "1.0", "weight"], &["2", "1.0", "push"]]);
+
+    rdsolve(folder.path(), &["report", "x.out", "--picture"]).code(0);
+    let picture = fs::read_to_string(folder.path().join("x.svg")).unwrap();
+    let count = |class: &str| picture.matches(&format!("class=\"{class}\"")).count();
+    assert_eq!(["h", "a", "j"].map(count), [2, 2, 1]);
+    // Every line is one of a beam, and wider than those without a section.
+    let lines = count("l");
+    assert!(lines > 1 && picture.matches("stroke-linecap:butt").count() == lines);
+}
+
 #[test]
 fn shells_with_fields_move_and_names_are_only_names() {
     let (folder, page) = page(&format!("{PLATE}{FIELDS}"), 5);

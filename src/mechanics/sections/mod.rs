@@ -24,7 +24,7 @@ mod wall;
 pub use fibres::{Fibre, flattened};
 pub use section::{Section, Stiffness};
 pub use section_shape::{CrossSection, SectionKind, SectionShape};
-pub use stresses::{BeamStresses, SectionStresses};
+pub use stresses::{BeamStresses, SectionOutline, SectionStresses};
 
 /// All shapes of sections, in the order of the reference.
 pub static SECTIONS: &[&SectionKind] =

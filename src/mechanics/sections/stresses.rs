@@ -79,6 +79,11 @@ impl SectionStresses {
         SectionStresses { area, bending, shear_center, outline }
     }
 
+    /// The points at which stresses may be extreme.
+    pub fn outline(&self) -> &SectionOutline {
+        &self.outline
+    }
+
     /// Extreme stresses under N, V_y, V_z, T, M_y, M_z about the centroid.
     pub fn extremes(&self, &[N, Vy, Vz, T, My, Mz]: &[f64; 6]) -> BeamStresses {
         let slope = self.bending * Vector2::new(My, Mz);

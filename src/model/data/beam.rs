@@ -98,6 +98,10 @@ impl PartAnswers for Beam {
         Some(self.mass)
     }
 
+    fn section(&self, element: usize) -> Option<usize> {
+        self.elements.get(element).map(|spec| spec.section)
+    }
+
     fn line(&self, element: usize, length: f64, stiffnesses: &[Stiffness]) -> Option<LineElement> {
         let spec = &self.elements[element];
         let section = &stiffnesses[spec.section];

@@ -136,6 +136,11 @@ pub trait PartAnswers {
         None
     }
 
+    /// The index of the section of an element, in [`super::Model::stiffnesses`]; `None` of parts without sections.
+    fn section(&self, _element: usize) -> Option<usize> {
+        None
+    }
+
     /// The mass of an element at t = 0, whether or not the deck asks to keep it.
     fn element_mass(&self, _element: usize, _nodes: &[Node], _stiffnesses: &[Stiffness]) -> f64 {
         0.0

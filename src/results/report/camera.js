@@ -1,6 +1,7 @@
 // Where the scene is seen from. Matrices are arrays by columns; z is up.
 
 const minus = (a, b) => a.map((x, i) => x - b[i]);
+const unit = a => (size => a.map(x => x / size))(Math.hypot(...a) || 1);
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 
 class Camera {

@@ -1,11 +1,8 @@
-//! The data that the scripts of the page read: numbers, and the moving scene.
+//! The moving scene that the scripts of the page read.
 
+use super::marks::PageMarks;
 use base::names::{short, to_digits};
 use base::quantities::{Unit, UnitSystem};
-use base64::prelude::{BASE64_STANDARD, Engine};
-use flate2::Compression;
-use flate2::write::ZlibEncoder;
-use std::io::Write;
 
 /// The moving scene, thinned to the capacity of a page; points and cells are numbered from 0.
 #[derive(Default)]
@@ -30,6 +27,8 @@ pub struct PageScene {
     pub kinds: Vec<u8>,
     /// The fields on cells: a name, and numbers by time and cell.
     pub fields: Vec<(String, Vec<f32>)>,
+    /// Sections of beams, supports, loads and joints.
+    pub marks: PageMarks,
     /// The names of the points, where points are all there is to see.
     pub labels: Vec<String>,
     /// The number of times before thinning.
@@ -76,32 +75,5 @@ impl PageScene {
             ));
         }
         Ok((0..=last).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(last))
-    }
-}
-
-/// All numbers of a page. Of each array the highest bytes of all numbers come first, column by column, because alike bytes compress well.
-#[derive(Default)]
-pub struct PageNumbers(Vec<u8>);
-
-impl PageNumbers {
-    /// Adds rows of a width, and returns what the page needs to read them: the place, the number of numbers, the width.
-    pub fn add(&mut self, values: &[f32], width: usize) -> [usize; 3] {
-        let (place, width) = (self.0.len(), width.max(1));
-        for byte in (0..4).rev() {
-            for column in 0..width {
-                self.0.extend(values.iter().skip(column).step_by(width).map(|value| value.to_le_bytes()[byte]));
-            }
-        }
-        [place, values.len(), width]
-    }
-
-    /// The numbers as the page reads them: base64 of what zlib makes of the bytes.
-    ///
-    /// # Errors
-    /// None, as memory takes the bytes.
-    pub fn packed(self) -> std::io::Result<String> {
-        let mut packed = ZlibEncoder::new(Vec::new(), Compression::default());
-        packed.write_all(&self.0)?;
-        Ok(BASE64_STANDARD.encode(packed.finish()?))
     }
 }

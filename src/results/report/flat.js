@@ -18,7 +18,7 @@ class FlatPainter {
     const css = colour => `rgb(${colour.slice(0, 3).map(x => Math.round(255 * x)).join()})`;
     const shade = (other, points, cell) => {
       let x = values ? values[cell] : NaN;
-      if (values && byPoint) x = points.reduce((sum, point) => sum + values[point], 0) / points.length;
+      if (values && byPoint) x = points.reduce((sum, point) => sum + values[scene.base(point)], 0) / points.length;
       return Number.isFinite(x) ? scaleColour((x - least) * over).map(x => x / 255) : other;
     };
     const flat = from => {

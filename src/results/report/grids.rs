@@ -1,6 +1,8 @@
 //! Reads the moving scene from the grids of the fields: triangles, lines and edges, their places over time, and the data of their cells.
 
-use super::data::{PageNumbers, PageScene};
+use super::data::PageScene;
+use super::marks::PageMarks;
+use super::numbers::PageNumbers;
 use crate::at;
 use crate::table_reader::{TableReader, fields, number, text};
 use crate::vtu::APPENDED;
@@ -30,7 +32,7 @@ const KINDS: [&str; 5] = ["beam", "bar", "shell", "link", "body"];
 pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
     let grids = listed(&folder.join("fields.pvd"))?;
     let Some((_, first)) = grids.first() else { return Ok(None) };
-    let kinds = kinds(&folder.join("fields.csv"))?;
+    let (kinds, part_names) = parts(&folder.join("fields.csv"))?;
     let first = Grid::read(folder.join(first))?;
     let points = first.array("Points", 3)?;
     let count = points.len() / 3;
@@ -39,14 +41,16 @@ pub fn scene(folder: &Path) -> io::Result<Option<Result<PageScene, String>>> {
             "The fields have {count} points, more than a page can carry: see them in ParaView."
         ))));
     }
-    let mut scene = PageScene { all: grids.len(), ..PageScene::default() };
+    let mut scene = PageScene { all: grids.len(), marks: PageMarks::of_parts(part_names), ..PageScene::default() };
     let displacement = first.array("displacement", 3)?;
     if displacement.len() != points.len() {
         return Err(first.wrong("a displacement for each point"));
     }
     let origin = far_origin(&points);
+    scene.marks.origin = origin;
     scene.x0 = points.iter().zip(&displacement).enumerate().map(|(i, (x, u))| (x - u - origin[i % 3]) as f32).collect();
     cells(&first, &kinds, count, &mut scene)?;
+    scene.marks.section_y = section_y(&first, &scene);
 
     let names: Vec<String> = first.scalars_of_cells();
     let of_grid = 3 * count + names.len() * scene.kinds.len();
@@ -118,16 +122,21 @@ const SWING: f64 = 0.1;
 pub fn modes(folder: &Path) -> io::Result<Option<(PageScene, usize)>> {
     let grids = listed(&folder.join("modes.pvd"))?;
     let Some((_, first)) = grids.first() else { return Ok(None) };
-    let kinds = kinds(&folder.join("fields.csv"))?;
+    let (kinds, part_names) = parts(&folder.join("fields.csv"))?;
     let first = Grid::read(folder.join(first))?;
     let points = first.array("Points", 3)?;
     let count = points.len() / 3;
     if count > POINTS {
         return Ok(None);
     }
-    let mut scene =
-        PageScene { x0: points.iter().map(|x| *x as f32).collect(), is_modes: true, ..PageScene::default() };
+    let mut scene = PageScene {
+        x0: points.iter().map(|x| *x as f32).collect(),
+        is_modes: true,
+        marks: PageMarks::of_parts(part_names),
+        ..PageScene::default()
+    };
     cells(&first, &kinds, count, &mut scene)?;
+    scene.marks.section_y = section_y(&first, &scene);
     let bounds = (0..3).map(|axis| {
         let of = || points.iter().skip(axis).step_by(3).copied();
         of().fold(f64::NEG_INFINITY, f64::max) - of().fold(f64::INFINITY, f64::min)
@@ -191,18 +200,25 @@ fn attribute<'t>(tag: &'t str, name: &str) -> Option<&'t str> {
     tag.split_once(&format!(" {name}=\""))?.1.split('"').next()
 }
 
-/// The kinds of the parts, by the numbers of the parts.
-fn kinds(path: &Path) -> io::Result<Vec<u8>> {
+/// The y axes of sections at the points, where there are beams whose grid has them.
+fn section_y(grid: &Grid, scene: &PageScene) -> Vec<f32> {
+    let axes = if scene.kinds.contains(&0) { grid.array("frame_y", 3).unwrap_or_default() } else { Vec::new() };
+    axes.into_iter().map(|x| x as f32).collect()
+}
+
+/// The kinds and the names of the parts, by the numbers of the parts.
+fn parts(path: &Path) -> io::Result<(Vec<u8>, Vec<String>)> {
+    let (mut kinds, mut names) = (Vec::new(), Vec::new());
     if !path.is_file() {
-        return Ok(Vec::new());
+        return Ok((kinds, names));
     }
     let mut rows = TableReader::open(path)?;
-    let mut kinds = Vec::new();
     while let Some(row) = rows.next_row()? {
-        let kind = fields(row).nth(1).map(text).unwrap_or_default();
-        kinds.push(KINDS.iter().position(|other| *other == kind).unwrap_or_default() as u8);
+        let of = |place: usize| fields(row).nth(place).map(text).unwrap_or_default();
+        kinds.push(KINDS.iter().position(|other| *other == of(1)).unwrap_or_default() as u8);
+        names.push(of(2).into_owned());
     }
-    Ok(kinds)
+    Ok((kinds, names))
 }
 
 /// A grid as this program writes it.
@@ -317,6 +333,7 @@ fn cells(grid: &Grid, kinds: &[u8], points: usize, scene: &mut PageScene) -> io:
         let corners = connectivity.get(first..end).ok_or_else(|| grid.wrong("cells that fit its points"))?;
         first = end;
         scene.kinds.push(kinds.get(parts[cell]).copied().unwrap_or_default());
+        scene.marks.cell_parts.push(parts[cell]);
         let mut face = |corners: &[usize]| {
             triangles(corners, cell, scene);
             edge_round(corners, &mut edges);
@@ -372,6 +389,7 @@ impl PageScene {
             "fields": fields,
             "units": { "displacement": shown(Unit::Length), "stress": shown(Unit::Stress) },
             "clock": if self.is_modes { String::new() } else { result.clock() },
+            "marks": self.marks.json(numbers),
             "labels": self.labels,
             "modes": (1..=self.modes.len()).map(|number| self.name_of_mode(number, result.units())).collect::<Vec<_>>(),
         })

@@ -1,7 +1,7 @@
 //! The numbers of tables over time, thinned to the capacity of a page: times at regular distances, and names at regular distances if there
 //! are too many.
 
-use super::data::PageNumbers;
+use super::numbers::PageNumbers;
 use super::result::Result;
 use crate::table::{CASE, STAGE};
 use crate::table_reader::{TableReader, fields, number, text};
@@ -13,7 +13,7 @@ use std::io;
 use std::path::Path;
 
 /// The largest number of numbers of one table that a page carries.
-const NUMBERS: usize = 1_000_000;
+const NUMBERS: usize = 200_000;
 /// The largest number of times.
 const TIMES: usize = 1_500;
 /// The number of times below which names are left out instead of further times.
@@ -181,6 +181,26 @@ impl History {
             "values": numbers.add(&self.values, self.names.len() * self.columns.len()),
         })
     }
+}
+
+/// The stages of a table, each with its last time; empty where the table has no such column.
+///
+/// # Errors
+/// As for [`History::read`].
+pub fn stages(folder: &Path, file: &str) -> io::Result<Vec<(String, f32)>> {
+    let mut rows = TableReader::open(&folder.join(file))?;
+    let (Some(stage), Some(time)) = (rows.column(STAGE), rows.column("time")) else { return Ok(Vec::new()) };
+    let mut stages: Vec<(String, f32)> = Vec::new();
+    while let Some(row) = rows.next_row()? {
+        let row: Vec<&[u8]> = fields(row).collect();
+        let (Some(name), Some(now)) = (row.get(stage), row.get(time)) else { break };
+        let (name, now) = (text(name), number(now) as f32);
+        match stages.last_mut() {
+            Some((last, end)) if *last == *name => *end = now,
+            _ => stages.push((name.into_owned(), now)),
+        }
+    }
+    Ok(stages)
 }
 
 /// A column as its table describes it; `None` where the table is not one of a run.

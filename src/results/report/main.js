@@ -137,6 +137,14 @@ function stage(from) {
   const camera = new Camera(...scene.box()), last = scene.times.length - 1;
   const [slider, play, magnify, select] = ["time", "play", "magnify", "field"].map(byId);
   slider.max = last;
+  // Marks where stages begin.
+  const ticks = make("datalist", { id: "stages" });
+  if (!from.modes.length) for (const [name, end] of DATA.stages.slice(0, -1)) {
+    const frame = scene.times.findLastIndex(time => time <= end * (1 + 1e-6));
+    if (frame >= 0) ticks.append(make("option", { value: frame, label: name }));
+  }
+  slider.after(ticks);
+  slider.setAttribute("list", "stages");
   const present = [...scene.fields.keys()], first = ["von_mises", "plastic_strain"].filter(name => present.includes(name));
   const offered = ["none", "displacement", ...first, ...present.filter(name => !first.includes(name))];
   for (const name of offered) select.append(make("option", { value: name, textContent: wordy(name) }));
@@ -144,6 +152,8 @@ function stage(from) {
   const unit = field => from.units[field === "displacement" ? field : /^(von_mises|sigma|tau)/.test(field) ? "stress" : ""] ?? "";
   const ranges = new Map(), rangeOf = field => ranges.get(field) ?? ranges.set(field, scene.range(field)).get(field);
   byId("names-label").hidden = !scene.labels.length;
+  const marks = new Marks(scene.marks);
+  byId("marks-label").hidden = !marks.some;
   if (scene.edges.length > 60000) byId("edges").checked = false;
 
   let [waiting, playing] = [false, null];
@@ -165,7 +175,8 @@ function stage(from) {
       plain: dark() ? [0.5, 0.53, 0.57] : [0.72, 0.74, 0.77],
     });
     const mode = from.modes[Math.floor(scene.times[frame]) - 1];
-    byId("clock").textContent = mode ?? `t = ${few(scene.times[frame], 5)}${from.clock}`;
+    const within = mode ? null : DATA.stages.find(([, end]) => scene.times[frame] <= end * (1 + 1e-6));
+    byId("clock").textContent = mode ?? `t = ${few(scene.times[frame], 5)}${from.clock}${within ? `, ${within[0]}` : ""}`;
     byId("legend").hidden = !shown;
     byId("legend-name").textContent = wordy(field) + (unit(field) && ` (${unit(field)})`);
     byId("legend-least").textContent = few(least);
@@ -190,6 +201,7 @@ function stage(from) {
       c.stroke();
       c.fillText(name, 41 + 36 * right[i], height - 40 - 36 * up[i]);
     });
+    if (marks.some && byId("marks").checked) marks.draw(c, { M, width, height, at: scene.at, length: 0.12 * camera.whole });
     if (!scene.labels.length || !byId("names").checked || scene.labels.length > 200) return;
     c.fillStyle = style("--faint");
     scene.labels.forEach((label, i) => {
@@ -218,7 +230,7 @@ function stage(from) {
     playing.id = requestAnimationFrame(tick);
   });
   slider.addEventListener("input", () => (stop(), later()));
-  for (const id of ["magnify", "field", "smooth", "edges", "ghost", "names"]) byId(id).addEventListener("input", later);
+  for (const id of ["magnify", "field", "smooth", "edges", "ghost", "marks", "names"]) byId(id).addEventListener("input", later);
   for (const button of document.querySelectorAll("[data-view]")) {
     button.addEventListener("click", () => {
       const view = button.dataset.view;

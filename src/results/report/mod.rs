@@ -7,19 +7,25 @@ mod data;
 mod grids;
 mod histories;
 pub mod html;
+mod marks;
+mod numbers;
 mod picture;
+mod picture_marks;
 mod points;
 mod result;
 mod view;
 
 use super::disk::at;
+use super::marks::SceneMarks;
 use super::tables::TABLES;
 use base::quantities::{ENERGY, Unit, UnitSystem};
 use base::text_file::read_regular;
-use data::{PageNumbers, PageScene};
+use data::PageScene;
 use histories::History;
 use html::escaped;
+use numbers::PageNumbers;
 pub use picture::View;
+use serde::Deserialize;
 use serde_json::{Value, json};
 use std::fs;
 use std::io;
@@ -31,12 +37,13 @@ const PAGE: &str = include_str!("page.html");
 pub const STYLE: &str = include_str!("page.css");
 /// The column with the energy that the time integration has dissipated or made.
 const BALANCE: &str = "numerical";
-const SCRIPTS: [&str; 6] = [
+const SCRIPTS: [&str; 7] = [
     include_str!("data.js"),
     include_str!("plot.js"),
     include_str!("camera.js"),
     include_str!("scene.js"),
     include_str!("flat.js"),
+    include_str!("marks.js"),
     include_str!("main.js"),
 ];
 
@@ -45,6 +52,8 @@ struct Contents {
     result: result::Result,
     histories: Vec<History>,
     scene: Option<PageScene>,
+    /// The stages over time, each with its end; empty of a run without stages.
+    stages: Vec<(String, f32)>,
     /// Sentences on omitted data.
     notes: Vec<String>,
 }
@@ -65,8 +74,14 @@ impl Contents {
             histories.extend(History::read(folder, file)?.filter(|history| !history.times.is_empty()));
         }
         let mut notes: Vec<String> = histories.iter().map(History::left_out).filter(|note| !note.is_empty()).collect();
-        let scene = scene(folder, &histories, &mut notes)?;
-        Ok(Contents { result, histories, scene, notes })
+        let mut scene = scene(folder, &histories, &mut notes)?;
+        // Results of an unfinished run, and older ones, have no marks.
+        if let (Some(scene), Ok(marks)) = (&mut scene, SceneMarks::deserialize(&result.json["marks"])) {
+            scene.marks.add(marks, &scene.x0);
+        }
+        let over_time = histories.iter().find(|history| history.over == "time" && history.file != "modes.csv");
+        let stages = over_time.map_or(Ok(Vec::new()), |history| histories::stages(folder, &history.file))?;
+        Ok(Contents { result, histories, scene, stages, notes })
     }
 }
 
@@ -112,13 +127,14 @@ pub fn scene_picture(folder: &Path, view: &View) -> io::Result<(String, f32)> {
 /// # Errors
 /// The folder holds no results, or a file in it cannot be read; the error names it.
 pub fn page(folder: &Path) -> io::Result<String> {
-    let Contents { result, histories, scene, notes } = Contents::read(folder)?;
+    let Contents { result, histories, scene, stages, notes } = Contents::read(folder)?;
     let title = result.title(folder);
     let (units, mut numbers) = (result.units(), PageNumbers::default());
     let history = |history: &History| history.json(&result, &mut numbers);
     let histories_json: Vec<Value> = histories.iter().map(history).collect();
     let all = json!({
         "histories": histories_json,
+        "stages": stages,
         "scene": scene.as_ref().map(|scene| scene.json(&result, &mut numbers)),
     });
     let notes: String = notes.iter().map(|note| format!("<li>{}</li>\n", escaped(note))).collect();

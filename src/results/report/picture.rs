@@ -2,6 +2,7 @@
 
 use super::data::PageScene;
 use super::html::escaped;
+use super::picture_marks::symbols;
 use super::result::Result;
 use super::view::{ScreenView, dot, minus, product, span};
 use base::names::{short, to_digits};
@@ -40,8 +41,11 @@ const SHADES: [f64; 2] = [12.0, 24.0];
 const RIMS: [f64; 3] = [36.0, 40.0, 12.0];
 const STYLE: &str = "text{font:11px Helvetica,Arial,sans-serif;fill:#24292f}.f path{fill:currentColor;stroke:currentColor;stroke-width:2;stroke-linejoin:round}.e path{stroke:#24292f;stroke-opacity:.35}\
 .l{fill:none;stroke-width:10;stroke-linecap:round;stroke-linejoin:round}.g{fill:none;stroke:#8c959f;stroke-width:4;stroke-dasharray:12 10}\
-.s{stroke:#24292f;fill:none}\
+.s{stroke:#24292f;fill:none}.h{stroke:#6f7782;fill:#6f7782;fill-opacity:.5;stroke-width:1.3}.j{stroke:#8250df;fill:none;stroke-width:1.5}.a{stroke:#d6336c;fill:#d6336c;stroke-width:1.4}\
 @media(prefers-color-scheme:dark){text{fill:#e6edf3}.s,.e path{stroke:#e6edf3}}";
+
+/// The width of a line without a section, in parts of a pixel, as [`STYLE`] has it.
+const THIN: i64 = 10;
 
 /// Cosine of the angle between two faces above which their edge is not drawn: 30 degrees.
 const CREASE: f64 = 0.87;
@@ -174,7 +178,7 @@ pub fn draw(scene: &PageScene, result: &Result, title: &str, frame: usize, view:
         let _ = writeln!(out, "<path class=\"g\" d=\"{}\"/>", strokes(&outline, &before));
     }
     out += &fills(&in_sight(faces, &now, size), &sight, &now, &field);
-    out += &lines(scene, &now, &field);
+    out += &lines(scene, &now, &field, sight.scale());
     if !scene.labels.is_empty() {
         for (i, [x, y]) in now.iter().enumerate() {
             let _ = write!(
@@ -185,6 +189,7 @@ pub fn draw(scene: &PageScene, result: &Result, title: &str, frame: usize, view:
         }
     }
     out += "</g>\n";
+    out += &symbols(&scene.marks, &at, &sight, sight.whole());
     if !scene.is_modes {
         out += &legend(&field, size, result.units());
     }
@@ -426,14 +431,18 @@ fn end(path: &mut String, from: &mut [i64; 2], run: &[[i64; 2]]) {
     }
 }
 
-/// Lines by their colours.
-fn lines(scene: &PageScene, at: &[[i64; 2]], field: &Field) -> String {
-    let mut of_colour: BTreeMap<String, Vec<[u32; 2]>> = BTreeMap::new();
+/// Lines by their colours, as wide as beams are deep at a scale of pixels for one length.
+fn lines(scene: &PageScene, at: &[[i64; 2]], field: &Field, scale: f64) -> String {
+    let mut of_colour: BTreeMap<(i64, String), Vec<[u32; 2]>> = BTreeMap::new();
     for (&ends, &cell) in scene.lines.as_chunks::<2>().0.iter().zip(&scene.line_cells) {
-        of_colour.entry(field.colour(&ends, Some(cell), 1.0)).or_default().push(ends);
+        let width = (PARTS * scale * scene.marks.depth(cell as usize)).round() as i64;
+        let colour = field.colour(&ends, Some(cell), 1.0);
+        of_colour.entry((width.max(THIN), colour)).or_default().push(ends);
     }
-    let path = |(colour, lines): (&String, &Vec<[u32; 2]>)| {
-        format!("<path class=\"l\" stroke=\"{colour}\" d=\"{}\"/>\n", strokes(lines, at))
+    let path = |((width, colour), lines): (&(i64, String), &Vec<[u32; 2]>)| {
+        let width =
+            if *width > THIN { format!(" style=\"stroke-width:{width};stroke-linecap:butt\"") } else { String::new() };
+        format!("<path class=\"l\" stroke=\"{colour}\"{width} d=\"{}\"/>\n", strokes(lines, at))
     };
     of_colour.iter().map(path).collect()
 }

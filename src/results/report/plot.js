@@ -62,6 +62,7 @@ class Plot {
     c.textBaseline = "top";
     for (const x of ticks(x0, x1, Math.max(2, width / 110))) c.moveTo(X(x), top), c.lineTo(X(x), bottom), c.fillText(few(x), X(x), bottom + 6);
     c.stroke();
+    if (/^time\b/.test(this.label?.x ?? "")) this.stages(c, X, [left, right, top, bottom]);
     c.textAlign = "left";
     c.fillText(this.label?.y ?? "", left, 4);
     c.textAlign = "right";
@@ -75,6 +76,26 @@ class Plot {
     for (const s of this.series) this.line(c, s, X, Y);
     c.restore();
     if (this.pointer && this.series.length) this.read(c, X, Y, right);
+  }
+
+  /** Marks the ends of stages along the time, and names each where there is room. */
+  stages(c, X, [left, right, top, bottom]) {
+    c.save();
+    c.textAlign = "left";
+    let from = left;
+    for (const [name, end] of DATA.stages) {
+      const to = Math.min(Math.max(X(end), left), right);
+      if (c.measureText(name).width < to - from - 6) c.fillText(name, from + 4, top + 2);
+      if (to < right - 1) {
+        c.setLineDash([4, 4]);
+        c.strokeStyle = style("--faint");
+        c.beginPath();
+        c.moveTo(to, top), c.lineTo(to, bottom);
+        c.stroke();
+      }
+      from = to;
+    }
+    c.restore();
   }
 
   line(c, { x, y, base, band, colour }, X, Y) {

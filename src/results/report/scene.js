@@ -49,19 +49,54 @@ class Scene {
     for (const key of ["triangles", "triangleCells", "lines", "lineCells", "edges"]) this[key] = places(from[key]);
     this.fields = new Map(from.fields.map(field => [field.name, floats(field.values)]));
     this.count = this.x0.length / 3;
+    this.marks = from.marks;
+    this.extrude(from.marks);
     const [bottom, top] = ["von_mises_bottom", "von_mises_top"].map(name => this.fields.get(name));
     if (bottom && top) {
       const beams = this.fields.get("von_mises");
       this.fields.set("von_mises", bottom.map((x, i) => Math.max(x, top[i], beams ? beams[i] : 0)));
       this.stressed = beams ? [BEAM, SHELL] : [SHELL];
     } else this.stressed = [BEAM];
-    this.at = new Float32Array(this.x0.length);
+    this.at = new Float32Array(this.x0.length + 3 * this.corners.length);
+  }
+
+  /** Adds faces around the lines of beams with a section: corners hang on a point, and turn with the line. */
+  extrude({ sections, sectionY, cellSections }) {
+    this.corners = [];
+    if (!sectionY) return;
+    const of = bytes(cellSections), y = floats(sectionY), triangles = [...this.triangles], cells = [...this.triangleCells];
+    const rim = size => size.radius
+      ? Array.from({ length: 12 }, (_, i) => [Math.cos(i * Math.PI / 6), Math.sin(i * Math.PI / 6)].map(x => size.radius * x))
+      : [[0, 0], [1, 0], [1, 1], [0, 1]].map(([i, j]) => [size.y[i], size.z[j]]);
+    for (let i = 0; i < this.lines.length; i += 2) {
+      const cell = this.lineCells[i / 2], section = of[cell];
+      if (!section) continue;
+      const ends = [this.lines[i], this.lines[i + 1]], round = rim(sections[section - 1]), n = round.length, first = this.count + this.corners.length;
+      for (const point of ends) for (const [a, b] of round) this.corners.push({ point, ends, axis: y.subarray(3 * point, 3 * point + 3), a, b });
+      const face = (...points) => (triangles.push(...points.map(k => first + k)), cells.push(cell));
+      for (let k = 0; k < n; k++) {
+        const next = (k + 1) % n;
+        face(k, next, n + next), face(k, n + next, n + k);
+        if (k > 1) face(0, k - 1, k), face(n, n + k, n + k - 1);
+      }
+    }
+    [this.triangles, this.triangleCells] = [Uint32Array.from(triangles), Uint32Array.from(cells)];
+  }
+
+  /** The point that a corner hangs on, or the point itself. */
+  base(point) {
+    return point < this.count ? point : this.corners[point - this.count].point;
   }
 
   /** Positions at a frame, displacements magnified. */
   place(frame, factor) {
     const { x0, u, at } = this, first = frame * x0.length;
-    for (let i = 0; i < at.length; i++) at[i] = x0[i] + factor * u[first + i];
+    for (let i = 0; i < x0.length; i++) at[i] = x0[i] + factor * u[first + i];
+    this.corners.forEach(({ point, ends: [from, to], axis, a, b }, k) => {
+      const t = unit([0, 1, 2].map(i => at[3 * to + i] - at[3 * from + i])), along = t[0] * axis[0] + t[1] * axis[1] + t[2] * axis[2];
+      const y = unit(t.map((x, i) => axis[i] - along * x)), z = cross(t, y);
+      for (let i = 0; i < 3; i++) at[3 * (this.count + k) + i] = at[3 * point + i] + a * y[i] + b * z[i];
+    });
     return at;
   }
 
@@ -70,6 +105,7 @@ class Scene {
     const [least, most] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
     for (let frame = 0; frame < this.times.length; frame++) {
       this.place(frame, factor).forEach((x, i) => {
+        if (!Number.isFinite(x)) return;
         least[i % 3] = Math.min(least[i % 3], x);
         most[i % 3] = Math.max(most[i % 3], x);
       });
@@ -93,7 +129,10 @@ class Scene {
   smooth(ofCells) {
     this.around ??= [[this.triangles, this.triangleCells, 3], [this.lines, this.lineCells, 2]].map(([points, cells, size]) => {
       const pairs = new Map();
-      points.forEach((point, i) => pairs.set(point * this.kinds.length + cells[Math.floor(i / size)], [point, cells[Math.floor(i / size)]]));
+      points.forEach((corner, i) => {
+        const point = this.base(corner), cell = cells[Math.floor(i / size)];
+        pairs.set(point * this.kinds.length + cell, [point, cell]);
+      });
       return [...pairs.values()];
     });
     const mean = new Float32Array(this.count).fill(NaN);
@@ -176,7 +215,7 @@ class Painter {
     gl.enable(gl.DEPTH_TEST);
     const over = most > least ? 1 / (most - least) : 0;
     const shade = (point, cell) => {
-      const x = values ? values[byPoint ? point : cell] : NaN;
+      const x = values ? values[byPoint ? scene.base(point) : cell] : NaN;
       return Number.isFinite(x) ? (x - least) * over : -1;
     };
     const points = (list, from = at) => {

@@ -84,6 +84,11 @@ impl ScreenView {
     pub fn scale(&self) -> f64 {
         self.scale
     }
+
+    /// The diagonal of the scene.
+    pub fn whole(&self) -> f64 {
+        self.distance / DISTANCE
+    }
 }
 
 /// From in front, a little from the side and above; straight at a scene that is plane.
