@@ -40,6 +40,7 @@ pub mod set;
 pub mod shells;
 pub mod stages;
 pub mod study;
+pub mod superelements;
 pub mod supports;
 mod tables;
 pub mod ties;
@@ -95,6 +96,9 @@ pub struct Deck {
     /// Shells: patches of triangles or quadrilaterals.
     #[serde(default)]
     pub shells: Vec<At<Table<shells::Shell>>>,
+    /// Superelements: parts by matrices from files.
+    #[serde(default)]
+    pub superelements: Vec<At<Table<superelements::Superelement>>>,
     /// Rigid bodies.
     #[serde(default)]
     pub bodies: Vec<At<Table<bodies::Body>>>,

@@ -1,4 +1,4 @@
-//! The parts of a deck in one view: beams, bars, shells, links and contacts, whatever table they come from. The table of a part, in the
+//! The parts of a deck in one view: beams, bars, shells, superelements, links and contacts, whatever table they come from. The table of a part, in the
 //! file of its kind, describes the part before it is read.
 
 use super::Deck;
@@ -15,6 +15,8 @@ pub enum PartKind {
     Bar,
     /// A surface of triangles and quadrilaterals that stretch, shear and bend.
     Shell,
+    /// A part by its matrices.
+    Superelement,
     /// A spring, damper or bushing between two points.
     Link,
     /// Points, or boxes, against a surface.
@@ -80,7 +82,8 @@ impl<'d> DeckPart<'d> {
 
 impl PartKind {
     /// All kinds in their order.
-    pub const ALL: [PartKind; 5] = [PartKind::Beam, PartKind::Bar, PartKind::Shell, PartKind::Link, PartKind::Contact];
+    pub const ALL: [PartKind; 6] =
+        [PartKind::Beam, PartKind::Bar, PartKind::Shell, PartKind::Superelement, PartKind::Link, PartKind::Contact];
 
     /// The word for one part, in files and messages.
     pub fn word(self) -> &'static str {
@@ -88,6 +91,7 @@ impl PartKind {
             PartKind::Beam => "beam",
             PartKind::Bar => "bar",
             PartKind::Shell => "shell",
+            PartKind::Superelement => "superelement",
             PartKind::Link => "link",
             PartKind::Contact => "contact",
         }
@@ -99,6 +103,7 @@ impl PartKind {
             PartKind::Beam => "beams",
             PartKind::Bar => "bars",
             PartKind::Shell => "shells",
+            PartKind::Superelement => "superelements",
             PartKind::Link => "links",
             PartKind::Contact => "contacts",
         }
@@ -110,6 +115,7 @@ impl PartKind {
             PartKind::Beam => ["beam element", "beam elements"],
             PartKind::Bar => ["bar element", "bar elements"],
             PartKind::Shell => ["shell element", "shell elements"],
+            PartKind::Superelement => ["superelement", "superelements"],
             PartKind::Link => ["link", "links"],
             PartKind::Contact => ["contact", "contacts"],
         }
@@ -120,14 +126,14 @@ impl PartKind {
         match self {
             PartKind::Beam => 2,
             PartKind::Shell => 1,
-            PartKind::Bar | PartKind::Link | PartKind::Contact => 0,
+            PartKind::Bar | PartKind::Superelement | PartKind::Link | PartKind::Contact => 0,
         }
     }
 
     /// True for parts with nodes and elements of material, which have mass, strain energy and may yield.
     pub fn is_deformable(self) -> bool {
         match self {
-            PartKind::Beam | PartKind::Bar | PartKind::Shell => true,
+            PartKind::Beam | PartKind::Bar | PartKind::Shell | PartKind::Superelement => true,
             PartKind::Link | PartKind::Contact => false,
         }
     }
@@ -145,6 +151,11 @@ impl PartKind {
     /// True for parts whose elements are lines with a section.
     pub fn is_line(self) -> bool {
         matches!(self, PartKind::Beam | PartKind::Bar)
+    }
+
+    /// True for parts that are linear in a frame that moves with them.
+    pub fn is_floating(self) -> bool {
+        self == PartKind::Superelement
     }
 
     /// True for parts whose elements act while they are closed and are left out otherwise: unilateral constraints.
@@ -177,6 +188,7 @@ impl Deck {
             PartKind::Beam => view(at, &self.beams),
             PartKind::Bar => view(at, &self.bars),
             PartKind::Shell => view(at, &self.shells),
+            PartKind::Superelement => view(at, &self.superelements),
             PartKind::Link => view(at, &self.links),
             PartKind::Contact => view(at, &self.contacts),
         }

@@ -56,7 +56,7 @@ const FIELDS: &str = "rdsolve computes no electric or magnetic fields";
 const LAW: &str = "rdsolve has elastic, plastic and viscoplastic materials alone";
 const CONTACT: &str = "contact is not translated; add [[contacts]] to the deck";
 const CYCLIC: &str = "rdsolve has no cyclic symmetry";
-const PIECES: &str = "rdsolve has no substructures or submodels";
+const PIECES: &str = "substructures and submodels are not translated; `[[superelements]]` take their matrices";
 const MESH: &str = "makes nodes, elements or numbers; write the mesh as one flat file";
 const OPTIMIZE: &str = "rdsolve computes no sensitivities";
 

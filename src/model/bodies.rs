@@ -109,7 +109,7 @@ impl<'d> Bodies<'d> {
 
 /// A part by name, before names have places.
 fn find_part(deck: &Deck, name: &At<String>, report: &mut Report) -> Option<PartIndex> {
-    let parts = || deck.parts().filter(|part| part.at.kind.is_deformable());
+    let parts = || deck.parts().filter(|part| part.at.kind.is_line() || part.at.kind.is_surface());
     if let Some(part) = parts().find(|part| part.is_named(name)) {
         if part.is_rigid() {
             let message = format!("`{}` has `rigid = true`, so it is a separate body", name.value);

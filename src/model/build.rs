@@ -13,7 +13,7 @@ use super::contacts::contacts;
 use super::contacts::points::connect_touching_points;
 use super::data::{
     Analysis, ArcLength, Cadence, Constraints, Contact, Damping, Expect, FieldFiles, Iteration, Joint, Load, LoadCases,
-    Mass, MeshFile, Model, Origin, Part, Rigid, RunStage, Solution, StepLength, Study,
+    Mass, MeshFile, Model, Origin, Part, RecordFile, Rigid, RunStage, Solution, StepLength, Study,
 };
 use super::environment::{AccelerationFields, damping, environment};
 use super::equations::equations;
@@ -66,6 +66,8 @@ use super::shells::chords::check_chords;
 use super::shells::edges::{bulges, least_bulges, set_bulges};
 use super::shells::shells;
 use super::stages::{self, CurrentStage, StageSequence};
+use super::superelements::files::{GivenMatrices, load_matrices};
+use super::superelements::superelements;
 use super::supports::given_rotations::{TurnedNode, given_turns};
 use super::supports::supports;
 use super::ties::ties;
@@ -75,6 +77,25 @@ use deck::Deck;
 use deck::read::ROOT;
 use mechanics::amplitude::Amplitude;
 use mechanics::integrators::{Scheme, Stepping};
+
+/// The files that a deck names.
+#[derive(Clone, Copy)]
+struct Files<'d> {
+    /// Its mesh.
+    input: Option<&'d Input>,
+    /// The records of its amplitudes.
+    records: &'d [Option<Record>],
+    /// The matrices of its superelements.
+    matrices: &'d [Option<GivenMatrices>],
+}
+
+impl Files<'_> {
+    /// The files of records and matrices, for the model to remember.
+    fn origins(&self) -> Vec<RecordFile> {
+        let matrices = self.matrices.iter().flatten().flat_map(|given| &given.files).cloned();
+        self.records.iter().flatten().map(Record::origin).chain(matrices).collect()
+    }
+}
 
 /// Reads a deck and builds its model; everything there is to say about it, in the order of the deck. Of a deck with stages it is the model
 /// of the first.
@@ -116,10 +137,13 @@ fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, 
     let (input, mut said) = deck.as_ref().map_or((None, Vec::new()), |deck| Input::load(deck, folder));
     let (records, of_records) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_records(deck, folder));
     said.extend(of_records);
+    let (matrices, of_matrices) = deck.as_ref().map_or((Vec::new(), Vec::new()), |deck| load_matrices(deck, folder));
+    said.extend(of_matrices);
+    let files = Files { input: input.as_ref(), records: &records, matrices: &matrices };
     let (mut models, more) = match &deck {
-        Some(deck) if !deck.stages.is_empty() => build_stages(deck, stages, input.as_ref(), &records),
+        Some(deck) if !deck.stages.is_empty() => build_stages(deck, stages, files),
         Some(deck) => {
-            let (model, said) = build(deck, input.as_ref(), &records);
+            let (model, said) = build(deck, files);
             (model.into_iter().collect(), said)
         }
         None => (Vec::new(), Vec::new()),
@@ -137,8 +161,7 @@ fn read_from(source: &Source, stages: (&[f64], Option<&Model>)) -> (Vec<Model>, 
 fn build_stages(
     deck: &Deck,
     (reached, planned): (&[f64], Option<&Model>),
-    input: Option<&Input>,
-    records: &[Option<Record>],
+    files: Files,
 ) -> (Vec<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
     let mut sequence = StageSequence::new(deck, reached, &mut report);
@@ -146,12 +169,12 @@ fn build_stages(
     if let Some(planned) = planned {
         sequence.bulges = bulges(planned);
     }
-    let (mut models, mut said) = each_stage(&sequence, reached.len(), input, records);
+    let (mut models, mut said) = each_stage(&sequence, reached.len(), files);
     if planned.is_none()
         && let Some(least) = least_bulges(&models)
     {
         sequence.bulges = least;
-        (models, said) = each_stage(&sequence, 0, input, records);
+        (models, said) = each_stage(&sequence, 0, files);
     }
     if let Some(Model { loading, .. }) = models.first() {
         check_amplitude_ends(deck, &loading.amplitudes, sequence.end(), &mut report);
@@ -166,17 +189,12 @@ fn build_stages(
 }
 
 /// The models of all stages, or of the next one after `ended` stages, with the diagnostics of each.
-fn each_stage(
-    sequence: &StageSequence,
-    ended: usize,
-    input: Option<&Input>,
-    records: &[Option<Record>],
-) -> (Vec<Model>, Vec<(String, Vec<Diagnostic>)>) {
+fn each_stage(sequence: &StageSequence, ended: usize, files: Files) -> (Vec<Model>, Vec<(String, Vec<Diagnostic>)>) {
     let count = if ended == 0 { usize::MAX } else { 1 };
     let built = CurrentStage::all(sequence).skip(ended).take(count).map(|stage| {
         let (own, expected) = stage.deck();
         let mut report = Report::new(&own);
-        let mut built = model(&own, Some(stage), (input, records), &mut report);
+        let mut built = model(&own, Some(stage), files, &mut report);
         for expect in &mut built.expects {
             expect.index = expected.get(expect.index).copied().unwrap_or_default();
         }
@@ -206,26 +224,21 @@ fn share_contact_laws(models: &mut [Model]) {
 
 /// The model the deck describes, with the mesh and the records it names, and everything there is to say about it. `None` if any of that is
 /// an error.
-pub fn build(deck: &Deck, input: Option<&Input>, records: &[Option<Record>]) -> (Option<Model>, Vec<Diagnostic>) {
+fn build(deck: &Deck, files: Files) -> (Option<Model>, Vec<Diagnostic>) {
     let mut report = Report::new(deck);
     if !report.is_spoiled(&ROOT, "stages") {
         stages::check_names(deck, &mut report);
     }
-    let model = model(deck, None, (input, records), &mut report);
+    let model = model(deck, None, files, &mut report);
     let sound = !report.has_errors();
     (sound.then_some(model), merge_diagnostics(report.into_problems()))
 }
 
-fn model<'d>(
-    deck: &'d Deck,
-    stage: Option<CurrentStage<'d>>,
-    (input, records): (Option<&'d Input>, &[Option<Record>]),
-    report: &mut Report<'d>,
-) -> Model {
+fn model<'d>(deck: &'d Deck, stage: Option<CurrentStage<'d>>, files: Files<'d>, report: &mut Report<'d>) -> Model {
     let procedure = analysis(deck, stage, report);
-    let amplitudes = amplitudes(deck, stage, records, report);
+    let amplitudes = amplitudes(deck, stage, files.records, report);
     let Ground { mut scene, nodes, amplitudes, groups, rigid } =
-        ground(deck, (stage, procedure.analysis), (input, amplitudes), report);
+        ground(deck, (stage, procedure.analysis), (files, amplitudes), report);
     let (mut joined, efforts) = connect(&scene, nodes, amplitudes, report);
     let acting = act(&mut scene, &mut joined, efforts, report);
     let asked = ask(&scene, &procedure.scheme, acting.actors, &joined, report);
@@ -270,7 +283,7 @@ fn model<'d>(
         cases: asked.cases,
         damping: acting.damping,
         expects: asked.expects,
-        origin: Origin { mesh, records: records.iter().flatten().map(Record::origin).collect(), rigid },
+        origin: Origin { mesh, records: files.origins(), rigid },
         output: asked.selection.output,
         study: asked.study,
     };
@@ -386,14 +399,14 @@ struct Ground<'d> {
 fn ground<'d>(
     deck: &'d Deck,
     (stage, analysis): (Option<CurrentStage<'d>>, Analysis),
-    (input, mut amplitudes): (Option<&'d Input>, Vec<Amplitude>),
+    (files, mut amplitudes): (Files<'d>, Vec<Amplitude>),
     report: &mut Report<'d>,
 ) -> Ground<'d> {
     let motion_curves = motion_curves(deck, stage, &analysis, &mut amplitudes, report);
     let mut nodes = Nodes::default();
     points(deck, &mut nodes);
     let bodies = bodies(deck, analysis.has_inertia(), &mut nodes, report);
-    let mesh = MeshNodes::add(deck, input, &mut nodes, report);
+    let mesh = MeshNodes::add(deck, files.input, &mut nodes, report);
     let names = Names::declare(deck, &bodies, mesh, report);
     let materials = materials(deck, analysis.has_inertia(), report);
     let mut context = PartContext {
@@ -409,6 +422,7 @@ fn ground<'d>(
     beams(&mut context);
     bars(&mut context);
     shells(&mut context);
+    superelements(files.matrices, &mut context);
     let PartContext { groups, mut parts, sections, .. } = context;
     (parts.stiffnesses, parts.stresses) = (sections.stiffnesses, sections.stresses);
     let (bodies, rigid) = rigid_bodies(deck, analysis.has_inertia(), bodies, &mut parts, &mut nodes, report);

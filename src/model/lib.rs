@@ -44,6 +44,7 @@ mod scene;
 mod sections;
 mod shells;
 mod stages;
+mod superelements;
 mod supports;
 mod ties;
 mod values;
@@ -55,7 +56,7 @@ pub mod inner {
     pub use crate::places::cells::Cells;
 }
 
-pub use build::{build, read, read_stages, replan};
+pub use build::{read, read_stages, replan};
 pub use data::*;
 pub use mesh_file::Input;
 pub use procedure::study;

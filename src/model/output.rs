@@ -111,6 +111,8 @@ pub(super) fn write_all_nodes(model: &mut Model) {
     for tie in model.constraints.joints.iter().filter(|joint| joint.origin == JointOrigin::Tie) {
         tie.all_ends().for_each(|node| is_other[node] |= model.nodes[node].label.starts_with(&tie.name));
     }
+    let amplitudes = model.parts.iter_mut().filter(|part| part.kind().is_floating());
+    amplitudes.for_each(|part| part.visit_nodes(&mut |&mut node| is_other[node] |= model.nodes[node].is_number));
     model.output.nodes = (0..model.nodes.len()).filter(|&node| !is_other[node]).collect();
 }
 

@@ -86,6 +86,13 @@ pub enum Warning {
         /// True where the shell yields by logarithmic strain.
         logarithmic: bool,
     },
+    /// A superelement is bent too far for its matrices.
+    Bent {
+        /// The name of the superelement.
+        name: String,
+        /// The largest rotation of a node in its frame, in radians.
+        turn: f64,
+    },
     /// Something turns too far for a linear analysis.
     LargeRotation {
         /// The name of the node.
@@ -148,6 +155,7 @@ keep_either!(Warning {
     15 => SlipBegins(what),
     20 => LargeRotation { label, turn },
     21 => BeyondYield { name, stress, limit },
+    22 => Bent { name, turn },
 });
 
 /// The time and the mode of an instability.
@@ -364,6 +372,7 @@ impl fmt::Display for Warning {
             Warning::RotationDrifts { label, direction, drift } => drifted(label, direction, *drift),
             Warning::LargeRotation { label, turn } => large_rotation(label, *turn),
             Warning::BeyondYield { name, stress, limit } => beyond_yield(name, *stress, *limit),
+            Warning::Bent { name, turn } => bent(name, *turn),
             Warning::LargeStrain { name, strain, logarithmic } => large_strain(name, *strain, *logarithmic),
             Warning::SideBySide { name } => side_by_side(name),
             Warning::ContactThrows(found) => found.to_string(),
@@ -384,6 +393,16 @@ fn large_rotation(label: &str, turn: f64) -> String {
         "node `{label}` rotates by {} rad, but a linear analysis takes rotations as infinitesimal: displacements are valid for smaller loads only. \
          Give `geometry = \"finite\"`, or reduce the loads",
         to_digits(turn, 2)
+    )
+}
+
+/// The message of a superelement that is bent too far.
+fn bent(name: &str, turn: f64) -> String {
+    format!(
+        "superelement `{name}` deforms by rotations of {} rad in its frame. Its matrices take them as infinitesimal, so displacements there are \
+         wrong by about {} %. Replace it by several superelements, or by `[[beams]]` or `[[shells]]`",
+        to_digits(turn, 2),
+        to_digits(100.0 * turn * turn / 3.0, 1)
     )
 }
 
@@ -464,6 +483,22 @@ impl Warnings {
             None => self.warnings.push(Warning::LargeRotation { label: node.to_owned(), turn: largest }),
             Some((label, turn)) if largest > *turn => {
                 node.clone_into(label);
+                *turn = largest;
+            }
+            Some(_) => {}
+        }
+    }
+
+    /// Adds the largest rotation of a superelement in its frame, or keeps it where it is larger than the one known.
+    pub fn bend(&mut self, part: &str, largest: f64) {
+        let known = self.warnings.iter_mut().find_map(|known| match known {
+            Warning::Bent { name, turn } => Some((name, turn)),
+            _ => None,
+        });
+        match known {
+            None => self.warnings.push(Warning::Bent { name: part.to_owned(), turn: largest }),
+            Some((name, turn)) if largest > *turn => {
+                part.clone_into(name);
                 *turn = largest;
             }
             Some(_) => {}

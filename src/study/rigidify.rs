@@ -136,7 +136,9 @@ fn candidates(deck: &Deck) -> Vec<Candidate> {
     let bodies = deck.bodies.iter().filter_map(|body| body.parts.as_ref());
     let of_bodies: Vec<&str> = bodies.flat_map(|parts| &parts.values).map(|name| name.as_str()).collect();
     let is_candidate = |part: &DeckPart| {
-        part.at.kind.is_deformable() && !part.is_rigid() && !of_bodies.contains(&part.label().as_str())
+        (part.at.kind.is_line() || part.at.kind.is_surface())
+            && !part.is_rigid()
+            && !of_bodies.contains(&part.label().as_str())
     };
     let candidate = |part: DeckPart| Candidate {
         kind: part.at.kind.word(),

@@ -10,4 +10,5 @@ mod profiles;
 mod shear_areas;
 mod shear_rigid;
 mod shells;
+mod superelements;
 mod unlimited_rotations;

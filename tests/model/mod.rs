@@ -13,4 +13,5 @@ mod record;
 mod records;
 mod releases;
 mod rotations;
+mod superelements;
 mod tables_of_positions;

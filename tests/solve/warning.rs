@@ -41,6 +41,7 @@ fn warnings() -> Vec<Warning> {
         Warning::LargeStrain { name: "hood".to_owned(), strain: 0.78, logarithmic: true },
         Warning::LargeRotation { label: "tip".to_owned(), turn: 0.21 },
         Warning::BeyondYield { name: "post".to_owned(), stress: 4.1e8, limit: 2.35e8 },
+        Warning::Bent { name: "blade".to_owned(), turn: 0.24 },
         Warning::RotationDrifts { label: "ship".to_owned(), direction: "rz", drift: 0.031 },
         Warning::ContactThrows(throws),
         Warning::SlipBegins(on_contact),
@@ -72,6 +73,7 @@ fn kind(warning: &Warning) -> usize {
         Warning::ScaledStep { .. } => 16,
         Warning::LargeRotation { .. } => 17,
         Warning::BeyondYield { .. } => 18,
+        Warning::Bent { .. } => 19,
     }
 }
 

@@ -238,6 +238,30 @@ fn inverse_coefficient(t2: f64) -> f64 {
     }
 }
 
+/// The derivative of T⁻¹(Θ) a along a change `dtheta` of Θ, at constant `a`.
+#[inline]
+pub fn inverse_tangent_change(theta: &Vec3, dtheta: &Vec3, a: &Vec3) -> Vec3 {
+    let t2 = theta.norm_squared();
+    let (c, txa) = (inverse_coefficient(t2), theta.cross(a));
+    let dtxa = dtheta.cross(a);
+    let rate = 2.0 * theta.dot(dtheta) * inverse_coefficient_slope(t2);
+    -0.5 * dtxa + c * (dtheta.cross(&txa) + theta.cross(&dtxa)) + rate * theta.cross(&txa)
+}
+
+/// The derivative of [`inverse_coefficient`] by θ².
+#[inline]
+fn inverse_coefficient_slope(t2: f64) -> f64 {
+    if t2 < SERIES {
+        (1..TERMS).rev().fold(0.0, |sum, k| fma(sum, t2, k as f64 * INVERSE[k]))
+    } else {
+        let h = 0.5 * t2.sqrt();
+        let (sine, cotangent) = (h.sin(), 1.0 / h.tan());
+        // (θ/2) cot(θ/2) changes by (cot h − h/sin² h) with h, and h by 1/(8h) with θ².
+        let slope = (cotangent - h / (sine * sine)) / (8.0 * h);
+        -(slope + (1.0 - h * cotangent) / t2) / t2
+    }
+}
+
 /// A rotation vector with its coefficients, for several rates at one place.
 #[derive(Debug, Clone, Copy)]
 pub struct Chart {

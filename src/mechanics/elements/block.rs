@@ -140,6 +140,10 @@ pub trait Results: Elements {
     /// Calls `of` for each element whose material yields and that has not failed: with its number, the strain of largest size in its
     /// surface, of Green, and whether its law is for large strains.
     fn surface_strains(&self, _now: &Configuration, _of: &mut dyn FnMut(usize, f64, bool)) {}
+    /// The largest rotation of a node relative to the frame in which an element is linear, in radians; zero for others.
+    fn local_rotation(&self, _now: &Configuration) -> f64 {
+        0.0
+    }
     /// Largest accumulated plastic strain in element `e`, by the history variables of the group.
     fn plastic_strain(&self, _e: usize, _history: &[f64]) -> f64 {
         0.0

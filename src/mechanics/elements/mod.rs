@@ -22,6 +22,7 @@ mod results;
 pub mod shell;
 mod slider;
 pub mod slip;
+pub mod superelement;
 mod wandering;
 
 pub use block::subtract;

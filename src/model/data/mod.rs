@@ -25,6 +25,7 @@ mod shell;
 mod stage;
 mod step_length;
 mod study;
+mod superelement;
 
 pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
@@ -61,3 +62,4 @@ pub use shell::{Shell, ShellElement};
 pub use stage::{Actors, RunStage, Stop, StopQuantity};
 pub use step_length::{ArcLength, ERROR_TOLERANCE, FEWEST_STEPS, FIRST_STEP, SAFE, SAFE_WHERE_STRUCK, StepLength};
 pub use study::{Choice, Quantity, Study};
+pub use superelement::Superelement;

@@ -7,6 +7,7 @@ use super::contact::Contact;
 use super::link::Link;
 use super::part_answers::PartAnswers;
 use super::shell::Shell;
+use super::superelement::Superelement;
 use base::quantities::Column;
 use deck::parts::PartKind;
 use std::ops::{Deref, DerefMut};
@@ -20,6 +21,8 @@ pub enum Part {
     Bar(Bar),
     /// A surface of elements that stretch, shear and bend; a shell of the deck with two shapes of elements makes two.
     Shell(Shell),
+    /// A part by its matrices.
+    Superelement(Superelement),
     /// A spring, damper or bushing between two nodes.
     Link(Link),
     /// Points, or boxes, against a surface.
@@ -33,6 +36,7 @@ impl Part {
             Part::Beam(_) => PartKind::Beam,
             Part::Bar(_) => PartKind::Bar,
             Part::Shell(_) => PartKind::Shell,
+            Part::Superelement(_) => PartKind::Superelement,
             Part::Link(_) => PartKind::Link,
             Part::Contact(_) => PartKind::Contact,
         }
@@ -58,6 +62,7 @@ impl Deref for Part {
             Part::Beam(part) => part,
             Part::Bar(part) => part,
             Part::Shell(part) => part,
+            Part::Superelement(part) => part,
             Part::Link(part) => part,
             Part::Contact(part) => part,
         }
@@ -70,6 +75,7 @@ impl DerefMut for Part {
             Part::Beam(part) => part,
             Part::Bar(part) => part,
             Part::Shell(part) => part,
+            Part::Superelement(part) => part,
             Part::Link(part) => part,
             Part::Contact(part) => part,
         }
@@ -82,6 +88,7 @@ pub fn quantities_of(kind: PartKind) -> Vec<Column> {
         PartKind::Beam => Beam::QUANTITIES,
         PartKind::Bar => Bar::QUANTITIES,
         PartKind::Shell => Shell::QUANTITIES,
+        PartKind::Superelement => Superelement::QUANTITIES,
         PartKind::Link => Link::QUANTITIES,
         PartKind::Contact => Contact::QUANTITIES,
     };
@@ -116,4 +123,4 @@ macro_rules! part_types {
     )*};
 }
 
-part_types! { Beam Bar Shell Link Contact }
+part_types! { Beam Bar Shell Superelement Link Contact }

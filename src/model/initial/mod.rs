@@ -69,7 +69,7 @@ impl<'d> Motions<'_, 'd> {
         };
         self.moves_by_itself(&spots);
         let nodes: Vec<usize> = match everything {
-            true => (0..self.topology.list.len()).collect(),
+            true => (0..self.topology.list.len()).filter(|&node| !self.topology.list[node].is_number).collect(),
             false => spots.iter().map(|spot| spot.node).collect(),
         };
         self.check_keys(&owner, initial);

@@ -144,7 +144,7 @@ fn edges_by_name(scene: &Scene) -> HashMap<[usize; 2], Edge> {
 
 /// The elements of beams and bars by their end nodes, in ascending order.
 fn elements_by_ends(parts: &[Part]) -> HashMap<[usize; 2], (usize, usize)> {
-    let is_line = |part: &Part| part.kind().is_deformable() && !part.kind().is_surface();
+    let is_line = |part: &Part| part.kind().is_line();
     let mut found = HashMap::new();
     for (index, part) in parts.iter().enumerate().filter(|(_, part)| is_line(part)) {
         for element in 0..part.elements() {
@@ -158,7 +158,7 @@ fn elements_by_ends(parts: &[Part]) -> HashMap<[usize; 2], (usize, usize)> {
 
 /// True for a beam or a bar.
 fn is_line(part: PartIndex) -> bool {
-    part.kind.is_deformable() && !part.kind.is_surface()
+    part.kind.is_line()
 }
 
 struct Spread<'a, 'd> {

@@ -89,7 +89,7 @@ fn amplitude<'d>(
 fn parts<'d>(scene: &Scene<'d>, place: Place, name: &At<String>, report: &mut Report<'d>) -> Vec<PartIndex> {
     let leaves = if let Place::Set(_) = place { scene.names.leaves(place) } else { vec![place] };
     let part = |leaf: &Place| match leaf {
-        Place::Part(part) if part.kind.is_deformable() => Some(*part),
+        Place::Part(part) if part.kind.is_line() || part.kind.is_surface() => Some(*part),
         leaf => scene.names.surface_of(*leaf),
     };
     let is_rigid = |part: PartIndex| scene.deck.part(part).is_some_and(|part| part.is_rigid());

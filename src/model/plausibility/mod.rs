@@ -34,8 +34,9 @@ pub fn check_content(deck: &Deck, report: &mut Report) {
         || !deck.bodies.is_empty()
         || !deck.masses.is_empty()
         || between;
-    let spoiled =
-        ["beams", "bars", "shells", "bodies", "masses", "links"].iter().any(|key| report.is_spoiled(&ROOT, key));
+    let spoiled = ["beams", "bars", "shells", "superelements", "bodies", "masses", "links"]
+        .iter()
+        .any(|key| report.is_spoiled(&ROOT, key));
     if !moves && !spoiled {
         let message =
             "the deck has nothing that could move: no beams, bars, shells, bodies, masses or links between points";

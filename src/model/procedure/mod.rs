@@ -224,6 +224,11 @@ pub fn check_explicit(deck: &Deck, analysis: &Analysis, scheme: &dyn Scheme, par
     if !analysis.is_dynamic() || !scheme.is_explicit() {
         return;
     }
+    if let Some(part) = parts.iter().find(|part| part.kind().is_floating()) {
+        let message =
+            format!("explicit schemes do not take the superelement `{}`: its masses are coupled", part.name());
+        report.error_with::<()>(&at.span, message, "give an implicit scheme, such as `scheme` = \"generalized-alpha\"");
+    }
     check_yielding(scheme, &at.span, parts.iter().any(|part| part.yields()), report);
     if parts.iter().any(|part| part.mass_kind() == Some(MassKind::Consistent)) {
         let hint = "give `mass` = \"lumped\", which needs no matrix at all";

@@ -1,8 +1,9 @@
-//! Checks the strain of yielding shells: beyond the range of their strain measure their forces are wrong.
+//! Checks the strain of yielding shells, and the rotations of superelements in their frames: beyond the range of their strain measure
+//! forces are wrong.
 
 use crate::context::Context;
 use crate::guards::guard::{Guard, Taken};
-use crate::tolerances::strain::{LARGE, LARGE_LOGARITHMIC, LOOKS};
+use crate::tolerances::strain::{BENT, LARGE, LARGE_LOGARITHMIC, LOOKS};
 use crate::warning::Warnings;
 use crate::workspace::Workspace;
 use mechanics::state::State;
@@ -24,6 +25,10 @@ fn look(cx: &Context, warnings: &mut Warnings, state: &State) {
     let now = state.configuration();
     for group in &cx.system.groups {
         let own = group.configuration(&now);
+        let turn = group.block.local_rotation(&own);
+        if turn > BENT {
+            warnings.bend(group.part_of(0, cx.model).name(), turn);
+        }
         group.block.surface_strains(&own, &mut |e, strain, is_logarithmic| {
             let [least, most] = if is_logarithmic { LARGE_LOGARITHMIC } else { [-LARGE, LARGE] };
             if !(least..=most).contains(&strain) {

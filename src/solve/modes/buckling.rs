@@ -112,6 +112,12 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
 /// Warnings about the factors found and wanted, in words; the scene may not rest without loads.
 fn warnings_of(at: &Linearized, rests: bool, (found, wanted): (&[Factor], usize)) -> Vec<String> {
     let mut warnings = Vec::new();
+    if let Some(part) = at.model.parts.iter().find(|part| part.kind().is_floating()) {
+        warnings.push(format!(
+            "superelement `{}` keeps its stiffness under compression: buckling inside of it is not found. Replace it by beams, by shells or by several superelements",
+            part.name()
+        ));
+    }
     if !rests {
         warnings.push(
             "without the loads the scene is not in equilibrium, because parts have prestress. Factors are those of the given geometry with this \

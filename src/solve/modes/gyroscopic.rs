@@ -22,6 +22,16 @@ pub struct Gyroscopic {
     pub warnings: Vec<String>,
 }
 
+/// The warning of a superelement that spins, whose gyroscopic terms are omitted.
+pub fn of_superelements(at: &Linearized) -> Option<String> {
+    let node = at.system.floating_nodes().find(|&node| at.spins(&at.state.nodes[node].omega))?;
+    Some(format!(
+        "`{}` spins with a superelement, and modes omit its gyroscopic and centrifugal forces. Replace it by beams and bodies, or compute the \
+         motion with `kind = \"dynamic\"`",
+        at.model.nodes[node].label
+    ))
+}
+
 impl Gyroscopic {
     /// The matrices of the bodies that spin in a state.
     pub fn of(at: &Linearized) -> Gyroscopic {
@@ -65,6 +75,7 @@ impl Gyroscopic {
             let rows = std::array::from_fn(|i| at.plan.dofs.row(root, 3 + i));
             gyroscopic.blocks.push((rows, varies - skew(&momentum), -skew(&omega.cross(&momentum))));
         }
+        gyroscopic.warnings.extend(of_superelements(at));
         gyroscopic.warnings.dedup();
         gyroscopic
     }

@@ -6,6 +6,7 @@
 //! with new vectors.
 
 use super::fault::ModesFault;
+use super::gyroscopic::of_superelements;
 use super::linearized::Linearized;
 use super::mode::ModeKind;
 use super::mode::{EigenMode, Modes};
@@ -143,6 +144,7 @@ pub(super) fn left_out(at: &Linearized) -> Vec<String> {
                 .to_owned(),
         );
     }
+    warnings.extend(of_superelements(at));
     let spins = |node: usize| at.spins(&at.model.nodes[node].omega);
     if let Some(body) = at.system.inertias.iter().find(|inertia| inertia.rotary && spins(inertia.node)) {
         warnings.push(format!(

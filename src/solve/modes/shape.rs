@@ -1,5 +1,6 @@
 //! Shapes of modes: motions of all nodes, scale, rigid-motion content, and distribution of energy.
 
+use super::linearized::Linearized;
 use super::mode::EigenMode;
 use super::pencil::Pencil;
 use super::shares::{Energies, energies};
@@ -31,7 +32,7 @@ impl Shapes {
                 true => stack(&e.cross(&(node.x - about)), &e),
                 false => stack(&e, &Vec3::zeros()),
             };
-            let mut motions: Vec<Vec6> = nodes.iter().map(rigid).collect();
+            let mut motions = of_places(at, rigid);
             at.system.apply_mass(nodes, &mut motions, &mut forces);
             let mut force = vec![0.0; at.unknowns()];
             for (rows, f) in at.plan.dofs.each_node().iter().zip(&forces.on_nodes) {
@@ -71,7 +72,7 @@ impl Shapes {
                 true => stack(&e.cross(&(node.x - center)), &e),
                 false => stack(&e, &Vec3::zeros()),
             };
-            nodes.iter().map(motion).collect()
+            of_places(&pencil.at, motion)
         };
         let shapes: Vec<Vec<Vec6>> = (0..6).map(rigid).collect();
         let energies = energies(&pencil.at, nodes, &shapes);
@@ -190,6 +191,12 @@ impl Shapes {
             () => 1.0,
         }
     }
+}
+
+/// The motions of nodes with a place; numbers stay.
+fn of_places(at: &Linearized, motion: impl Fn(&Node) -> Vec6) -> Vec<Vec6> {
+    let places = at.model.nodes.iter().zip(&at.state.nodes);
+    places.map(|(node, now)| if node.is_number { Vec6::zeros() } else { motion(now) }).collect()
 }
 
 /// The energies of some shapes.

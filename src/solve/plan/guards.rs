@@ -18,7 +18,7 @@ pub enum GuardKind {
     Jump,
     /// Steps of a motion that turn nodes of shells against their elements.
     Twist,
-    /// Shells stretched beyond the validity of their strain measure.
+    /// Shells stretched beyond the validity of their strain measure, and superelements bent beyond that of their matrices.
     Strain,
     /// Drift of rotations that supports fix alone.
     Drift,
@@ -31,6 +31,7 @@ pub enum GuardKind {
 pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> Vec<GuardKind> {
     let dynamic = model.analysis.kind == AnalysisKind::Dynamic;
     let has_shells = system.groups.iter().any(|group| group.kind.is_surface());
+    let has_floating = system.groups.iter().any(|group| group.kind.is_floating());
     let counts_turns = system.has_links() || system.joints.iter().any(|joint| joint.supports);
     let holds_rotations = model.constraints.restraints.iter().any(|held| held.dof > 2 && held.motion.is_none());
     let asked = [
@@ -40,7 +41,7 @@ pub fn choose(model: &Model, system: &System, linear: bool, explicit: bool) -> V
         (GuardKind::Links, !explicit && counts_turns),
         (GuardKind::Jump, !dynamic && !linear),
         (GuardKind::Twist, dynamic && !explicit && !linear && has_shells),
-        (GuardKind::Strain, has_shells),
+        (GuardKind::Strain, has_shells || has_floating),
         (GuardKind::Drift, model.analysis.begin == 0.0 && holds_rotations),
         (GuardKind::Stability, !dynamic && !linear),
     ];

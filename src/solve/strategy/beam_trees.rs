@@ -151,7 +151,7 @@ impl Graph {
         let (mut foreign, mut dependent) = (vec![false; count], vec![false; count]);
         for (number, group) in cx.system.groups.iter().enumerate() {
             let block = &group.block;
-            let is_beam = group.kind.is_deformable() && !group.kind.is_surface() && block.dofs() == 6;
+            let is_beam = group.kind.has_sections();
             for e in 0..block.len() {
                 let is_place = |node: &usize| !cx.model.nodes[*node].is_number;
                 let own = block.nodes(e).iter().take_while(|node| is_place(node)).count();

@@ -13,7 +13,7 @@ use super::loads::{Loading, follower_stiffness};
 use super::penalties::Diagonals;
 use super::tangent_weights::TangentWeights;
 use base::math::lanes::LANES;
-use base::math::{Mat3, Mat6};
+use base::math::{Mat3, Mat6, Vec3};
 use linear::Solver;
 use mechanics::elements::pressure::MOST_NODES;
 use mechanics::elements::{ElementBlock, Partners};
@@ -33,6 +33,7 @@ pub struct Assembly {
     /// Destinations of the matrices of nodes: inertia, nodal damping, follower loads, arms of dependent nodes.
     nodes: Vec<(usize, Destination)>,
     masses: Vec<Destination>,
+    floating: Vec<Destination>,
     /// Destinations of the faces under follower pressure, in their order.
     faces: Vec<Destination>,
     /// Destinations of the consistent masses under centrifugal loads, in their order.
@@ -109,17 +110,21 @@ impl Assembly {
             joints.map(|(joint, own)| find.local(&joint.matrix_nodes().chain([own]).collect::<Vec<_>>(), 6)).collect();
         let diagonals = Diagonals::new(system, &followers.independent_nodes, dofs, solver);
         let own = find.nodal(system);
+        let of_floating = system.floating().iter().map(|mass| find.local(mass.element.nodes(), 6)).collect();
         let of_masses = system.consistent_masses().iter().map(|m| find.mass(&m.nodes)).collect();
         let Destinations { scatter, blocks, arms, most, .. } = find;
         let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
         let masses = system.consistent_masses().iter().map(|m| 9 * m.m.len());
         let pairs = partners.iter().map(|(_, partners)| (6 * partners.most_nodes()).pow(2));
-        let local = system.groups.iter().map(|g| size(&*g.block)).chain(masses).chain(pairs).max().unwrap_or(0);
+        let floating = system.floating().iter().map(|mass| (6 * mass.element.nodes().len()).pow(2));
+        let elements = system.groups.iter().map(|g| size(&*g.block));
+        let local = elements.chain(masses).chain(pairs).chain(floating).max().unwrap_or(0);
         Assembly {
             groups,
             wanderers,
             nodes: own,
             masses: of_masses,
+            floating: of_floating,
             faces,
             centrifugal,
             efforts,
@@ -216,6 +221,7 @@ impl Assembly {
         self.form_nodes(system, nodes, loading, forces, weights);
         self.add_nodes(values);
         self.add_masses(system, weights, values);
+        self.add_floating(system, (nodes, &loading.field), weights, values);
     }
 
     fn add_elements(
@@ -428,6 +434,28 @@ impl Assembly {
                 }
             }
             how.add((K, 3 * n), destination, projected, values);
+        }
+    }
+}
+
+impl Assembly {
+    fn add_floating(
+        &mut self,
+        system: &System,
+        (nodes, field): (&[Node], &Vec3),
+        weights: TangentWeights,
+        values: &mut [f64],
+    ) {
+        if weights.acceleration == 0.0 && weights.rate == 0.0 && *field == Vec3::zeros() {
+            return;
+        }
+        let Scratch { projections, projected, local, .. } = &mut self.scratch;
+        let how = Places { scatter: &self.scatter, blocks: &self.blocks, arms: &self.arms, projections };
+        for (mass, destination) in system.floating().iter().zip(&self.floating) {
+            let width = 6 * mass.element.nodes().len();
+            let K = &mut local[..width * width];
+            mass.tangent((nodes, field), &weights, self.gyroscopic && weights.stiffness, K);
+            how.add((K, width), destination, projected, values);
         }
     }
 }

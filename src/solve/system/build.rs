@@ -1,11 +1,13 @@
 //! Builds the masses of nodes, the blocks of like elements, and the joints from the model.
 
+use super::floating::FloatingMass;
 use super::group::{Group, GroupBlock};
 use super::inertia::{ConsistentMass, Inertia};
 use super::parts::{NodalMasses, Setting, assembled};
 use base::math::Vec3;
 use mechanics::constraints::joint::{ConstraintEquation, Joint};
 use model::{self, Body, Mass, Model, Part};
+use std::sync::Arc;
 
 /// Lumped and consistent masses of bodies, point masses and deformable parts; `x` are the initial positions of all
 /// nodes.
@@ -36,6 +38,15 @@ pub fn masses_of<'m>(
         masses.consistent[first..].iter_mut().for_each(|mass| mass.alpha = alpha);
     }
     (masses.lumped.finish(), masses.consistent)
+}
+
+/// The masses of superelements.
+pub fn floating(model: &Model, x: &[Vec3]) -> Vec<FloatingMass> {
+    let of_part = |part: &model::Part| {
+        let element = assembled(part).floating(x, 0.0).filter(|element| element.total_mass() > 0.0)?;
+        Some(FloatingMass { element: Arc::new(element), alpha: model.damping.alpha(&part.own_damping()) })
+    };
+    model.parts.iter().filter_map(of_part).collect()
 }
 
 /// The blocks of like elements in the order of the parts. `plane` is the normal of a plane motion.

@@ -45,6 +45,7 @@ fn coupled(system: &System, nodes: usize, independent_nodes: &[Vec<usize>]) -> V
         (0..group.block.len()).for_each(|e| add(group.block.nodes(e)));
     }
     system.consistent_masses().iter().for_each(|m| add(&m.nodes));
+    system.floating().iter().for_each(|mass| add(mass.element.nodes()));
     system.pressures.iter().flat_map(|load| &load.faces).for_each(|face| add(face.nodes()));
     (0..nodes).filter(|&n| independent_nodes[n] != [n]).for_each(|n| add(&[n]));
     // The multipliers of a joint stand for one more of its nodes.

@@ -104,7 +104,8 @@ impl Energy {
 pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], duration: f64) -> f64 {
     let reach = nodes.iter().map(|node| node.x.amax()).fold(0.0, f64::max);
     let of_inertias = system.inertias.iter().map(|inertia| inertia.mass).sum::<f64>();
-    let mass = of_inertias + system.consistent.iter().flat_map(|mass| &mass.m).sum::<f64>();
+    let of_floating = system.floating().iter().map(|mass| mass.element.total_mass()).sum::<f64>();
+    let mass = of_inertias + of_floating + system.consistent.iter().flat_map(|mass| &mass.m).sum::<f64>();
     let of_load = |load: &Load| load.force.norm() * reach + load.moment.norm();
     let of_loads = mass * loading.gravity.norm() * reach + loading.nodal.iter().map(of_load).sum::<f64>();
     let speed = if duration > 0.0 { ROUNDING * reach / duration } else { 0.0 };
@@ -115,8 +116,10 @@ pub fn work_of_rounding(system: &System, loading: &Loading, nodes: &[Node], dura
 pub fn mass_and_center(system: &System, nodes: &[model::Node]) -> Option<(f64, Vec3)> {
     let lumped = system.inertias.iter().map(|inertia| (inertia.weighing, inertia.node));
     let consistent = system.consistent.iter().flat_map(ConsistentMass::pairs).map(|(node, _, mass)| (mass, node));
-    let sum = |(mass, moment): (f64, Vec3), (own, node): (f64, usize)| (mass + own, moment + own * nodes[node].x);
-    let (mass, moment) = lumped.chain(consistent).fold((0.0, Vec3::zeros()), sum);
+    let placed = lumped.chain(consistent).map(|(mass, node)| (mass, nodes[node].x));
+    let floating = system.floating().iter().map(|mass| (mass.element.total_mass(), mass.element.center()));
+    let sum = |(mass, moment): (f64, Vec3), (own, x): (f64, Vec3)| (mass + own, moment + own * x);
+    let (mass, moment) = placed.chain(floating).fold((0.0, Vec3::zeros()), sum);
     (mass > 0.0).then(|| (mass, moment / mass))
 }
 
@@ -142,6 +145,12 @@ fn motion(system: &System, nodes: &[Node]) -> (f64, Vec3, Vec3) {
     for mass in &system.consistent {
         kinetic += mass.kinetic_energy(nodes);
         let (dp, dl) = mass.momentum(nodes);
+        p += dp;
+        l += dl;
+    }
+    for mass in system.floating() {
+        let (own, dp, dl) = mass.element.motion(nodes);
+        kinetic += own;
         p += dp;
         l += dl;
     }

@@ -1,6 +1,7 @@
 //! Everything that acts on the nodes of a scene, and the residual of the equation of motion.
 
 use super::centrifugal::CentrifugalLoad;
+use super::floating::FloatingMass;
 use super::group::Group;
 use super::inertia::{ConsistentMass, Inertia};
 use super::joint_loads::{self, JointLoad};
@@ -37,6 +38,8 @@ pub struct System {
     turning_bodies: Vec<TurningBody>,
     /// The consistent mass matrices, element by element.
     pub consistent: Vec<ConsistentMass>,
+    /// The masses of superelements.
+    floating: Vec<FloatingMass>,
     /// The dependent nodes, sorted such that a master precedes its dependent nodes.
     pub rigid_links: Vec<RigidLink>,
     /// The joints in the order of the model's list, without the constraint equations that a plane motion does not need.
@@ -181,6 +184,7 @@ impl System {
             inertias,
             turning_bodies,
             consistent,
+            floating: build::floating(model, &x),
             regularization: match joint_tree::is_tree(model, &joints, &rigid_links) {
                 true => REGULARIZATION_OF_TREES,
                 false => REGULARIZATION,
@@ -214,6 +218,7 @@ impl System {
             inertias: self.inertias.clone(),
             turning_bodies: Vec::new(),
             consistent: self.consistent.clone(),
+            floating: self.floating.clone(),
             rigid_links: self.rigid_links.clone(),
             joints: self.joints.clone(),
             regularization: self.regularization,
@@ -280,6 +285,10 @@ impl System {
         for mass in &self.consistent {
             mass.add_forces(nodes, &loading.field, self.dynamic, drag, F);
         }
+        let drag = self.mass_damping.acts().then_some(&self.mass_damping);
+        for mass in &self.floating {
+            mass.add_forces(nodes, &loading.field, self.dynamic, drag, F);
+        }
         for damping in &self.nodal_damping {
             let node = &nodes[damping.node];
             mechanics::elements::subtract(&mut F[damping.node], 0, &(damping.translation * node.v));
@@ -326,6 +335,9 @@ impl System {
         for mass in &self.consistent {
             mass.add_forces(nodes, &loading.field, false, None, F);
         }
+        for mass in &self.floating {
+            mass.add_forces(nodes, &loading.field, false, None, F);
+        }
         self.add_loads(nodes, loading, F, &mut scale);
         self.transfer_to_masters(nodes, forces);
     }
@@ -368,6 +380,7 @@ impl System {
             work += self.inertias.iter().map(|i| i.weighing * field.dot(&moved(i.node))).sum::<f64>();
             let weight = |mass: &ConsistentMass| mass.pairs().map(|(a, _, m)| m * field.dot(&moved(a))).sum::<f64>();
             work += self.consistent.iter().map(weight).sum::<f64>();
+            work += self.floating.iter().map(|mass| mass.work(&field, from.0, to.0)).sum::<f64>();
         }
         let all = Actors {
             nodal: 0..self.loads.len(),
@@ -424,6 +437,10 @@ impl System {
         }
         for (a, _, m) in self.consistent.iter().flat_map(ConsistentMass::pairs) {
             add(m * from.1.field, m * to.1.field, moved(a));
+        }
+        for mass in &self.floating {
+            let m = mass.element.total_mass();
+            add(m * from.1.field, m * to.1.field, mass.moved(from.0, to.0));
         }
         for (load, (f0, f1)) in self.loads.iter().zip(from.1.factors.iter().zip(&to.1.factors)) {
             let (a, b) = (&from.0[load.node], &to.0[load.node]);
@@ -495,7 +512,7 @@ impl System {
         let mut power: f64 = thread_partition::sum(&self.groups, self.uses_threads(threads), &|group| {
             group.block.damping_power(&group.configuration(now))
         });
-        power += self.mass_damping.powers((&self.inertias, &self.consistent), nodes)[0];
+        power += self.drag_powers(nodes)[0];
         for d in &self.nodal_damping {
             let node = &nodes[d.node];
             power += d.translation * node.v.norm_squared() + d.rotation * node.omega.norm_squared();
@@ -515,11 +532,27 @@ impl System {
 
     /// Power of the supports that move the reference frames of mass damping, besides the power of their reactions.
     pub fn carrying_power(&self, nodes: &[Node]) -> f64 {
-        if self.dynamic && self.mass_damping.has_frames() {
-            self.mass_damping.powers((&self.inertias, &self.consistent), nodes)[1]
-        } else {
-            0.0
+        if self.dynamic && self.mass_damping.has_frames() { self.drag_powers(nodes)[1] } else { 0.0 }
+    }
+
+    /// The powers of mass damping, as in [`MassDamping::powers`].
+    fn drag_powers(&self, nodes: &[Node]) -> [f64; 2] {
+        let mut powers = self.mass_damping.powers((&self.inertias, &self.consistent), nodes);
+        for mass in &self.floating {
+            let own = mass.powers(&self.mass_damping, nodes);
+            powers = [powers[0] + own[0], powers[1] + own[1]];
         }
+        powers
+    }
+
+    /// The masses of superelements.
+    pub(super) fn floating(&self) -> &[FloatingMass] {
+        &self.floating
+    }
+
+    /// The nodes of superelements with mass.
+    pub fn floating_nodes(&self) -> impl Iterator<Item = usize> {
+        self.floating.iter().flat_map(|mass| mass.element.nodes()).copied()
     }
 
     /// Dampers between nodes and the ground.
@@ -583,6 +616,7 @@ impl System {
                 mechanics::elements::subtract(&mut F[a], 0, &(-m * linear(&motions[b])));
             }
         }
+        self.floating.iter().for_each(|mass| mass.subtract_product(nodes, motions, -1.0, F));
         self.transfer_to_masters(nodes, forces);
     }
 
@@ -603,6 +637,7 @@ impl System {
                 mechanics::elements::subtract(&mut F[a], 0, &(-mass.alpha * m * linear(&motions[b])));
             }
         }
+        self.floating.iter().for_each(|mass| mass.subtract_product(nodes, motions, -mass.alpha, F));
         self.transfer_to_masters(nodes, forces);
     }
 

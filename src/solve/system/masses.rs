@@ -88,7 +88,7 @@ impl NodeRates {
 impl Masses {
     /// Returns `None` if masses of several nodes are coupled: by consistent masses, or by dependent nodes with free rotations.
     pub fn new(system: &System, dofs: &DofMap) -> Option<Masses> {
-        if !system.consistent.is_empty() {
+        if !system.consistent.is_empty() || !system.floating().is_empty() {
             return None;
         }
         // The sums are mass, its first moment, and the inertia tensor about the node.

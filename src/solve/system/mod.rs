@@ -17,6 +17,7 @@ mod element_stability;
 pub mod energy;
 mod equations;
 mod excitation;
+mod floating;
 mod free_rotation;
 mod gradients;
 mod group;

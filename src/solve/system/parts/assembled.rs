@@ -6,6 +6,7 @@ use crate::system::thread_partition::MOST_IN_GROUP;
 use base::math::{Mat3, Vec3};
 use mechanics::elements::ElementBlock;
 use mechanics::elements::contact::PairBlock;
+use mechanics::elements::superelement::FloatingElement;
 use mechanics::sections::Stiffness;
 use model::Model;
 use std::ops::Range;
@@ -55,6 +56,11 @@ pub trait Assembled {
     /// waves that turn the element about the unit vector a, and is zero if there are none.
     fn spacing(&self, _element: usize, _masses: &NodalMasses) -> NodeSpacing {
         NodeSpacing::default()
+    }
+
+    /// The part as a superelement, on nodes that lie at `x`, with Rayleigh's β; `None` for other parts.
+    fn floating(&self, _x: &[Vec3], _beta: f64) -> Option<FloatingElement> {
+        None
     }
 
     /// The blocks of elements of the part; some may be empty.

@@ -11,6 +11,7 @@ pub mod links;
 mod masses;
 pub mod shell_shear;
 pub mod shells;
+mod superelements;
 
 pub use assembled::{Assembled, NodeSpacing, Setting};
 pub use masses::{LumpedElement, NodalMasses, NodalShare};
@@ -25,6 +26,7 @@ pub fn assembled(part: &Part) -> &dyn Assembled {
         Part::Shell(shell) => shell,
         Part::Link(link) => link,
         Part::Contact(contact) => contact,
+        Part::Superelement(superelement) => superelement,
     }
 }
 
@@ -43,7 +45,7 @@ pub enum Storage {
 #[inline]
 pub fn storage(kind: PartKind) -> Storage {
     match kind {
-        PartKind::Beam | PartKind::Bar | PartKind::Shell => Storage::Strain,
+        PartKind::Beam | PartKind::Bar | PartKind::Shell | PartKind::Superelement => Storage::Strain,
         PartKind::Link => Storage::Links,
         PartKind::Contact => Storage::Contacts,
     }

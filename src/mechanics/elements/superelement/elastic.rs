@@ -1,0 +1,322 @@
+//! Elastic and viscous forces of a superelement, and their tangent.
+//!
+//! With g = K q + C q̇ the virtual work is g·δq, where δu_i = d_i − φ × z_i, δψ_i = T⁻¹(ψ_i) (θ_i − φ), and φ is the turn of the frame. So
+//! with m_i = T⁻ᵀ(ψ_i) g_ψ, h = Σ z_i × g_i + m_i and b = G⁻¹ h, the forces are f_i = g_i − ½ b × Y_i and the moments m_i − λ H_iᵀ b.
+
+use super::frame::{FloatingFrame, half_trace_less};
+use super::{FloatingElement, Scratch, add_three, multiply, set_three, three};
+use crate::elements::block::{Branches, Elements, Force, Mechanics, Moduli, Results, subtract};
+use crate::state::{Configuration, Node};
+use base::math::rotation::{inverse_tangent, inverse_tangent_change};
+use base::math::{Mat3, Vec3, skew};
+
+/// A superelement as a block of one element.
+pub struct SuperelementBlock(pub FloatingElement);
+
+impl FloatingElement {
+    /// Places the frame.
+    pub(super) fn place(&self, nodes: &[Node], frame: &mut FloatingFrame) {
+        frame.place(|i| &nodes[self.data.nodes[i]], &self.Y, self.turning);
+    }
+
+    /// Writes q.
+    pub(super) fn displacements(&self, nodes: &[Node], frame: &FloatingFrame, q: &mut [f64]) {
+        for (i, Y) in self.Y.iter().enumerate() {
+            set_three(q, 6 * i, &(frame.z[i] - Y));
+            set_three(q, 6 * i + 3, &frame.psi[i]);
+        }
+        self.each_amplitude(|k, i| q[k] = nodes[self.data.nodes[i]].moved(&self.x[i]).x);
+    }
+
+    /// Writes velocities along the axes of the frame, and returns the angular velocity of the frame.
+    pub(super) fn velocities(&self, nodes: &[Node], frame: &FloatingFrame, w: &mut [f64]) -> Vec3 {
+        for i in 0..self.data.interface {
+            let node = &nodes[self.data.nodes[i]];
+            set_three(w, 6 * i, &frame.R.tr_mul(&node.v));
+            set_three(w, 6 * i + 3, &frame.R.tr_mul(&node.omega));
+        }
+        self.each_amplitude(|k, i| w[k] = nodes[self.data.nodes[i]].v.x);
+        self.turn(frame, w)
+    }
+
+    /// The turn of the frame in a motion `w` along its axes.
+    pub(super) fn turn(&self, frame: &FloatingFrame, w: &[f64]) -> Vec3 {
+        frame.turn(&self.Y, self.turning, |i| [three(w, 6 * i), three(w, 6 * i + 3)])
+    }
+
+    fn is_viscous(&self) -> bool {
+        self.beta > 0.0 || !self.data.damping.is_empty()
+    }
+
+    /// Writes q̇.
+    fn rates(&self, nodes: &[Node], frame: &FloatingFrame, rates: &mut [f64]) {
+        let spin = self.velocities(nodes, frame, rates);
+        for i in 0..self.data.interface {
+            let [v, w] = [three(rates, 6 * i), three(rates, 6 * i + 3)];
+            set_three(rates, 6 * i, &(v - spin.cross(&frame.z[i])));
+            set_three(rates, 6 * i + 3, &inverse_tangent(&frame.psi[i], &(w - spin)));
+        }
+    }
+
+    /// Adds (C + β K) q̇ to `g`; `product` is memory.
+    fn add_viscous(&self, rates: &[f64], product: &mut [f64], g: &mut [f64]) {
+        multiply(&self.data.stiffness, rates, product);
+        g.iter_mut().zip(&*product).for_each(|(g, p)| *g += self.beta * p);
+        if !self.data.damping.is_empty() {
+            multiply(&self.data.damping, rates, product);
+            g.iter_mut().zip(&*product).for_each(|(g, p)| *g += p);
+        }
+    }
+
+    /// Writes q as the iterate before and the last correction, which are its rates there, extrapolate it.
+    fn extrapolate(&self, before: &[Node], Scratch { frame, q, vectors: [rates, ..], .. }: &mut Scratch) {
+        self.place(before, frame);
+        self.displacements(before, frame, q);
+        self.rates(before, frame, rates);
+        q.iter_mut().zip(&*rates).for_each(|(q, rate)| *q += rate);
+    }
+
+    /// Writes q, g and the forces f along the axes of the frame; returns b. With an iterate before, q is extrapolated from there.
+    fn local_forces(&self, nodes: &[Node], before: Option<&[Node]>, scratch: &mut Scratch) -> Vec3 {
+        if let Some(before) = before {
+            self.extrapolate(before, scratch);
+        }
+        let Scratch { frame, q, vectors: [g, f, rates, product, ..], .. } = scratch;
+        self.place(nodes, frame);
+        if before.is_none() {
+            self.displacements(nodes, frame, q);
+        }
+        multiply(&self.data.stiffness, q, g);
+        if self.is_viscous() {
+            self.rates(nodes, frame, rates);
+            self.add_viscous(rates, product, g);
+        }
+        f.copy_from_slice(g);
+        let mut h = Vec3::zeros();
+        for i in 0..self.data.interface {
+            let m = inverse_tangent(&-frame.psi[i], &three(g, 6 * i + 3));
+            h += frame.z[i].cross(&three(g, 6 * i)) + m;
+            set_three(f, 6 * i + 3, &m);
+        }
+        let b = frame.inverse * h;
+        self.add_turning(frame, &-b, f);
+        b
+    }
+
+    /// Adds the forces by which a moment G c turns the frame: c·φ G = Σ f·d + m·θ.
+    pub(super) fn add_turning(&self, frame: &FloatingFrame, c: &Vec3, f: &mut [f64]) {
+        for (i, Y) in self.Y.iter().enumerate() {
+            add_three(f, 6 * i, &(0.5 * c.cross(Y)));
+            add_three(f, 6 * i + 3, &(self.turning * frame.H[i].tr_mul(c)));
+        }
+    }
+
+    /// Subtracts forces along the axes of the frame from those of the nodes.
+    pub(super) fn subtract(&self, frame: &FloatingFrame, f: &[f64], F: &mut [Force]) {
+        for i in 0..self.data.interface {
+            let F = &mut F[self.data.nodes[i]];
+            subtract(F, 0, &(frame.R * three(f, 6 * i)));
+            subtract(F, 3, &(frame.R * three(f, 6 * i + 3)));
+        }
+        self.each_amplitude(|k, i| F[self.data.nodes[i]][0] -= f[k]);
+    }
+
+    /// Calls `visit` with each amplitude's degree of freedom and its node among those of the superelement.
+    pub(super) fn each_amplitude(&self, mut visit: impl FnMut(usize, usize)) {
+        (self.placed()..self.size()).for_each(|k| visit(k, k - 5 * self.data.interface));
+    }
+
+    /// Writes (K + rate (C + β K)) diag(1, T⁻¹(ψ)): the derivative of g by the motions of the nodes in a frame that stays.
+    fn local_stiffness(&self, frame: &FloatingFrame, rate: f64, A: &mut [f64]) {
+        let (size, factor) = (self.size(), 1.0 + rate * self.beta);
+        A.iter_mut().zip(&*self.data.stiffness).for_each(|(a, k)| *a = factor * k);
+        A.iter_mut().zip(&*self.data.damping).for_each(|(a, c)| *a += rate * c);
+        for (i, psi) in frame.psi.iter().enumerate() {
+            let inverse = [0, 1, 2].map(|axis| inverse_tangent(psi, &Vec3::ith(axis, 1.0)));
+            for row in A.chunks_mut(size) {
+                let entry = three(row, 6 * i + 3);
+                set_three(row, 6 * i + 3, &Vec3::from_fn(|axis, _| entry.dot(&inverse[axis])));
+            }
+        }
+    }
+
+    /// The column of the tangent along a unit motion of one degree of freedom: `f` changes by `df`, along the axes of the frame.
+    fn column(
+        &self,
+        frame: &FloatingFrame,
+        (A, [g, f, df, dg, ..]): (&[f64], &mut [Vec<f64>; 8]),
+        moved: &Moved,
+        b: &Vec3,
+    ) {
+        let size = self.size();
+        let phi = moved.phi;
+        for (row, dg) in dg.iter_mut().enumerate() {
+            let entries = &A[row * size..(row + 1) * size];
+            // The frame turns all nodes back.
+            let mut change = entries[moved.dof];
+            for (i, z) in frame.z.iter().enumerate() {
+                change -= three(entries, 6 * i).dot(&phi.cross(z)) + three(entries, 6 * i + 3).dot(&phi);
+            }
+            *dg = change;
+        }
+        df.copy_from_slice(dg);
+        let (mut dh, mut dS) = (Vec3::zeros(), Mat3::zeros());
+        for (i, Y) in self.Y.iter().enumerate() {
+            let ([du, e], psi) = (moved.relative(frame, i), &frame.psi[i]);
+            let dm = inverse_tangent(&-psi, &three(dg, 6 * i + 3))
+                + inverse_tangent_change(&-psi, &-inverse_tangent(psi, &e), &three(g, 6 * i + 3));
+            dh += du.cross(&three(g, 6 * i)) + frame.z[i].cross(&three(dg, 6 * i)) + dm;
+            dS += du * Y.transpose() + self.turning * (skew(&e) * frame.E[i]);
+            set_three(df, 6 * i + 3, &dm);
+        }
+        let db = frame.inverse * (dh - half_trace_less(&dS) * b);
+        self.add_turning(frame, &-db, df);
+        for i in 0..self.data.interface {
+            let dH = half_trace_less(&(skew(&moved.relative(frame, i)[1]) * frame.E[i]));
+            add_three(df, 6 * i + 3, &(-self.turning * dH.tr_mul(b)));
+            for at in [6 * i, 6 * i + 3] {
+                add_three(df, at, &phi.cross(&three(f, at)));
+            }
+        }
+    }
+
+    /// Adds a column along the axes of the frame, for a direction of a node, to the tangent of the nodes.
+    pub(super) fn add_column(&self, R: &Mat3, df: &[f64], [node, direction]: [usize; 2], K: &mut [f64]) {
+        let width = 6 * self.data.nodes.len();
+        let (base, axis) = (6 * node + direction / 3 * 3, direction % 3);
+        let is_placed = node < self.data.interface;
+        let mut add = |row: usize, value: f64| match is_placed {
+            true => (0..3).for_each(|k| K[row * width + base + k] += value * R[(k, axis)]),
+            false => K[row * width + 6 * node] += value,
+        };
+        for at in (0..self.placed()).step_by(3) {
+            let turned = R * three(df, at);
+            (0..3).for_each(|k| add(at + k, turned[k]));
+        }
+        self.each_amplitude(|k, i| add(6 * i, df[k]));
+    }
+
+    /// Calls `visit` with each degree of freedom that it acts on, as a unit motion along the axes of the frame.
+    pub(super) fn each_motion(&self, frame: &FloatingFrame, mut visit: impl FnMut(&Moved)) {
+        self.each_dof(|dof, node, direction| {
+            let is_placed = node < self.data.interface;
+            if is_placed && direction > 2 && !self.data.turns {
+                return;
+            }
+            let axis = Vec3::ith(direction % 3, 1.0);
+            let phi = match (is_placed, direction < 3) {
+                (false, _) => Vec3::zeros(),
+                (true, true) => frame.inverse * (0.5 * self.Y[node].cross(&axis)),
+                (true, false) => frame.inverse * (self.turning * (frame.H[node] * axis)),
+            };
+            visit(&Moved { dof, node, direction, phi });
+        });
+    }
+}
+
+/// A unit motion of one degree of freedom along the axes of the frame.
+pub struct Moved {
+    pub dof: usize,
+    pub node: usize,
+    pub direction: usize,
+    /// The turn of the frame.
+    pub phi: Vec3,
+}
+
+impl Moved {
+    /// The displacement and the rotation of a node.
+    pub fn of(&self, node: usize) -> [Vec3; 2] {
+        let mut motion = [Vec3::zeros(); 2];
+        if node == self.node {
+            motion[self.direction / 3][self.direction % 3] = 1.0;
+        }
+        motion
+    }
+
+    /// The displacement of the mean of this number of nodes.
+    pub fn mean(&self, nodes: usize) -> Vec3 {
+        let is_placed = self.node < nodes && self.direction < 3;
+        if is_placed { Vec3::ith(self.direction, 1.0 / nodes as f64) } else { Vec3::zeros() }
+    }
+
+    /// The displacement and the rotation relative to the frame, for a node of the interface.
+    pub fn relative(&self, frame: &FloatingFrame, node: usize) -> [Vec3; 2] {
+        let [d, theta] = self.of(node);
+        [d - self.phi.cross(&frame.z[node]), theta - self.phi]
+    }
+}
+
+impl Elements for SuperelementBlock {
+    fn len(&self) -> usize {
+        1
+    }
+
+    fn nodes(&self, _: usize) -> &[usize] {
+        &self.0.data.nodes
+    }
+
+    fn dofs(&self) -> usize {
+        6
+    }
+
+    fn is_rotational(&self, _: usize, node: usize) -> bool {
+        self.0.data.turns && node < self.0.data.interface
+    }
+}
+
+impl Mechanics for SuperelementBlock {
+    fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
+        let scratch = &mut *self.0.scratch();
+        self.0.local_forces(now.nodes, None, scratch);
+        self.0.subtract(&scratch.frame, &scratch.vectors[1], F);
+    }
+
+    fn tangent(&self, _: usize, now: &Configuration, rate_weight: f64, _: Moduli, K: &mut [f64]) {
+        let of = &self.0;
+        let scratch = &mut *of.scratch();
+        let b = of.local_forces(now.nodes, now.previous, scratch);
+        let Scratch { frame, vectors, matrix, .. } = scratch;
+        of.local_stiffness(frame, rate_weight, matrix);
+        K.fill(0.0);
+        of.each_motion(frame, |moved| {
+            of.column(frame, (matrix, vectors), moved, &b);
+            of.add_column(&frame.R, &vectors[2], [moved.node, moved.direction], K);
+        });
+    }
+
+    fn is_damped(&self) -> bool {
+        self.0.is_viscous()
+    }
+}
+
+impl Results for SuperelementBlock {
+    fn energy(&self, now: &Configuration) -> f64 {
+        let of = &self.0;
+        let Scratch { frame, q, vectors: [g, ..], .. } = &mut *of.scratch();
+        of.place(now.nodes, frame);
+        of.displacements(now.nodes, frame, q);
+        multiply(&of.data.stiffness, q, g);
+        0.5 * q.iter().zip(&*g).map(|(q, g)| q * g).sum::<f64>()
+    }
+
+    fn local_rotation(&self, now: &Configuration) -> f64 {
+        let scratch = &mut *self.0.scratch();
+        self.0.place(now.nodes, &mut scratch.frame);
+        scratch.frame.psi.iter().map(|psi| psi.norm()).filter(|_| self.0.data.turns).fold(0.0, f64::max)
+    }
+
+    fn damping_power(&self, now: &Configuration) -> f64 {
+        let of = &self.0;
+        if !of.is_viscous() {
+            return 0.0;
+        }
+        let Scratch { frame, vectors: [g, _, rates, product, ..], .. } = &mut *of.scratch();
+        of.place(now.nodes, frame);
+        of.rates(now.nodes, frame, rates);
+        g.fill(0.0);
+        of.add_viscous(rates, product, g);
+        rates.iter().zip(&*g).map(|(rate, g)| rate * g).sum()
+    }
+}
+
+impl Branches for SuperelementBlock {}
