@@ -49,9 +49,9 @@ mod tests {
             for rate in [-1.3, -0.02, 0.0, 1e-3, 0.4] {
                 let (h, slope) = (1e-6, damper.force(rate).1);
                 let difference = (damper.force(rate + h).0 - damper.force(rate - h).0) / (2.0 * h);
-                // Drag has a kink at rest, of h there; of the others the third derivative is a few slopes/v₀², here 1e-8 of the slope.
+                // The slope of drag has a kink at rest, where this misses it by 3h; the others leave h² of a third derivative, 1e-8 of the slope.
                 assert!(
-                    (difference - slope).abs() < 1e-6 * (1.0 + slope),
+                    (difference - slope).abs() < 5e-6 * (1.0 + slope),
                     "{damper:?} at {rate}: {difference} {slope}"
                 );
             }
