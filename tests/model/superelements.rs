@@ -284,5 +284,10 @@ fn bad_superelements_are_told() {
             "kind = \"dynamic\"\nend_time = 1.0\ntime_step = 1e-4\n[integrator]\nscheme = \"central-difference\"",
         )],
     );
+    let turning = "[[loads]]\ncentrifugal = { speed = 10.0, axis = [0.0, 0.0, 1.0] }\n[[superelements]]";
+    tell(
+        "a centrifugal load",
+        &[("kind = \"modal\"\nmodes = 14", "kind = \"static\""), ("[[superelements]]", turning)],
+    );
     assert_snapshot!("superelements", said);
 }

@@ -32,11 +32,7 @@ pub fn centrifugal_load<'d>(
     }
     let of = match &load.part {
         Some(names) => named(scene, &names.values, masses, report),
-        None => TurningMasses {
-            parts: (0..scene.parts.list.len()).collect(),
-            bodies: (0..scene.bodies.len()).collect(),
-            masses: (0..masses.len()).collect(),
-        },
+        None => all(scene, (rotation, masses), report),
     };
     if topology.is_complete() && !report.has_errors() && mass(scene, &of, masses, topology) == 0.0 {
         let hint = "give materials a `density`, or add `[[masses]]` or bodies; parts with `mass = \"none\"` have none";
@@ -70,6 +66,28 @@ fn check_analysis(scene: &Scene, load: &At<Table<words::Load>>, report: &mut Rep
         "a centrifugal load in dynamics: it has no Coriolis forces, and motions have their inertia forces already",
         hint,
     );
+}
+
+/// All masses. The matrices of a superelement are not those of a rotating frame.
+fn all<'d>(
+    scene: &Scene<'d>,
+    (rotation, masses): (&'d At<Table<words::SteadyRotation>>, &[Mass]),
+    report: &mut Report<'d>,
+) -> TurningMasses {
+    if let Some(of) = scene.deck.superelements.first() {
+        let name = of.name.as_ref().map_or("", |name| name.as_str());
+        let hint = "name the other parts and bodies in `part` of the load, or let a support with a `motion` turn all in dynamics";
+        report.error_with::<()>(
+            &rotation.span,
+            format!("a centrifugal load does not act on superelement `{name}`"),
+            hint,
+        );
+    }
+    TurningMasses {
+        parts: (0..scene.parts.list.len()).collect(),
+        bodies: (0..scene.bodies.len()).collect(),
+        masses: (0..masses.len()).collect(),
+    }
 }
 
 /// The masses of the named parts, bodies and points.
