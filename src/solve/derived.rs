@@ -80,11 +80,6 @@ impl Wanted {
         Wanted(self.0 & ((1 << GROUP) - 1))
     }
 
-    /// True where any quantity is wanted for tables or for every step, which positions, velocities and accelerations are in any case.
-    pub const fn has_more_than_motion(self) -> bool {
-        self.0 & ((1 << (2 * GROUP)) - 1) != 0
-    }
-
     /// The set, wanted only where fields are drawn.
     #[must_use]
     pub const fn where_drawn(self) -> Wanted {

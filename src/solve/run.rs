@@ -73,7 +73,7 @@ impl<'a> Run<'a> {
         let is_static = !model.analysis.is_dynamic();
         let wants_forces = is_static || wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
         let context = Context {
-            wants_motion_only: !wanted.has_more_than_motion(),
+            wants_motion_only: wanted == Wanted::NOTHING,
             ..Context::new(model, plan, system, [wants_forces, wants_energy], stop)
         };
         let mut workspace = Workspace::new(&context)?;

@@ -28,4 +28,9 @@ impl Family {
             Stepping::RungeKutta(_) => Family::RungeKutta,
         }
     }
+
+    /// True where the motion inside automatic steps is known, so that these do not end at output times.
+    pub fn looks_inside(self) -> bool {
+        matches!(self, Family::DiagonallyImplicit | Family::RungeKutta)
+    }
 }

@@ -126,7 +126,8 @@ fn setting(found: &Found, deck: &Deck, run: &StudyRun) -> Vec<String> {
         lines.extend(iteration);
     }
     let interval = grid.end_time / grid.samples as f64;
-    if line.automatic {
+    let ends_at_samples = line.automatic && !line.family.looks_inside();
+    if ends_at_samples {
         lines.push("[output]".to_owned());
         lines.push(format!("interval = {}", float(interval)));
         lines.push("# the error was measured with steps that end at these times, in place of `every`".to_owned());
@@ -136,7 +137,7 @@ fn setting(found: &Found, deck: &Deck, run: &StudyRun) -> Vec<String> {
     let sets: String = grid.setting(run.line, run.resolution).into_iter().map(quoted).collect();
     let every = deck.output.as_ref().is_some_and(|output| output.every.is_some());
     let at =
-        if line.automatic && !every { format!(" --set 'output.interval={}'", float(interval)) } else { String::new() };
+        if ends_at_samples && !every { format!(" --set 'output.interval={}'", float(interval)) } else { String::new() };
     lines.push(format!("# rdsolve run {}{sets}{at}", found.deck));
     lines
 }

@@ -171,6 +171,9 @@ fn a_recommendation_is_a_deck_that_reaches_the_error() {
     let rows = table(&out.join("study.csv"));
     let row = rows.iter().find(|row| number(row, "error_tolerance") == tolerance).unwrap();
     assert_eq!(counts("again"), counts(&format!("x.study/{}", row["folder"])));
+    // Steps that do not end at output times need none in the deck.
+    let (text, _) = study(folder.path(), &[&automatic[..], &["--schemes", "runge-kutta"]].concat(), 0);
+    assert!(text.contains("\"auto\"") && !text.contains("interval"), "{text}");
 }
 
 #[test]
