@@ -1489,7 +1489,10 @@ fn loads_of_temperature() {
     let twice = "part = \"portal\"\ntemperature = 1.0\n[[loads]]\npart = \"portal\"\ntemperature = 2.0";
     assert_snapshot!("heated_twice", load(twice));
     let buckling = ("kind = \"dynamic\"\nend_time = 0.3\ntime_step = 1e-4", "kind = \"buckling\"");
-    let heat = ("[[loads]]", "[[loads]]\npart = \"portal\"\ntemperature = 1.0\n[[loads]]");
+    let heat = (
+        "[[loads]]",
+        "[[loads]]\npart = \"portal\"\ntemperature = 1.0\namplitude = \"ramp\"\n[amplitudes.ramp]\nkind = \"constant\"\n[[loads]]",
+    );
     assert_snapshot!("heat_that_buckles", portal(&[expands, buckling, heat]));
 }
 

@@ -33,10 +33,9 @@ pub fn temperatures<'d>(
             let hint = "name all later stages too, and let the `amplitude` go back to zero";
             report.error_with::<()>(&load.span, "a temperature does not end with a stage", hint);
         }
-        if is_factored(scene, load) {
-            let message = "a temperature is no load whose factor a buckling analysis finds";
-            let hint = "heat in a static stage, which stops at the temperature of buckling, or before a buckling stage of other loads";
-            report.error_with::<()>(&load.span, message, hint);
+        if let Some(at) = load.amplitude.as_ref().filter(|_| is_factored(scene, load)) {
+            let message = "a temperature whose factor a buckling analysis finds takes no `amplitude`";
+            report.error_with::<()>(&at.span, message, "remove it: factors are multiples of `temperature`");
         }
         // A gradient may bend a beam in any direction.
         scene.analysis.plane &= load.temperature_gradient.is_none();
@@ -59,7 +58,7 @@ pub fn temperatures<'d>(
     }
 }
 
-/// True where a buckling analysis would have to find its factor.
+/// True where a buckling analysis finds its factor.
 fn is_factored(scene: &Scene, load: &words::Load) -> bool {
     match scene.stage {
         Some(stage) => stage.buckles() && stage.is_new(&load.stages),
@@ -77,7 +76,7 @@ fn amplitude<'d>(
     if load.amplitude.is_some() || scene.stage.is_some() {
         return super::amplitude(scene, load, report);
     }
-    // Modes are those of the state with the whole load.
+    // Modes are those of the state with the whole load, and buckling factors are multiples of it.
     amplitudes.push(match scene.analysis.is_dynamic() || scene.analysis.has_modes() {
         true => Amplitude::Constant,
         false => Amplitude::Ramp { start: 0.0, end: scene.analysis.end_time },

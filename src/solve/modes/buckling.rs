@@ -21,7 +21,8 @@ use base::names::{joined, short};
 use linear::eigen::{Converged, EigenPair, Lanczos, SymmetricOperator};
 use linear::{Solver, Sparse};
 use mechanics::state::{Configuration, Increment, Node};
-use model::AnalysisKind;
+use model::{AnalysisKind, Restraint};
+use std::collections::HashSet;
 
 /// Weights of the differences of sixth order between the states at 1, 2 and 3 steps and their opposites.
 const DIFFERENCES: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
@@ -64,9 +65,14 @@ impl SymmetricOperator for Buckling<'_, '_> {
 /// The reason why there are none, or why some are missing.
 pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> Result<Modes, ModesFault> {
     let is_stage = at.model.analysis.stage.is_some();
-    if !is_stage && at.model.constraints.restraints.iter().any(|restraint| restraint.motion.is_some()) {
+    let heats = factored_heats(at);
+    let moved = at.model.constraints.restraints.iter().filter(|restraint| restraint.motion.is_some());
+    if !is_stage && moved.count() > heats.len() {
         return Err(ModesFault::MovedSupport);
     }
+    let mut unheated = at.state.clone();
+    heats.iter().for_each(|&(number, _)| unheated.nodes[number] = Node::at_rest(at.model.nodes[number].x));
+    let at = &Linearized { state: &unheated, ..*at };
     let wanted = match at.model.analysis.kind {
         AnalysisKind::Buckling(count) => count,
         _ => 1,
@@ -80,7 +86,7 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
         Ok(_) => return Err(ModesFault::UnstableUnloaded),
         Err(row) => return Err(pencil.singular(row)),
     }
-    let response = Response::to_factored(&mut pencil);
+    let response = Response::to_factored(&mut pencil, &heats);
     if response.is_nothing() {
         return Err(ModesFault::NoLoads);
     }
@@ -107,6 +113,19 @@ pub fn buckling_modes(at: &Linearized, linear: (&mut Solver, &mut Assembly)) -> 
         warnings,
         ..Modes::default()
     })
+}
+
+/// The nodes that stand for strains of temperature with a factor, and their displacements: those of all temperatures, or in a stage of those
+/// that begin there.
+fn factored_heats(at: &Linearized) -> Vec<(usize, f64)> {
+    let heats = at.model.parts.iter().filter_map(|part| part.heat());
+    let numbers: HashSet<usize> = heats.flat_map(|heat| heat.numbers).flatten().collect();
+    let stage = at.model.analysis.stage.as_ref();
+    let moved = at.model.constraints.restraints.iter().filter(|restraint| numbers.contains(&restraint.node));
+    let begins = |amplitude: usize| stage.is_none_or(|stage| stage.own_amplitude == amplitude);
+    let motion =
+        |held: &Restraint| held.motion.as_ref().filter(|motion| begins(motion.amplitude)).map(|motion| motion.scale);
+    moved.filter_map(|held| Some((held.node, motion(held)?))).collect()
 }
 
 /// Warnings about the factors found and wanted, in words; the scene may not rest without loads.
@@ -226,19 +245,27 @@ struct Response {
 }
 
 impl Response {
-    /// The response to the loads that have the factor; K is factorised.
-    fn to_factored(pencil: &mut Pencil) -> Response {
-        let forces = |pencil: &mut Pencil, loading: &Loading| -> Vec<f64> {
-            let Pencil { at, nodes, forces, .. } = pencil;
+    /// The response to the loads and temperatures that have the factor; K is factorised. Forces are linear in temperature where nothing moves.
+    fn to_factored(pencil: &mut Pencil, heats: &[(usize, f64)]) -> Response {
+        let mut heated = pencil.nodes.clone();
+        for &(number, displacement) in heats {
+            let increment = Increment { q: Vec6::ith(0, displacement), ..Increment::ZERO };
+            heated[number].advance(&pencil.nodes[number], &increment, RotationUpdate::Exponential);
+        }
+        let forces = |pencil: &mut Pencil, loading: &Loading, nodes: &[Node]| -> Vec<f64> {
+            let Pencil { at, forces, .. } = pencil;
             let now = Configuration { nodes, history: &at.state.history, dt: 0.0, previous: None };
             at.system.residual(&now, loading, forces);
             at.plan.dofs.nodal_dofs().iter().map(|&(node, dof)| forces.on_nodes[node][dof]).collect()
         };
         let (base, with) = (pencil.at.loading, pencil.at.loading.plus(1.0, pencil.at.factored));
-        let (before, mut f) = (forces(pencil, base), forces(pencil, &with));
+        let nodes = pencil.nodes.clone();
+        let (before, mut f) = (forces(pencil, base, &nodes), forces(pencil, &with, &heated));
         f.iter_mut().zip(before).for_each(|(f, before)| *f -= before);
         let multipliers = pencil.respond(&mut f);
-        Response { motions: pencil.at.motions(&pencil.nodes, &f), multipliers }
+        let mut motions = pencil.at.motions(&pencil.nodes, &f);
+        heats.iter().for_each(|&(number, displacement)| motions[number][0] = displacement);
+        Response { motions, multipliers }
     }
 
     /// True where the loads move nothing and load no joint.

@@ -83,7 +83,7 @@ impl ModesFault {
                 "nothing that moves has mass, so there are no modes. Give materials a `density`, or points a mass (`[[masses]]`)"
             }
             ModesFault::MovedSupport => {
-                "a support is displaced, but a buckling analysis finds factors of loads only. Replace its `motion` by the force that it exerts"
+                "a support is displaced, but a buckling analysis finds factors of loads and temperatures only. Replace its `motion` by the force that it exerts"
             }
             ModesFault::UnstableUnloaded => {
                 "the scene is unstable without these loads, by its prestress or earlier loads, so their factor is not defined. Lower the \
