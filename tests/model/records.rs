@@ -294,12 +294,14 @@ fn units_of_records_are_compared_with_the_deck() {
         )
     };
     let (si, mm) = ("units = \"SI\"\n", "units = \"mm-t-s\"\n");
-    let cases: [(&str, &str, &str, &str, Option<&str>); 17] = [
+    let cases: [(&str, &str, &str, &str, Option<&str>); 19] = [
         ("", SHAKEN, "", &g, Some("is in G, and its numbers are taken as they are")),
         ("", SHAKEN, "scale = 1.0", &g, None),
         (si, SHAKEN, "", &g, Some("`scale = 9.807`")),
         (si, SHAKEN, "scale = 9.81", &g, None),
         (si, SHAKEN, "scale = 30.0", &g, None),
+        (si, SHAKEN, "scale = 2.0", &g, Some("the scale is 2: it acts at 0.204 of its strength")),
+        (si, SHAKEN, "scale = 1.0", &g, None),
         (si, SHAKEN, "scale = 9810.0", &g, Some("the scale is 9810")),
         (mm, SHAKEN, "scale = 9.81", &g, Some("`scale = 9807`")),
         (mm, SHAKEN, "scale = 9810.0", &g, None),

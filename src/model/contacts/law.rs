@@ -152,7 +152,7 @@ impl LawReader<'_, '_> {
     fn check_step(&self, owner: &Owner, meeting: &Meeting, chosen: &ChosenStiffness, report: &mut Report) {
         let StepLength::Fixed { step } = self.scene.analysis.step_length else { return };
         let impact = PI * (meeting.least / chosen.called_for).sqrt();
-        if meeting.rigid || !impact.is_finite() || step * STEPS <= impact {
+        if !self.scene.analysis.is_dynamic() || meeting.rigid || !impact.is_finite() || step * STEPS <= impact {
             return;
         }
         let has_less = chosen.stiffness < chosen.called_for;

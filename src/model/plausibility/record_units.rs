@@ -4,13 +4,16 @@ use crate::record::{MotionQuantity, RecordUnit};
 use crate::records::Record;
 use crate::report::Report;
 use base::diagnostic::Span;
-use base::names::short;
+use base::names::{short, to_digits};
 use deck::Deck;
 use deck::supports::{History, Motion};
 use deck::words::Maybe;
 
 /// Records are scaled up and down for analyses of one strength after the other, seldom by more than this.
 const SCALING: f64 = 50.0;
+
+/// Part of a record below which its strength is told: a factor of 2 on a record in g, without g itself, is a fifth.
+const WEAK: f64 = 0.5;
 
 /// A use of a record as a motion in the deck.
 struct Use<'d> {
@@ -99,6 +102,17 @@ fn check_factor(deck: &Deck, used: &Use, (file, unit): (&str, &RecordUnit), fact
             if !(right / slack..=right * slack).contains(&given) && given != 0.0 {
                 let message = format!("the record `{file}` is in {}, and {factor_is}", unit.name);
                 report.warn(used.place, message, format!("in the units {label} that is `scale = {}`", short(right)));
+            } else if given < WEAK * right && ![0.0, 1.0].contains(&given) {
+                let message = format!(
+                    "the record `{file}` is in {}, and {factor_is}: it acts at {} of its strength",
+                    unit.name,
+                    to_digits(given / right, 3)
+                );
+                report.note(
+                    used.place,
+                    message,
+                    format!("in the units {label} the whole record is `scale = {}`", short(right)),
+                );
             }
         }
         (None, None) => {

@@ -16,7 +16,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 /// The largest number of numbers over all times that a page carries.
-const NUMBERS: usize = 800_000;
+const NUMBERS: usize = 600_000;
 /// The largest number of times.
 const GRIDS: usize = 150;
 /// The largest number of points: a scene with more of them is not shown.

@@ -13,7 +13,7 @@ use std::io;
 use std::path::Path;
 
 /// The largest number of numbers of one table that a page carries.
-const NUMBERS: usize = 200_000;
+const NUMBERS: usize = 150_000;
 /// The largest number of times.
 const TIMES: usize = 1_500;
 /// The number of times below which names are left out instead of further times.
