@@ -22,7 +22,7 @@ const WIDE: Known = &[
     ("deck/expect.rs: Expect", 16),
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 25),
-    ("deck/lib.rs: Deck", 37),
+    ("deck/lib.rs: Deck", 38),
     ("deck/loads.rs: Load", 19),
     ("deck/shells.rs: Shell", 18),
     ("deck/stages.rs: Stage", 20),

@@ -113,12 +113,6 @@ impl Assembly {
         let of_floating = system.floating().iter().map(|mass| find.local(mass.element.nodes(), 6)).collect();
         let of_masses = system.consistent_masses().iter().map(|m| find.mass(&m.nodes)).collect();
         let Destinations { scatter, blocks, arms, most, .. } = find;
-        let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
-        let masses = system.consistent_masses().iter().map(|m| 9 * m.m.len());
-        let pairs = partners.iter().map(|(_, partners)| (6 * partners.most_nodes()).pow(2));
-        let floating = system.floating().iter().map(|mass| (6 * mass.element.nodes().len()).pow(2));
-        let elements = system.groups.iter().map(|g| size(&*g.block));
-        let local = elements.chain(masses).chain(pairs).chain(floating).max().unwrap_or(0);
         Assembly {
             groups,
             wanderers,
@@ -137,7 +131,7 @@ impl Assembly {
             gyroscopic: system.gyroscopic && !solver.is_symmetric(),
             of_stresses: false,
             scratch: Scratch {
-                local: vec![0.0; local],
+                local: vec![0.0; largest_matrix(system, partners)],
                 own: vec![Mat6::zeros(); nodes],
                 projections: followers.independent_nodes.iter().map(|r| vec![Mat6::identity(); r.len()]).collect(),
                 projected: vec![0.0; most],
@@ -458,6 +452,16 @@ impl Assembly {
             how.add((K, width), destination, projected, values);
         }
     }
+}
+
+/// Entries of the largest matrices that are formed together: of a chunk of elements, a mass, or a pair of partners.
+fn largest_matrix(system: &System, partners: &[(usize, Partners)]) -> usize {
+    let size = |block: &dyn ElementBlock| (block.dofs() * block.nodes(0).len()).pow(2) * block.len().min(CHUNK);
+    let masses = system.consistent_masses().iter().map(|m| 9 * m.m.len());
+    let pairs = partners.iter().map(|(_, partners)| (6 * partners.most_nodes()).pow(2));
+    let floating = system.floating().iter().map(|mass| (6 * mass.element.nodes().len()).pow(2));
+    let elements = system.groups.iter().map(|g| size(&*g.block));
+    elements.chain(masses).chain(pairs).chain(floating).max().unwrap_or(0)
 }
 
 /// The efforts of joints with the indices of their loads, each once.
