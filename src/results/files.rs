@@ -285,11 +285,12 @@ fn in_words(cadence: Cadence) -> String {
 
 /// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
-    let tables = TABLES.iter().copied().filter(|kind| kind.is_written(model)).map(|kind| kind.needs);
+    // What a sweep leaves unwritten counts too: results do not depend on it.
+    let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
     // Stresses of fibres are those of integration points.
     let drawn = if model.yields() { drawn | Wanted::SECTIONS.where_drawn() } else { drawn };
-    let fields = model.output.drawn().map(|_| drawn);
+    let fields = model.output.fields.map(|_| drawn);
     let expects = model.expects.iter().map(|expect| match expect.when {
         // A peak between two rows is one too.
         When::Max | When::Min | When::Abs => needs(expect.at, &expect.quantity).at_every_step(),

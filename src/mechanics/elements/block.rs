@@ -106,6 +106,10 @@ pub trait Mechanics: Elements {
     fn is_damped(&self) -> bool {
         false
     }
+    /// True where these forces change most with the velocities at rest.
+    fn damps_most_at_rest(&self) -> bool {
+        false
+    }
 }
 
 /// Energies, stresses, strains and failure of elements, for output and warnings.

@@ -22,6 +22,11 @@ impl Damper {
         self.exponent == 1.0
     }
 
+    /// True where the slope is largest at rest.
+    pub fn is_steepest_at_rest(&self) -> bool {
+        self.exponent < 1.0 && self.coefficient > 0.0
+    }
+
     /// The force c v (v² + v₀²)^((a − 1)/2) and its derivative by the rate.
     #[inline]
     pub fn force(&self, rate: f64) -> (f64, f64) {

@@ -158,6 +158,10 @@ impl Mechanics for HystereticLinks {
         self.links.iter().any(|of| of.link.damper.coefficient > 0.0 || of.beside > 0.0)
     }
 
+    fn damps_most_at_rest(&self) -> bool {
+        self.links.iter().any(|of| of.link.damper.is_steepest_at_rest())
+    }
+
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for (of, memory) in self.with_memory(now.history) {
             let line = of.link.line(now.nodes);

@@ -382,6 +382,10 @@ impl Mechanics for Links {
         self.links.iter().any(Link::is_damped)
     }
 
+    fn damps_most_at_rest(&self) -> bool {
+        self.links.iter().any(|link| link.damper.is_steepest_at_rest())
+    }
+
     fn subtract_forces(&self, now: &Configuration, F: &mut [Force]) {
         for (link, memory) in self.with_memory(now.history) {
             let line = link.line(now.nodes);

@@ -220,6 +220,9 @@ impl CriticalStep {
         state: &State,
         dt: f64,
     ) -> Result<(), Failure> {
+        if cx.system.damps_most_at_rest() {
+            self.place.iter_mut().for_each(|node| (node.v, node.omega) = (Vec3::zeros(), Vec3::zeros()));
+        }
         excite(cx, ws, state.time, state.time, 1.0);
         ws.forces.multipliers.values.copy_from_slice(&state.multipliers);
         self.evaluate(cx, ws, state, [0.0; 2], dt);

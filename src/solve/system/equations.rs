@@ -560,6 +560,11 @@ impl System {
         &self.nodal_damping
     }
 
+    /// True where a damper has its steepest force at rest.
+    pub fn damps_most_at_rest(&self) -> bool {
+        self.groups.iter().any(|group| group.block.damps_most_at_rest())
+    }
+
     /// True where any viscous damping acts.
     pub fn is_damped(&self) -> bool {
         self.mass_damping.acts() || !self.nodal_damping.is_empty() || self.groups.iter().any(|g| g.block.is_damped())
