@@ -38,7 +38,7 @@ fn cycles_dissipate_what_the_closed_form_says() {
 /// A mass braked by the damper alone: v¹⁻ᵃ falls by (1 − a) c/m of the time. Motion and force are of second order.
 #[test]
 fn a_mass_is_braked_as_the_closed_form_says() {
-    for (exponent, slow) in [(0.5f64, "1e-6"), (2.0, "0.0")] {
+    for (exponent, slow) in [(0.5f64, "1e-4"), (2.0, "0.0")] {
         for scheme in ["newmark", "central-difference", "esdirk3"] {
             let run = |steps: u32| {
                 let analysis = format!(
@@ -59,7 +59,7 @@ fn a_mass_is_braked_as_the_closed_form_says() {
             for k in 0..2 {
                 let [a, b] = [&coarse, &fine].map(|row| (row[k] / exact[k] - 1.0).abs());
                 println!("{exponent} {scheme} {k}: {a:e} {b:e}");
-                // A ratio of 4 is the second order; errors near the tolerance of the iteration, 1e-8, have none.
+                // A ratio of 4 is the second order; the tolerance of the iteration and the slow rate leave 1e-8.
                 assert!(a < 1e-3 && b < a / 3.5 + 1e-8, "{exponent} {scheme} {k}: {a} {b}");
             }
         }
@@ -80,6 +80,6 @@ fn explicit_steps_bear_the_slope_at_rest() {
             [0]
     };
     let (explicit, fine) = (end("central-difference", "\"auto\""), end("newmark", "2.5e-4"));
-    // The first swing is of 0.1. Steps near 3e-3 turn it by (ωh)²/24 a radian, 3e-5 of it in the 20 radians with what friction leaves.
+    // Steps near 3e-3 turn the phase by (ωh)²/24 a radian, 3e-3 in all; 2e-3 of the first swing of 0.1 is left by then. Wrong steps miss by 2e-3.
     assert!((explicit - fine).abs() < 1e-4, "{explicit} {fine}");
 }
