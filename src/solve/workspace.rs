@@ -169,6 +169,14 @@ impl Workspace {
         self.slips.note(cx, &self.history, state, dt);
     }
 
+    /// Looks inside a step whose slip has been recorded, which is no further step.
+    pub fn inside_step<R>(&mut self, look: impl FnOnce(&mut Self) -> R) -> R {
+        let slips = std::mem::take(&mut self.slips);
+        let found = look(self);
+        self.slips = slips;
+        found
+    }
+
     /// Warns of friction that the run has not resolved.
     pub fn warn_of_friction(&mut self, cx: &Context) {
         self.warnings.extend(self.slips.throws(cx));

@@ -158,7 +158,8 @@ fn show_inside(
 ) -> Result<Result<(), Failure>, Outcome> {
     let end = march.state.time;
     while let Some(sample) = march.samples.next(end) {
-        match controller.look_inside(march.cx, march.ws, march.state, sample.time) {
+        let March { cx, ws, state, .. } = &mut *march;
+        match ws.inside_step(|ws| controller.look_inside(cx, ws, state, sample.time)) {
             Ok(Some((state, report))) => march.notify_inside(state, &report, dt, &sample)?,
             Ok(None) => {}
             Err(failure) => return Ok(Err(failure)),
