@@ -205,6 +205,7 @@ impl StageStepper {
 
     /// Writes the departure of the polynomial of a step of `dt` from its positions at a stage inside, by node.
     pub fn departure(&self, cx: &Context, stage: usize, dt: f64, departures: &mut [Vec6]) {
+        departures.fill(Vec6::zeros());
         let moving = cx.independent_nodes.len();
         let weights = quintic::weights(self.tableau.time(stage), dt);
         let [starts, ends] = &self.ends;
