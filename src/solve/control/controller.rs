@@ -58,7 +58,7 @@ impl<'a> Controller<'a> {
                 Controller::ErrorControlled(Box::new(ErrorController::new(cx, stepper, tolerance, first)))
             }
             (&StepLength::ErrorControlled { tolerance, first }, TimeStepper::RungeKutta(stepper)) => {
-                Controller::EmbeddedError(EmbeddedErrorController::new(stepper, tolerance, first))
+                Controller::EmbeddedError(EmbeddedErrorController::new(cx, stepper, tolerance, first))
             }
             (&StepLength::StabilityLimited { fraction }, TimeStepper::CentralDifference(stepper)) => {
                 Controller::StabilityLimited(StabilityController::new(stepper, fraction))

@@ -9,7 +9,7 @@ use crate::jumps;
 use crate::report::StepReport;
 use crate::step::size::Size;
 use crate::system::kinks::has_kinks;
-use crate::tolerances::embedded_error::{GLANCE, GROWTH, SAFETY, TURN};
+use crate::tolerances::embedded_error::{FEWEST, GLANCE, GROWTH, SAFETY, TURN};
 use crate::workspace::Workspace;
 use base::snapshot::keep;
 use mechanics::state::State;
@@ -25,9 +25,10 @@ pub struct EmbeddedErrorController {
     next: f64,
     /// Largest displacement and rotation so far.
     motion: Size,
-    /// Length of the first step of a run, and the longest allowed.
+    /// Length of the first step of a run, the longest allowed, and the longest at the tolerance of the deck.
     first: f64,
     longest: f64,
+    most: f64,
     /// The longest rotation of a step.
     turn: f64,
     /// State at the start of the step, and the largest motion up to there.
@@ -40,11 +41,12 @@ pub struct EmbeddedErrorController {
 
 keep!(EmbeddedErrorController {
     stepper, tolerance, next, motion, longest, turn, start, inside, events
-} without { asked, first, motion_at_start });
+} without { asked, first, most, motion_at_start });
 
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.
-    pub fn new(stepper: Box<RungeKuttaStepper>, tolerance: f64, first: f64) -> EmbeddedErrorController {
+    pub fn new(cx: &Context, stepper: Box<RungeKuttaStepper>, tolerance: f64, first: f64) -> EmbeddedErrorController {
+        let most = cx.model.analysis.duration() / FEWEST;
         EmbeddedErrorController {
             stepper,
             tolerance,
@@ -52,7 +54,8 @@ impl EmbeddedErrorController {
             next: first,
             motion: Size::default(),
             first,
-            longest: f64::INFINITY,
+            longest: most,
+            most,
             turn: TURN,
             start: State::default(),
             motion_at_start: Size::default(),
@@ -100,7 +103,7 @@ impl FollowTolerance for EmbeddedErrorController {
         // A trial has a longer first step too, otherwise both runs would share its effects.
         let longer = (tolerance / self.asked).powf(1.0 / self.stepper.error_order()).clamp(1.0, 2.0);
         (self.tolerance, self.next) = (tolerance, self.first * longer);
-        (self.longest, self.turn) = (longest.unwrap_or(f64::INFINITY), TURN * longer);
+        (self.longest, self.turn) = (longest.unwrap_or(self.most), TURN * longer);
         self.events = EventLimit::default();
     }
 }
