@@ -7,8 +7,8 @@ use crate::importer::Importer;
 use crate::tied_nodes::TiedNodes;
 use crate::timeline::Timeline;
 use crate::{
-    bodies, distributing, equations, joints, links, loads, material_cards, mesh_text, nodal_axes, output, parts,
-    property_cards, spread_loads, stage_text, supports, surface_ties, temperatures, ties,
+    base_motion, bodies, distributing, equations, joints, links, loads, material_cards, mesh_text, nodal_axes, output,
+    parts, property_cards, spread_loads, stage_text, supports, surface_ties, temperatures, ties,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
@@ -63,6 +63,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     equations::equations(&mut build);
     supports::supports(&mut build);
     loads::loads(&mut build);
+    base_motion::accelerations(&mut build);
     spread_loads::spread_loads(&mut build);
     temperatures::heat(&mut build);
     loads::velocities(&mut build);

@@ -113,9 +113,15 @@ pub struct DeckText {
 }
 
 impl DeckText {
-    /// Adds a table.
+    /// Adds a table; the keys of one that stands once join those before.
     pub fn add(&mut self, table: DeckTable) {
-        self.tables.push(table);
+        match self.tables.iter_mut().find(|known| known.kind == table.kind && SINGLE.contains(&table.kind)) {
+            Some(known) => {
+                known.lines.extend(table.lines);
+                known.keys.extend(table.keys);
+            }
+            None => self.tables.push(table),
+        }
     }
 
     /// A name that nothing else in the deck has: the wanted one, if that is free, else with a word behind it.

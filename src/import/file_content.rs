@@ -485,6 +485,19 @@ impl StepCard {
     }
 }
 
+/// The acceleration of the ground in a step.
+#[derive(Debug, Clone)]
+pub struct BaseMotion {
+    /// Its line.
+    pub line: usize,
+    /// The global axis, 0 to 2.
+    pub axis: usize,
+    /// The name of its amplitude.
+    pub amplitude: String,
+    /// The factor of the amplitude.
+    pub scale: f64,
+}
+
 /// All steps of a file.
 #[derive(Debug, Default)]
 pub struct StepCards {
@@ -494,6 +507,8 @@ pub struct StepCards {
     pub list: Vec<StepCard>,
     /// True between `*STEP` and `*END STEP`.
     pub is_open: bool,
+    /// Accelerations of the ground.
+    pub base_motions: Vec<BaseMotion>,
     /// Temperatures at the start.
     pub first_temperatures: Vec<TemperatureLine>,
     /// What all steps ask for.

@@ -3,8 +3,8 @@
 use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use crate::{
-    amplitude_cards, connector_cards, constraint_cards, material_cards, mesh_cards, nodal_axes, property_cards,
-    section_cards, step_cards, temperatures,
+    amplitude_cards, base_motion, connector_cards, constraint_cards, material_cards, mesh_cards, nodal_axes,
+    property_cards, section_cards, step_cards, temperatures,
 };
 use std::fmt::Write;
 
@@ -179,6 +179,12 @@ pub const KEYWORDS: &[KeywordRow] = &[
     ),
     read("COMPLEX FREQUENCY", "CORIOLIS FRICTIONDAMPING", step_cards::complex_frequency, "complex modes"),
     read("BUCKLE", "EIGENSOLVER SOLVER", step_cards::buckle, "buckling factors"),
+    read(
+        "BASE MOTION",
+        "AMPLITUDE BASENAME DOF SCALE TYPE",
+        base_motion::base_motion,
+        "[environment] base_acceleration, in *MODAL DYNAMIC",
+    ),
     read("CLOAD", "OP AMPLITUDE FOLLOWER LOADCASE", step_cards::forces, "[[loads]] force, moment"),
     read("TEMPERATURE", "OP AMPLITUDE", temperatures::temperatures, "[[loads]] temperature, temperature_gradient"),
     read("DLOAD", "OP AMPLITUDE", step_cards::element_loads, "[[loads]] by length or area, or gravity"),
@@ -244,8 +250,7 @@ pub const KEYWORDS: &[KeywordRow] = &[
         "STEADY STATE DYNAMICS",
         "frequency responses are not translated yet; write [analysis] kind = \"frequency-response\"",
     ),
-    refuse("MODAL DAMPING", "frequency responses and modal motions are not translated yet"),
-    refuse("BASE MOTION", "frequency responses and modal motions are not translated yet"),
+    refuse("MODAL DAMPING", "damping by mode is not translated; give the materials *DAMPING, or [damping] in the deck"),
     refuse("JOINT", "springs of JOINTC elements are not translated; use CONN3D2 with CARTESIAN and CARDAN"),
     refuse("SHELL GENERAL SECTION", "rdsolve has no shells by their stiffness"),
     refuse("MEMBRANE SECTION", "rdsolve has no membranes"),

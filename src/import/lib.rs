@@ -10,6 +10,7 @@
 
 mod amplitude_cards;
 mod assemble;
+mod base_motion;
 mod bodies;
 mod build;
 mod connector_cards;

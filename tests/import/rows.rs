@@ -230,6 +230,37 @@ fn supports() {
     has(BEAM, &amplitude, None, "[amplitudes.A]\nkind = \"table\"\npoints = [[0.0, 0.0], [1.0, 2.0]]\n");
 }
 
+/// The ground accelerates; displacements are relative to it in both.
+#[test]
+fn base_motions() {
+    let with = |motion: &str| {
+        let step = "*AMPLITUDE, NAME=quake\n0., 0., 1., 2.\n*STEP\n*MODAL DYNAMIC\n0.01, 1.\n";
+        edited(BEAM, &[("*STEP, NLGEOM\n*STATIC\n0.5, 1.\n", &format!("{step}*BASE MOTION, {motion}\n"))])
+    };
+    let wanted =
+        "[environment]\nbase_acceleration = [{ direction = [0.0, 1.0, 0.0], amplitude = \"quake\", scale = 3.0 }]\n";
+    has(&with("DOF=2, AMPLITUDE=QUAKE, SCALE=3."), &[], None, wanted);
+    let both =
+        edited(&with("DOF=2, AMPLITUDE=quake, SCALE=3."), &[("*CLOAD", "*DLOAD\n, GRAV, 9., 0., 0., -1.\n*CLOAD")]);
+    has(&both, &[], None, &format!("{}gravity = [0.0, 0.0, -9.0]\n", wanted));
+    for (motion, why) in [
+        ("DOF=4, AMPLITUDE=quake", "along DOF=1, 2 or 3"),
+        ("DOF=2", "needs AMPLITUDE="),
+        ("DOF=2, AMPLITUDE=none", "no amplitude is named `none`"),
+        ("DOF=2, AMPLITUDE=quake, TYPE=DISPLACEMENT", "give TYPE=ACCELERATION"),
+        ("DOF=2, AMPLITUDE=quake, BASE NAME=b", "the ground is one base"),
+        ("DOF=2, AMPLITUDE=quake, SCALE=x", "SCALE must be a number"),
+    ] {
+        refuses(&with(motion), &[], why);
+    }
+    refuses(BEAM, &[("*CLOAD", "*BASE MOTION, DOF=1, AMPLITUDE=a\n*CLOAD")], "in steps of *MODAL DYNAMIC alone");
+    let two = edited(
+        &with("DOF=1, AMPLITUDE=quake"),
+        &[("*END STEP", "*END STEP\n*STEP\n*MODAL DYNAMIC\n0.01, 1.\n*END STEP")],
+    );
+    refuses(&two, &[], "in all stages of a deck");
+}
+
 /// Static steps without NLGEOM are one linear analysis, with all that acts in a step at its end.
 #[test]
 fn linear_steps() {
