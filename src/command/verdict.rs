@@ -147,6 +147,14 @@ pub fn overshoot_warning(run: &Run) -> Option<String> {
     })
 }
 
+/// True where gravity acts from t = 0 on with nothing before, on parts that deform.
+fn weighs_at_once(model: &Model) -> bool {
+    let loading = &model.loading;
+    let at_start = loading.gravity_amplitude.map_or(1.0, |index| loading.amplitudes[index].value(0.0));
+    let deforms = model.parts.iter().any(|part| part.kind().is_deformable());
+    model.analysis.begin == 0.0 && at_start * loading.gravity.norm() != 0.0 && deforms
+}
+
 /// The warning about a bad energy balance; `None` if it is good.
 pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
     /// A larger part of the energy of the motion at the end is seen in the results.
@@ -181,9 +189,13 @@ pub fn energy_warning(balance: &Balance, model: &Model) -> Option<String> {
                  strains are too large. {remedy}"
             )
         } else if balance.is_work_of_dampers(balance.generated) {
+            let weight = match weighs_at_once(model) {
+                true => ". Gravity acts at once at t = 0: bring it on in a static stage before the motion",
+                false => "",
+            };
             format!(
                 "dampers have dissipated more energy than was available, by {part}: steps are too long to sum their work, or the time integration \
-                 adds energy that they dissipate. {remedy}"
+                 adds energy that they dissipate. {remedy}{weight}"
             )
         } else {
             format!("energy growth: the time integration has added {part}. {remedy}")
