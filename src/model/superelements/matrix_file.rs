@@ -14,8 +14,8 @@ pub enum MatrixType {
     Damping,
 }
 
-/// The largest number of rows: more are no superelement but a mesh, whose full matrix would take 200 MB.
-const MOST_ROWS: usize = 5000;
+/// The largest number of rows: a full matrix of more takes longer than the mesh that it stands for.
+const MOST_ROWS: usize = 1500;
 
 /// Reads a square matrix; of Abaqus the first of its type.
 ///
@@ -61,11 +61,17 @@ fn market(text: &mut Text, head: TextLine) -> Result<DMatrix<f64>, Fault> {
         }
     };
     if is_listed {
+        let mut given = vec![false; rows * rows];
         for _ in 0..numbers.whole()? {
             let (i, j) = (numbers.whole()?, numbers.whole()?);
             if !(1..=rows).contains(&i) || !(1..=rows).contains(&j) {
                 return Err(numbers.fault(format!("the entry ({i}, {j}) lies outside the matrix of {rows} rows")));
             }
+            let places = [(i - 1) * rows + j - 1, (j - 1) * rows + i - 1];
+            if given[places[0]] || is_half && given[places[1]] {
+                return Err(numbers.fault(format!("the entry ({i}, {j}) stands here twice")));
+            }
+            given[places[0]] = true;
             set(i - 1, j - 1, numbers.number()?);
         }
     } else {
@@ -131,6 +137,10 @@ fn abaqus(text: &mut Text, first: TextLine, kind: MatrixType) -> Result<DMatrix<
         } else if upper.starts_with('*') {
             if begun.is_some() {
                 break;
+            }
+            if ["*USERELEMENT,", "*MATRIX,"].iter().any(|key| upper.starts_with(key)) && upper.contains("UNSYMM") {
+                return Err(text
+                    .fault("matrices that are not symmetric are not read: take out UNSYMM and one half", line.number));
             }
             is_inside = upper.starts_with("*MATRIX,") && upper.split(',').any(|part| part == format!("TYPE={word}"));
             if is_inside {

@@ -93,8 +93,9 @@ impl System {
         for node in self.consistent.iter().flat_map(|mass| &mass.nodes) {
             has_mass[*node][0] = true;
         }
-        for node in self.floating().iter().flat_map(|mass| mass.element.nodes()) {
-            has_mass[*node] = [true; 2];
+        for (node, [moves, turns]) in self.floating().iter().flat_map(|mass| mass.element.massive_nodes()) {
+            has_mass[node][0] |= moves;
+            has_mass[node][1] |= turns;
         }
         for dependent in self.rigid_links.iter().rev() {
             let [moves, turns] = has_mass[dependent.node];

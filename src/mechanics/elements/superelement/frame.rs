@@ -57,7 +57,8 @@ impl FloatingFrame {
         }
         let start = if turning > 0.0 { first.R() } else { best(&B) };
         let found = fit(&B, start).or_else(|| fit(&B, best(&B)));
-        (self.R, self.inverse) = found.unwrap_or((start, Mat3::zeros()));
+        // Without a frame there are no forces, and the step fails.
+        (self.R, self.inverse) = found.unwrap_or((start, Mat3::from_element(f64::NAN)));
         for i in 0..Y.len() {
             self.z[i] = self.R.tr_mul(&self.z[i]);
             self.E[i] = self.R.tr_mul(&self.E[i]);

@@ -129,6 +129,16 @@ impl FloatingElement {
         self.mass.as_ref().map_or(0.0, |mass| mass.total)
     }
 
+    /// The nodes with mass: whether their translations have any, or the amplitude has, and whether their rotations have.
+    pub fn massive_nodes(&self) -> impl Iterator<Item = (usize, [bool; 2])> {
+        let (size, placed) = (self.size(), self.placed());
+        let is_massive = move |dof: usize| self.data.mass.get(dof * (size + 1)).is_some_and(|m| *m > 0.0);
+        self.data.nodes.iter().enumerate().map(move |(i, &node)| match i < self.data.interface {
+            true => (node, [0, 3].map(|at| (0..3).any(|axis| is_massive(6 * i + at + axis)))),
+            false => (node, [is_massive(placed + i - self.data.interface), false]),
+        })
+    }
+
     /// The centre of mass at t = 0.
     pub fn center(&self) -> Vec3 {
         let own = self.mass.as_ref().map_or_else(Vec3::zeros, |mass| mass.center);
