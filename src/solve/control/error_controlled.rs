@@ -59,6 +59,8 @@ pub struct ErrorController<'a> {
     start: State,
     /// The state at a time inside the step.
     inside: State,
+    /// Largest acceleration and angular acceleration of a node so far, where only motion is written.
+    accelerations: Size,
     /// True where the polynomial inside the step keeps to its stages; `None` before it is known.
     keeps_to_stages: Option<bool>,
     /// The errors of a step by node, and the same after more filters.
@@ -68,7 +70,7 @@ pub struct ErrorController<'a> {
 }
 
 keep!(ErrorController<'_> {
-    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting, events,
+    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, accelerations, errors, lasting, events,
  } without { asked, constant, order, first, most, keeps_to_stages });
 
 /// An estimated error relative to the largest motion.
@@ -99,6 +101,7 @@ impl<'a> ErrorController<'a> {
             measure: ErrorMeasure::new(cx.model, cx.length),
             start: State::default(),
             inside: State::default(),
+            accelerations: Size::default(),
             keeps_to_stages: None,
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             lasting: LastingError::new(nodes),
@@ -212,13 +215,26 @@ impl<'a> ErrorController<'a> {
         Estimate { error, motion }
     }
 
-    /// True where the polynomial inside the last step of `dt` departs from its stages by a small part of the requested error.
+    fn note_accelerations(&mut self, state: &State) {
+        let Size { translation, rotation } = &mut self.accelerations;
+        for node in &state.nodes {
+            *translation = translation.max(node.a.norm());
+            *rotation = rotation.max(node.alpha.norm());
+        }
+    }
+
+    /// True where the polynomial inside the last step of `dt` departs from the positions and accelerations of its stages by a small part of the
+    /// requested error.
     fn keeps_to_stages(&mut self, cx: &Context, dt: f64) -> bool {
-        let ErrorController { stepper, errors: [departures, _], measure, motion, start, asked, .. } = self;
+        let ErrorController { stepper, errors: [departures, _], measure, motion, accelerations, start, asked, .. } =
+            self;
         let within = |stage: usize| {
             let Some(stages) = stepper.stages() else { return false };
             stages.departure(cx, stage, dt, departures);
-            measure.relative(departures, *motion, start.time) < INSIDE * *asked
+            let (allowed, off) = (INSIDE * *asked, stages.departure_of_accelerations(cx, stage, dt));
+            measure.relative(departures, *motion, start.time) < allowed
+                && off.translation <= allowed * accelerations.translation
+                && off.rotation <= allowed * accelerations.rotation
         };
         let inner = || stepper.stages().map_or(0..0, StageStepper::inner_stages);
         *self.keeps_to_stages.get_or_insert_with(|| inner().all(within))
@@ -318,6 +334,9 @@ impl StepController for ErrorController<'_> {
         }
         if self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {
             self.events.accept([&self.start, state]);
+            if cx.wants_motion_only {
+                self.note_accelerations(state);
+            }
             return Ok(Some(report));
         }
         self.take_back(state);

@@ -6,18 +6,18 @@
 //!
 //! Inside a step the motion is the polynomial of fifth degree through positions, velocities and accelerations at both ends. One more stage
 //! equilibrates it, so forces and energies are as accurate as at the ends, even with stiff parts. Where only motion is wanted and the
-//! polynomial keeps to the stages, it is written as it is.
+//! polynomial keeps to the positions and accelerations of the stages, it is written as it is.
 
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::report::StepReport;
 use crate::step::equilibrium::EquilibriumSolver;
 use crate::step::predict::{excite, move_trial, predict};
+use crate::step::size::Size;
 use crate::step::trial::{Stage, Step, rates_of};
 use crate::step::work::{Power, WorkQuadrature};
 use crate::workspace::Workspace;
-use base::math::Vec6;
-use base::math::quintic;
+use base::math::{Vec6, angular, linear, quintic};
 use base::snapshot::keep;
 use mechanics::integrators::{Coefficients, StageTableau};
 use mechanics::state::{Configuration, State};
@@ -215,6 +215,21 @@ impl StageStepper {
             let q = earlier.fold(own, |q, &(of, weight)| q + self.rates[of * moving + k][0] * weight);
             departures[node] = quintic::motion(&weights, &starts[k], &ends[k])[0] - q * dt;
         }
+    }
+
+    /// The largest departures of the accelerations of that polynomial from those of a stage inside, of translations and rotations.
+    pub fn departure_of_accelerations(&self, cx: &Context, stage: usize, dt: f64) -> Size {
+        let moving = cx.independent_nodes.len();
+        let weights = quintic::weights(self.tableau.time(stage), dt);
+        let [starts, ends] = &self.ends;
+        (0..moving).fold(Size::default(), |most, k| {
+            let [_, _, dd] = quintic::motion(&weights, &starts[k], &ends[k]);
+            let off = dd - self.rates[stage * moving + k][1];
+            Size {
+                translation: most.translation.max(linear(&off).norm()),
+                rotation: most.rotation.max(angular(&off).norm()),
+            }
+        })
     }
 
     /// The stages inside a step.
