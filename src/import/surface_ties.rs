@@ -151,7 +151,10 @@ impl Base {
             true => least,
             false => least.min((foot(&face.x, x).x - x).norm()),
         };
-        self.faces.iter().fold(f64::INFINITY, nearer)
+        let from_center = |face: &Face| (face.center - x).norm_squared();
+        // The face with the nearest centre comes first, so that most others are seen to be farther.
+        let nearest = self.faces.iter().min_by(|a, b| from_center(a).total_cmp(&from_center(b)));
+        nearest.into_iter().chain(&self.faces).fold(f64::INFINITY, nearer)
     }
 }
 

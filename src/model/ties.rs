@@ -23,6 +23,9 @@ use std::collections::{HashMap, HashSet};
 /// Weights and arms below this are rounding: of one, and of the distances in a face.
 const ROUNDING: f64 = 1e-12;
 
+/// Nodes beyond the distance by less than this part of it lie within.
+const MARGIN: f64 = 1e-6;
+
 /// Nodes coincide where they lie nearer than this part of the size of the model.
 const COINCIDENT: f64 = 1e-6;
 
@@ -38,7 +41,7 @@ pub(super) fn ties<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report
             continue;
         }
         let Some(base) = base else { continue };
-        let limit = distance.unwrap_or_else(|| base.usual_distance(nodes));
+        let limit = (1.0 + MARGIN) * distance.unwrap_or_else(|| base.usual_distance(nodes));
         let mut found: Vec<(&Spot, Hold)> = Vec::new();
         let (mut beyond, mut farthest) = (0, (0.0f64, None));
         for spot in spots.iter().filter(|spot| !base.own.contains(&spot.node)) {
@@ -55,7 +58,8 @@ pub(super) fn ties<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report
         if let (distance, Some(spot)) = farthest
             && (!is_free || found.is_empty())
         {
-            report_far(&owner, (beyond, distance, limit), spot, !found.is_empty(), report);
+            let place = (spot, nodes.label(spot.node));
+            report_far(&owner, (beyond, distance, limit), place, !found.is_empty(), report);
             continue;
         }
         if found.is_empty() {
@@ -83,7 +87,7 @@ pub(super) fn ties<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report
 fn report_far(
     owner: &Owner,
     (beyond, distance, limit): (usize, f64, f64),
-    spot: &Spot,
+    (spot, label): (&Spot, &str),
     has_near: bool,
     report: &mut Report,
 ) {
@@ -92,7 +96,7 @@ fn report_far(
         "{}: {are} beyond `distance` = {}, the farthest is `{}` at {}",
         owner.what,
         short(limit),
-        spot.name,
+        label,
         short(distance)
     );
     let raise = format!("give distance = {}, or name only nodes beside `to`", short(1.01 * distance));
@@ -202,8 +206,11 @@ impl Base {
             let arm = x - nodes.x(node);
             return Some(Hold { distance: arm.norm(), shares: vec![(SecondNode { node, weight: 1.0 }, arm)] });
         }
+        let from_center = |face: &BaseFace| (x - face.center).norm_squared();
+        // The face with the nearest centre comes first, so that most others are seen to be farther.
+        let nearest = self.faces.iter().min_by(|a, b| from_center(a).total_cmp(&from_center(b)));
         let mut best: Option<(&BaseFace, Foot, f64)> = None;
-        for face in &self.faces {
+        for face in nearest.into_iter().chain(&self.faces) {
             let least = best.as_ref().map_or(f64::INFINITY, |(.., distance)| *distance);
             if (x - face.center).norm() - face.radius > least {
                 continue;

@@ -6,8 +6,8 @@ use super::curved_faces::{CurvedFace, NineNodes, SixNodes, corners, ring};
 /// The most nodes of a face.
 const MOST: usize = 9;
 
-/// A correction below this part of the sides ends the search.
-const SMALL: f64 = 1e-15;
+/// A correction below this part of the sides ends the search: the next one is below rounding.
+const SMALL: f64 = 1e-12;
 
 /// Places beyond the sides of a face by less than this part of them lie on it.
 const ON_SIDE: f64 = 1e-9;
