@@ -38,8 +38,6 @@ pub struct Context<'a> {
     pub wants_forces: bool,
     /// True where energies are wanted.
     pub wants_energy: bool,
-    /// True where tables have nothing but positions, velocities and accelerations.
-    pub wants_motion_only: bool,
     /// The request to end the run.
     pub stop: StopRequest<'a>,
 }
@@ -71,7 +69,6 @@ impl<'a> Context<'a> {
             origin: model.nodes.first().map_or(Vec3::zeros(), |node| node.x),
             wants_forces,
             wants_energy,
-            wants_motion_only: false,
             stop: StopRequest::of(stop),
         }
     }

@@ -72,10 +72,7 @@ impl<'a> Run<'a> {
         // Load steps are judged by their work.
         let is_static = !model.analysis.is_dynamic();
         let wants_forces = is_static || wanted.has(Wanted::REACTIONS) || wants_energy || checks_energy_growth(model);
-        let context = Context {
-            wants_motion_only: wanted == Wanted::NOTHING,
-            ..Context::new(model, plan, system, [wants_forces, wants_energy], stop)
-        };
+        let context = Context::new(model, plan, system, [wants_forces, wants_energy], stop);
         let mut workspace = Workspace::new(&context)?;
         let controller = Controller::new(&context, &mut workspace)?;
         let recorder = Recorder::new(model, wanted);

@@ -350,9 +350,6 @@ pub mod error_controlled {
     pub const MEAN: f64 = 0.3;
     /// This fraction for Runge-Kutta schemes: their errors mainly damp the motion, and cancel less.
     pub const MEAN_OF_STAGES: f64 = 0.6;
-    /// Part of the requested error that the motion inside steps may add: where the polynomial departs from the stages by less, it is written
-    /// without an equilibrium of its own.
-    pub const INSIDE: f64 = 0.1;
     /// Least number of steps of a run.
     pub const FEWEST: f64 = 50.0;
     /// Lengths of the trial steps that measure the motion ahead when motion begins, as fractions of the run; the first are

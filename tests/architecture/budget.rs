@@ -10,7 +10,7 @@ const BUDGET: [(&str, usize); 11] = [
     ("deck", 5000),
     ("import", 8100),
     ("model", 23_250),
-    ("solve", 32_940),
+    ("solve", 32_890),
     ("results", 10_450),
     ("study", 4000),
     ("sweep", 1500),

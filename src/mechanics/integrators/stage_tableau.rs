@@ -37,17 +37,13 @@ impl StageTableau {
         of_last.iter().find(|(of, _)| *of == stage).map_or(0.0, |(_, weight)| *weight)
     }
 
-    /// The time of a stage, as a fraction of the step.
-    pub fn time(&self, stage: usize) -> f64 {
-        if stage == 0 { 0.0 } else { self.c[stage - 1] }
-    }
-
     /// The weights of the accelerations of earlier stages in the predicted one of a stage: the polynomial through them.
     pub fn extrapolation(&self, stage: usize) -> Vec<f64> {
+        let time = |stage: usize| if stage == 0 { 0.0 } else { self.c[stage - 1] };
         let first = stage.saturating_sub(MOST_EXTRAPOLATED);
         let weight = |of: usize| {
             let others = (first..stage).filter(|other| *other != of && of >= first);
-            let factor = |other: usize| (self.time(stage) - self.time(other)) / (self.time(of) - self.time(other));
+            let factor = |other: usize| (time(stage) - time(other)) / (time(of) - time(other));
             if of < first { 0.0 } else { others.map(factor).product() }
         };
         (0..stage).map(weight).collect()
@@ -55,9 +51,10 @@ impl StageTableau {
 
     /// Weights of the rates of all stages in the second derivative over the step, times Δt²: that of the parabola of best fit.
     pub fn second_derivative(&self) -> Vec<f64> {
-        let columns = DMatrix::from_fn(self.stages(), 3, |stage, power| self.time(stage).powi(power as i32));
+        let times: Vec<f64> = std::iter::once(0.0).chain(self.c.iter().copied()).collect();
+        let columns = DMatrix::from_fn(times.len(), 3, |stage, power| times[stage].powi(power as i32));
         // Rows of the pseudo-inverse are the coefficients of 1, c, c²; it exists, for the times differ.
-        let fit = columns.pseudo_inverse(f64::EPSILON).unwrap_or_else(|_| DMatrix::zeros(3, self.stages()));
+        let fit = columns.pseudo_inverse(f64::EPSILON).unwrap_or_else(|_| DMatrix::zeros(3, times.len()));
         fit.row(2).iter().map(|weight| 2.0 * weight).collect()
     }
 

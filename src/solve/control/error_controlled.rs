@@ -16,12 +16,11 @@ use crate::failure::Failure;
 use crate::jumps;
 use crate::report::StepReport;
 use crate::step::implicit::Implicit;
-use crate::step::runge_kutta::StageStepper;
 use crate::step::size::Size;
 use crate::step::tangent::IterationMatrix;
 use crate::step::trial::Stage;
 use crate::tolerances::error_controlled::{
-    FEWEST, FILTERS, INSIDE, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WEIGHT, WORTH,
+    FEWEST, FILTERS, MEAN, MEAN_OF_STAGES, RESOLVED, SAFETY, SLIGHT, SPAN, TOO_MUCH, TRIALS, WEIGHT, WORTH,
 };
 use crate::workspace::Workspace;
 use base::math::{Vec3, Vec6, stack};
@@ -59,10 +58,6 @@ pub struct ErrorController<'a> {
     start: State,
     /// The state at a time inside the step.
     inside: State,
-    /// Largest acceleration and angular acceleration of a node so far, where only motion is written.
-    accelerations: Size,
-    /// True where the polynomial inside the step keeps to its stages; `None` before it is known.
-    keeps_to_stages: Option<bool>,
     /// The errors of a step by node, and the same after more filters.
     errors: [Vec<Vec6>; 2],
     lasting: LastingError,
@@ -70,8 +65,8 @@ pub struct ErrorController<'a> {
 }
 
 keep!(ErrorController<'_> {
-    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, accelerations, errors, lasting, events,
- } without { asked, constant, order, first, most, keeps_to_stages });
+    stepper, tolerance, length, longest, lasting_intensity, intensity, motion, measure, start, inside, errors, lasting, events,
+ } without { asked, constant, order, first, most });
 
 /// An estimated error relative to the largest motion.
 struct Estimate {
@@ -101,8 +96,6 @@ impl<'a> ErrorController<'a> {
             measure: ErrorMeasure::new(cx.model, cx.length),
             start: State::default(),
             inside: State::default(),
-            accelerations: Size::default(),
-            keeps_to_stages: None,
             errors: [vec![Vec6::zeros(); nodes], vec![Vec6::zeros(); nodes]],
             lasting: LastingError::new(nodes),
             events: EventLimit::default(),
@@ -215,31 +208,6 @@ impl<'a> ErrorController<'a> {
         Estimate { error, motion }
     }
 
-    fn note_accelerations(&mut self, state: &State) {
-        let Size { translation, rotation } = &mut self.accelerations;
-        for node in &state.nodes {
-            *translation = translation.max(node.a.norm());
-            *rotation = rotation.max(node.alpha.norm());
-        }
-    }
-
-    /// True where the polynomial inside the last step of `dt` departs from the positions and accelerations of its stages by a small part of the
-    /// requested error.
-    fn keeps_to_stages(&mut self, cx: &Context, dt: f64) -> bool {
-        let ErrorController { stepper, errors: [departures, _], measure, motion, accelerations, start, asked, .. } =
-            self;
-        let within = |stage: usize| {
-            let Some(stages) = stepper.stages() else { return false };
-            stages.departure(cx, stage, dt, departures);
-            let (allowed, off) = (INSIDE * *asked, stages.departure_of_accelerations(cx, stage, dt));
-            measure.relative(departures, *motion, start.time) < allowed
-                && off.translation <= allowed * accelerations.translation
-                && off.rotation <= allowed * accelerations.rotation
-        };
-        let inner = || stepper.stages().map_or(0..0, StageStepper::inner_stages);
-        *self.keeps_to_stages.get_or_insert_with(|| inner().all(within))
-    }
-
     /// Writes c Δtᵖ⁺¹ q⁽ᵖ⁺¹⁾ of the step of length `dt` that led to `state`, by node.
     fn write_errors(&mut self, cx: &Context, state: &State, dt: f64) {
         let errors = &mut self.errors[0];
@@ -318,7 +286,6 @@ impl StepController for ErrorController<'_> {
     ) -> Result<Option<StepReport>, Failure> {
         let dt = to - state.time;
         self.start.copy_from(state);
-        self.keeps_to_stages = None;
         let (drift, violation) = (ws.rotation_drift, ws.joint_violation);
         let report = self.stepper.step(cx, ws, state, to)?;
         if self.events.is_passed(cx, [&self.start, state], self.tolerance) {
@@ -334,9 +301,6 @@ impl StepController for ErrorController<'_> {
         }
         if self.judge(dt, state.time, cx.model.analysis.duration(), &estimate) {
             self.events.accept([&self.start, state]);
-            if cx.wants_motion_only {
-                self.note_accelerations(state);
-            }
             return Ok(Some(report));
         }
         self.take_back(state);
@@ -355,9 +319,7 @@ impl StepController for ErrorController<'_> {
         end: &State,
         time: f64,
     ) -> Result<Option<(&State, StepReport)>, Failure> {
-        let equilibrium = !(cx.wants_motion_only && self.keeps_to_stages(cx, end.time - self.start.time));
-        let step = ((&self.start, end.time), equilibrium);
-        let report = self.stepper.look_inside(cx, ws, step, (&mut self.inside, time))?;
+        let report = self.stepper.look_inside(cx, ws, (&self.start, end.time), (&mut self.inside, time))?;
         Ok(report.map(|report| (&self.inside, report)))
     }
 

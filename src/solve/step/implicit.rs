@@ -63,8 +63,7 @@ impl<'a> Implicit<'a> {
         }
     }
 
-    /// Writes the state at a time inside the last step, given by its start state and end time, with an equilibrium of its own or without;
-    /// `None` if the scheme interpolates no motion.
+    /// Writes the state at a time inside the last step, given by its start state and end time; `None` if the scheme interpolates no motion.
     ///
     /// # Errors
     /// See [`Failure`].
@@ -72,13 +71,11 @@ impl<'a> Implicit<'a> {
         &mut self,
         cx: &Context,
         ws: &mut Workspace,
-        (step, equilibrium): ((&State, f64), bool),
+        step: (&State, f64),
         (state, time): (&mut State, f64),
     ) -> Result<Option<StepReport>, Failure> {
         match &mut self.stages {
-            Stages::RungeKutta(stages) => {
-                stages.look_inside((&mut self.solver, equilibrium), cx, ws, step, (state, time)).map(Some)
-            }
+            Stages::RungeKutta(stages) => stages.look_inside(&mut self.solver, cx, ws, step, (state, time)).map(Some),
             // Steps of other schemes end at every time of evaluation.
             Stages::One | Stages::Composite(_) => Ok(None),
         }

@@ -5,23 +5,21 @@
 //! step; the last is the end of the step.
 //!
 //! Inside a step the motion is the polynomial of fifth degree through positions, velocities and accelerations at both ends. One more stage
-//! equilibrates it, so forces and energies are as accurate as at the ends, even with stiff parts. Where only motion is wanted and the
-//! polynomial keeps to the positions and accelerations of the stages, it is written as it is.
+//! equilibrates it, so forces and energies are as accurate as at the ends, even with stiff parts.
 
 use crate::context::Context;
 use crate::failure::Failure;
 use crate::report::StepReport;
 use crate::step::equilibrium::EquilibriumSolver;
-use crate::step::predict::{excite, move_trial, predict};
-use crate::step::size::Size;
+use crate::step::predict::{excite, move_trial};
 use crate::step::trial::{Stage, Step, rates_of};
 use crate::step::work::{Power, WorkQuadrature};
 use crate::workspace::Workspace;
-use base::math::{Vec6, angular, linear, quintic};
+use base::math::Vec6;
+use base::math::quintic;
 use base::snapshot::keep;
 use mechanics::integrators::{Coefficients, StageTableau};
 use mechanics::state::{Configuration, State};
-use std::ops::Range;
 
 /// The stages of a step. It is allocated once.
 pub struct StageStepper {
@@ -110,14 +108,13 @@ impl StageStepper {
         Ok(report)
     }
 
-    /// Writes the state at a time inside the last step, which has led from `start` to the time `end`; without `equilibrium` it is the motion of
-    /// the polynomial.
+    /// Writes the state at a time inside the last step, which has led from `start` to the time `end`.
     ///
     /// # Errors
     /// As for [`EquilibriumSolver::stage`].
     pub fn look_inside(
         &mut self,
-        (solver, equilibrium): (&mut EquilibriumSolver, bool),
+        solver: &mut EquilibriumSolver,
         cx: &Context,
         ws: &mut Workspace,
         (start, end): (&State, f64),
@@ -128,13 +125,7 @@ impl StageStepper {
         let scheme = cx.model.solution.scheme.coefficients(dt);
         state.copy_from(start);
         self.start_inside(cx, part, dt);
-        let report = if equilibrium {
-            solver.find_inside(cx, ws, &Step { state, stage: self.relation(&scheme), to: time })?
-        } else {
-            excite(cx, ws, start.time, time, scheme.instant);
-            predict(cx, ws, &Step { state, stage: self.relation(&scheme), to: time });
-            StepReport::begin(time)
-        };
+        let report = solver.find_inside(cx, ws, &Step { state, stage: self.relation(&scheme), to: time })?;
         let work = cx.wants_energy.then(|| self.work.up_to(part, dt, &self.powers));
         solver.accept_with(cx, ws, state, (&self.relation(&scheme), time), work)?;
         Ok(report)
@@ -201,40 +192,6 @@ impl StageStepper {
             self.start_rates[node] = [(q - d * ahead) / ahead, (d - dd * ahead) / ahead];
             self.prediction[node] = q;
         }
-    }
-
-    /// Writes the departure of the polynomial of a step of `dt` from its positions at a stage inside, by node.
-    pub fn departure(&self, cx: &Context, stage: usize, dt: f64, departures: &mut [Vec6]) {
-        departures.fill(Vec6::zeros());
-        let moving = cx.independent_nodes.len();
-        let weights = quintic::weights(self.tableau.time(stage), dt);
-        let [starts, ends] = &self.ends;
-        for (k, &node) in cx.independent_nodes.iter().enumerate() {
-            let own = self.rates[stage * moving + k][0] * self.tableau.gamma;
-            let earlier = self.tableau.a[stage - 1].iter();
-            let q = earlier.fold(own, |q, &(of, weight)| q + self.rates[of * moving + k][0] * weight);
-            departures[node] = quintic::motion(&weights, &starts[k], &ends[k])[0] - q * dt;
-        }
-    }
-
-    /// The largest departures of the accelerations of that polynomial from those of a stage inside, of translations and rotations.
-    pub fn departure_of_accelerations(&self, cx: &Context, stage: usize, dt: f64) -> Size {
-        let moving = cx.independent_nodes.len();
-        let weights = quintic::weights(self.tableau.time(stage), dt);
-        let [starts, ends] = &self.ends;
-        (0..moving).fold(Size::default(), |most, k| {
-            let [_, _, dd] = quintic::motion(&weights, &starts[k], &ends[k]);
-            let off = dd - self.rates[stage * moving + k][1];
-            Size {
-                translation: most.translation.max(linear(&off).norm()),
-                rotation: most.rotation.max(angular(&off).norm()),
-            }
-        })
-    }
-
-    /// The stages inside a step.
-    pub fn inner_stages(&self) -> Range<usize> {
-        1..self.tableau.stages() - 1
     }
 
     fn keep_end(&mut self, cx: &Context, ws: &Workspace) {
