@@ -5,7 +5,7 @@ use crate::importer::Importer;
 use crate::keyword_block::KeywordBlock;
 use std::f64::consts::TAU;
 
-/// Points of a curve that stands for a formula.
+/// Number of points of the curve of a formula.
 const POINTS: usize = 200;
 
 /// `*AMPLITUDE`.

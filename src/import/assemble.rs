@@ -1,4 +1,4 @@
-//! From what the file says to the deck and its mesh: all families of tables, one after the other.
+//! Builds the deck and its mesh from the content of the file: all families of tables, one after the other.
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, DeckText};
@@ -72,7 +72,7 @@ pub fn build(im: &mut Importer, mesh_file: &str) -> BuiltDeck {
     BuiltDeck { deck: build.deck, mesh }
 }
 
-/// Refuses several steps of modes without one in which time passes, which could lead to their states.
+/// Refuses several steps of modes without a step that advances time: nothing could lead to their states.
 fn refuse_modes_alone(build: &mut Build) {
     let stages = &build.timeline.stages;
     if let [_, second, ..] = &stages[..]

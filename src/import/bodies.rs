@@ -13,7 +13,7 @@ const LIGHT: f64 = 1e-9;
 /// Degrees of freedom by their words.
 pub const DEGREES: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
 
-/// What stands at a point: mass, moments of inertia xx, yy, zz, xy, yz, zx, and the line.
+/// The inertia at a point: mass, moments of inertia xx, yy, zz, xy, yz, zx, and the line.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct PointMass {
     /// The mass.

@@ -1,4 +1,4 @@
-//! A deck that is being made of what a file says, and how its lines name nodes and elements.
+//! A deck under construction, and how lines of the file name nodes and elements.
 
 use crate::deck_text::DeckText;
 use crate::flat_mesh::FlatMesh;
@@ -23,7 +23,7 @@ pub struct Build<'b, 'a, 't> {
     pub pieces: Vec<PartPiece>,
     /// Sets of nodes in the mesh, by their names in the deck.
     pub groups: BTreeMap<String, Vec<u64>>,
-    /// The reference node of each node that stands for the rotations of a body.
+    /// The reference node of each rotation node of a body.
     pub turned: HashMap<u64, u64>,
     /// The name of the body of each node that is attached to one.
     pub body_of: HashMap<u64, String>,
@@ -35,7 +35,7 @@ pub struct Build<'b, 'a, 't> {
     pub weighed: BTreeSet<u64>,
     /// Nodes and their rotations, from 3 to 5, that have springs, dampers or inertia.
     pub turning: BTreeSet<(u64, usize)>,
-    /// What constraints say about nodes.
+    /// The constraints on nodes.
     pub tied: TiedNodes,
     /// True where the deck has gravity.
     pub has_gravity: bool,
@@ -44,7 +44,7 @@ pub struct Build<'b, 'a, 't> {
 }
 
 impl Build<'_, '_, '_> {
-    /// Nodes that a line names; refuses what names none.
+    /// The nodes named by a line; refuses other names.
     pub fn nodes(&mut self, target: &NamedTarget) -> Vec<u64> {
         match self.mesh.node_ids(&self.im.scopes, target) {
             Some(ids) if ids.is_empty() && !target.is_set && target.name.parse::<u64>().is_ok() => {
@@ -72,7 +72,7 @@ impl Build<'_, '_, '_> {
         nodes.first().copied().filter(|_| nodes.len() == 1)
     }
 
-    /// Elements that a line names; refuses what names none.
+    /// The elements named by a line; refuses other names.
     pub fn cells(&mut self, target: &NamedTarget) -> Vec<usize> {
         match self.mesh.cell_indices(&self.im.scopes, target) {
             Some(cells) if cells.is_empty() => {
@@ -113,7 +113,7 @@ impl Build<'_, '_, '_> {
         names
     }
 
-    /// The name in the deck of a set of nodes, which is added to the mesh where it has none like it.
+    /// The name in the deck of a set of nodes. A new set is added to the mesh.
     pub fn group(&mut self, name: &str, ids: Vec<u64>) -> String {
         let inner = name.rsplit_once('.').map_or(name, |(_, inner)| inner).to_lowercase();
         let known = self.groups.iter().find(|(known, of)| **of == ids && known.to_lowercase().ends_with(&inner));

@@ -30,7 +30,7 @@ pub fn rigid_body(im: &mut Importer, block: &KeywordBlock) {
     im.constraints.rigid.push(card);
 }
 
-/// Sets of nodes that a surface covers; refuses what is none.
+/// The sets of nodes of a surface; refuses other names.
 fn surface(im: &mut Importer, name: &str, line: usize) -> Option<Vec<NamedTarget>> {
     let target = im.set_target(name, line);
     let found = im.scopes.surface(&target);
@@ -173,7 +173,7 @@ fn degrees_of(im: &mut Importer, data: &Data, from: usize) -> Vec<usize> {
     (first..=last.min(6)).filter(|dof| *dof > 0).map(|dof| dof - 1).collect()
 }
 
-/// Each degree of freedom once; none stands for all.
+/// Each degree of freedom once; an empty list means all.
 fn sorted(mut degrees: Vec<usize>) -> Vec<usize> {
     degrees.sort_unstable();
     degrees.dedup();

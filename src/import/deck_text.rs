@@ -105,7 +105,7 @@ impl DeckTable {
     }
 }
 
-/// A deck as it is put together.
+/// A deck under construction.
 #[derive(Debug, Default)]
 pub struct DeckText {
     tables: Vec<DeckTable>,

@@ -17,7 +17,7 @@ const OF_ABAQUS: [&str; 6] = ["PART", "INSTANCE", "ASSEMBLY", "PREPRINT", "CONNE
 const OF_CALCULIX: [&str; 1] = ["PHYSICALCONSTANTS"];
 
 impl Dialect {
-    /// The program that a file is for; `None` where nothing tells. Signs of Abaqus come first, for CalculiX knows parts too where
+    /// The program of a file; `None` where nothing tells. Signs of Abaqus come first, for CalculiX knows parts too where
     /// Abaqus/CAE has written them.
     pub fn of(text: &Text, blocks: &[KeywordBlock]) -> Option<Dialect> {
         let has = |words: &[&str]| blocks.iter().any(|block| words.contains(&block.keyword.key().as_str()));

@@ -6,7 +6,7 @@ use crate::tied_nodes::DistributedNodes;
 use base::math::{Mat3, Vec3};
 use std::collections::BTreeMap;
 
-/// The least determinant of the second moments of nodes, over the cube of their trace, at which moments become forces.
+/// Moments become forces above this determinant of the second moments of nodes, over the cube of their trace.
 const FLAT: f64 = 1e-12;
 
 /// Takes the couplings of the file.

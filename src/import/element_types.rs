@@ -1,6 +1,6 @@
 //! Types of elements: what each becomes, and the number of its nodes.
 
-/// What elements of a type become.
+/// The element of the deck for a type.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ElementUse {
     /// Beams of two nodes.
@@ -57,7 +57,7 @@ pub struct ElementType {
 const FLEXIBLE: &str = "beams of this type bend without shear; here they deform in shear";
 const SHAPE: &str = "the shape of rigid elements is not used, their nodes go with the body";
 
-/// What types become: names, number of nodes, what differs.
+/// The types: names, number of nodes, difference.
 const TYPES: &[(ElementUse, usize, &str, &str)] = &[
     (ElementUse::StraightBeam, 2, "B31 B31H B31R B21 B21H PIPE31 PIPE31H PIPE21 PIPE21H U1", ""),
     (ElementUse::StraightBeam, 2, "B33 B33H B23 B23H", FLEXIBLE),

@@ -74,7 +74,7 @@ fn is_at_rest(build: &Build, node: u64, dof: usize) -> bool {
     !held.is_empty() && held.iter().all(|line| line.value == 0.0)
 }
 
-/// The equations of a point that goes with others by their shares, along some directions of its translation or rotation.
+/// The equations of a point that follows others by their shares, along some directions of its translation or rotation.
 fn shared(line: usize, point: u64, shares: &[(u64, f64)], (first, along): (usize, &[Vec3])) -> Vec<NodalEquation> {
     let of = |along: &Vec3| {
         let whole = [(point, 1.0)].into_iter().chain(shares.iter().map(|(node, share)| (*node, -share)));

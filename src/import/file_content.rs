@@ -1,11 +1,11 @@
-//! What a file says, before sets and instances are resolved.
+//! The content of a file, before sets and instances are resolved.
 
 use crate::scopes::NamedTarget;
 use crate::tied_nodes::NodalAxes;
 use base::math::Vec3;
 use std::f64::consts::TAU;
 
-/// Points of a curve that stands for a formula.
+/// Number of points of the curve of a formula.
 const POINTS: usize = 200;
 
 /// A material as the file has it.
@@ -36,7 +36,7 @@ pub struct MaterialCard {
 /// The materials of a file.
 #[derive(Debug, Default)]
 pub struct MaterialCards {
-    /// The materials, the one at hand last.
+    /// The materials; the last one is still being read.
     pub list: Vec<MaterialCard>,
 }
 
@@ -69,7 +69,7 @@ pub struct SectionCard {
     pub orientation: Option<String>,
 }
 
-/// What a section is of.
+/// The elements of a section.
 #[derive(Debug, Clone, PartialEq)]
 pub enum SectionOf {
     /// Of beams: keys of a table of `[sections]`, and the direction of the first axis.
@@ -259,7 +259,7 @@ pub struct ConnectorSection {
     pub behavior: Option<String>,
 }
 
-/// What acts along the components of a connector, by component from 0 to 5.
+/// The laws along the components of a connector, by component from 0 to 5.
 #[derive(Debug, Clone, Default)]
 pub struct ConnectorBehavior {
     /// Its name in small letters.
@@ -294,7 +294,7 @@ pub struct ConnectorDrive {
 pub struct ConnectorCards {
     /// Sections.
     pub sections: Vec<ConnectorSection>,
-    /// Behaviours, the one at hand last.
+    /// Behaviours; the last one is still being read.
     pub behaviors: Vec<ConnectorBehavior>,
     /// Motions and loads.
     pub drives: Vec<ConnectorDrive>,
@@ -329,7 +329,7 @@ impl AmplitudeCard {
         }
     }
 
-    /// Times at which a step of this length has corners, from 0 to its end.
+    /// The corners in time of a step of this length, from 0 to its end.
     pub fn corners(&self, duration: f64) -> Vec<f64> {
         let mut times: Vec<f64> = match self.sine {
             Some(_) => (0..=POINTS).map(|k| duration * k as f64 / POINTS as f64).collect(),
@@ -370,7 +370,7 @@ pub struct SupportLine {
     pub amplitude: Option<String>,
     /// "displacement", "velocity" or "acceleration".
     pub history: &'static str,
-    /// True where it holds what has been reached.
+    /// True where it holds the position reached so far.
     pub is_fixed: bool,
 }
 
@@ -421,7 +421,7 @@ pub struct SpreadLine {
     pub amplitude: Option<String>,
 }
 
-/// What a step asks to be written.
+/// The output requested by a step.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Requests {
     /// Displacements and velocities.
@@ -434,7 +434,7 @@ pub struct Requests {
     pub fields: bool,
 }
 
-/// A step, or what stands before the first.
+/// A step, or the lines before the first step.
 #[derive(Debug, Clone, Default)]
 pub struct StepCard {
     /// Its line.
@@ -447,7 +447,7 @@ pub struct StepCard {
     pub is_perturbation: bool,
     /// True or false where loads without an amplitude jump or ramp against the custom of the procedure.
     pub jumps: Option<bool>,
-    /// What it computes, with the line.
+    /// Its procedure, with the line.
     pub procedure: Option<(StepProcedure, usize)>,
     /// Its supports.
     pub supports: Vec<SupportLine>,
@@ -468,7 +468,7 @@ pub struct StepCard {
 }
 
 impl StepCard {
-    /// True for a step in which time passes at large displacements; later modes are about the state that it leaves.
+    /// True for a step that advances time at large displacements; later modes are about its final state.
     pub fn is_large(&self) -> bool {
         let is_general =
             matches!(self.procedure, Some((StepProcedure::Static { .. } | StepProcedure::Dynamic { .. }, _)));
@@ -501,7 +501,7 @@ pub struct BaseMotion {
 /// All steps of a file.
 #[derive(Debug, Default)]
 pub struct StepCards {
-    /// What stands before the first step.
+    /// The lines before the first step.
     pub before: StepCard,
     /// The steps.
     pub list: Vec<StepCard>,
@@ -511,14 +511,14 @@ pub struct StepCards {
     pub base_motions: Vec<BaseMotion>,
     /// Temperatures at the start.
     pub first_temperatures: Vec<TemperatureLine>,
-    /// What all steps ask for.
+    /// The output requested by all steps.
     pub requests: Requests,
     /// Velocities at the start: line, nodes, degree of freedom from 0 to 5, value.
     pub velocities: Vec<(usize, NamedTarget, usize, f64)>,
 }
 
 impl StepCards {
-    /// The step at hand, or what stands before the first.
+    /// The step being read, or the lines before the first step.
     pub fn at_hand(&mut self) -> &mut StepCard {
         match self.list.last_mut() {
             Some(step) if self.is_open => step,

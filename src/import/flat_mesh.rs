@@ -15,12 +15,12 @@ pub struct FlatMesh {
     pub used: BTreeSet<u64>,
     node_at: HashMap<u64, usize>,
     cell_at: HashMap<u64, usize>,
-    /// The node that stands for a merged one.
+    /// The node that replaces a merged one.
     merged: HashMap<u64, u64>,
 }
 
 impl FlatMesh {
-    /// The mesh of all scopes, and what is wrong with it: line, reason.
+    /// The mesh of all scopes, and its errors: line, reason.
     pub fn new(scopes: &Scopes) -> (FlatMesh, Vec<(usize, String)>) {
         let (all, cells) = scopes.flat();
         let (mut mesh, mut faults) = (FlatMesh::default(), Vec::new());
@@ -63,7 +63,7 @@ impl FlatMesh {
         self.node_at.contains_key(&id)
     }
 
-    /// The node that stands for one that may have been merged.
+    /// The node, or its replacement if it was merged.
     pub fn kept(&self, id: u64) -> u64 {
         let mut id = id;
         while let Some(&other) = self.merged.get(&id) {

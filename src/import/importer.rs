@@ -1,4 +1,4 @@
-//! What has been read of a file so far, and how its lines are read.
+//! The content of a file read so far, and how its lines are read.
 
 use crate::dialect::Dialect;
 use crate::file_content::{
@@ -18,7 +18,7 @@ pub type SystemOfAxes = Option<[Vec3; 2]>;
 pub struct Importer<'a, 't> {
     /// The file, which draws messages.
     pub text: &'a Text<'t>,
-    /// What became of its lines.
+    /// The verdicts on its lines.
     pub verdicts: Verdicts,
     /// The program that the file is for, if that is known.
     pub dialect: Option<Dialect>,
@@ -44,12 +44,12 @@ pub struct Importer<'a, 't> {
     pub connectors: ConnectorCards,
     /// Functions of time.
     pub amplitudes: Vec<AmplitudeCard>,
-    /// What acts in each step.
+    /// The loads of each step.
     pub steps: StepCards,
 }
 
 impl<'a, 't> Importer<'a, 't> {
-    /// A file of which nothing has been read.
+    /// An importer before the first line.
     pub fn new(text: &'a Text<'t>, verdicts: Verdicts, dialect: Option<Dialect>, scopes: Scopes) -> Self {
         Importer {
             text,
@@ -82,7 +82,7 @@ impl Importer<'_, '_> {
         self.verdicts.at(self.text, KeywordVerdict::Refused, word, why.to_owned());
     }
 
-    /// True where something has been refused, so that more may be missing than the file lacks.
+    /// True after a refusal: a missing name may then stand in a refused line.
     pub fn is_incomplete(&self) -> bool {
         self.verdicts.count(KeywordVerdict::Refused) > 0
     }
@@ -97,7 +97,7 @@ impl Importer<'_, '_> {
         self.verdicts.add(self.text, KeywordVerdict::Ignored, line, None, why.to_owned());
     }
 
-    /// A number of a node or an element; refuses what is none.
+    /// The number of a node or an element; refuses other words.
     pub fn id(&mut self, data: &Data, at: usize) -> Option<u64> {
         match data.words.get(at) {
             Some(word) => {

@@ -217,7 +217,7 @@ fn axial(build: &mut Build, section: &ConnectorSection, name: &str, [a, b]: [u64
     build.deck.add(table);
 }
 
-/// Refuses what a link or a bushing of the deck does not have: stops, loads and motions.
+/// Refuses stops, loads and motions, which links and bushings of the deck do not have.
 fn refuse_rest(build: &mut Build, section: &ConnectorSection, behavior: &ConnectorBehavior) {
     if behavior.stops.iter().any(Option::is_some) {
         build.im.refuse(section.line, "stops of springs between two nodes are not translated");

@@ -4,7 +4,7 @@ use crate::element_types::ElementType;
 use base::text_file::Text;
 use base::text_file::cards::{Card, Cards, Data, Keyword};
 
-/// Parameters without a value, which may stand on a line of their own after a comma.
+/// Parameters without a value. After a comma they may stand on the next line.
 const FLAGS: &[&str] = &[
     "GENERATE",
     "INTERNAL",

@@ -8,7 +8,7 @@ use crate::{
 };
 use std::fmt::Write;
 
-/// What happens to a keyword.
+/// The treatment of a keyword.
 #[derive(Clone, Copy)]
 pub enum Treatment {
     /// It is read.
@@ -27,7 +27,7 @@ pub struct KeywordRow {
     pub parameters: &'static str,
     /// What happens to it.
     pub treatment: Treatment,
-    /// What it becomes in the deck, or the reason.
+    /// Its counterpart in the deck, or the reason of the refusal.
     pub about: &'static str,
 }
 

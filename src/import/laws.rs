@@ -5,13 +5,13 @@ use crate::deck_text::{DeckTable, list, vector};
 use crate::file_content::{AmplitudeCard, StepCard};
 use crate::timeline::{GivenValue, InStep, StageOfStep, TimeLaw};
 
-/// The least part of a step in which a value jumps.
+/// A value jumps within this part of a step.
 const JUMP: f64 = 1e-9;
 /// The most periods of a sine in a step that a table of points follows.
 const MOST_PERIODS: f64 = 10.0;
 
 impl Build<'_, '_, '_> {
-    /// The law of a value by what is so in each general step. `is_motion`: of a support.
+    /// The law of a value from its entries in the general steps. `is_motion`: of a support.
     pub fn law(&mut self, history: &[InStep], is_motion: bool) -> TimeLaw {
         let first = history.iter().position(|state| *state != InStep::Absent).unwrap_or(0);
         let is_plain = history[first.min(history.len())..].iter().skip(1).all(|state| *state == InStep::Holds);
@@ -101,13 +101,13 @@ impl Build<'_, '_, '_> {
         points
     }
 
-    /// The largest value of an amplitude of the file that is a sine, which in the deck is 1; 1 for other amplitudes.
+    /// The largest value of a sine of the file, which is 1 in the deck; 1 for other amplitudes.
     pub fn over_sine(&self, name: &str) -> f64 {
         let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase());
         card.and_then(|card| card.sine).map_or(1.0, |[_, _, scale, _]| scale)
     }
 
-    /// The name in the deck of an amplitude of the file, which is added; refuses one that does not exist.
+    /// Adds an amplitude of the file to the deck and returns its name there; refuses one that does not exist.
     pub fn amplitude_of_file(&mut self, name: &str, line: usize) -> Option<String> {
         let card = self.im.amplitudes.iter().rfind(|card| card.name.to_lowercase() == name.to_lowercase()).cloned();
         let Some(card) = card else {
@@ -155,7 +155,7 @@ impl Build<'_, '_, '_> {
     }
 }
 
-/// Why a table over all steps does not say what an amplitude does in one of them.
+/// Why a table over all steps cannot hold an amplitude of one of them.
 fn unsaid(card: &AmplitudeCard, stage: &StageOfStep, steps: usize) -> Option<&'static str> {
     let periods = card.sine.map_or(0.0, |[frequency, ..]| frequency * stage.duration);
     if card.is_total && steps > 1 {
@@ -167,7 +167,7 @@ fn unsaid(card: &AmplitudeCard, stage: &StageOfStep, steps: usize) -> Option<&'s
     }
 }
 
-/// The line of what a step computes.
+/// The line of the procedure of a step.
 fn stage_line(step: &StepCard) -> usize {
     step.procedure.as_ref().map_or(step.line, |(_, line)| *line)
 }

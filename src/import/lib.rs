@@ -4,8 +4,8 @@
 //!  text ──▶ keywords ──▶ importer ──▶ build ──▶ deck text, mesh text, verdicts
 //! ```
 //!
-//! Each keyword has a row in [`keywords::KEYWORDS`], with the function that reads it or the reason why none does. Reading fills the
-//! importer with what the file says, family by family. Building then resolves sets and instances and writes tables of the deck.
+//! Each keyword has a row in [`keywords::KEYWORDS`], with the function that reads it or the reason why none does. Reading fills the importer with
+//! the content of the file, family by family. Building then resolves sets and instances and writes tables of the deck.
 //! Nothing is dropped in silence.
 
 mod amplitude_cards;
@@ -67,12 +67,12 @@ use keywords::Treatment;
 use scopes::Scopes;
 use std::fmt::Write;
 
-/// What the user says about a file.
+/// The options for a file.
 #[derive(Debug, Default)]
 pub struct ImportOptions {
-    /// The program that it is for; by default signs in the file tell.
+    /// The program of the file; by default signs in the file decide.
     pub dialect: Option<Dialect>,
-    /// The word for its units; by default a remark in the file tells.
+    /// The word for its units; by default that of a remark in the file.
     pub units: Option<String>,
     /// The name of the mesh file in the deck.
     pub mesh_file: String,
@@ -84,7 +84,7 @@ pub struct Imported {
     pub deck: String,
     /// Its mesh.
     pub mesh: String,
-    /// What became of each keyword.
+    /// The verdict on each keyword.
     pub verdicts: Verdicts,
 }
 
@@ -145,7 +145,7 @@ fn largest(blocks: &[KeywordBlock]) -> u64 {
     first.filter(|id| *id <= u64::from(u32::MAX)).max().unwrap_or(0)
 }
 
-/// True where the assembly has nodes or elements of its own.
+/// True where nodes or elements stand in the assembly itself.
 fn has_outer_nodes(blocks: &[KeywordBlock]) -> bool {
     let (mut is_inside, mut has_instance, mut found) = (false, false, false);
     for block in blocks {
@@ -162,7 +162,7 @@ fn has_outer_nodes(blocks: &[KeywordBlock]) -> bool {
     found
 }
 
-/// The file and the line of the text, and what stands there.
+/// The file, the line of the text, and its words.
 fn source(text: &Text, line: usize) -> String {
     let excerpt = text.excerpt(line);
     let (path, number) = text.origin(line);
@@ -171,7 +171,7 @@ fn source(text: &Text, line: usize) -> String {
     format!("{path}:{number} {shown}")
 }
 
-/// What stands above the tables.
+/// The comment above the tables.
 fn head(im: &Importer, options: &ImportOptions) -> String {
     let path = im.text.path.rsplit(['/', '\\']).next().unwrap_or(im.text.path);
     let mut head = format!("# made of {path} by rdsolve import\n");

@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 /// Node, degree of freedom, and whether the force turns with the node.
 type ForceKey = (u64, usize, bool);
 
-/// Velocity and angular velocity, nodes that have it, and lines that say so.
+/// Velocity and angular velocity, their nodes, and their lines.
 type MovingNodes = ([f64; 6], BTreeSet<u64>, BTreeSet<usize>);
 
 /// Forces that act alike at several nodes.
@@ -98,7 +98,7 @@ pub fn lines_of(history: &[InStep]) -> Vec<usize> {
     history.iter().filter_map(|state| if let InStep::Begins(given) = state { Some(given.line) } else { None }).collect()
 }
 
-/// Forces of steps that compute buckling factors, which act in these alone.
+/// Forces of steps of buckling factors act in these steps alone.
 fn of_buckling(
     build: &Build,
     of: &impl Fn(&[ForceLine]) -> Vec<(ForceKey, GivenValue)>,

@@ -11,7 +11,7 @@ pub fn material(im: &mut Importer, block: &KeywordBlock) {
     im.materials.list.push(MaterialCard { name, line: block.keyword.line, ..MaterialCard::default() });
 }
 
-/// The material at hand; refuses a line without one.
+/// The material being read; refuses a line without one.
 fn at_hand<'m>(im: &'m mut Importer, line: usize) -> Option<&'m mut MaterialCard> {
     if im.materials.list.is_empty() {
         im.refuse(line, "no *MATERIAL stands before this line");

@@ -1,4 +1,4 @@
-//! What the deck writes, and damping.
+//! The output of the deck, and damping.
 
 use crate::build::Build;
 use crate::deck_text::{DeckTable, inline, quoted};

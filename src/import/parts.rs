@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-14;
 /// The sine of the least angle between a beam and its first axis.
 const PARALLEL: f64 = 1e-6;
 
-/// What keeps elements of one section apart.
+/// The differences that divide elements of one section into parts.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 struct PieceKey {
     section: usize,
@@ -144,8 +144,8 @@ fn marks(build: &mut Build) -> Vec<BTreeSet<usize>> {
     marks
 }
 
-/// The shape of an element, 0 for a beam of two nodes, 1 for a straight one of three, 2 for a curved one, 3 for a bar, 4 for a shell, 5 for
-/// a beam beside its nodes, and the first axis of its section.
+/// The shape of an element and the first axis of its section. Shapes: 0 beam of two nodes, 1 straight beam of three, 2 curved beam, 3 bar, 4 shell,
+/// 5 beam beside its nodes.
 fn shape_of(build: &mut Build, cell: &PlacedElement, card: &SectionCard, becomes: ElementUse) -> Option<(u8, Vec3)> {
     let x = |at: usize| build.mesh.x(cell.nodes[at]);
     let count = build.im.scopes.types[cell.kind].nodes;

@@ -26,7 +26,7 @@ impl FramePose {
     }
 }
 
-/// Mass, and inertia about the centre along the axes of its own frame.
+/// Mass, and inertia about the centre along the axes of the inertial frame.
 #[derive(Debug, Clone)]
 pub struct LinkInertia {
     /// The mass.
@@ -37,7 +37,7 @@ pub struct LinkInertia {
     pub inertia: Mat3,
 }
 
-/// What a link looks like.
+/// The outline of a link.
 #[derive(Debug, Clone)]
 pub enum LinkOutline {
     /// A cuboid by its edges.

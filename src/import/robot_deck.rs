@@ -26,7 +26,7 @@ pub struct RobotBuild<'r, 'a, 't> {
     frames: HashMap<String, FramePose>,
     /// The link whose body each link is part of.
     heads: HashMap<String, String>,
-    /// The link that stands still, and what is welded to it.
+    /// The fixed link, and the links welded to it.
     ground: String,
     deck: DeckText,
 }

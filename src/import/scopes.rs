@@ -1,4 +1,4 @@
-//! What holds nodes, elements and sets: the file itself or its assembly, parts, and instances of parts.
+//! Scopes of nodes, elements and sets: the file itself or its assembly, parts, and instances of parts.
 
 use crate::element_types::ElementType;
 use base::math::{Mat3, Vec3, rotation};
@@ -61,7 +61,7 @@ impl SetTable {
         self.places.get(&name.to_lowercase()).map(|&at| &self.list[at].1[..])
     }
 
-    /// The numbers of a set, which is added where it is new.
+    /// The numbers of a set; adds a new set.
     pub fn place(&mut self, name: &str) -> &mut Vec<u64> {
         let next = self.list.len();
         let at = *self.places.entry(name.to_lowercase()).or_insert(next);
@@ -81,7 +81,7 @@ pub enum Members {
     Cells,
 }
 
-/// What stands together in the file. Numbers of an instance and of the assembly are those of the flat mesh.
+/// The nodes, elements and sets of one scope. Numbers of an instance and of the assembly are those of the flat mesh.
 #[derive(Debug, Default)]
 pub struct ScopeContent {
     /// The name.
@@ -108,11 +108,11 @@ impl ScopeContent {
 /// Where an instance stands.
 #[derive(Debug)]
 pub struct Placement {
-    /// What the instance itself holds.
+    /// The content of the instance itself.
     pub own: ScopeContent,
     /// Its part.
     pub part: usize,
-    /// What is added to its numbers.
+    /// The offset of its numbers.
     pub offset: u64,
     /// Translation.
     pub translation: Vec3,
@@ -140,11 +140,11 @@ impl Placement {
 /// All scopes of a file.
 #[derive(Debug, Default)]
 pub struct Scopes {
-    /// What stands outside of parts and instances.
+    /// The content outside of parts and instances.
     pub outer: ScopeContent,
-    /// What is added to numbers there.
+    /// The offset of numbers there.
     pub outer_offset: u64,
-    /// What is added to numbers from one instance to the next.
+    /// The difference of offsets between one instance and the next.
     pub step: u64,
     /// The largest number of a node or an element.
     pub largest: u64,
@@ -152,7 +152,7 @@ pub struct Scopes {
     pub parts: Vec<ScopeContent>,
     /// The instances.
     pub instances: Vec<Placement>,
-    /// The scope of the line at hand.
+    /// The scope of the line being read.
     pub at: ScopeIndex,
     /// The types of elements in the file.
     pub types: Vec<ElementType>,
@@ -168,7 +168,7 @@ impl Scopes {
         }
     }
 
-    /// What the scope of the line at hand holds.
+    /// The content of the scope of the line being read.
     pub fn here(&mut self) -> &mut ScopeContent {
         match self.at {
             ScopeIndex::Outer => &mut self.outer,
@@ -177,7 +177,7 @@ impl Scopes {
         }
     }
 
-    /// What is added to numbers on the line at hand: parts keep theirs until they are placed.
+    /// The offset of numbers on the line being read; numbers of parts have none until parts are placed.
     pub fn offset_here(&self) -> u64 {
         match self.at {
             ScopeIndex::Outer => self.outer_offset,
@@ -203,7 +203,7 @@ impl Scopes {
         own.or_else(|| self.instances.iter().position(|instance| same(&self.parts[instance.part].name)))
     }
 
-    /// A number of an instance in the flat mesh; one that nothing has where it would be a number of the next instance.
+    /// A number of an instance in the flat mesh. A number beyond those of the instance becomes one that does not exist.
     pub fn shifted(&self, id: u64, offset: u64) -> u64 {
         if self.step > 0 && id >= self.step { id + NOWHERE } else { id + offset }
     }
@@ -282,7 +282,7 @@ impl Scopes {
         }
     }
 
-    /// Adds an instance that stands where its part is drawn.
+    /// Adds an instance at the position of its part.
     pub fn add_instance(&mut self, name: &str, part: usize, offset: u64) {
         let own = ScopeContent { name: name.to_owned(), ..ScopeContent::default() };
         self.instances.push(Placement { own, part, offset, translation: Vec3::zeros(), turn: None, rows: 0 });

@@ -12,7 +12,7 @@ use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use base::math::Vec3;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// What tells one load from another: surface or elements, their name, kind, direction as text.
+/// The key of a load: surface or elements, their name, kind, direction as text.
 type SpreadKey = (bool, NamedTarget, String, String);
 
 fn key(line: &SpreadLine) -> SpreadKey {

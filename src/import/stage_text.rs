@@ -64,7 +64,7 @@ fn linear(build: &mut Build, time_step: f64) {
     build.deck.add(table);
 }
 
-/// Supports in a step of modes hold there alone, which no deck says beside steps in which time passes.
+/// Supports in a step of modes hold only there. A deck cannot express this beside steps that advance time.
 fn lines_of_modes(build: &mut Build) {
     let timed = |at: usize| build.timeline.stages[at].duration > 0.0;
     if !build.timeline.general.iter().any(|&at| timed(at)) {
@@ -89,7 +89,7 @@ fn kind(procedure: &StepProcedure) -> &'static str {
     }
 }
 
-/// Says what a step computes otherwise.
+/// Reports a procedure that the deck computes in another way.
 fn say_changes(build: &mut Build, step: &StepCard, procedure: &StepProcedure, line: usize) {
     match procedure {
         StepProcedure::Static { .. } if !step.is_nonlinear => {

@@ -1,4 +1,4 @@
-//! Steps: what each computes, and which supports and loads begin in it.
+//! Steps: the procedure of each, and the supports and loads that begin in it.
 
 use crate::file_content::{ForceLine, SpreadLine, StepCard, StepProcedure, SupportLine};
 use crate::importer::Importer;
@@ -32,7 +32,7 @@ pub fn end_step(im: &mut Importer, _: &KeywordBlock) {
     im.steps.is_open = false;
 }
 
-/// Sets what the step at hand computes.
+/// Sets the procedure of the step being read.
 fn set(im: &mut Importer, line: usize, procedure: StepProcedure) {
     if !im.steps.is_open {
         return im.refuse(line, NO_STEP);

@@ -1,4 +1,4 @@
-//! Supports: which degrees of freedom are held or moved, in which stages.
+//! Supports: fixed and moved degrees of freedom, with their stages.
 
 use crate::bodies::DEGREES;
 use crate::build::Build;
@@ -9,19 +9,19 @@ use crate::timeline::{GivenValue, InStep, histories};
 use base::math::Mat3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// What becomes of a degree of freedom.
+/// The support of a degree of freedom.
 #[derive(Debug, Clone, PartialEq)]
 enum HeldAs {
     /// Held where it is.
     Fixed,
-    /// Moved: scale, amplitude, and what the amplitude gives.
+    /// Moved: scale, amplitude, and the quantity of the amplitude.
     Moved(f64, Option<String>, &'static str),
 }
 
-/// A degree of freedom and the stages in which it is held.
+/// A degree of freedom and the stages of its support.
 type Held = (HeldAs, Option<Vec<String>>);
 
-/// Nodes that are held alike, and the lines that say so.
+/// Nodes with the same supports, and their lines.
 #[derive(Default)]
 struct Alike {
     held: [Option<Held>; 6],
@@ -30,7 +30,7 @@ struct Alike {
     lines: BTreeSet<usize>,
 }
 
-/// A node, its degree of freedom, and what a line gives.
+/// A node, its degree of freedom, and the entry of a line.
 type GivenFreedom = ((u64, usize), GivenValue);
 
 /// Adds all supports.
@@ -102,7 +102,7 @@ fn given(build: &mut Build, line: &SupportLine) -> Vec<GivenFreedom> {
     given
 }
 
-/// What becomes of one degree of freedom.
+/// The support of one degree of freedom.
 fn held(build: &mut Build, mut history: Vec<InStep>, lines: &HashMap<usize, SupportLine>) -> Option<Held> {
     let is_fixed = |given: &GivenValue| lines.get(&given.line).is_some_and(|line| line.is_fixed);
     for at in 1..history.len() {
@@ -169,7 +169,7 @@ fn moved(
     None
 }
 
-/// Holds what nothing resists: rotations of nodes that bushings alone join, and motion out of the plane of plane elements.
+/// Fixes motions without stiffness: rotations of nodes joined only by bushings, and motion out of the plane of plane elements.
 fn add_rotations(build: &mut Build, of_node: &mut BTreeMap<u64, Alike>) {
     let mut add = |node: u64, degrees: &[usize]| {
         let alike = of_node.entry(node).or_default();

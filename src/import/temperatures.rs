@@ -11,8 +11,7 @@ use crate::scopes::NamedTarget;
 use crate::timeline::{GivenValue, InStep, TimeLaw, histories};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// The index of a part, and 0 for its temperature, 1 and 2 for gradients along the first and the second axis of a beam, 2 along the normal
-/// of a shell.
+/// The index of a part and its field: 0 temperature, 1 gradient along the first axis of a beam, 2 along the second axis or the normal of a shell.
 type HeatKey = (usize, usize);
 
 /// `*TEMPERATURE`.
@@ -55,7 +54,7 @@ impl Importer<'_, '_> {
     }
 }
 
-/// Sets of nodes that temperatures name, at whose borders parts are cut.
+/// The sets of nodes with temperatures. Parts are cut at their borders.
 pub fn targets(im: &Importer) -> Vec<NamedTarget> {
     let steps = im.steps.list.iter().flat_map(|step| &step.temperatures);
     let mut seen = BTreeSet::new();

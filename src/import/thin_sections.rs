@@ -5,7 +5,7 @@ use crate::file_content::SectionValue;
 /// Keys of a section of the deck, and the place of its centroid from the node.
 pub type KeysAndCentroid = (Vec<(&'static str, SectionValue)>, [f64; 2]);
 
-/// What a section adds up to.
+/// The sums over the walls of a section.
 struct Integrals {
     area: f64,
     /// Second moments about the first and the second axis, and the product moment.

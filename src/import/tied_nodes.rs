@@ -1,4 +1,4 @@
-//! What constraints say about nodes: axes of their own, equations, couplings that spread forces.
+//! Constraints on nodes: local axes, equations, couplings that spread forces.
 
 use base::math::{Mat3, Vec3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -61,7 +61,7 @@ pub struct DistributedNodes {
     pub degrees: [bool; 6],
 }
 
-/// What constraints say about nodes.
+/// The constraints on nodes.
 #[derive(Default)]
 pub struct TiedNodes {
     /// Sets of shell elements that nodes are tied to, by their names in the deck.

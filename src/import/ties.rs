@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 /// How far nodes that are one may lie apart, over the size of the mesh.
 const COINCIDENT: f64 = 1e-6;
 
-/// Merges nodes that are tied where they coincide; adds bodies for rigid beams and supports for equations of one term.
+/// Merges tied nodes that coincide; adds bodies for rigid beams, and supports for equations of one term.
 pub fn merge(build: &mut Build) {
     let size = build.mesh.size();
     for card in build.im.constraints.points.clone() {
@@ -67,7 +67,7 @@ pub fn merge(build: &mut Build) {
     build.mesh.apply_merges();
 }
 
-/// What equations say about two nodes.
+/// The equations between two nodes.
 struct PairOf {
     degrees: [bool; 6],
     line: usize,

@@ -1,4 +1,4 @@
-//! Steps in the order in which the deck has them, and how values go on from one to the next.
+//! Steps in the order of the deck, and how values continue from one to the next.
 
 use crate::dialect::Dialect;
 use crate::file_content::{StepCard, StepProcedure};
@@ -13,7 +13,7 @@ pub struct StageOfStep {
     pub name: String,
     /// The index of its step.
     pub step: usize,
-    /// The time at which it begins.
+    /// Its begin time.
     pub start: f64,
     /// How long it lasts; 0 for modes.
     pub duration: f64,
@@ -26,13 +26,13 @@ pub struct StageOfStep {
 pub struct Timeline {
     /// Stages in the order of the deck.
     pub stages: Vec<StageOfStep>,
-    /// Those in which time passes, by index; the first where time passes in none.
+    /// The indices of steps that advance time; the first step if there are none.
     pub general: Vec<usize>,
     /// The time step where all steps are one linear analysis.
     pub linear_step: Option<f64>,
 }
 
-/// What a line gives: value, amplitude, line.
+/// The entry of a line: value, amplitude, line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GivenValue {
     /// The value.
@@ -43,7 +43,7 @@ pub struct GivenValue {
     pub line: usize,
 }
 
-/// What is so in a step.
+/// The entry that holds in a step.
 #[derive(Debug, Clone, PartialEq)]
 pub enum InStep {
     /// Nothing acts.
@@ -61,7 +61,7 @@ pub struct TimeLaw {
     pub scale: f64,
     /// The name of an amplitude of the deck.
     pub amplitude: Option<String>,
-    /// The stages in which it acts, if not in all.
+    /// Its stages, if it does not act in all.
     pub stages: Option<Vec<String>>,
 }
 
@@ -103,7 +103,7 @@ impl Timeline {
         first.iter_mut().for_each(|stage| stage.start = 0.0);
         first.append(&mut rest);
         let timed: Vec<usize> = (0..first.len()).filter(|&at| first[at].duration > 0.0).collect();
-        // Modes alone are about what acts in their own step.
+        // A file of modes alone uses the loads of their own step.
         let general = if timed.is_empty() { (0..first.len().min(1)).collect() } else { timed };
         Timeline { stages: first, general, linear_step: linear::time_step(im) }
     }
@@ -118,12 +118,12 @@ impl Timeline {
         self.stages.len() > 1 && self.linear_step.is_some()
     }
 
-    /// The time at which the last stage ends.
+    /// The end time of the last stage.
     pub fn end(&self) -> f64 {
         self.stages.last().map_or(0.0, |stage| stage.start + stage.duration)
     }
 
-    /// Names of the stages in which a value acts that begins in a general stage; `None` where these are all.
+    /// The stages of a value that begins in a general stage;  `None` where these are all.
     pub fn from(&self, first: usize) -> Option<Vec<String>> {
         let begin = self.general.get(first).copied().unwrap_or(0);
         (begin > 0 && self.is_staged()).then(|| self.stages[begin..].iter().map(|stage| stage.name.clone()).collect())
@@ -145,7 +145,7 @@ fn names(steps: &[StepCard]) -> Vec<String> {
     names
 }
 
-/// What is so in each general step, from lines that replace earlier ones. `lines`: of a step; `is_new`: earlier ones end.
+/// The entries of all general steps, from lines that replace earlier ones. `lines`: of a step; `is_new`: earlier ones end.
 pub fn histories<K: Ord + Clone>(
     timeline: &Timeline,
     steps: &[StepCard],

@@ -3,7 +3,7 @@
 use base::diagnostic::{Diagnostic, Severity};
 use base::text_file::{Fault, Text, Word};
 
-/// What became of a line.
+/// The verdict on a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum KeywordVerdict {
     /// The deck says the same.
@@ -17,7 +17,7 @@ pub enum KeywordVerdict {
 }
 
 impl KeywordVerdict {
-    /// All verdicts, in the order in which a summary counts them.
+    /// All verdicts in the order of the summary.
     pub const ALL: [KeywordVerdict; 4] =
         [KeywordVerdict::Translated, KeywordVerdict::Changed, KeywordVerdict::Ignored, KeywordVerdict::Refused];
 
@@ -45,9 +45,9 @@ pub struct VerdictRow {
     pub keyword: String,
     /// The verdict.
     pub verdict: KeywordVerdict,
-    /// What became of it, or why it is refused.
+    /// Its counterpart in the deck, or the reason of the refusal.
     pub text: String,
-    /// The message with the line, for what is changed or refused.
+    /// The message with the line, for changed or refused lines.
     pub said: Option<Fault>,
 }
 
@@ -71,7 +71,7 @@ impl Verdicts {
         self.keywords.partition_point(|(first, _)| *first <= line).checked_sub(1)
     }
 
-    /// Adds a verdict on a line. The same about two lines of a keyword is said once.
+    /// Adds a verdict on a line. One sentence about several lines of a keyword is reported once.
     pub fn add(&mut self, text: &Text, verdict: KeywordVerdict, line: usize, said: Option<Fault>, about: String) {
         let of = self.keyword(line);
         let first = of.map_or(0, |of| self.keywords[of].0);
@@ -113,7 +113,7 @@ impl Verdicts {
         self.rows.iter().filter(|row| row.verdict == verdict).count()
     }
 
-    /// The messages about what is changed and refused, in the order of the file.
+    /// The messages about changed and refused lines, in the order of the file.
     pub fn said(&self) -> Vec<Diagnostic> {
         self.rows.iter().filter_map(|row| row.said.as_deref().cloned()).collect()
     }
