@@ -17,25 +17,25 @@ pub struct Tie {
     /// places.
     #[schemars(required)]
     pub nodes: Maybe<Names>,
-    /// Names of shells, or of groups of their faces; or of points, bodies, beams, bars and sets of nodes, of which each node takes the
-    /// nearest.
+    /// Names of shells, or of groups of their faces. Or names of points, bodies, beams, bars and sets of nodes: each node is tied to the nearest of
+    /// them.
     #[schemars(required)]
     pub to: Maybe<Names>,
     /// Largest distance of a tied node. Default: the thickness of the shell; for nodes 1e-6 of the size of the model.
     pub distance: Maybe<f64>,
-    /// What becomes of nodes farther away. Default: "error".
+    /// Treatment of nodes farther away. Default: "error".
     pub beyond: Maybe<Beyond>,
     /// Degrees of freedom that are tied. Nodes without rotations have translations alone. Default: "all".
     pub dofs: Maybe<TiedDofs>,
 }
 
-/// What becomes of nodes beyond the distance of a tie.
+/// The treatment of nodes beyond the distance of a tie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Beyond {
     /// They are an error.
     Error,
-    /// They stay free, as when a whole part is named of which one edge is to be tied.
+    /// They stay free: `nodes` may then name a whole part to tie one edge of it.
     Free,
 }
 

@@ -238,7 +238,7 @@ pub struct TieCard {
     pub name: String,
     /// The surface whose nodes are tied, and the one that they are tied to.
     pub surfaces: [NamedTarget; 2],
-    /// The distance up to which nodes are tied.
+    /// The distance of the tie.
     pub tolerance: Option<f64>,
     /// True where translations alone are tied.
     pub is_hinge: bool,

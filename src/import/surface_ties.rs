@@ -9,7 +9,7 @@ use base::math::curved_faces::{corners, middle_of_eight};
 use base::math::face_foot::foot;
 use std::collections::BTreeSet;
 
-/// The distance up to which nodes are tied where the file gives none, over the size of a face; the thickness if that is more.
+/// Default distance of ties over the size of a face; the thickness counts if it is larger.
 const USUAL: f64 = 0.05;
 
 /// The distance in the deck over the largest one here, which is one from nodes: middle surfaces may lie beside them by the thickness.
@@ -111,7 +111,7 @@ fn lines(build: &mut Build, surface: &NamedTarget) -> Option<Vec<(NamedTarget, S
 /// The faces that nodes are tied to.
 struct Base {
     faces: Vec<Face>,
-    /// The distance up to which nodes are tied by default.
+    /// The default distance of ties.
     usual: f64,
 }
 

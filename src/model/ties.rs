@@ -1,8 +1,8 @@
 //! `[[ties]]` → joints of a node with all nodes of the face beside it, by their weights N.
 //!
 //! The place of the node is x = Σ N (x_a + R_a A_a), and its rotation is the mean of those of the face, Σ N log(R R_aᵀ) = 0. Arms A are the
-//! distance from the face. On faces with straight sides half the way from the corner to the foot adds to it: the sides of shells bend and
-//! bulge with the rotations of their ends, and so does the place between them.
+//! distance from the face. On faces with straight sides half the way from the corner to the foot adds to it. Sides of shells bend and bulge with
+//! the rotations of their ends, and so does the face between them.
 
 use super::data::Joint;
 use super::places::nearest_nodes::NodesAlongAxis;
@@ -189,7 +189,7 @@ impl BaseFace {
 }
 
 impl Base {
-    /// The distance up to which nodes are tied where the deck gives none.
+    /// The default distance of a tie.
     fn usual_distance(&self, nodes: &Nodes) -> f64 {
         let thickness = self.faces.iter().map(|face| face.thickness).fold(0.0, f64::max);
         if thickness > 0.0 {
@@ -199,7 +199,7 @@ impl Base {
         COINCIDENT * nodes.list.iter().map(|node| (node.x - center).norm()).fold(0.0, f64::max)
     }
 
-    /// What holds a node at `x`: the nearest place on the faces, or the nearest node.
+    /// The hold of a node at `x`: the nearest place on the faces, or the nearest node.
     fn hold(&self, x: &Vec3, nodes: &Nodes) -> Option<Hold> {
         if let Some(line) = &self.line {
             let (node, _) = line.nearest_two(x, nodes)?;
@@ -243,14 +243,14 @@ impl BaseFace {
     }
 }
 
-/// What holds a node: other nodes with their weights, and the arms on them.
+/// The hold of a node: other nodes with their weights, and the arms on them.
 struct Hold {
     distance: f64,
     shares: Vec<(SecondNode, Vec3)>,
 }
 
 impl Hold {
-    /// The joint between a node and what holds it. Its equations are zero at t = 0.
+    /// The joint between a node and its hold. Its equations are zero at t = 0.
     fn join(
         self,
         name: &str,

@@ -285,7 +285,7 @@ fn in_words(cadence: Cadence) -> String {
 
 /// The results that the solver must compute for the tables, fields and expectations of a model.
 pub fn wanted(model: &Model) -> Wanted {
-    // What a sweep leaves unwritten counts too: results do not depend on it.
+    // Tables that a sweep leaves out count too: results do not depend on `keep`.
     let tables = TABLES.iter().copied().filter(|kind| (kind.wanted)(model)).map(|kind| kind.needs);
     let drawn = (Wanted::PLASTIC_STRAINS | Wanted::SHELLS | Wanted::NODAL_RESULTANTS).where_drawn();
     // Stresses of fibres are those of integration points.

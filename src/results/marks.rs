@@ -1,4 +1,4 @@
-//! What holds and loads a scene, where its joints are, and how thick its beams are: what pages and pictures draw beside the fields.
+//! Marks that pages and pictures draw beside the fields: supports, loads, joints, and the depth of beams.
 
 use base::math::Vec3;
 use mechanics::sections::SectionOutline;
@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, HashSet};
 /// The largest number of marks of a kind: a page with more is a page of arrows.
 const MOST: usize = 2000;
 
-/// Part of the nodes from which on a direction is held everywhere.
+/// A direction counts as fixed everywhere from this part of the nodes on.
 const EVERYWHERE: f64 = 0.6;
 
 /// The marks of a scene at t = 0, of all stages together.
@@ -76,7 +76,7 @@ impl SceneMarks {
             let count = supports.values().filter(|(_, dofs)| dofs & 1 << dof != 0).count();
             count as f64 > EVERYWHERE * all as f64
         });
-        // Directions in which a plane model holds all its nodes are no supports of their own.
+        // Directions fixed at all nodes, as out of a plane model, are not drawn as supports.
         let plane: u8 = everywhere.map(|dof| 1 << dof).sum();
         marks.supports = supports.into_values().filter(|(_, dofs)| dofs & !plane != 0).take(MOST).collect();
         marks.loads = loads.into_values().filter(|(_, sum)| size(sum) > 0.0).take(MOST).collect();

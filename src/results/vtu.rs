@@ -19,7 +19,7 @@ pub const APPENDED: &str = "</UnstructuredGrid>\n<AppendedData encoding=\"raw\">
 const CLOSE: &str = "\n</AppendedData>\n</VTKFile>\n";
 /// The number of bytes that are compressed together.
 const BLOCK: usize = 1 << 16;
-/// Blocks of fewer bytes are stored as they are: to prepare the compression takes longer, and gains a fifth at most.
+/// Blocks of fewer bytes are stored uncompressed: preparing the compression costs more time, and gains a fifth of the bytes at most.
 const SMALL: usize = 1 << 12;
 
 /// Types of cells, by the numbers of VTK.

@@ -283,8 +283,7 @@ pub mod strain {
     pub const LARGE: f64 = 0.05;
     /// Limits for the truncated series of logarithmic strain: at stretches of 1.34 and 0.75 forces are wrong by a hundredth.
     pub const LARGE_LOGARITHMIC: [f64; 2] = [-0.22, 0.4];
-    /// Rotation in the frame of a superelement, in radians, that makes displacements wrong by 0.3 %: an arc is longer than its chord by a
-    /// part of a third of its square.
+    /// Rotation in the frame of a superelement, in radians, with an error of displacements of 0.3 %, a third of its square.
     pub const BENT: f64 = 0.1;
     /// Number of checks of strains in a run: plastic strains do not disappear.
     pub const LOOKS: f64 = 100.0;

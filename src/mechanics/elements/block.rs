@@ -144,7 +144,7 @@ pub trait Results: Elements {
     /// Calls `of` for each element whose material yields and that has not failed: with its number, the strain of largest size in its
     /// surface, of Green, and whether its law is for large strains.
     fn surface_strains(&self, _now: &Configuration, _of: &mut dyn FnMut(usize, f64, bool)) {}
-    /// The largest rotation of a node relative to the frame in which an element is linear, in radians; zero for others.
+    /// The largest rotation of a node relative to the frame of a linear element, in radians; zero for other elements.
     fn local_rotation(&self, _now: &Configuration) -> f64 {
         0.0
     }

@@ -79,7 +79,7 @@ impl SectionStresses {
         SectionStresses { area, bending, shear_center, outline }
     }
 
-    /// The points at which stresses may be extreme.
+    /// The points of possibly extreme stresses.
     pub fn outline(&self) -> &SectionOutline {
         &self.outline
     }

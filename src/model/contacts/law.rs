@@ -17,8 +17,8 @@ use std::f64::consts::{PI, TAU};
 
 /// Fraction of 1/√(k/m) for one step of an impact: an impact then needs nine steps or more.
 const RESOLUTION: f64 = 0.5;
-/// The same for a light body on a deformable part in automatic explicit steps. Their error is that of the steps in which the contact closes and opens, up
-/// to (ω Δt)²/4 of the energy: a hundredth.
+/// Steps of an impact of a light body on a deformable part, in automatic explicit steps. The steps that close and open the contact cause the error,
+/// up to (ω Δt)²/4 of the energy: a hundredth.
 const RESOLUTION_OF_LIGHT: f64 = 0.2;
 /// Gap, as a part of the size of the scene, that counts as closed in statics: the rounding of positions.
 const TOUCHING: f64 = 1e-12;
@@ -61,7 +61,7 @@ struct Meeting {
     least: f64,
     /// True where only bodies and point masses are in contact.
     rigid: bool,
-    /// True where a body is lighter than a node of a deformable part that it may meet and nothing holds: the impact is then faster than any mode of the part.
+    /// True where a free body is lighter than a node of a deformable part that it may meet. The impact is then faster than any mode of the part.
     light: bool,
 }
 

@@ -155,7 +155,7 @@ impl Joint {
         self.ends.into_iter().chain(self.more.iter().map(|share| share.node))
     }
 
-    /// True for joints with rows in the tables: supports have rows of their own, and ties have none.
+    /// True for joints with rows in joints.csv: supports are in reactions.csv, and ties in no table.
     pub fn is_listed(&self) -> bool {
         !self.supports && self.origin != JointOrigin::Tie
     }

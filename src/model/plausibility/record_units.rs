@@ -12,7 +12,7 @@ use deck::words::Maybe;
 /// Records are scaled up and down for analyses of one strength after the other, seldom by more than this.
 const SCALING: f64 = 50.0;
 
-/// Part of a record below which its strength is told: a factor of 2 on a record in g, without g itself, is a fifth.
+/// The strength of a record is reported below this part of it: a factor of 2 on a record in g, without g itself, is a fifth.
 const WEAK: f64 = 0.5;
 
 /// A use of a record as a motion in the deck.

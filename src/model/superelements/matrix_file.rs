@@ -14,7 +14,7 @@ pub enum MatrixType {
     Damping,
 }
 
-/// The largest number of rows: a full matrix of more takes longer than the mesh that it stands for.
+/// The largest number of rows: a larger full matrix is slower than its mesh.
 const MOST_ROWS: usize = 1500;
 
 /// Reads a square matrix; of Abaqus the first of its type.

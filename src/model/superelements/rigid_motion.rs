@@ -1,4 +1,4 @@
-//! What the matrices of a superelement must satisfy: a rigid motion without force, and the mass of a rigid body in it.
+//! Conditions on the matrices of a superelement: a rigid motion has no force, and the mass of a rigid body.
 
 use base::math::{Vec3, skew};
 use base::names::short;
@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 /// Forces of rigid motions up to this part of the stiffness are rounding of the file, and removed. Files with six digits have 1e-6; a
 /// spring to the ground that matters has more.
 const ROUNDED: f64 = 1e-4;
-/// Forces of rigid motions beyond this part are said: matrices with all digits have less.
+/// Forces of rigid motions beyond this part are reported: matrices with all digits have less.
 const EXACT: f64 = 1e-8;
 /// Differences to symmetry, and to the mass of a rigid body, of files with six digits.
 const DIGITS: f64 = 1e-5;
@@ -19,7 +19,7 @@ pub struct SuperelementMatrices {
     pub damping: Option<DMatrix<f64>>,
 }
 
-/// What is wrong with a matrix.
+/// The fault of a matrix.
 pub struct WrongMatrix {
     pub key: &'static str,
     pub message: String,
@@ -132,7 +132,7 @@ fn without_rigid(A: &DMatrix<f64>, motions: &DMatrix<f64>) -> (DMatrix<f64>, f64
     (P.tr_mul(A) * P, left)
 }
 
-/// Refuses a matrix by which a deformation would release energy.
+/// Refuses a matrix with negative energy of a deformation.
 fn positive(key: &'static str, matrix: &DMatrix<f64>) -> Result<(), WrongMatrix> {
     let size = matrix.nrows();
     let scale = |k: usize| if matrix[(k, k)] > 0.0 { matrix[(k, k)].sqrt() } else { 1.0 };

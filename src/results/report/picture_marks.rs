@@ -44,7 +44,7 @@ pub fn symbols(marks: &PageMarks, at: &[[f64; 3]], sight: &ScreenView, size: f64
     out
 }
 
-/// A square where nothing moves, a triangle where nothing translates, else a bar along each direction that is held.
+/// A square for a clamped node, a triangle for fixed translations, else a bar along each fixed direction.
 fn support(place: [f64; 3], dofs: u8, sight: &ScreenView, length: f64) -> String {
     let [x, y] = sight.place(place);
     if dofs == 63 {

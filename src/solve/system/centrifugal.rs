@@ -1,4 +1,4 @@
-//! CentrifugalLoad forces of masses that turn steadily about an axis, in statics and modes.
+//! Centrifugal forces of masses that turn steadily about an axis, in statics and modes.
 //!
 //! A mass m at the vector r from the axis feels m Ω² r, and a body with the inertia tensor J about its node the moment −Ω² n × J n. Both are the
 //! gradient of Ω² T, where T is the kinetic energy at the angular velocity 1, so that work and load stiffness follow from T.
@@ -121,7 +121,8 @@ impl CentrifugalLoad {
         }
     }
 
-    /// Hands the matrices of the Coriolis forces at an angular velocity to `visit`, with the nodes of their rows and columns: 2 m Ω n × u̇ of a mass,
+    /// Hands the matrices of the Coriolis forces at an angular velocity to `visit`, with the nodes of their rows and columns: 2 m Ω n × u̇ of a
+    /// mass,
     /// and (n~J + J n~ − (J n)~) Ω θ̇ of an inertia tensor, on the side of the inertia forces.
     pub fn coriolis(&self, speed: f64, nodes: &[Node], visit: &mut dyn FnMut([usize; 2], &Mat6)) {
         let n = skew(&self.axis.direction);

@@ -120,7 +120,7 @@ impl Contacts {
         log(&renormalise(&(self.relative_rotation(point.nodes[k], nodes) * old.rotation(k).conjugate())))
     }
 
-    /// A lower bound of the distance from the surface to a place at `d` from the carrier; the distance itself from what has no end.
+    /// A lower bound of the distance from the surface to a place at `d` from the carrier; exact for planes.
     pub(super) fn least_distance(&self, d: &Vec3, nodes: &[Node]) -> f64 {
         let reach = self.reach();
         if reach.is_finite() { d.norm() - reach } else { self.surface.distance(&nodes[self.carrier].R().tr_mul(d)) }

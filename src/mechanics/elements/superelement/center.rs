@@ -14,7 +14,7 @@ pub struct Center<'a> {
     frame: &'a FloatingFrame,
     /// Its position in the frame.
     xi: Vec3,
-    /// The matrix Q by which a turn of the frame moves it beside its nodes.
+    /// The matrix Q: the motion of the centre by a turn of the frame about fixed nodes.
     Q: Mat3,
 }
 

@@ -16,7 +16,7 @@ use base::math::{Mat3, Vec3, skew};
 use frame::{FloatingFrame, axial};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// What a superelement is made of; matrices are square and row-major, over six degrees of freedom of each node and the amplitudes.
+/// The nodes and matrices of a superelement. Matrices are square and row-major, over six degrees of freedom of each node and the amplitudes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SuperelementData {
     /// The nodes of the interface, then a node for each amplitude, whose displacement along x the amplitude is.
@@ -78,7 +78,7 @@ struct MassProperties {
     center: Vec3,
     /// The momentum by velocities, divided by the mass: three rows.
     share: [Vec<f64>; 3],
-    /// M without what moves with the centre of mass.
+    /// M without the motion of the centre of mass.
     rest: Vec<f64>,
 }
 
