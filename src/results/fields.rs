@@ -141,14 +141,16 @@ pub fn bytes(model: &Model) -> usize {
     let Grid { places, connectivity, offsets, .. } = Grid::of(model);
     let cells = offsets.len();
     let of_shells = if model.has_surfaces() { 13 } else { 0 };
-    let of_points = if model.has_sections() { 27 } else { 21 };
+    let of_beams = if model.has_sections() { 2 } else { 0 };
+    let stresses = if model.stresses.iter().any(Option::is_some) { SECTION_STRESSES.len() } else { 0 };
+    let of_points = 21 + 3 * of_beams + stresses;
     let numbers = of_points * places.len() + connectivity.len() + cells * (2 + of_shells + usize::from(model.yields()));
-    let arrays = if model.has_surfaces() { 18 } else { 12 } + if model.has_sections() { 2 } else { 0 };
+    let arrays = if model.has_surfaces() { 18 } else { 12 } + of_beams + stresses;
     8 * numbers + cells + arrays * ARRAY + ENDS
 }
 
 /// Bytes of an array without its numbers, and of the text before and after the arrays.
-const ARRAY: usize = 150;
+const ARRAY: usize = 190;
 const ENDS: usize = 600;
 
 /// The text of fields.csv: number, kind and name of the parts, in the order of [`Grid::of`].

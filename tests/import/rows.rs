@@ -176,7 +176,7 @@ fn loads_on_parts() {
         "pressure = 5.0\n",
     );
     has(SHELL, &load("*DLOAD\n, GRAV, 9.81, 0., 0., -2."), None, "[environment]\ngravity = [0.0, 0.0, -9.81]\n");
-    refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, 5., 0., 0., 0., 0., 0., 1."), "angular velocity");
+    refuses(SHELL, &load("*DLOAD\nskin, CENTRIF, 5., 0., 0., 0., 0., 0., 1."), "give `centrifugal` in [[loads]]");
     refuses(SHELL, &load("*DLOAD\nskin, EDNOR1, 5."), "act on edges");
     let load = |line: &'static str| [("*CLOAD\n2, 3, 5.", line)];
     has(BEAM, &load("*DLOAD\nrod, PZ, 5."), None, "part = \"rod\"\nforce_per_length = [0.0, 0.0, 5.0]\n");

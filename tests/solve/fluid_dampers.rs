@@ -38,8 +38,10 @@ fn cycles_dissipate_what_the_closed_form_says() {
 /// A mass braked by the damper alone: v¹⁻ᵃ falls by (1 − a) c/m of the time. Motion and force are of second order.
 #[test]
 fn a_mass_is_braked_as_the_closed_form_says() {
-    for (exponent, slow) in [(0.5f64, "1e-4"), (2.0, "0.0")] {
-        for scheme in ["newmark", "central-difference", "esdirk3"] {
+    // Explicit steps bear the slope at rest of a fluid damper only if they are far shorter.
+    let (implicit, all) = (["newmark", "esdirk3"], ["newmark", "esdirk3", "central-difference"]);
+    for (exponent, slow, schemes) in [(0.3f64, "1e-5", &implicit[..]), (2.0, "0.0", &all)] {
+        for scheme in schemes {
             let run = |steps: u32| {
                 let analysis = format!(
                     "end_time = 0.2\ntime_step = {:?}\n[integrator]\nscheme = \"{scheme}\"",

@@ -83,7 +83,7 @@ impl<'a> Controller<'a> {
     pub fn looks_inside(&self) -> bool {
         match self {
             Controller::ErrorControlled(controller) => controller.looks_inside(),
-            Controller::EmbeddedError(_) => true,
+            Controller::EmbeddedError(controller) => controller.looks_inside(),
             Controller::Fixed(_) | Controller::StabilityLimited(_) | Controller::ArcLength(_) => false,
         }
     }

@@ -46,7 +46,7 @@ keep!(EmbeddedErrorController {
 impl EmbeddedErrorController {
     /// A controller with this tolerance and first step.
     pub fn new(cx: &Context, stepper: Box<RungeKuttaStepper>, tolerance: f64, first: f64) -> EmbeddedErrorController {
-        let most = cx.model.analysis.duration() / FEWEST;
+        let most = if stepper.looks_inside() { cx.model.analysis.duration() / FEWEST } else { f64::INFINITY };
         EmbeddedErrorController {
             stepper,
             tolerance,
@@ -62,6 +62,11 @@ impl EmbeddedErrorController {
             inside: State::default(),
             events: EventLimit::default(),
         }
+    }
+
+    /// True where the motion inside steps is known.
+    pub fn looks_inside(&self) -> bool {
+        self.stepper.looks_inside()
     }
 
     /// Judges the trial motion of a step of `dt` and chooses the next length. Returns the largest motion including it.

@@ -16,6 +16,7 @@ use crate::step::size::Size;
 use crate::step::trial::{rates_of, reach};
 use crate::step::work::{Power, WorkQuadrature, weight_of};
 use crate::system::Side;
+use crate::system::kinks::has_kinks;
 use crate::system::masses::NodeRates;
 use crate::tolerances::explicit_runge_kutta::FARTHEST;
 use crate::workspace::Workspace;
@@ -73,7 +74,9 @@ impl RungeKuttaStepper {
             || model.loading.pressures.iter().any(|load| changes(load.amplitude))
             || changes(model.loading.gravity_amplitude)
             || !model.loading.base_accelerations.is_empty();
-        let looks_inside = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
+        // No polynomial has the kinks of impacts and stops.
+        let is_automatic = matches!(model.analysis.step_length, StepLength::ErrorControlled { .. });
+        let looks_inside = is_automatic && !has_kinks(cx.system);
         let stages = if looks_inside { tableau.all_stages() + 1 } else { tableau.stages() };
         Ok(RungeKuttaStepper {
             accelerations: Accelerations::new(cx)?,
@@ -139,6 +142,11 @@ impl RungeKuttaStepper {
         self.sum_stages(step, tableau.b);
         self.evaluate_projected(step, At { stage: tableau.stages() - 1, c: 1.0 })?;
         if self.accelerations.are_finite(cx, step.ws) { Ok(()) } else { Err(residual::not_finite(cx, &step.ws.forces)) }
+    }
+
+    /// True where the motion inside steps is known.
+    pub fn looks_inside(&self) -> bool {
+        self.inside.is_some()
     }
 
     /// Accepts the motion that [`RungeKuttaStepper::evaluate_stages`] has found. On failure `state` is untouched.
