@@ -23,7 +23,7 @@ fn crates_keep_to_their_budgets() {
     let below: Vec<(&str, usize)> = CRATES.iter().map(|name| (*name, lines_below(name))).collect();
     let program = all - below.iter().map(|(_, lines)| lines).sum::<usize>();
     let mut beyond = Vec::new();
-    for ((name, lines), (listed, most)) in below.into_iter().chain([("program", 5270) {
+    for ((name, lines), (listed, most)) in below.into_iter().chain([("program", program)]).zip(BUDGET) {
         assert_eq!(name, listed, "the budget lists the crates in their order");
         println!("{name:10} {lines:6} of {most:6} lines");
         if lines > most {
