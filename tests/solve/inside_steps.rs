@@ -120,11 +120,11 @@ fn what_is_inside_explicit_steps_is_as_exact() {
     }
 }
 
-/// Explicit steps are the same to the last bit whatever is written inside them.
+/// Explicit steps are the same to the last bit whatever is written inside them; with contacts they end at the times that are written.
 #[test]
 fn output_does_not_change_explicit_steps() {
     for scheme in EXPLICIT {
-        for (deck, end) in [("two_bodies_on_springs", 2.0), ("heavy_top/pivot", 0.5), ("bouncing_ball", 0.5)] {
+        for (deck, end) in [("two_bodies_on_springs", 2.0), ("heavy_top/pivot", 0.5)] {
             let of = |rows: usize| {
                 run(scheme, (deck, end), rows, "time_step=\"auto\",error_tolerance=1e-3", &[], displacements)
             };
