@@ -12,6 +12,9 @@ use crate::elements::block::Force;
 use crate::state::Node;
 use base::math::{Vec3, Vec6, angular, linear};
 
+/// Velocity and angular velocity of a node.
+type NodeVelocities<'v> = &'v dyn Fn(usize) -> [Vec3; 2];
+
 impl FloatingElement {
     /// Adds weight and, in dynamics, inertia and Rayleigh damping by α and velocities `relative` to a moving frame.
     pub fn add_inertia(
@@ -19,7 +22,7 @@ impl FloatingElement {
         nodes: &[Node],
         field: &Vec3,
         dynamic: bool,
-        drag: Option<(f64, &dyn Fn(usize) -> [Vec3; 2])>,
+        drag: Option<(f64, NodeVelocities)>,
         F: &mut [Force],
     ) {
         let Some(mass) = &self.mass else { return };
@@ -133,8 +136,8 @@ impl FloatingElement {
         &self,
         nodes: &[Node],
         alpha: f64,
-        relative: &dyn Fn(usize) -> [Vec3; 2],
-        carried: &dyn Fn(usize) -> [Vec3; 2],
+        relative: NodeVelocities,
+        carried: NodeVelocities,
     ) -> [f64; 2] {
         let Some(mass) = self.mass.as_ref().filter(|_| alpha > 0.0) else { return [0.0; 2] };
         let Scratch { frame, q, vectors: [w, p, v, ..], .. } = &mut *self.scratch();
@@ -180,7 +183,8 @@ impl FloatingElement {
         self.settle(nodes, frame, q);
         let center = Center::new(self, mass, frame, q);
         let [w, a, ..] = &mut *vectors;
-        (w.fill(0.0), a.fill(0.0));
+        w.fill(0.0);
+        a.fill(0.0);
         if weights.gyroscopic {
             self.velocities(nodes, frame, w);
             self.accelerations(nodes, frame, a);

@@ -49,7 +49,8 @@ impl<'a> InertiaChange<'a> {
     ) -> (Mat3, Vec3) {
         let (of, frame, phi) = (self.of, self.frame, moved.phi);
         let (mut dS, mut turned) = (Mat3::zeros(), Vec3::zeros());
-        (dw.fill(0.0), da.fill(0.0));
+        dw.fill(0.0);
+        da.fill(0.0);
         for (i, Y) in of.Y.iter().enumerate() {
             let [d, theta] = moved.of(i);
             let ([v, omega], [acceleration, alpha]) = (at_node(w, i), at_node(a, i));
