@@ -93,6 +93,7 @@ fn no_step_after_the_first_allocates() {
     }
     contacts_neither();
     joints_neither();
+    superelements_neither();
     shells_neither();
     large_scenes_neither();
 }
@@ -133,6 +134,20 @@ fn explicit_steps_allocate_nothing_either() {
     model.expects.clear();
     let state = assert_none(&model, rdsolve::linear::Factorization::BlockLu);
     assert!(state.work.material.plastic > 1.0, "{:?}", state.work);
+}
+
+/// A blade of superelements that spins up.
+fn superelements_neither() {
+    let path = crate::support::decks().join("spin_up/superelements/deck.toml");
+    let text = std::fs::read_to_string(&path).expect("a deck");
+    for scheme in ["newmark", "generalized-alpha", "esdirk3"] {
+        let sets = [format!("integrator={{scheme=\"{scheme}\"}}")];
+        let source = Source::new(path.display().to_string(), text.as_str(), &sets);
+        let mut model = rdsolve::model::read(&source).0.expect("a sound deck");
+        model.analysis.end_time = 0.5;
+        model.expects.clear();
+        assert_none(&model, rdsolve::linear::Factorization::BlockLu);
+    }
 }
 
 /// A ball that rolls on a floor, lands on a beam and leaves it.

@@ -30,11 +30,11 @@ fn wrong<T>(key: &'static str, message: String, hint: &'static str) -> Result<T,
     Err(WrongMatrix { key, message, hint })
 }
 
-/// The matrices made symmetric and free of rigid motion, with amplitudes scaled to the mass of the whole; the mass, and the part of the
-/// stiffness that was removed, where it is beyond rounding. `x` are the points.
+/// Makes the matrices symmetric and free of rigid motion, and scales amplitudes to the mass of the whole; `x` are the points. Returns them with
+/// the mass, and with the removed part of the stiffness if it is beyond rounding.
 ///
 /// # Errors
-/// SuperelementMatrices that no free elastic body has.
+/// The matrices are not those of a free elastic body.
 pub fn settle(
     made: SuperelementMatrices,
     x: &[Vec3],

@@ -121,9 +121,8 @@ impl CentrifugalLoad {
         }
     }
 
-    /// Hands the matrices of the Coriolis forces at an angular velocity to `visit`, with the nodes of their rows and columns: 2 m Ω n × u̇ of a
-    /// mass,
-    /// and (n~J + J n~ − (J n)~) Ω θ̇ of an inertia tensor, on the side of the inertia forces.
+    /// Hands the matrices of the Coriolis forces at an angular velocity to `visit`, with the nodes of their rows and columns. They stand on the
+    /// side of the inertia forces. A mass has 2 m Ω n × u̇, and an inertia tensor (n~J + J n~ − (J n)~) Ω θ̇.
     pub fn coriolis(&self, speed: f64, nodes: &[Node], visit: &mut dyn FnMut([usize; 2], &Mat6)) {
         let n = skew(&self.axis.direction);
         let mut G = Mat6::zeros();
