@@ -60,13 +60,16 @@ impl std::error::Error for TooLarge {}
 /// Bytes of buffers that products of large matrices take during a factorization; a limit of the process counts them.
 const PRODUCTS: usize = 96 << 20;
 
+/// Needs below so many bytes are not compared with the free memory: the answer takes 0.1 ms, which is felt in sweeps of small cases.
+const SMALL: f64 = 1e7;
+
 /// Makes sure that the memory holds so many `numbers` of a matrix, its factor and its update matrices.
 ///
 /// # Errors
 /// It does not, or a limit of this process forbids it.
 pub(super) fn require(unknowns: usize, numbers: usize) -> Result<(), TooLarge> {
     let needed = size_of::<f64>() as f64 * numbers as f64 + BESIDE * unknowns as f64;
-    let fits = available().is_none_or(|available| needed <= available);
+    let fits = needed < SMALL || available().is_none_or(|available| needed <= available);
     // The available memory of the system does not show a limit of this process. The memory is given back at once, untouched.
     let granted = Vec::<u8>::new().try_reserve_exact((needed as usize).saturating_add(PRODUCTS)).is_ok();
     if fits && granted { Ok(()) } else { Err(TooLarge { unknowns, needed, scratch: None }) }
