@@ -598,6 +598,40 @@ fn links_that_yield() {
     assert_snapshot!("links_that_yield", portal_and(&links.join("\n")));
 }
 
+/// Isolators.
+#[test]
+fn isolators() {
+    let link = |name: &str, text: &str| {
+        format!(
+            "[[links]]\nname = \"{name}\"\nfrom = {{ ground = [3.0, 0.0, 1.0] }}\nto = {{ node = \"knee_right\" }}\n{text}\n"
+        )
+    };
+    let axes = "axes = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]";
+    let pendulum = "law = \"friction-pendulum\"\nstiffness = 1e7\naxial_stiffness = 1e9\nradius = 2.0";
+    let rubber = "law = \"lead-rubber\"\nstiffness = 1e6\naxial_stiffness = 1e9\nyield_force = 1e3";
+    let good = [
+        format!("{pendulum}\n{axes}\nfriction = {{ slow = 0.03, fast = 0.06, rate = 50.0 }}"),
+        format!("{rubber}\n{axes}\npost_yield_stiffness = 1e5\ndamping = {{ beta = 1e-3 }}"),
+    ];
+    for text in good {
+        assert_eq!(portal_and(&link("bearing", &text)).trim(), "");
+    }
+    let links = [
+        "law = \"friction-pendulum\"".to_owned(),
+        format!("{pendulum}\n{axes}\nfriction = -0.1"),
+        format!("{pendulum}\n{axes}\nfriction = {{ slow = 0.03, fast = -0.06 }}"),
+        format!(
+            "{pendulum}\n{axes}\nfriction = 0.1\nyield_force = 1e3\ndirection = [0.0, 0.0, 1.0]\ndamping = 10.0\npretension = 5.0"
+        ),
+        format!("{rubber}\n{axes}"),
+        format!("{rubber}\n{axes}\npost_yield_stiffness = 2e6\nradius = 1.0"),
+        format!("{rubber}\n{axes}\npost_yield_stiffness = 2e5\nbushing = [1.0, 1.0, 1.0, 1.0, 1.0, 1.0]"),
+        "stiffness = 1e6\nradius = 1e3".to_owned(),
+    ];
+    let links: Vec<String> = links.iter().enumerate().map(|(i, text)| link(&format!("l{i}"), text)).collect();
+    assert_snapshot!("isolators", portal_and(&links.join("\n")));
+}
+
 /// A section by its matrix.
 #[test]
 fn matrices_of_sections() {

@@ -23,15 +23,16 @@ pub struct Link {
     pub to: Maybe<Table<End>>,
     /// Force against elongation. Default: "linear".
     pub law: Maybe<LinkLaw>,
-    /// Force per elongation, above 0; of a linear link also 0. (linear, compression-only, tension-only, yielding, bouc-wen)
+    /// Force per elongation, above 0; of a linear link also 0. Of an isolator, force per displacement across its first axis before it slips or
+    /// yields. (linear, compression-only, tension-only, yielding, bouc-wen, friction-pendulum, lead-rubber)
     pub stiffness: Maybe<f64>,
     /// Force per rate of elongation, 0 or more, or `{ beta, viscous }`. Default: 0, and beta of `[damping]`.
     pub damping: Maybe<NumberOrTable<Table<SpringDamping>>>,
     /// Free play before the link acts, a length of 0 or more. Default: 0. (compression-only, tension-only)
     pub gap: Maybe<f64>,
-    /// Force at first yield, above 0. (yielding, bouc-wen)
+    /// Force at first yield, above 0. (yielding, bouc-wen, lead-rubber)
     pub yield_force: Maybe<f64>,
-    /// Slope beyond yielding, 0 or more, below `stiffness`. Default: 0. (yielding, bouc-wen)
+    /// Slope beyond yielding, 0 or more, below `stiffness`. Default: 0. (yielding, bouc-wen, lead-rubber)
     pub post_yield_stiffness: Maybe<f64>,
     /// [[elongation, force], ...], up to 6, from first yield on, instead of `stiffness` and the yield keys. The curve of first loading is
     /// symmetric, each line less steep than the one before, and constant after the last. Unloading follows it twice as large. (yielding)
@@ -44,6 +45,13 @@ pub struct Link {
     pub strength_loss: Maybe<f64>,
     /// Loss of stiffness, likewise. Default: 0. (bouc-wen)
     pub stiffness_loss: Maybe<f64>,
+    /// Force per displacement along the first of `axes`, above 0: in compression of a pendulum, in both senses of rubber.
+    /// (friction-pendulum, lead-rubber)
+    pub axial_stiffness: Maybe<f64>,
+    /// Effective radius of the dish, above 0. The force N u/R restores the slider, which rises by u²/2R. (friction-pendulum)
+    pub radius: Maybe<f64>,
+    /// Coefficient of friction of the slider, 0 or more, or { slow, fast, rate }. (friction-pendulum)
+    pub friction: Maybe<NumberOrTable<Table<SlidingFriction>>>,
     /// Force at zero elongation, tension positive. Default: 0. (linear)
     pub preload: Maybe<f64>,
     /// Force of tightening, not 0, tension positive. The link is tightened in its first stage, which is static, or in a static analysis.
@@ -69,7 +77,8 @@ pub struct Link {
     pub failure: Maybe<Table<Failure>>,
     /// Names of the stages in which it acts. Default: all.
     pub stages: Maybe<Names>,
-    /// Axes of the bushing, global at t = 0: its x, and a vector in its x-y plane. Default: global axes.
+    /// Axes of the bushing, bearing or isolator, global at t = 0: its x, and a vector in its x-y plane. They turn with the first end. The x axis of
+    /// an isolator is normal to its dish or layers, from `from`, which holds the dish, to `to`. Default: global axes; required for isolators.
     pub axes: Maybe<Vec<Vector>>,
 }
 
@@ -110,6 +119,21 @@ pub struct LinkMatrices {
     pub damping: Maybe<Vec<At<Vec<f64>>>>,
 }
 
+/// Friction of a slider, which grows with its speed: at a speed v the coefficient is fast − (fast − slow) exp(−rate v).
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SlidingFriction {
+    /// Coefficient at rest, 0 or more.
+    #[schemars(required)]
+    pub slow: Maybe<f64>,
+    /// Coefficient at a high speed, 0 or more.
+    #[schemars(required)]
+    pub fast: Maybe<f64>,
+    /// Time per length, above 0.
+    #[schemars(required)]
+    pub rate: Maybe<f64>,
+}
+
 /// `{ node = "name" }`, `{ body = "name", point = [x, y, z] }` or `{ ground = [x, y, z] }`.
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -140,4 +164,9 @@ pub enum LinkLaw {
     Yielding,
     /// The smooth hysteresis of Bouc and Wen, with loss of strength and stiffness: an isolator, a wire rope, a wall.
     BoucWen,
+    /// A slider on a spherical dish: restoring force and friction by the compression of the instant, in all directions across the first of `axes`.
+    /// Lifted off, it carries nothing. It has no moments of its own; add a `bushing` for them.
+    FrictionPendulum,
+    /// Rubber with a lead core: shear that yields on a circle, and a linear spring along the first of `axes`.
+    LeadRubber,
 }

@@ -21,7 +21,7 @@ const WIDE: Known = &[
     ("deck/beams.rs: Beam", 21),
     ("deck/expect.rs: Expect", 16),
     ("deck/joints.rs: Joint", 23),
-    ("deck/links.rs: Link", 25),
+    ("deck/links.rs: Link", 28),
     ("deck/lib.rs: Deck", 38),
     ("deck/loads.rs: Load", 19),
     ("deck/shells.rs: Shell", 18),

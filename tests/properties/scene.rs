@@ -370,7 +370,9 @@ pub fn turned(m: &Model, q: &Quat, shift: &Vec3) -> Model {
             LinkKind::Line { direction, .. } | LinkKind::Hysteretic { direction, .. } => {
                 *direction = direction.map(|d| R * d)
             }
-            LinkKind::Bushing { axes, .. } | LinkKind::Bearing { axes, .. } => *axes = R * *axes,
+            LinkKind::Bushing { axes, .. } | LinkKind::Bearing { axes, .. } | LinkKind::Isolator { axes, .. } => {
+                *axes = R * *axes
+            }
             LinkKind::Joint { .. } => unreachable!("the scene has no coordinates of joints"),
         }
     }

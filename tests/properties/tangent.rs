@@ -245,7 +245,7 @@ fn damp(m: &mut Model) {
     m.damping.nodal = nodal.map(|(node, translation, rotation)| NodalDamping { node, translation, rotation }).into();
     for link in m.each_mut::<Link>() {
         match &mut link.kind {
-            rdsolve::model::LinkKind::Bearing { .. } => {}
+            rdsolve::model::LinkKind::Bearing { .. } | rdsolve::model::LinkKind::Isolator { .. } => {}
             rdsolve::model::LinkKind::Line { damper, .. } | rdsolve::model::LinkKind::Hysteretic { damper, .. } => {
                 *damper = Damper { coefficient: 0.7, exponent: 0.6, slow: 0.2 }
             }

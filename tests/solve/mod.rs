@@ -22,6 +22,7 @@ mod global_error;
 mod handover;
 mod hysteretic_links;
 mod inside_steps;
+mod isolators;
 mod iterations;
 mod joint_forces;
 mod kinks;

@@ -13,6 +13,7 @@ pub mod damper;
 pub mod heat;
 pub mod hysteresis;
 pub mod hysteretic_link;
+pub mod isolator;
 pub mod link;
 pub mod link_failure;
 pub mod memories;

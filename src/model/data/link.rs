@@ -9,6 +9,7 @@ use mechanics::elements::bearing::BearingMatrices;
 use mechanics::elements::coordinate_law::CoordinateLaw;
 use mechanics::elements::damper::Damper;
 use mechanics::elements::hysteretic_link::PathLaw;
+use mechanics::elements::isolator::IsolatorLaw;
 use mechanics::elements::link::LinkLaw;
 use mechanics::elements::link_failure::LinkFailure;
 
@@ -71,6 +72,17 @@ pub enum LinkKind {
         /// The axes (columns, global at t = 0).
         axes: Mat3,
     },
+    /// A seismic isolator, in a frame that is fixed to the first end.
+    Isolator {
+        /// The force of sliding.
+        law: IsolatorLaw,
+        /// Force per displacement across the first axis before it slips.
+        stiffness: f64,
+        /// Force per displacement along the first axis.
+        axial_stiffness: f64,
+        /// The axes (columns, global at t = 0).
+        axes: Mat3,
+    },
     /// Along the coordinate of a joint, after which the link is named.
     Joint {
         /// The equation whose violation is the coordinate.
@@ -120,6 +132,8 @@ impl PartAnswers for Link {
             LinkKind::Bushing { stiffness, .. } => stiffness.iter().any(|k| *k > 0.0),
             // Its matrices of damping are all that damps it.
             LinkKind::Bearing { .. } => false,
+            // The stiffness of a pendulum only holds its parts together.
+            LinkKind::Isolator { law, .. } => matches!(law, IsolatorLaw::Rubber { .. }),
             LinkKind::Joint { law, .. } => law.stiffness > 0.0 || law.hysteresis.is_some(),
         }
     }
@@ -132,7 +146,7 @@ impl PartAnswers for Link {
         match &self.kind {
             LinkKind::Line { law, .. } => !matches!(law, LinkLaw::Linear { .. }),
             LinkKind::Bushing { .. } => false,
-            LinkKind::Hysteretic { .. } => true,
+            LinkKind::Hysteretic { .. } | LinkKind::Isolator { .. } => true,
             LinkKind::Bearing { matrices, .. } => matrices.len() > 1,
             LinkKind::Joint { law, .. } => law.stops.is_some() || law.friction.is_some() || law.hysteresis.is_some(),
         }
@@ -142,7 +156,10 @@ impl PartAnswers for Link {
         match &self.kind {
             LinkKind::Joint { law, .. } if *law == CoordinateLaw::FREE => NodalAction::Nothing,
             LinkKind::Line { .. } | LinkKind::Hysteretic { .. } => NodalAction::Forces,
-            LinkKind::Bushing { .. } | LinkKind::Bearing { .. } | LinkKind::Joint { .. } => NodalAction::Moments,
+            LinkKind::Bushing { .. }
+            | LinkKind::Bearing { .. }
+            | LinkKind::Isolator { .. }
+            | LinkKind::Joint { .. } => NodalAction::Moments,
         }
     }
 
@@ -164,6 +181,7 @@ impl PartAnswers for Link {
             | LinkKind::Hysteretic { .. }
             | LinkKind::Bushing { .. }
             | LinkKind::Bearing { .. }
+            | LinkKind::Isolator { .. }
             | LinkKind::Joint { .. } => None,
         }
     }

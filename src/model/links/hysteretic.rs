@@ -45,11 +45,16 @@ fn elastic_and_yield<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut 
     let force = report.require_positive(owner, "yield_force", &link.yield_force);
     let after = report.not_negative("post_yield_stiffness", &link.post_yield_stiffness, 0.0);
     let (stiffness, force) = (stiffness?, force?);
+    Some([stiffness, below_stiffness(link, after, stiffness, report)?, force])
+}
+
+/// The slope beyond yielding, which must be below the stiffness.
+pub fn below_stiffness<'d>(link: &'d words::Link, after: f64, stiffness: f64, report: &mut Report<'d>) -> Option<f64> {
     if let (Some(given), false) = (&link.post_yield_stiffness, after < stiffness) {
         let hint = "give a part of it, such as a tenth";
         return report.error_with(&given.span, "`post_yield_stiffness` must be below `stiffness`", hint);
     }
-    Some([stiffness, after, force])
+    Some(after)
 }
 
 fn yielding<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) -> Option<PathLaw> {

@@ -1,6 +1,6 @@
 //! The keys of links along a line, which other links do not have.
 
-use super::hysteretic;
+use super::{hysteretic, isolator};
 use crate::values::span;
 use base::diagnostic::Span;
 use deck::links as words;
@@ -19,7 +19,8 @@ pub fn of_lines(link: &words::Link) -> Vec<(&'static str, Option<&Span>)> {
         ("direction", span(&link.direction)),
         ("points", span(&link.points)),
     ];
-    others.into_iter().chain(of_paths).collect()
+    let of_isolators = isolator::keys(link);
+    others.into_iter().chain(of_paths).chain(of_isolators).collect()
 }
 
 /// The place of a damper along the line of a link, which a bushing does not have.

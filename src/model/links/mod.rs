@@ -2,6 +2,7 @@
 
 pub mod foundation;
 pub mod hysteretic;
+pub mod isolator;
 pub mod line_keys;
 pub mod matrices;
 pub mod pretension;
@@ -57,7 +58,8 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
     let mut links = ModelLinks::default();
     for (index, link) in scene.deck.links.iter().enumerate() {
         let (name, owner) = report.named(("link", "links", index), link.name.as_ref(), &link.span);
-        let rotations = link.bushing.is_some() || link.matrices.is_some();
+        let isolates = isolator::is_one(link);
+        let rotations = link.bushing.is_some() || link.matrices.is_some() || isolates;
         let mut end = |key, end| {
             let end = EndTable { owner: &owner, key, end, label: format!("{name}.{key}"), rotations, default: None };
             end.node(scene, nodes, report)
@@ -68,6 +70,7 @@ pub fn links<'d>(scene: &Scene<'d>, nodes: &mut Nodes, report: &mut Report<'d>) 
         let kind = match (&link.bushing, &link.matrices) {
             (_, Some(list)) => bearing(&owner, link, list, report),
             (Some(_), None) => bushing(link, report),
+            (None, None) if isolates => isolator::isolator(&owner, link, report),
             (None, None) => line(&owner, link, (ends, damper), nodes, report),
         };
         if let Some([from, to]) = ends
@@ -103,6 +106,7 @@ fn line<'d>(
 ) -> Option<LinkKind> {
     let unused = keys!(link; bushing_damping, axes);
     report.reject_unused("a link without `bushing`", &unused);
+    report.reject_unused("a link that is no isolator", &isolator::keys(link));
     let path = hysteretic::law(owner, link, report);
     let law = match path {
         hysteretic::GivenLaw::None => law(owner, link, report),
@@ -156,7 +160,10 @@ fn law<'d>(owner: &Owner<'d>, link: &'d words::Link, report: &mut Report<'d>) ->
             report.rising("points", "elongation", points).map(|points| LinkLaw::Table { points })
         }
         // Read before.
-        words::LinkLaw::Yielding | words::LinkLaw::BoucWen => None,
+        words::LinkLaw::Yielding
+        | words::LinkLaw::BoucWen
+        | words::LinkLaw::FrictionPendulum
+        | words::LinkLaw::LeadRubber => None,
         words::LinkLaw::CompressionOnly | words::LinkLaw::TensionOnly => {
             let one_sided = "a law that acts one way only";
             report.reject_unused(one_sided, &[preload, points]);

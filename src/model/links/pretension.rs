@@ -59,7 +59,7 @@ pub fn pretension<'d>(
         Some(LinkKind::Line { law: LinkLaw::Linear { stiffness: 0.0, .. }, .. }) => {
             wrong("a link without stiffness cannot be pretensioned", "give it `stiffness`");
         }
-        Some(LinkKind::Hysteretic { .. }) => {
+        Some(LinkKind::Hysteretic { .. } | LinkKind::Isolator { .. }) => {
             wrong("a link that remembers cannot be pretensioned", "put a link with `pretension` beside it");
         }
         Some(LinkKind::Bushing { .. } | LinkKind::Bearing { .. }) => {

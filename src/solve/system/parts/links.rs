@@ -9,6 +9,7 @@ use mechanics::elements::bearing::{Bearing, Bearings};
 use mechanics::elements::bushing::{Bushing, Bushings};
 use mechanics::elements::coordinate_law::CoordinateLaw;
 use mechanics::elements::hysteretic_link::{HystereticLink, HystereticLinks};
+use mechanics::elements::isolator::{self, Isolator, Isolators};
 use mechanics::elements::link::{self, Links};
 use mechanics::elements::link_failure;
 use mechanics::elements::relative_rotation::RotationalSpring;
@@ -43,6 +44,8 @@ pub enum LinkElement {
     Bushing(Bushing),
     /// A bearing.
     Bearing(Bearing),
+    /// A seismic isolator.
+    Isolator(Isolator),
     /// The laws along the coordinate of a joint.
     Joint(CoordinateSpring),
 }
@@ -54,7 +57,7 @@ impl Assembled for Link {
             return Vec::new();
         }
         let (mut lines, mut taken_up, mut bushings, mut joints) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (mut bearings, mut hysteretic) = (Vec::new(), Vec::new());
+        let (mut bearings, mut hysteretic, mut isolators) = (Vec::new(), Vec::new(), Vec::new());
         for element in elements(setting.model, setting.x) {
             match element {
                 LinkElement::Line(line) if line.is_taken_up() => taken_up.push(line),
@@ -62,6 +65,7 @@ impl Assembled for Link {
                 LinkElement::Bushing(bushing) => bushings.push(bushing),
                 LinkElement::Bearing(bearing) => bearings.push(bearing),
                 LinkElement::Hysteretic(link) => hysteretic.push(link),
+                LinkElement::Isolator(isolator) => isolators.push(isolator),
                 LinkElement::Joint(spring) => joints.push(spring),
             }
         }
@@ -73,6 +77,7 @@ impl Assembled for Link {
             (Box::new(CoordinateSprings::new(joints)), 0),
             (Box::new(Bearings::new(bearings)), 0),
             (Box::new(HystereticLinks::new(hysteretic)), 0),
+            (Box::new(Isolators::new(isolators)), 0),
         ]
     }
 
@@ -87,6 +92,8 @@ impl Assembled for Link {
             }),
             // Across the shaft, or not at all.
             LinkKind::Bearing { .. } => false,
+            // Alike in all directions across its first axis.
+            LinkKind::Isolator { axes, .. } => plane.decouples(&(axes.column(0) * axes.column(0).transpose())),
             LinkKind::Joint { lock, law } => {
                 *law == CoordinateLaw::FREE || lock.in_plane(plane.normal, &Vec3::zeros()) == Some(true)
             }
@@ -129,6 +136,15 @@ pub fn elements(model: &Model, x: &[Vec3]) -> Vec<LinkElement> {
             offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
             matrices: matrices.clone(),
         }),
+        LinkKind::Isolator { law, stiffness, axial_stiffness, axes } => LinkElement::Isolator(Isolator {
+            nodes: part.ends,
+            axes: *axes,
+            offset: axes.tr_mul(&(x[part.ends[1]] - x[part.ends[0]])),
+            law: *law,
+            stiffness: *stiffness,
+            axial_stiffness: *axial_stiffness,
+            beta: beta(part),
+        }),
         LinkKind::Joint { lock, law } => {
             let law = law.damped_by(beta(part));
             LinkElement::Joint(CoordinateSpring { nodes: part.ends, lock: *lock, law, drive: drive(index) })
@@ -143,7 +159,7 @@ pub fn turned_over(links: &[LinkElement], start: &[Node], end: &[Node]) -> Optio
     let turned = |link: &LinkElement| match link {
         LinkElement::Bushing(bushing) => bushing.is_turned_over(start, end),
         LinkElement::Bearing(bearing) => bearing.is_turned_over(end),
-        LinkElement::Line(_) | LinkElement::Hysteretic(_) | LinkElement::Joint(_) => false,
+        LinkElement::Line(_) | LinkElement::Hysteretic(_) | LinkElement::Isolator(_) | LinkElement::Joint(_) => false,
     };
     links.iter().position(turned)
 }
@@ -195,6 +211,7 @@ impl LinkElement {
             LinkElement::Bushing(bushing) => bushing.memory(),
             LinkElement::Bearing(_) => 0,
             LinkElement::Hysteretic(of) => of.law.memory(),
+            LinkElement::Isolator(_) => isolator::MEMORY,
             LinkElement::Joint(spring) => spring.law.memory(),
         }
     }
@@ -207,17 +224,18 @@ impl LinkElement {
             LinkElement::Joint(_) => 3,
             LinkElement::Bearing(_) => 4,
             LinkElement::Hysteretic(_) => 5,
+            LinkElement::Isolator(_) => 6,
         }
     }
 }
 
 /// The next history variables of each kind of link, among all links: first lines, then pretensioned lines, then bushings, joints,
-/// bearings and lines that remember.
-struct Slots([usize; 6]);
+/// bearings, lines that remember and isolators.
+struct Slots([usize; 7]);
 
 impl Slots {
     fn before_kinds(links: &[LinkElement]) -> Slots {
-        let mut slots = [0; 6];
+        let mut slots = [0; 7];
         for link in links {
             slots[link.kind() + 1..].iter_mut().for_each(|slot| *slot += link.memory());
         }
@@ -280,6 +298,10 @@ pub fn link_states(links: &[LinkElement], groups: &[Group], now: &Configuration,
             in_axes(nodes, (&bushing.nodes, &bushing.axes), bushing.state(nodes, memory), failed)
         }
         LinkElement::Bearing(bearing) => in_axes(nodes, (&bearing.nodes, &bearing.axes), bearing.state(nodes), false),
+        LinkElement::Isolator(of) => {
+            let (d, rate, p) = of.state(nodes, memory);
+            in_axes(nodes, (&of.nodes, &of.axes), (d, rate, p, Vec3::zeros()), false)
+        }
         LinkElement::Joint(spring) => {
             let at = spring.state(nodes, memory, 0.0);
             let [G, _] = spring.lock.gradient(&nodes[spring.nodes[0]], &nodes[spring.nodes[1]]);
