@@ -28,7 +28,7 @@ fn beams<const N: usize>() {
     let lists: Vec<[usize; N]> = (0..COUNT).map(|e| std::array::from_fn(|a| e * (N - 1) + a)).collect();
     let stiffness = Stiffness::general(2e6, [8e5, 8e5], 1e5, [2e5, 1e5], 1.0, [1.0; 3]);
     let frame = Mat3::identity();
-    let elements = lists.iter().map(|nodes| BeamGeometry { nodes, frame: &frame, stiffness: &stiffness });
+    let elements = lists.iter().map(|nodes| BeamGeometry { nodes, frame: &frame, stiffness: &stiffness, varied: None });
     let block =
         elastic_beams(N - 1, &elements.collect::<Vec<_>>(), BeamSetting { x: &x, damping: 0.0, heat: &Heat::NONE });
     let moved = |(i, x): (usize, &Vec3)| Node {

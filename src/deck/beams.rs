@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::part_damping::PartDamping;
 use super::part_table::{MassKind, PartTable, names};
-use super::words::{Directions, Maybe, Names, OneOrMany, Table, Vector};
+use super::words::{Directions, Maybe, Names, Numbers, OneOrMany, Table, Vector};
 use base::diagnostic::At;
 use mechanics::elements::beam::{DEFAULT_ORDER, IntegrationRule};
 
@@ -27,9 +27,11 @@ pub struct Beam {
     pub grading: Maybe<OneOrMany<f64>>,
     /// Name of a material; left out where the section gives stiffnesses.
     pub material: Maybe<String>,
-    /// Name of a section.
-    #[schemars(required)]
+    /// Name of a section. Required without `stations`.
     pub section: Maybe<String>,
+    /// Sections by station along the beam instead of `section`, from `at = 0` to `at = 1`. Between stations whose sections have one shape and the same
+    /// keys, dimensions are linear; between others, the matrices of stiffness and mass are. Convergence is fastest if stations lie at points of the path.
+    pub stations: Maybe<Vec<At<Table<Station>>>>,
     /// A vector in the plane of local x (along the beam) and local y, global at t = 0; not parallel to the beam.
     #[schemars(required)]
     pub orientation: Maybe<Vector>,
@@ -64,6 +66,22 @@ pub struct Beam {
     pub release: Maybe<Table<Release>>,
     /// Rayleigh damping of this part, `{ alpha, beta }`. Default: that of `[damping]`.
     pub damping: Maybe<Table<PartDamping>>,
+}
+
+/// The section at a place along a beam.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Station {
+    /// Place as a part of the length of the beam, from 0 to 1 and above that of the station before.
+    #[schemars(required)]
+    pub at: Maybe<f64>,
+    /// Name of a section.
+    #[schemars(required)]
+    pub section: Maybe<String>,
+    /// Angle of the axes of the section about local x, from the axes by `orientation`, radians; linear between stations. Default: 0.
+    pub twist: Maybe<f64>,
+    /// Place `[y, z]` of the section from the axis of the beam, along the axes by `orientation`; linear between stations. Default: none.
+    pub offset: Maybe<Numbers<2>>,
 }
 
 /// Rotations that are released at the ends of a beam, in its local axes.

@@ -7,6 +7,7 @@ use super::amplitudes::amplitudes;
 use super::attachments::attachments;
 use super::bars::bars;
 use super::beams::beams;
+use super::beams::mass_nodes::add_mass_nodes;
 use super::bodies::bodies;
 use super::cases::cases;
 use super::contacts::contacts;
@@ -522,6 +523,7 @@ fn finish(mut model: Model, all_nodes: bool, deck: &Deck, report: &mut Report) -
     if all_nodes {
         write_all_nodes(&mut model);
     }
+    add_mass_nodes(&mut model);
     if model.analysis.has_inertia() && !report.has_errors() {
         model.damping.frames = moving_frames(&model, deck, report);
     }

@@ -48,6 +48,11 @@ impl<'d> Materials<'d> {
         report.find("material", self.table, name)
     }
 
+    /// The table of a material of the deck.
+    pub fn named(&self, name: &At<String>) -> Option<&'d At<OneOf<words::Material>>> {
+        Some(&self.table.0[self.table.position(name)?].1)
+    }
+
     /// The law of a part's material; `Some(None)` for elastic material or none, `None` after errors.
     pub fn yielding_of(&self, name: &Maybe<String>) -> Option<Option<MaterialLaw>> {
         let Some(name) = name else { return Some(None) };

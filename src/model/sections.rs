@@ -107,6 +107,59 @@ impl<'a, 'd> Sections<'a, 'd> {
         self.known.insert(key, index);
         index
     }
+
+    /// Index of the section at this part of the way between two stations of a beam, with its place from the axis along its own axes. Both sections
+    /// are sound.
+    pub fn between(
+        &mut self,
+        [start, end]: [(&At<String>, usize); 2],
+        made_of: &'d Maybe<String>,
+        (part, place, shear): (f64, [f64; 2], bool),
+    ) -> usize {
+        let (from, to) = (&self.stiffnesses[start.1], &self.stiffnesses[end.1]);
+        let (mut stiffness, mut stresses) = (from.toward(to, part), None);
+        if start.0.value == end.0.value {
+            stresses.clone_from(&self.stresses[start.1]);
+        } else if let Some((own, of_shape)) = self.of_dimensions([start.0, end.0], made_of, part) {
+            (stiffness, stresses) = (if shear { own } else { own.without_shear() }, of_shape);
+        }
+        if place != [0.0; 2] {
+            stiffness = stiffness.beside(place);
+            stresses = stresses.map(|stresses| stresses.beside(place));
+        }
+        self.stiffnesses.push(stiffness);
+        self.stresses.push(stresses);
+        self.stiffnesses.len() - 1
+    }
+
+    /// The section whose dimensions lie at this part of the way between those of two sections of one shape; `None` where their keys differ.
+    fn of_dimensions(
+        &self,
+        names: [&At<String>; 2],
+        made_of: &Maybe<String>,
+        part: f64,
+    ) -> Option<(Stiffness, Option<SectionStresses>)> {
+        let [a, b] = names.map(|name| self.table.position(name).map(|index| &self.table.0[index].1));
+        let (a, b) = (a?, b?);
+        let kind = a.kind.as_ref()?.value;
+        if !std::ptr::eq(kind, b.kind.as_ref()?.value) {
+            return None;
+        }
+        let values = a.values.toward(&b.values, part)?;
+        let mut given = Given::new("the section", &a.span, &values, Vec::new());
+        let factor = shear_factor(&mut given);
+        match (kind.make.read)(&mut given, false)? {
+            CrossSection::Stiffness(stiffness) => Some((*stiffness, None)),
+            CrossSection::Shape(shape) => {
+                let material = self.materials.named(made_of.as_ref()?)?;
+                let (modulus, ratio) =
+                    (material.youngs_modulus.as_ref()?.value, material.poisson_ratio.as_ref()?.value);
+                let density = material.density.as_ref().map_or(0.0, |density| density.value);
+                let made = whole(&*shape, ratio, factor).ok()?;
+                Some((made.stiffness(modulus, ratio, density), shape.stresses(ratio, &made)))
+            }
+        }
+    }
 }
 
 /// Areas and moments of a shape of a material of Poisson's ratio `nu`, with the shear factors that the deck gives.

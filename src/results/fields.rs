@@ -482,8 +482,9 @@ fn write_stresses(grid: &mut GridText, count: usize, frame: &Frame) {
                 let so_far = of_fibres.unwrap_or(stresses.values);
                 of_fibres = Some([so_far[0].max(most), so_far[1].min(least), so_far[2].max(tau), so_far[3].max(mises)]);
             }
-            for forces in resultants.by_ref().take(beam.order + 1) {
-                let elastic = || elastic_stresses(model, beam, element, forces).map(|stresses| stresses.values);
+            for (k, forces) in resultants.by_ref().take(beam.order + 1).enumerate() {
+                let section = beam.elements[element].at_node(k).section;
+                let elastic = || elastic_stresses(model, section, forces).map(|stresses| stresses.values);
                 let stresses = if beam.yielding.is_some() { of_fibres } else { elastic() };
                 all.push(stresses.unwrap_or_default());
             }

@@ -18,7 +18,7 @@ const LINES: usize = 60;
 const WIDE: Known = &[
     ("deck/amplitudes.rs: Amplitude", 18),
     ("deck/analysis.rs: Analysis", 19),
-    ("deck/beams.rs: Beam", 21),
+    ("deck/beams.rs: Beam", 22),
     ("deck/expect.rs: Expect", 16),
     ("deck/joints.rs: Joint", 23),
     ("deck/links.rs: Link", 28),

@@ -56,6 +56,7 @@ impl<const N: usize> Chain<N> {
             nodes: &self.nodes[e],
             frame: &self.frames[e],
             stiffness: &self.sections[if yielding.is_some() { 0 } else { e }],
+            varied: None,
         });
         let elements: Vec<BeamGeometry> = elements.collect();
         let setting = BeamSetting { x: &self.x, damping, heat: &Heat::NONE };

@@ -30,6 +30,7 @@ fn section() -> Stiffness {
         N: Mat3::new(30.0, 0.0, 0.0, 0.0, 9.0, 1.0, 0.0, 1.0, 7.0),
         M: Mat3::new(2.0, 0.0, 0.0, 0.0, 3.0, 0.5, 0.0, 0.5, 5.0),
         NM: Mat3::new(0.0, 0.0, 0.0, 0.6, 0.0, 0.0, -0.4, 0.0, 0.0),
+        mass_center: [0.0; 2],
         mass_per_length: 1.0,
         inertia_per_length: Mat3::identity(),
     }
@@ -97,6 +98,9 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
     add("beam of 3 nodes", beam::<3>(&frame, start, 0.0), &nodes_of(3, &frame, start));
     add("beam of 4 nodes", beam::<4>(&frame, start, 0.0), &nodes_of(4, &frame, start));
     add("beam of 5 nodes", beam::<5>(&frame, start, 0.0), &nodes_of(5, &frame, start));
+    add("varied beam of 2 nodes", varied::<2>(&frame, start, 0.0), &nodes_of(2, &frame, start));
+    add("varied beam of 4 nodes", varied::<4>(&frame, start, 0.0), &nodes_of(4, &frame, start));
+    add("varied damped beam of 3 nodes", varied::<3>(&frame, start, 0.3), &nodes_of(3, &frame, start));
     add("damped beam of 2 nodes", beam::<2>(&frame, start, 0.3), &nodes_of(2, &frame, start));
     add("damped beam of 4 nodes", beam::<4>(&frame, start, 0.3), &nodes_of(4, &frame, start));
     // The last nodes are the numbers of temperature: places of 5 are strains of 0.05.
@@ -106,7 +110,7 @@ fn elastic(rng: &mut StdRng) -> Vec<Kind> {
         (x, Heat { numbers: std::array::from_fn(node), length: 100.0 })
     };
     let (warm, heat) = heated(&nodes_of(3, &frame, start), 3);
-    let one = [BeamGeometry { nodes: &[0, 1, 2], frame: &frame, stiffness: &section() }];
+    let one = [BeamGeometry { nodes: &[0, 1, 2], frame: &frame, stiffness: &section(), varied: None }];
     add("heated beam", elastic_beams(2, &one, BeamSetting { x: &warm, damping: 0.3, heat: &heat }), &warm);
     let (warm, heat) = heated(&nodes_of(2, &frame, start), 1);
     let bar = rdsolve::elements::bar::elastic_bars(&[[0, 1]], 40.0, false, (1.0, &heat), &warm, 0.2);
@@ -211,7 +215,18 @@ fn nodes_of(n: usize, frame: &Mat3, start: Vec3) -> Vec<Vec3> {
 
 fn beam<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn ElementBlock> {
     let nodes: Vec<usize> = (0..N).collect();
-    let one = [BeamGeometry { nodes: &nodes, frame, stiffness: &section() }];
+    let one = [BeamGeometry { nodes: &nodes, frame, stiffness: &section(), varied: None }];
+    elastic_beams(N - 1, &one, BeamSetting { x: &nodes_of(N, frame, start), damping, heat: &Heat::NONE })
+}
+
+/// A beam whose section turns, softens and leaves the axis from point to point.
+fn varied<const N: usize>(frame: &Mat3, start: Vec3, damping: f64) -> Box<dyn ElementBlock> {
+    let nodes: Vec<usize> = (0..N).collect();
+    let parts = [0.1, 0.4, 0.6, 0.9];
+    let sections = parts.map(|part| section().beside([0.3 * part, -0.2 * part]).toward(&section(), part));
+    let frames = parts.map(|part| rotation::matrix(&rotation::exp(&(frame.column(0) * part))) * frame);
+    let points = std::array::from_fn(|g| (&sections[g], &frames[g]));
+    let one = [BeamGeometry { nodes: &nodes, frame, stiffness: &section(), varied: Some(points) }];
     elastic_beams(N - 1, &one, BeamSetting { x: &nodes_of(N, frame, start), damping, heat: &Heat::NONE })
 }
 
@@ -307,7 +322,7 @@ fn yielding_beams<const N: usize>(rng: &mut StdRng, name: &str, law: &Material, 
             let frame = rotation::matrix(&turn(rng));
             let x = nodes_of(N, &frame, vector(rng, 2.0));
             let nodes: Vec<usize> = (0..N).collect();
-            let one = [BeamGeometry { nodes: &nodes, frame: &frame, stiffness: &section() }];
+            let one = [BeamGeometry { nodes: &nodes, frame: &frame, stiffness: &section(), varied: None }];
             let block = yielding.beams(N - 1, &one, BeamSetting { x: &x, damping, heat: &Heat::NONE });
             let past = vec![0.0; block.history()];
             let with = if shear { "with" } else { "without" };
@@ -664,7 +679,7 @@ fn two_node_beam_has_the_exact_linear_stiffness() {
     let x = [Vec3::zeros(), Vec3::new(1.7, 0.0, 0.0)];
     let (length, C) = (1.7, section());
     let frame = Mat3::identity();
-    let one = [BeamGeometry { nodes: &[0, 1], frame: &frame, stiffness: &C }];
+    let one = [BeamGeometry { nodes: &[0, 1], frame: &frame, stiffness: &C, varied: None }];
     let beam = elastic_beams(1, &one, BeamSetting { x: &x, damping: 0.0, heat: &Heat::NONE });
     let nodes = x.map(Node::at_rest);
     let mut K = [0.0; 144];

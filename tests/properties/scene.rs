@@ -135,6 +135,7 @@ pub fn section(m: &mut Model) {
         N: Mat3::new(900.0, 0.0, 0.0, 0.0, 400.0, 30.0, 0.0, 30.0, 300.0),
         M: Mat3::new(30.0, 0.0, 0.0, 0.0, 40.0, 5.0, 0.0, 5.0, 60.0),
         NM: Mat3::new(0.0, 0.0, 0.0, 6.0, 0.0, 0.0, -4.0, 0.0, 0.0),
+        mass_center: [0.0; 2],
         mass_per_length: 0.7,
         inertia_per_length: Mat3::new(0.05, 0.0, 0.0, 0.0, 0.02, 0.005, 0.0, 0.005, 0.03),
     });
@@ -157,7 +158,7 @@ pub fn beam(m: &mut Model, ends: [usize; 2], elements: usize, order: usize, y: V
             nodes[k] = if end { ends[1] } else { node(m, x0 + (x1 - x0) * s) };
         }
         last = nodes[order];
-        made.push(BeamElement { nodes, frame, section: m.stiffnesses.len() - 1 });
+        made.push(BeamElement::new(nodes, frame, m.stiffnesses.len() - 1));
     }
     let name = format!("beam{}", m.count(PartKind::Beam));
     m.add(Beam {

@@ -34,7 +34,7 @@ pub fn model() -> Model {
         })
         .collect();
     nodes[2].label = "elbow, \"left\"".into();
-    let element = |nodes: [usize; 5]| BeamElement { nodes, frame: Mat3::identity(), section: 0 };
+    let element = |nodes: [usize; 5]| BeamElement::new(nodes, Mat3::identity(), 0);
     let beam = |name: &str, order, elements| Beam {
         name: name.into(),
         order,

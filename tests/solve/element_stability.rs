@@ -11,7 +11,8 @@ fn a_bar_is_given_the_square_of_the_ratio_of_steps() {
     for (i, j, k) in [(0, 0, 1.0), (3, 3, 1.0), (0, 3, -1.0), (3, 0, -1.0)] {
         K[6 * i + j] = k * stiffness;
     }
-    let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0: Mat3::zeros(), turns: true });
+    let shares =
+        [0, 1].map(|node| NodalShare { node, arm: Vec3::zeros(), mass: 0.5 * mass, J0: Mat3::zeros(), turns: true });
     let element = (&LumpedElement(shares.into()), &NodeSpacing { bending: Mat3::identity(), drilling: Mat3::zeros() });
     let fastest = 4.0 * stiffness / mass;
     assert_eq!(scaling(&K, element, 1.001 * fastest), ElementScaling::KEPT);
@@ -31,7 +32,7 @@ fn rotary_inertia_is_raised_before_mass() {
     [0, 1].into_iter().for_each(|a| (strain[6 * a + 2], strain[6 * a + 4]) = row(a));
     let K: Vec<f64> = (0..144).map(|i| stiffness * length * strain[i / 12] * strain[i % 12]).collect();
     let J0 = 0.5 * mass * radius * radius * Mat3::identity();
-    let shares = [0, 1].map(|node| NodalShare { node, mass: 0.5 * mass, J0, turns: true });
+    let shares = [0, 1].map(|node| NodalShare { node, arm: Vec3::zeros(), mass: 0.5 * mass, J0, turns: true });
     let element = LumpedElement(shares.into());
     let bending = length * length * Mat3::from_diagonal(&Vec3::new(0.0, 1.0, 1.0));
     let spacing = NodeSpacing { bending, drilling: Mat3::zeros() };
@@ -57,7 +58,9 @@ fn tensors_keep_what_is_large() {
     let tensor = |moments: [f64; 3]| turn * Mat3::from_diagonal(&Vec3::from(moments)) * turn.transpose();
     let half = &(0.5 * Mat3::identity());
     let raised = |J0: Mat3| {
-        ElementScaling { factor: 1.0, gyration: *half }.of(&NodalShare { node: 0, mass: 1.0, J0, turns: true }).1
+        ElementScaling { factor: 1.0, gyration: *half }
+            .of(&NodalShare { node: 0, arm: Vec3::zeros(), mass: 1.0, J0, turns: true })
+            .1
     };
     let off = raised(tensor([3.0, 0.1, 0.0])) - tensor([3.0, 0.5, 0.0]);
     assert!(off.amax() < 1e-14, "{off}");

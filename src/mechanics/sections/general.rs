@@ -3,10 +3,9 @@
 use super::dimensions::positive;
 use super::fibres::Fibre;
 use super::section::{Section, Stiffness};
+use super::section_mass::{Masses, symmetric};
 use super::section_shape::{CrossSection, MakeSection, SectionKind, SectionShape};
 use super::stresses::SectionOutline;
-use base::math::Mat6;
-use base::names::short;
 use base::words::kinds::Values;
 use base::words::kinds::{Form, Given, Key};
 
@@ -48,17 +47,27 @@ pub static KIND: SectionKind = SectionKind {
             about: "Six rows of the symmetric stiffness of forces and moments [along x, y, z, about x, y, z] against strains and curvatures in this \
                     order, instead of the four stiffnesses: any coupling, as by the layers of a blade.",
         },
-        Key { name: "mass_per_length", form: Form::Number, about: "Mass per length, 0 or more, with axial_stiffness." },
+        Key {
+            name: "mass_per_length",
+            form: Form::Number,
+            about: "Mass per length, 0 or more, with axial_stiffness or stiffness.",
+        },
         Key {
             name: "inertia_per_length",
             form: Form::Vector,
-            about: "Rotary inertia per length [about x, y, z], mass times length, 0 or more, with axial_stiffness.",
+            about: "Rotary inertia per length [about x, y, z], mass times length, 0 or more, with axial_stiffness or stiffness.",
+        },
+        Key {
+            name: "mass",
+            form: Form::SixRows,
+            about: "Six rows of the symmetric mass per length of accelerations [along x, y, z, about x, y, z], instead of mass_per_length and \
+                    inertia_per_length: its first moments say how far the centre of mass lies from the axis.",
         },
     ],
     make: MakeSection { read, takes_material: |values| !is_direct(values) },
 };
 
-const STIFFNESSES: [&str; 7] = [
+const STIFFNESSES: [&str; 8] = [
     "stiffness",
     "axial_stiffness",
     "shear_stiffness",
@@ -66,6 +75,7 @@ const STIFFNESSES: [&str; 7] = [
     "bending_stiffness",
     "mass_per_length",
     "inertia_per_length",
+    "mass",
 ];
 
 /// True where a section gives its stiffnesses itself.
@@ -105,55 +115,23 @@ fn stiffness(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     let shear = given.require_positive_pair("shear_stiffness");
     let torsion = given.require_positive("torsional_stiffness");
     let bending = given.require_positive_pair("bending_stiffness");
-    let (mass, inertia) = masses(given, needs_mass)?;
-    Some(CrossSection::Stiffness(Box::new(Stiffness::general(axial?, shear?, torsion?, bending?, mass, inertia))))
+    let masses = Masses::read(given, needs_mass)?;
+    let stiffness = Stiffness::general(axial?, shear?, torsion?, bending?, 0.0, [0.0; 3]);
+    Some(CrossSection::Stiffness(Box::new(masses.of(stiffness))))
 }
-
-/// Mass per length, and rotary inertia per length about each axis.
-fn masses(given: &mut Given, needs_mass: bool) -> Option<(f64, [f64; 3])> {
-    if needs_mass {
-        given.require("mass_per_length");
-        given.require("inertia_per_length");
-    }
-    let mass = given.not_negative("mass_per_length", 0.0);
-    let inertia = given.vector("inertia_per_length").map_or([0.0; 3], |inertia| inertia.into());
-    if inertia.iter().any(|&j| j < 0.0) {
-        return given.error("inertia_per_length", "`inertia_per_length` must not be negative");
-    }
-    Some((mass, inertia))
-}
-
-/// Largest difference of two entries of a matrix that is meant to be symmetric, over the geometric mean of their diagonals: tables have four digits.
-const SYMMETRIC: f64 = 1e-4;
-
 /// A section by the matrix of its stiffness.
 fn coupled(given: &mut Given, needs_mass: bool) -> Option<CrossSection> {
     for key in STIFFNESSES[1..5].iter().filter(|key| given.has(key)).collect::<Vec<_>>() {
         given.error_with::<()>(key, format!("`{key}` does not apply beside `stiffness`"), "remove it, or the matrix");
     }
-    let rows = Mat6::from_row_slice(given.numbers("stiffness"));
-    let (mass, inertia) = masses(given, needs_mass)?;
-    let size = |i: usize, j: usize| (rows[(i, i)] * rows[(j, j)]).abs().sqrt();
-    let differs = |&(i, j): &(usize, usize)| (rows[(i, j)] - rows[(j, i)]).abs() > SYMMETRIC * size(i, j);
-    if let Some((i, j)) = (0..6).flat_map(|i| (0..i).map(move |j| (i, j))).find(differs) {
-        let message = format!(
-            "`stiffness` is not symmetric: row {} has {} in column {}, and row {} has {} in column {}",
-            i + 1,
-            short(rows[(i, j)]),
-            j + 1,
-            j + 1,
-            short(rows[(j, i)]),
-            i + 1
-        );
-        return given.error_with("stiffness", message, "give both the same value");
-    }
-    let K = 0.5 * (rows + rows.transpose());
+    let masses = Masses::read(given, needs_mass)?;
+    let K = symmetric(given, "stiffness")?;
     if K.cholesky().is_none() {
         let hint = "a section has a positive energy in every strain: look at the order of rows, and at signs";
         return given.error_with("stiffness", "`stiffness` is not positive definite", hint);
     }
-    let own = Stiffness::general(1.0, [1.0; 2], 1.0, [1.0; 2], mass, inertia);
-    Some(CrossSection::Stiffness(Box::new(own.with_matrix(&K))))
+    let own = Stiffness::general(1.0, [1.0; 2], 1.0, [1.0; 2], 0.0, [0.0; 3]);
+    Some(CrossSection::Stiffness(Box::new(masses.of(own.with_matrix(&K)))))
 }
 
 /// A section by its area, moments and shear areas.

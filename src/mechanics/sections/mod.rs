@@ -16,6 +16,7 @@ mod profile;
 pub mod rectangle;
 pub mod rounded;
 pub mod section;
+mod section_mass;
 pub mod section_shape;
 pub mod stresses;
 pub mod tube;

@@ -1,6 +1,6 @@
 //! The properties of a cross section, and its stiffness and inertia for beams.
 
-use base::math::{Mat3, Mat6, Vec6};
+use base::math::{Mat3, Mat6, Vec3, Vec6, skew};
 use std::ops::AddAssign;
 
 /// Geometry of a cross section, axes parallel to the section's y and z through the centroid.
@@ -46,6 +46,7 @@ impl Section {
             M: Mat3::new(G * torsion + ys * Qz - zs * Qy, 0.0, 0.0, 0.0, E * Iy, -E * Iyz, 0.0, -E * Iyz, E * Iz),
             NM: Mat3::new(0.0, 0.0, 0.0, Qy, 0.0, 0.0, Qz, 0.0, 0.0),
             mass_per_length: density * area,
+            mass_center: [0.0; 2],
             inertia_per_length: density * Mat3::new(Iy + Iz, 0.0, 0.0, 0.0, Iy, -Iyz, 0.0, -Iyz, Iz),
         }
     }
@@ -62,7 +63,9 @@ pub struct Stiffness {
     pub NM: Mat3,
     /// Mass per length.
     pub mass_per_length: f64,
-    /// Rotary inertia per length, about the centroid.
+    /// Centre of mass (y, z).
+    pub mass_center: [f64; 2],
+    /// Rotary inertia per length, about the centre of mass.
     pub inertia_per_length: Mat3,
 }
 
@@ -129,8 +132,53 @@ impl Stiffness {
             M: Mat3::from_diagonal(&[torsion, bending[0], bending[1]].into()),
             NM: Mat3::zeros(),
             mass_per_length,
+            mass_center: [0.0; 2],
             inertia_per_length: Mat3::from_diagonal(&inertia.into()),
         }
+    }
+
+    /// The section about an axis from which its own lies at (y, z): Γ is there Γ + κ × (0, y, z).
+    pub fn beside(&self, [y, z]: [f64; 2]) -> Stiffness {
+        let s = skew(&Vec3::new(0.0, y, z));
+        let Stiffness { N, M, NM, mass_center: [my, mz], .. } = self;
+        Stiffness {
+            N: *N,
+            NM: NM - N * s,
+            M: M + s * NM - NM.transpose() * s - s * N * s,
+            mass_center: [my + y, mz + z],
+            ..self.clone()
+        }
+    }
+
+    /// The section that lies at this part of the way to another: matrices of stiffness and mass are linear. A section equal to the other stays.
+    pub fn toward(&self, other: &Stiffness, part: f64) -> Stiffness {
+        if self == other {
+            return self.clone();
+        }
+        let between = |a: Mat3, b: Mat3| a + part * (b - a);
+        let mass = |of: &Stiffness| {
+            let [y, z] = of.mass_center;
+            let c = Vec3::new(0.0, y, z);
+            (of.mass_per_length * c, of.inertia_per_length - of.mass_per_length * skew(&c) * skew(&c))
+        };
+        let ((first, about_axis), (other_first, other_about)) = (mass(self), mass(other));
+        let mass_per_length = self.mass_per_length + part * (other.mass_per_length - self.mass_per_length);
+        let first = first + part * (other_first - first);
+        let c = if mass_per_length > 0.0 { first / mass_per_length } else { Vec3::zeros() };
+        Stiffness {
+            N: between(self.N, other.N),
+            M: between(self.M, other.M),
+            NM: between(self.NM, other.NM),
+            mass_per_length,
+            mass_center: [c.y, c.z],
+            inertia_per_length: between(about_axis, other_about) + mass_per_length * skew(&c) * skew(&c),
+        }
+    }
+
+    /// Vector from the axis to the centre of mass, global components, where the columns of `frame` are the section axes; `None` of a centred mass.
+    pub fn mass_arm(&self, frame: &Mat3) -> Option<Vec3> {
+        let [y, z] = self.mass_center;
+        (self.mass_center != [0.0; 2]).then(|| frame * Vec3::new(0.0, y, z))
     }
 }
 

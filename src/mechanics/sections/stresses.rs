@@ -18,6 +18,8 @@ pub struct SectionStresses {
     /// Gradient of the normal stress along (y, z) from (M_y, M_z).
     bending: Matrix2<f64>,
     shear_center: [f64; 2],
+    /// Centroid (y, z) from the axis of the beam.
+    centroid: [f64; 2],
     outline: SectionOutline,
 }
 
@@ -76,7 +78,17 @@ impl SectionStresses {
         // (M_y, M_z) = E [I_y −I_yz; −I_yz I_z] (κ₂, κ₃), and σ = E (z κ₂ − y κ₃).
         let det = Iy * Iz - Iyz * Iyz;
         let bending = Matrix2::new(-Iyz, -Iy, Iz, Iyz) / det;
-        SectionStresses { area, bending, shear_center, outline }
+        SectionStresses { area, bending, shear_center, centroid: [0.0; 2], outline }
+    }
+
+    /// The same section with its centroid at (y, z) from the axis of the beam.
+    pub fn beside(self, centroid: [f64; 2]) -> SectionStresses {
+        SectionStresses { centroid, ..self }
+    }
+
+    /// The centroid (y, z) from the axis of the beam.
+    pub fn centroid(&self) -> [f64; 2] {
+        self.centroid
     }
 
     /// The points of possibly extreme stresses.
@@ -84,8 +96,10 @@ impl SectionStresses {
         &self.outline
     }
 
-    /// Extreme stresses under N, V_y, V_z, T, M_y, M_z about the centroid.
+    /// Extreme stresses under N, V_y, V_z, T, M_y, M_z about the axis of the beam.
     pub fn extremes(&self, &[N, Vy, Vz, T, My, Mz]: &[f64; 6]) -> BeamStresses {
+        let [y, z] = self.centroid;
+        let (T, My, Mz) = (T - (y * Vz - z * Vy), My - z * N, Mz + y * N);
         let slope = self.bending * Vector2::new(My, Mz);
         let [ys, zs] = self.shear_center;
         let twist = T - (ys * Vz - zs * Vy);

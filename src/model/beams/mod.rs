@@ -1,8 +1,10 @@
 //! `[[beams]]`: paths or groups of the mesh → nodes and elements.
 
 pub mod grading;
+pub mod mass_nodes;
 pub mod paths;
 mod released;
+mod stations;
 
 use crate::beams::grading::{cuts, gradings};
 use crate::beams::paths::{counts, path, segments};
@@ -45,10 +47,13 @@ pub fn beams(cx: &mut PartContext) {
     }
 }
 
-/// Half the smaller side of a beam's section; 0 where the section does not say it.
+/// Half the smaller side of a beam's thinnest section; 0 where a section does not say it.
 fn half_depth(deck: &Deck, beam: &words::Beam) -> f64 {
-    let index = beam.section.as_ref().and_then(|name| deck.sections.position(name));
-    index.map_or(0.0, |index| sections::half_depth(&deck.sections.0[index].1))
+    let stations = beam.stations.iter().flat_map(|stations| &stations.value);
+    let names = beam.section.iter().chain(stations.filter_map(|station| station.section.as_ref()));
+    let indices = names.filter_map(|name| deck.sections.position(name));
+    let depths = indices.map(|index| sections::half_depth(&deck.sections.0[index].1));
+    depths.reduce(f64::min).unwrap_or(0.0)
 }
 
 /// Reads one beam as far as it can, so that all errors of the beam are found; `None` means there were some.
@@ -68,7 +73,11 @@ fn read_beam<'d>(
     let mass = chosen(&beam.mass);
     let damping = own_damping::of_part(&beam.damping, cx.report);
     let shear = flag(&beam.shear, true);
-    let section = cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report);
+    let stations = stations::stations(owner, beam, (mass, shear), cx);
+    let section = match &beam.stations {
+        Some(_) => stations.as_ref().and_then(|stations| stations.first()),
+        None => cx.sections.beam_section(owner, [&beam.section, &beam.material], (mass, shear), cx.report),
+    };
     let yielding = yielding(owner, beam, order, section.is_some(), cx);
     let orientation = cx.report.require(owner, "orientation", &beam.orientation);
     let line = Line { at, name: &name, owner, beam, order: order.min(4), orientation };
@@ -82,6 +91,9 @@ fn read_beam<'d>(
         return None;
     }
     elements.iter_mut().for_each(|element| element.section = section);
+    if let Some(stations) = stations {
+        stations.lay(&mut elements, beam, (order, shear), cx)?;
+    }
     let graded = beam.grading.as_ref().is_some_and(|grading| grading.values.iter().any(|part| part.value < 1.0));
     let rotary_inertia = flag(&beam.rotary_inertia, true);
     Some(Beam { name, order, mass, rotary_inertia, damping, yielding, graded, heat: Heat::NONE, elements })
@@ -131,7 +143,7 @@ impl<'d> Line<'_, 'd> {
                 curved += usize::from(!self.takes_middle(middle, [x0, x1], cx));
                 (ids[1], ids[2]) = (middle, ends[1]);
                 nodes.extend(seen.insert(middle).then_some(middle));
-                made.push(BeamElement { nodes: ids, frame, section: 0 });
+                made.push(BeamElement::new(ids, frame, 0));
                 continue;
             }
             for (i, xi) in inner.iter().enumerate().take(inner.len() - 1).skip(1) {
@@ -139,7 +151,7 @@ impl<'d> Line<'_, 'd> {
                 ids[i] = self.add_node(inside, x0 + (x1 - x0) * (0.5 * (1.0 + xi)), cx);
                 nodes.push(ids[i]);
             }
-            made.push(BeamElement { nodes: ids, frame, section: 0 });
+            made.push(BeamElement::new(ids, frame, 0));
         }
         cx.parts.entry_mut(self.at).nodes = nodes;
         if parallel > 0 {
@@ -251,7 +263,7 @@ impl<'d> Line<'_, 'd> {
                     ids[i] = if last { end } else { self.add_node(nodes.len(), x0 + (x1 - x0) * s, cx) };
                     nodes.push(ids[i]);
                 }
-                made.push(BeamElement { nodes: ids, frame: frames[segment], section: 0 });
+                made.push(BeamElement::new(ids, frames[segment], 0));
             }
         }
         cx.parts.entry_mut(self.at).nodes = nodes;
@@ -307,6 +319,12 @@ fn yielding<'d>(
         cx.report.reject_unused(&format!("{}, whose material is elastic", owner.what), &unused);
         return Some(None);
     };
+    if let Some(stations) = &beam.stations {
+        let message =
+            format!("{} has `stations`, and its material yields: fibres are those of one section", owner.what);
+        let hint = "give it an elastic material, or divide it into beams that have one `section` each";
+        return cx.report.error_with(&stations.span, message, hint);
+    }
     let points = cx.report.count("points", &beam.points, order);
     if let Some(at) = &beam.points
         && order == 1

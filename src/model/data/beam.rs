@@ -6,6 +6,7 @@ use super::lattice;
 use super::loading::OwnDamping;
 use super::node::Node;
 use super::part_answers::{Drawing, LineElement, NodeWeights, PartAnswers};
+use base::math::quadrature::lobatto;
 use base::math::{Mat3, Vec3};
 use base::quantities::{Column, PLASTIC_STRAIN, SECTION_FORCES, SECTION_STRESSES};
 use deck::part_table::MassKind;
@@ -43,8 +44,30 @@ pub struct BeamElement {
     pub nodes: [usize; 5],
     /// Columns: section axes x (along the beam), y, z in global components at t = 0.
     pub frame: Mat3,
+    /// Index into [`super::Model::stiffnesses`]: the section, or that at a point near the middle.
+    pub section: usize,
+    /// Sections and axes by place, where they differ.
+    pub varied: Option<Box<VariedElement>>,
+    /// The nodes in which its mass lies, where that is off the axis; they move rigidly with `nodes`.
+    pub mass_nodes: Option<Box<[usize; 5]>>,
+}
+
+/// The sections of an element that differ from place to place.
+#[derive(Debug, Clone)]
+pub struct VariedElement {
+    /// At its nodes; the first `order + 1` are used.
+    pub nodes: [SectionAt; 5],
+    /// At its Gauss points; the first `order` are used.
+    pub points: [SectionAt; 4],
+}
+
+/// The section at a place of a beam.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionAt {
     /// Index into [`super::Model::stiffnesses`].
     pub section: usize,
+    /// Columns: axes x (along the beam), y, z of the section in global components at t = 0.
+    pub frame: Mat3,
 }
 
 impl Beam {
@@ -75,7 +98,11 @@ impl PartAnswers for Beam {
 
     fn visit_nodes(&mut self, visit: &mut dyn FnMut(&mut usize)) {
         let order = self.order;
-        self.elements.iter_mut().flat_map(|e| &mut e.nodes[..=order]).chain(self.heat.nodes_mut()).for_each(visit);
+        for element in &mut self.elements {
+            let masses = element.mass_nodes.iter_mut().flat_map(|nodes| &mut nodes[..=order]);
+            element.nodes[..=order].iter_mut().chain(masses).for_each(&mut *visit);
+        }
+        self.heat.nodes_mut().for_each(visit);
     }
 
     fn heat(&self) -> Option<&Heat> {
@@ -115,8 +142,15 @@ impl PartAnswers for Beam {
     }
 
     fn element_mass(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> f64 {
-        let [start, end] = self.elements[element].ends(self.order).map(|node| nodes[node].x);
-        stiffnesses[self.elements[element].section].mass_per_length * (start - end).norm()
+        let spec = &self.elements[element];
+        let [start, end] = spec.ends(self.order).map(|node| nodes[node].x);
+        let length = (start - end).norm();
+        if spec.varied.is_none() {
+            return stiffnesses[spec.section].mass_per_length * length;
+        }
+        let (_, weights) = lobatto(self.order + 1);
+        let masses = (0..=self.order).map(|k| stiffnesses[spec.at_node(k).section].mass_per_length);
+        masses.zip(weights).map(|(mass, weight)| 0.5 * weight * length * mass).sum()
     }
 
     fn stretching(&self, element: usize, nodes: &[Node], stiffnesses: &[Stiffness]) -> Option<f64> {
@@ -139,7 +173,7 @@ impl PartAnswers for Beam {
         lattice::along_lines(self.elements.iter().map(|element| &element.nodes[..=self.order]), count)
     }
 
-    /// The mass lies on the axis, with the rotary inertia of the section.
+    /// The mass lies on the line of the centres of mass, with the rotary inertia of the section.
     fn take_out(
         &mut self,
         stiffnesses: &[Stiffness],
@@ -149,8 +183,16 @@ impl PartAnswers for Beam {
         let mut taken = Vec::new();
         for e in std::mem::take(&mut self.elements) {
             let ends = e.ends(self.order);
-            let x = ends.map(x);
+            if e.varied.is_some() {
+                self.take_varied(&e, stiffnesses, x, sums);
+                taken.push(ends.to_vec());
+                continue;
+            }
+            let mut x = ends.map(x);
             let (length, section) = ((x[1] - x[0]).norm(), &stiffnesses[e.section]);
+            if let Some(arm) = section.mass_arm(&e.frame) {
+                x.iter_mut().for_each(|x| *x += arm);
+            }
             let density = if self.mass == MassKind::None { 0.0 } else { section.mass_per_length };
             sums.add(density, &x, |a, b| length * line_mass(a, b));
             if self.rotary_inertia && self.mass != MassKind::None {
@@ -162,7 +204,53 @@ impl PartAnswers for Beam {
     }
 }
 
+impl Beam {
+    /// Adds the mass of an element whose sections differ, by the masses at its nodes.
+    fn take_varied(
+        &self,
+        element: &BeamElement,
+        stiffnesses: &[Stiffness],
+        x: &dyn Fn(usize) -> Vec3,
+        sums: &mut MassIntegrals,
+    ) {
+        let [start, end] = element.ends(self.order).map(x);
+        let (at, weights) = lobatto(self.order + 1);
+        for (k, (xi, weight)) in at.iter().zip(weights).enumerate() {
+            let SectionAt { section, frame } = element.at_node(k);
+            let (section, share) = (&stiffnesses[section], 0.5 * weight * (end - start).norm());
+            let place = start + (end - start) * (0.5 * (1.0 + xi)) + section.mass_arm(&frame).unwrap_or_default();
+            let density = if self.mass == MassKind::None { 0.0 } else { section.mass_per_length };
+            sums.add(density, &[place], |_, _| share);
+            if self.rotary_inertia && self.mass != MassKind::None {
+                sums.rotary += share * frame * section.inertia_per_length * frame.transpose();
+            }
+        }
+    }
+}
+
 impl BeamElement {
+    /// An element with these nodes and axes, its mass on the axis.
+    pub fn new(nodes: [usize; 5], frame: Mat3, section: usize) -> BeamElement {
+        BeamElement { nodes, frame, section, varied: None, mass_nodes: None }
+    }
+
+    /// The section at a node of the element.
+    pub fn at_node(&self, k: usize) -> SectionAt {
+        let same = SectionAt { section: self.section, frame: self.frame };
+        self.varied.as_ref().map_or(same, |varied| varied.nodes[k])
+    }
+
+    /// The section at a Gauss point.
+    pub fn at_point(&self, g: usize) -> SectionAt {
+        let same = SectionAt { section: self.section, frame: self.frame };
+        self.varied.as_ref().map_or(same, |varied| varied.points[g])
+    }
+
+    /// The nodes in which its mass lies.
+    pub fn mass_nodes(&self) -> &[usize; 5] {
+        self.mass_nodes.as_deref().unwrap_or(&self.nodes)
+    }
+
     /// First and last node of an element of this order.
     pub fn ends(&self, order: usize) -> [usize; 2] {
         [self.nodes[0], self.nodes[order]]

@@ -29,7 +29,7 @@ mod superelement;
 
 pub use analysis::{Analysis, AnalysisKind, Iteration, Solution};
 pub use bar::Bar;
-pub use beam::{Beam, BeamElement};
+pub use beam::{Beam, BeamElement, SectionAt, VariedElement};
 pub use case::{CaseActor, CaseTerm, Envelope, LoadCase, LoadCases, YieldLimit};
 pub use constraints::{
     Constraints, DependentNode, GivenTurn, Joint, JointCoordinate, JointDrive, JointEffort, JointOrigin,

@@ -10,7 +10,10 @@ pub fn named_materials(deck: &Deck) -> HashSet<&str> {
 
 /// Sections that a beam of the deck names.
 pub fn named_sections(deck: &Deck) -> HashSet<&str> {
-    deck.beams.iter().filter_map(|beam| beam.section.as_ref()).map(|name| name.as_str()).collect()
+    let stations = deck.beams.iter().filter_map(|beam| beam.stations.as_ref()).flat_map(|stations| &stations.value);
+    let of_stations = stations.filter_map(|station| station.section.as_ref());
+    let of_beams = deck.beams.iter().filter_map(|beam| beam.section.as_ref());
+    of_beams.chain(of_stations).map(|name| name.as_str()).collect()
 }
 
 /// Amplitudes that a load, a motion or a profile of the deck names.

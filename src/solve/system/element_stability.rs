@@ -9,7 +9,7 @@
 
 use super::parts::{LumpedElement, NodalShare, NodeSpacing};
 use crate::tolerances::element_stability::{BISECTIONS, GYRATION, NONE, OF_USE};
-use base::math::{Mat3, Vec3};
+use base::math::{Mat3, Vec3, skew};
 use nalgebra::{DMatrix, Dyn, linalg::Cholesky};
 
 /// The scaling of the masses of an element.
@@ -134,6 +134,10 @@ impl ElementModes {
             all.extend([(share.mass, None); 3]);
             if dofs == 6 && share.turns {
                 axes.view_mut((dofs * a + 3, dofs * a + 3), (3, 3)).copy_from(&turned);
+                if share.arm != Vec3::zeros() {
+                    // Turning about the centre of mass moves the node of the element.
+                    axes.view_mut((dofs * a, dofs * a + 3), (3, 3)).copy_from(&(skew(&share.arm) * turned));
+                }
                 all.extend((0..3).map(|i| (moments[i], Some([drilling[i], bending[i]]))));
             } else if dofs == 6 {
                 // What turns with a body turns slowly.

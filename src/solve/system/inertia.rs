@@ -242,6 +242,21 @@ impl ConsistentMass {
         ConsistentMass { nodes: nodes.to_vec(), m, alpha: 0.0 }
     }
 
+    /// Entries ∫ m N_a N_b over such an element, where these are the masses m that it would have if it were like each of its nodes.
+    pub fn varied(nodes: &[usize], masses: &[f64]) -> Self {
+        let n = nodes.len();
+        let (at, _) = quadrature::lobatto(n);
+        // Exact for masses that are linear.
+        let (points, weights) = quadrature::gauss(n + 1);
+        let mut m = vec![0.0; n * n];
+        for (&xi, w) in points.iter().zip(weights) {
+            let shape = quadrature::lagrange(at, xi);
+            let mass: f64 = shape.iter().zip(masses).map(|(N, mass)| N * mass).sum();
+            m.iter_mut().enumerate().for_each(|(i, m)| *m += 0.5 * w * mass * shape[i / n] * shape[i % n]);
+        }
+        ConsistentMass { nodes: nodes.to_vec(), m, alpha: 0.0 }
+    }
+
     /// Entries ∫ N_a N_b over a shell element of this mass per area with the corners `x`.
     pub fn of_shell(nodes: &[usize], x: &[Vec3], mass: f64) -> Self {
         let n = nodes.len();

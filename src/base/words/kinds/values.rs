@@ -28,6 +28,19 @@ impl Values {
         self.get(key).map_or(&[], |value| &value.numbers)
     }
 
+    /// Numbers at this part of the way to those of another table; `None` where the two do not give the same keys with as many numbers.
+    pub fn toward(&self, other: &Values, part: f64) -> Option<Values> {
+        if self.0.len() != other.0.len() {
+            return None;
+        }
+        let between = |value: &Value| {
+            let to = &other.get(value.key)?.numbers;
+            let numbers = value.numbers.iter().zip(to).map(|(a, b)| a + part * (b - a)).collect();
+            (value.numbers.len() == to.len()).then(|| Value { numbers, ..value.clone() })
+        };
+        self.0.iter().map(between).collect::<Option<Vec<_>>>().map(Values)
+    }
+
     /// The place of a key's value in the deck; `None` where it is not written.
     pub fn place(&self, key: &str) -> Option<&Span> {
         self.get(key).map(|value| &value.span)

@@ -24,10 +24,10 @@ fn single((n, m): (Vec3, Vec3)) -> [LaneVec3<f64>; 2] {
     [LaneVec3(n.into()), LaneVec3(m.into())]
 }
 
-/// The damping of some elements: β, and the stiffness C of their sections; none where they have failed.
-struct Damping<T> {
+/// The damping of some elements: β, and the stiffness C of their sections at an integration point; none where they have failed.
+struct Damping<'a, T> {
     factor: T,
-    elastic: SectionStiffness<T>,
+    elastic: &'a dyn Fn(usize) -> SectionStiffness<T>,
 }
 
 /// The stress resultants at an integration point.
@@ -42,7 +42,7 @@ fn forces_of<T: Number, const N: usize>(
     pack: &Pack<T, N>,
     points: usize,
     (motion, nodes): (&BeamMotion<T, N>, &[Node]),
-    damping: Option<Damping<T>>,
+    damping: Option<Damping<'_, T>>,
     stress: &mut Stress<T>,
 ) -> [[T; 6]; N] {
     let q = &motion.q;
@@ -53,7 +53,7 @@ fn forces_of<T: Number, const N: usize>(
         let [mut n, mut m] = stress(g, &point);
         if let Some(Damping { factor, elastic }) = &damping {
             let (rates, _) = pack.rates(g, &point, q, nodes);
-            let [nd, md] = elastic.stress(&rates);
+            let [nd, md] = elastic(g).stress(&rates);
             n += *factor * nd;
             m += *factor * md;
         }
@@ -85,12 +85,16 @@ fn forces_of<T: Number, const N: usize>(
 }
 
 impl<const N: usize, S: BeamSection> Beams<N, S> {
-    /// The damping of an element.
+    /// The damping of an element whose sections have the stiffness `elastic`.
     #[inline(always)]
-    fn damping_of(&self, e: usize, now: &Configuration) -> Option<Damping<f64>> {
-        let section = &self.elements[e].section;
-        let acts = self.damping > 0.0 && !section.has_failed(now.history);
-        acts.then(|| Damping { factor: self.damping, elastic: BeamStiffness::side_by_side(|_| section.elastic()) })
+    fn damping_of<'a>(
+        &self,
+        e: usize,
+        now: &Configuration,
+        elastic: &'a dyn Fn(usize) -> SectionStiffness<f64>,
+    ) -> Option<Damping<'a, f64>> {
+        let acts = self.damping > 0.0 && !self.elements[e].section.has_failed(now.history);
+        acts.then(|| Damping { factor: self.damping, elastic })
     }
 
     /// Internal forces and moments on the nodes of an element, and the integrals of n and m over its length where something heats it.
@@ -98,7 +102,8 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     fn nodal_forces(&self, e: usize, now: &Configuration) -> ([Force; N], [Vec3; 2]) {
         let (pack, motion) = self.one(e, now.nodes);
         let section = &self.elements[e].section;
-        let (damping, free) = (self.damping_of(e, now), self.free_strain(e, now.nodes));
+        let elastic = |g| BeamStiffness::side_by_side(|_| section.elastic(g));
+        let (damping, free) = (self.damping_of(e, now, &elastic), self.free_strain(e, now.nodes));
         let mut sums = [Vec3::zeros(); 2];
         let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
             let (gamma, kappa) = less(point.strains(), free.as_ref());
@@ -124,9 +129,11 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     fn forces_side_by_side(&self, elements: &[Beam<N, S>], now: &Configuration) -> [[Lanes; 6]; N] {
         let pack = Pack::<Lanes, N>::new(elements, &self.shape);
         let motion = pack.gather(now.nodes);
-        let elastic = BeamStiffness::side_by_side(|lane| elements[lane.min(elements.len() - 1)].section.elastic());
-        let damping = (self.damping > 0.0).then(|| Damping { factor: Lanes::splat(self.damping), elastic });
-        let mut stress = |_, point: &GaussPoint<Lanes>| elastic.stress(&point.strain);
+        let at = |g| BeamStiffness::side_by_side(|lane| elements[lane.min(elements.len() - 1)].section.elastic(g));
+        let first = at(0);
+        let elastic = |g| if S::VARIES { at(g) } else { first };
+        let damping = (self.damping > 0.0).then(|| Damping { factor: Lanes::splat(self.damping), elastic: &elastic });
+        let mut stress = |g, point: &GaussPoint<Lanes>| elastic(g).stress(&point.strain);
         forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut stress)
     }
 
@@ -159,7 +166,9 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
     ) {
         let pack = Pack::<T, N>::new(elements, &self.shape);
         let section = |lane: usize| &elements[lane.min(elements.len() - 1)].section;
-        let elastic = BeamStiffness::side_by_side(|lane| section(lane).elastic());
+        let at = |g| BeamStiffness::side_by_side(|lane| section(lane).elastic(g));
+        let first = at(0);
+        let elastic = |g| if S::VARIES { at(g) } else { first };
         let sections = PackSections {
             points: self.integration_points(),
             linearise: &|g, strain| {
@@ -167,9 +176,9 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
                     None => *strain,
                     Some(free) => from_fn(|k| strain[k] - LaneVec3::gather(|_| free[k])),
                 };
-                S::linearise(section, g, &strain, (now, moduli), &elastic)
+                S::linearise(section, g, &strain, (now, moduli), &elastic(g))
             },
-            viscous: elastic.scaled(T::splat(self.damping)),
+            viscous: &|g| elastic(g).scaled(T::splat(self.damping)),
             has_failed: self.damping > 0.0 && section(0).has_failed(now.history),
         };
         tangent(&pack, &sections, (now.nodes, previous), rate_weight.filter(|_| self.damping > 0.0), K);
@@ -196,11 +205,21 @@ impl<const N: usize, S: BeamSection> Beams<N, S> {
                 return [0.0; 3];
             }
             let [gamma, kappa] = heat.unit(e, &element.tangent, of);
-            let (n, m) = element.section.elastic().stress(&-gamma, &-kappa);
-            let stress = single((n, m));
-            let forces = forces_of(&pack, points, (&motion, now.nodes), None, &mut |_, _| stress);
+            let at = |g: usize| element.section.elastic(g).stress(&-gamma, &-kappa);
+            let forces = forces_of(&pack, points, (&motion, now.nodes), None, &mut |g, _| single(at(g)));
             column.copy_from_slice(forces.as_flattened());
-            heat.work(e, &element.tangent, &[length * n, length * m])
+            if !S::VARIES {
+                let (n, m) = at(0);
+                return heat.work(e, &element.tangent, &[length * n, length * m]);
+            }
+            let mut sums = [Vec3::zeros(); 2];
+            for g in 0..points {
+                let weight = self.shape.weight[g] * element.jacobian;
+                let (n, m) = at(g);
+                sums[0] += weight * n;
+                sums[1] += weight * m;
+            }
+            heat.work(e, &element.tangent, &sums)
         });
     }
 }
@@ -270,7 +289,8 @@ impl<const N: usize, S: BeamSection> Mechanics for Beams<N, S> {
         let mut sum = Dissipation::default();
         for (e, element) in self.elements.iter().enumerate() {
             let (pack, motion) = self.one(e, now.nodes);
-            let (damping, free) = (self.damping_of(e, now), self.free_strain(e, now.nodes));
+            let elastic = |g| BeamStiffness::side_by_side(|_| element.section.elastic(g));
+            let (damping, free) = (self.damping_of(e, now, &elastic), self.free_strain(e, now.nodes));
             let mut sums = [Vec3::zeros(); 2];
             let forces = forces_of(&pack, self.integration_points(), (&motion, now.nodes), damping, &mut |g, point| {
                 let (gamma, kappa) = less(point.strains(), free.as_ref());
@@ -402,7 +422,7 @@ impl<const N: usize, S: BeamSection> Results for Beams<N, S> {
             let (pack, motion) = self.one(e, nodes);
             for g in 0..self.integration_points() {
                 let (gamma, kappa) = pack.strain_rates(g, &motion, nodes);
-                let (n, m) = element.section.elastic().stress(&gamma, &kappa);
+                let (n, m) = element.section.elastic(g).stress(&gamma, &kappa);
                 sum += self.damping * self.shape.weight[g] * element.jacobian * (n.dot(&gamma) + m.dot(&kappa));
             }
         }

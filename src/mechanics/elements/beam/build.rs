@@ -4,6 +4,7 @@ use super::fibres::{FibreProfile, FibreSection};
 use super::kinematics::{Beam, BeamHeat, Beams};
 use super::section::{BeamSection, BeamStiffness};
 use super::shape::{IntegrationRule, ShapeFunctions};
+use super::varied::VariedSection;
 use crate::elements::block::ElementBlock;
 use crate::elements::heat::{Heat, HeatNodes};
 use crate::materials::{FibreStress, MaterialLaw, StressState, Uniaxial};
@@ -19,6 +20,8 @@ pub struct BeamGeometry<'a> {
     pub frame: &'a Mat3,
     /// Stiffness of its section, in section axes.
     pub stiffness: &'a Stiffness,
+    /// Stiffness and axes of its sections at the integration points, where they differ.
+    pub varied: Option<[(&'a Stiffness, &'a Mat3); 4]>,
 }
 
 /// What all elements of a beam have in common.
@@ -34,19 +37,38 @@ pub struct BeamSetting<'a> {
 
 /// Elastic beams of a polynomial order, 1 to 4. All kinds of beams are made here, so that no other crate compiles them again.
 pub fn elastic_beams(order: usize, elements: &[BeamGeometry], setting: BeamSetting) -> Box<dyn ElementBlock> {
-    match order {
-        1 => Box::new(Beams::<2>::new(elements, setting)),
-        2 => Box::new(Beams::<3>::new(elements, setting)),
-        3 => Box::new(Beams::<4>::new(elements, setting)),
-        _ => Box::new(Beams::<5>::new(elements, setting)),
+    match (order, elements.iter().any(|element| element.varied.is_some())) {
+        (1, false) => Box::new(Beams::<2>::new(elements, setting)),
+        (2, false) => Box::new(Beams::<3>::new(elements, setting)),
+        (3, false) => Box::new(Beams::<4>::new(elements, setting)),
+        (_, false) => Box::new(Beams::<5>::new(elements, setting)),
+        (1, true) => Box::new(Beams::<2, _>::varied(elements, setting)),
+        (2, true) => Box::new(Beams::<3, _>::varied(elements, setting)),
+        (3, true) => Box::new(Beams::<4, _>::varied(elements, setting)),
+        (_, true) => Box::new(Beams::<5, _>::varied(elements, setting)),
+    }
+}
+
+/// The section of an element of N nodes and this length that stays elastic.
+fn elastic_section<const N: usize>(stiffness: &Stiffness, frame: &Mat3, length: f64) -> BeamStiffness {
+    match N {
+        2 => BeamStiffness::new(&with_bending_flexibility(stiffness, length), frame),
+        _ => BeamStiffness::new(stiffness, frame),
     }
 }
 
 impl<const N: usize> Beams<N> {
     fn new(elements: &[BeamGeometry], setting: BeamSetting) -> Self {
-        let section = |e: &BeamGeometry, length: f64| match N {
-            2 => BeamStiffness::new(&with_bending_flexibility(e.stiffness, length), e.frame),
-            _ => BeamStiffness::new(e.stiffness, e.frame),
+        let section = |e: &BeamGeometry, length| elastic_section::<N>(e.stiffness, e.frame, length);
+        Beams::build(elements, setting, IntegrationRule::Gauss.points(N - 1), section)
+    }
+}
+
+impl<const N: usize> Beams<N, VariedSection> {
+    fn varied(elements: &[BeamGeometry], setting: BeamSetting) -> Self {
+        let section = |e: &BeamGeometry, length| {
+            let at = |(stiffness, frame)| elastic_section::<N>(stiffness, frame, length);
+            VariedSection(Box::new(e.varied.unwrap_or([(e.stiffness, e.frame); 4]).map(at)))
         };
         Beams::build(elements, setting, IntegrationRule::Gauss.points(N - 1), section)
     }

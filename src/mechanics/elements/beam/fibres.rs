@@ -235,7 +235,7 @@ impl<S: StressState<N>, const N: usize> BeamSection for FibreSection<S, N> {
         rule
     }
 
-    fn elastic(&self) -> &BeamStiffness {
+    fn elastic(&self, _: usize) -> &BeamStiffness {
         &self.elastic
     }
 

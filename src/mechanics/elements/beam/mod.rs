@@ -24,6 +24,7 @@ mod quaternion;
 mod section;
 mod shape;
 mod tangent;
+mod varied;
 
 pub use build::{BeamGeometry, BeamSetting, FibreModel, elastic_beams};
 pub use section::BeamStiffness;

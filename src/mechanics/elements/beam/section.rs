@@ -13,10 +13,12 @@ use base::math::{Mat3, Vec3};
 pub trait BeamSection: Send + Sync {
     /// True for a section that never yields, with the stress of [`BeamSection::elastic`].
     const IS_ELASTIC: bool = false;
+    /// True for sections that differ from point to point of an element.
+    const VARIES: bool = false;
     /// The number of integration points of an element of `nodes` nodes whose rule has `rule` points.
     fn points(nodes: usize, rule: usize) -> usize;
-    /// The stiffness of the section before it yields.
-    fn elastic(&self) -> &BeamStiffness;
+    /// The stiffness of the section at integration point `g` before it yields.
+    fn elastic(&self, g: usize) -> &BeamStiffness;
     /// Stress at integration point `g`.
     fn stress(&self, g: usize, gamma: &Vec3, kappa: &Vec3, now: &Configuration) -> (Vec3, Vec3);
     /// Stress at the strains Γ, κ of point `g` of some elements side by side, and its derivative; `elastic` is their stiffness before they
@@ -169,7 +171,7 @@ impl BeamSection for BeamStiffness {
     }
 
     #[inline(always)]
-    fn elastic(&self) -> &BeamStiffness {
+    fn elastic(&self, _: usize) -> &BeamStiffness {
         self
     }
 

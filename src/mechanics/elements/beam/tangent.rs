@@ -178,8 +178,8 @@ pub(super) struct PackSections<'a, T> {
     pub points: usize,
     /// Stress and its derivative at a point.
     pub linearise: &'a Linearise<'a, T>,
-    /// Damping times the stiffness before they yield.
-    pub viscous: SectionStiffness<T>,
+    /// Damping times the stiffness at a point before they yield.
+    pub viscous: &'a dyn Fn(usize) -> SectionStiffness<T>,
     /// The elements have failed, all of them: nothing is damped.
     pub has_failed: bool,
 }
@@ -212,10 +212,11 @@ pub(super) fn tangent<T: Number, const N: usize>(
         if let Some(of_rates) = of_rates.as_mut().filter(|_| !sections.has_failed) {
             let (strain_rates, rate) = pack.rates(g, &point, &motion.q, nodes);
             let D = rate_rows((&point, &pack.tangent), &B, &rate, &strain_rates);
-            stresses.add(T::splat(1.0), &sections.viscous.times(&D));
-            let [n, m] = sections.viscous.stress(&strain_rates);
+            let viscous = (sections.viscous)(g);
+            stresses.add(T::splat(1.0), &viscous.times(&D));
+            let [n, m] = viscous.stress(&strain_rates);
             stress = [stress[0] + n, stress[1] + m];
-            of_rates.add_viscous(&B, &sections.viscous, w, (&value, &slope));
+            of_rates.add_viscous(&B, &viscous, w, (&value, &slope));
         }
         let along = B.gradient(&stress);
         let mut h = Hessian::product(&B, &stresses, [damped, damped || C.coupled]);

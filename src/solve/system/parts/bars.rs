@@ -4,7 +4,7 @@ use super::assembled::{Assembled, NumberedBlock, Setting, pieces};
 use super::masses::{LumpedElement, NodalMasses, NodalShare};
 use crate::system::inertia::ConsistentMass;
 use crate::system::plane::MotionPlane;
-use base::math::Mat3;
+use base::math::{Mat3, Vec3};
 use mechanics::elements::ElementBlock;
 use mechanics::elements::bar::{self, YieldingBars};
 use mechanics::sections::Stiffness;
@@ -49,7 +49,13 @@ fn lumped(part: &Bar, nodes: &[usize; 2], masses: &NodalMasses) -> LumpedElement
     LumpedElement(
         nodes
             .iter()
-            .map(|&node| NodalShare { node, mass: own(node), J0: Mat3::zeros(), turns: masses.turns(node) })
+            .map(|&node| NodalShare {
+                node,
+                arm: Vec3::zeros(),
+                mass: own(node),
+                J0: Mat3::zeros(),
+                turns: masses.turns(node),
+            })
             .collect(),
     )
 }

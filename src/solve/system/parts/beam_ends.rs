@@ -1,7 +1,7 @@
 //! Resultants at both ends of each beam element, from its equilibrium: internal forces on its end nodes, less the shares of distributed
 //! loads, weight and inertia. They balance joints, supports and other forces at the node up to the convergence error.
 
-use super::beams::{in_section, lumped};
+use super::beams::{consistent, in_section, lumped};
 use super::masses::NodalMasses;
 use crate::system::inertia::{ConsistentMass, Inertia, OwnDrag};
 use crate::system::loads::{Loading, load_on};
@@ -22,7 +22,9 @@ pub struct BeamEnds {
 
 /// An end of an element.
 struct BeamEnd {
-    /// The node there, with the lumped mass that is the element's.
+    /// The node there.
+    node: usize,
+    /// The lumped mass that is the element's, at the node or beside it.
     lumped: Inertia,
     /// The row of the consistent mass matrix: each node of the element with its mass.
     row: Vec<(usize, f64)>,
@@ -59,21 +61,20 @@ impl BeamEnds {
             let turning: Vec<_> = turning.map(|(index, load)| (index, load.axis)).collect();
             for (element, spec) in beam.elements.iter().enumerate() {
                 let nodes = &spec.nodes[..=beam.order];
-                let consistent = (beam.mass == MassKind::Consistent).then(|| {
-                    let length = (x[nodes[beam.order]] - x[nodes[0]]).norm();
-                    ConsistentMass::new(nodes, length * model.stiffnesses[spec.section].mass_per_length)
-                });
+                let is_consistent = beam.mass == MassKind::Consistent;
+                let consistent = is_consistent.then(|| consistent(beam, spec, &model.stiffnesses, x));
                 let alpha = model.damping.alpha(&beam.damping);
                 let own = lumped(beam, element, &model.stiffnesses, &masses);
                 let scaling = mass_scaling.map(|scaling| scaling.of(part, element));
                 ends.push([0, beam.order].map(|a| {
                     let share = &own.0[a];
                     let (mass, J0) = scaling.map_or((share.mass, share.J0), |scaling| scaling.of(share));
-                    let node = nodes[a];
-                    let row = consistent.iter().flat_map(ConsistentMass::pairs).filter(|&(row, ..)| row == node);
+                    let (node, mass_node) = (nodes[a], spec.mass_nodes()[a]);
+                    let row = consistent.iter().flat_map(ConsistentMass::pairs).filter(|&(row, ..)| row == mass_node);
                     BeamEnd {
+                        node,
                         lumped: Inertia {
-                            node,
+                            node: mass_node,
                             mass,
                             weighing: share.mass,
                             J0,
@@ -85,7 +86,7 @@ impl BeamEnds {
                         },
                         row: row.map(|(_, column, m)| (column, m)).collect(),
                         alpha,
-                        frame: spec.frame,
+                        frame: spec.at_node(a).frame,
                         loads: loads.remove(&(part, element, node)).unwrap_or_default(),
                         turning: turning.clone(),
                     }
@@ -111,7 +112,7 @@ impl BeamEnds {
             // On the first node the section acts from the other side.
             let sign = if k == 0 { -1.0 } else { 1.0 };
             let sum: Force = std::array::from_fn(|i| internal[i] - outer[i]);
-            let axes = now.nodes[end.lumped.node].R() * end.frame;
+            let axes = now.nodes[end.node].R() * end.frame;
             IntegrationPoint { s: 0.0, forces: in_section(&sum, &axes, sign), plastic_strain: 0.0, stresses: None }
         })
     }
@@ -145,6 +146,12 @@ impl BeamEnds {
                 subtract(&mut sum, 0, &(-square * m * axis.away(&now.nodes[column].x)));
             }
             subtract(&mut sum, 3, &(-square * axis.moment(&end.lumped.J(node))));
+        }
+        if end.node != end.lumped.node {
+            // Forces on the centre of mass turn the node.
+            let arm = node.relative_position(&now.nodes[end.node]);
+            let force = Vec3::new(sum[0], sum[1], sum[2]);
+            subtract(&mut sum, 3, &-arm.cross(&force));
         }
         for &index in &end.loads {
             let (f, m) = load_on(&loads[index], loading.factors[index], now.nodes);

@@ -4,7 +4,6 @@ use super::beam_ends::BeamEnds;
 use crate::system::group::Group;
 use crate::system::loads::Loading;
 use crate::system::mass_damping::MassDamping;
-use base::math::Mat3;
 use mechanics::elements::IntegrationPoint;
 use mechanics::sections::BeamStresses;
 use mechanics::state::Configuration;
@@ -66,7 +65,6 @@ pub fn section_points(
         for e in 0..group.block.len() {
             let element = group.first + e;
             let spec = &beam.elements[element];
-            let frame: &Mat3 = &spec.frame;
             let nodes = (spec.nodes[0], spec.nodes[beam.order]);
             let end = start + (model.nodes[nodes.1].x - model.nodes[nodes.0].x).norm();
             let ends = acting.as_ref().and_then(|acting| {
@@ -74,13 +72,14 @@ pub fn section_points(
                 Some(acting.ends.resultants(count, internal, (acting.loads, acting.loading), acting.damping, &now))
             });
             let mut push = |place, s: f64, at: IntegrationPoint| {
-                let stresses = stresses(model, beam, element, &at);
+                let stresses = stresses(model, beam, section_at(beam, element, place), &at);
                 out.push(SectionPoint { part: group.part, element, place, at: IntegrationPoint { s, stresses, ..at } });
             };
             if let Some([at, _]) = ends {
                 push(SectionPlace::Start, start, at);
             }
             for point in 0..group.block.points() {
+                let frame = &spec.at_point(point).frame;
                 let Some(at) = group.block.point(e, point, frame, &now) else { continue };
                 push(SectionPlace::Point(point), at.s + start, at);
             }
@@ -92,9 +91,20 @@ pub fn section_points(
     }
 }
 
+/// The section at a place of an element, by its index.
+fn section_at(beam: &Beam, element: usize, place: SectionPlace) -> usize {
+    let spec = &beam.elements[element];
+    match place {
+        SectionPlace::Start => spec.at_node(0).section,
+        // Elements of sections that differ are elastic, with a point less than nodes.
+        SectionPlace::Point(point) => spec.at_point(point.min(beam.order - 1)).section,
+        SectionPlace::End => spec.at_node(beam.order).section,
+    }
+}
+
 /// Extreme stresses at a place of a beam: of its fibres where its material yields, which ends have none of, otherwise by its resultants.
-fn stresses(model: &Model, beam: &Beam, element: usize, at: &IntegrationPoint) -> Option<BeamStresses> {
-    let by_resultants = || elastic_stresses(model, beam, element, &at.forces);
+fn stresses(model: &Model, beam: &Beam, section: usize, at: &IntegrationPoint) -> Option<BeamStresses> {
+    let by_resultants = || elastic_stresses(model, section, &at.forces);
     match &beam.yielding {
         None => by_resultants(),
         Some(yielding) if yielding.shear => at.stresses,
@@ -110,12 +120,12 @@ fn stresses(model: &Model, beam: &Beam, element: usize, at: &IntegrationPoint) -
 pub fn renew_stresses(model: &Model, points: &mut [SectionPoint]) {
     for point in points {
         let Some(beam) = Beam::of(&model.parts[point.part]) else { continue };
-        point.at.stresses = elastic_stresses(model, beam, point.element, &point.at.forces);
+        let section = section_at(beam, point.element, point.place);
+        point.at.stresses = elastic_stresses(model, section, &point.at.forces);
     }
 }
 
 /// Extreme stresses of an elastic section; `None` of one that does not say where its area is.
-pub fn elastic_stresses(model: &Model, beam: &Beam, element: usize, forces: &[f64; 6]) -> Option<BeamStresses> {
-    let section = beam.elements[element].section;
+pub fn elastic_stresses(model: &Model, section: usize, forces: &[f64; 6]) -> Option<BeamStresses> {
     Some(model.stresses.get(section)?.as_ref()?.extremes(forces))
 }

@@ -11,18 +11,15 @@ use mechanics::elements::beam::{BeamGeometry, BeamSetting, FibreModel, elastic_b
 use mechanics::elements::{ElementBlock, Force, IntegrationPoint};
 use mechanics::sections::{self, Stiffness};
 use mechanics::state::Configuration;
-use model::{Beam, MassKind, Model, PartType};
+use model::{Beam, BeamElement, MassKind, Model, PartType, SectionAt};
 use std::ops::Range;
 
 impl Assembled for Beam {
     fn add_masses(&self, stiffnesses: &[Stiffness], masses: &mut NodalMasses) {
         for (index, element) in self.elements.iter().enumerate() {
-            let nodes = &element.nodes[..=self.order];
             masses.add(&lumped(self, index, stiffnesses, masses));
             if self.mass == MassKind::Consistent {
-                let section = &stiffnesses[element.section];
-                let length = (masses.x[nodes[self.order]] - masses.x[nodes[0]]).norm();
-                masses.consistent.push(ConsistentMass::new(nodes, length * section.mass_per_length));
+                masses.consistent.push(consistent(self, element, stiffnesses, masses.x));
             }
         }
     }
@@ -44,7 +41,8 @@ impl Assembled for Beam {
     }
 
     fn stays_in(&self, plane: &MotionPlane, stiffnesses: &[Stiffness]) -> bool {
-        self.elements.iter().all(|e| section_stays_in(plane, &e.frame, &stiffnesses[e.section]))
+        let points = self.elements.iter().flat_map(|e| (0..self.order).map(|g| e.at_point(g)));
+        points.into_iter().all(|at| section_stays_in(plane, &at.frame, &stiffnesses[at.section]))
     }
 }
 
@@ -55,6 +53,10 @@ fn block(part: &Beam, piece: Range<usize>, setting: &Setting) -> Box<dyn Element
         nodes: &e.nodes,
         frame: &e.frame,
         stiffness: &model.stiffnesses[e.section],
+        varied: e
+            .varied
+            .as_ref()
+            .map(|varied| varied.points.each_ref().map(|at| (&model.stiffnesses[at.section], &at.frame))),
     });
     let elements: Vec<BeamGeometry> = elements.collect();
     let setting = BeamSetting { x, damping: beta, heat: &part.heat };
@@ -97,16 +99,29 @@ fn section_stays_in(plane: &MotionPlane, frame: &Mat3, C: &Stiffness) -> bool {
 pub(super) fn lumped(beam: &Beam, element: usize, stiffnesses: &[Stiffness], masses: &NodalMasses) -> LumpedElement {
     let (_, weights) = quadrature::lobatto(beam.order + 1);
     let element = &beam.elements[element];
-    let section = &stiffnesses[element.section];
     let length = (masses.x[element.nodes[beam.order]] - masses.x[element.nodes[0]]).norm();
-    let rotary = element.frame * section.inertia_per_length * element.frame.transpose();
-    let share = |(&node, weight): (&usize, &f64)| {
-        let share = 0.5 * weight * length;
+    let share = |k: usize| {
+        let (node, at, share) = (element.nodes[k], element.mass_nodes()[k], 0.5 * weights[k] * length);
+        let SectionAt { section, frame } = element.at_node(k);
+        let section = &stiffnesses[section];
         let mass = if masses.has_mass(beam.mass, node) { share * section.mass_per_length } else { 0.0 };
         let keep = beam.rotary_inertia && masses.has_rotary_inertia(beam.mass, node);
-        NodalShare { node, mass, J0: if keep { rotary * share } else { Mat3::zeros() }, turns: masses.turns(node) }
+        let rotary = || frame * section.inertia_per_length * frame.transpose();
+        let J0 = if keep { rotary() * share } else { Mat3::zeros() };
+        NodalShare { node: at, arm: masses.x[at] - masses.x[node], mass, J0, turns: masses.turns(node) }
     };
-    LumpedElement(element.nodes[..=beam.order].iter().zip(weights).map(share).collect())
+    LumpedElement((0..=beam.order).map(share).collect())
+}
+
+/// The consistent mass of an element.
+pub(super) fn consistent(beam: &Beam, element: &BeamElement, stiffnesses: &[Stiffness], x: &[Vec3]) -> ConsistentMass {
+    let length = (x[element.nodes[beam.order]] - x[element.nodes[0]]).norm();
+    let nodes = &element.mass_nodes()[..=beam.order];
+    let mass = |section: usize| length * stiffnesses[section].mass_per_length;
+    match &element.varied {
+        None => ConsistentMass::new(nodes, mass(element.section)),
+        Some(varied) => ConsistentMass::varied(nodes, &varied.nodes.map(|at| mass(at.section))[..nodes.len()]),
+    }
 }
 
 /// Writes N, V_y, V_z, T, M_y, M_z at each node of each element of all beams into `out`, in deck order. The values are polynomials through
@@ -122,13 +137,14 @@ pub fn nodal_resultants(groups: &[Group], model: &Model, now: &Configuration, ou
             if beam.order == 1 {
                 let internal = group.block.end_forces(e, &now).unwrap_or_default();
                 out.extend([0, 1].map(|k| {
-                    let axes = now.nodes[spec.nodes[k]].R() * spec.frame;
+                    let axes = now.nodes[spec.nodes[k]].R() * spec.at_node(k).frame;
                     in_section(&internal[k], &axes, if k == 0 { -1.0 } else { 1.0 })
                 }));
                 continue;
             }
             let half = 0.5 * (model.nodes[spec.nodes[beam.order]].x - model.nodes[spec.nodes[0]].x).norm();
-            let points = (0..group.block.points()).filter_map(|point| group.block.point(e, point, &spec.frame, &now));
+            let points = (0..group.block.points())
+                .filter_map(|point| group.block.point(e, point, &spec.at_point(point).frame, &now));
             let points: Vec<IntegrationPoint> = points.collect();
             let xi: Vec<f64> = points.iter().map(|point| point.s / half - 1.0).collect();
             for &node in at {

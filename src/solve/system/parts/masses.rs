@@ -11,6 +11,8 @@ pub struct LumpedElement(pub Vec<NodalShare>);
 pub struct NodalShare {
     /// The node.
     pub node: usize,
+    /// Vector to it from the node of the element, global components at t = 0; zero where they are the same.
+    pub arm: Vec3,
     /// Mass; zero if the deck omits it.
     pub mass: f64,
     /// Inertia tensor about the node, global components at t = 0; zero likewise.

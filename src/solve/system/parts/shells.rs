@@ -103,7 +103,7 @@ fn lumped(part: &Shell, element: usize, masses: &NodalMasses) -> LumpedElement {
         // The inertia about the normal, which a director does not have, gets the same value, so every direction has inertia.
         let rotary =
             if masses.has_rotary_inertia(part.mass, node) { part.density * h.powi(3) / 12.0 * area } else { 0.0 };
-        NodalShare { node, mass, J0: rotary * Mat3::identity(), turns: masses.turns(node) }
+        NodalShare { node, arm: Vec3::zeros(), mass, J0: rotary * Mat3::identity(), turns: masses.turns(node) }
     };
     LumpedElement(nodes.iter().zip(areas).map(share).collect())
 }
